@@ -1,0 +1,49 @@
+# A room is a static library of one folder. Files are listed, never globbed.
+#
+#   reljef_room(NAME [HEADERS a.h ...] [SOURCES a.cpp ...] [LINK target ...] [PRIVATE_LINK target ...])
+#   reljef_test(ROOM SOURCES a_test.cpp ... [LINK target ...] [GL])
+
+add_library(reljef_warnings INTERFACE)
+target_compile_options(reljef_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror)
+
+add_library(reljef_options INTERFACE)
+target_include_directories(reljef_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(reljef_options SYSTEM INTERFACE ${GLM_INCLUDE_DIRS})
+target_compile_definitions(reljef_options INTERFACE
+  GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_ENABLE_EXPERIMENTAL)
+if(RELJEF_SANITIZE)
+  string(REPLACE ";" "," reljef_sanitizers "${RELJEF_SANITIZE}")
+  target_compile_options(reljef_options INTERFACE
+    -fsanitize=${reljef_sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(reljef_options INTERFACE -fsanitize=${reljef_sanitizers})
+endif()
+
+function(reljef_room NAME)
+  cmake_parse_arguments(ROOM "" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  set(target reljef_${NAME})
+  add_library(${target} STATIC ${ROOM_SOURCES})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${ROOM_HEADERS})
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX VERIFY_INTERFACE_HEADER_SETS ON)
+  target_link_libraries(${target} PUBLIC reljef_options ${ROOM_LINK}
+                                  PRIVATE reljef_warnings ${ROOM_PRIVATE_LINK})
+endfunction()
+
+function(reljef_test ROOM)
+  cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
+  set(target reljef_${ROOM}_test)
+  add_executable(${target} ${TEST_SOURCES})
+  target_link_libraries(${target} PRIVATE reljef_test_support ${TEST_LINK} reljef_warnings
+                                          GTest::gtest GTest::gmock GTest::gtest_main)
+  if(TARGET reljef_test_precompiled)
+    target_precompile_headers(${target} REUSE_FROM reljef_test_precompiled)
+  endif()
+  set(properties TIMEOUT 600 LABELS ${ROOM})
+  if("address" IN_LIST RELJEF_SANITIZE)
+    list(APPEND properties ENVIRONMENT
+         "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
+  endif()
+  # Skipped tests show as skipped: gtest_discover_tests() itself looks for gtest's word for it.
+  gtest_discover_tests(${target} TEST_PREFIX "${ROOM}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+                       PROPERTIES ${properties})
+endfunction()

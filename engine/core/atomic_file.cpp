@@ -1,0 +1,109 @@
+#include "engine/core/atomic_file.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace reljef {
+namespace fs = std::filesystem;
+
+Result<AtomicFile> AtomicFile::create(fs::path target) {
+    static std::atomic<unsigned> counter{0};
+    if (target.filename().empty()) {
+        return Error{
+            fmt::format("{}: cannot be written: a file name was expected", target.string())};
+    }
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::error_code code;
+    if (!fs::is_directory(folder, code)) {
+        return Error{fmt::format("{}: cannot be written: there is no folder {}", target.string(),
+                                 folder.string())};
+    }
+    if (fs::exists(target, code) && !fs::is_regular_file(target, code)) { // not over /dev/null
+        return Error{fmt::format("{}: cannot be written: it is a {}, a file was expected",
+                                 target.string(), fs::is_directory(target) ? "folder" : "device")};
+    }
+    fs::path temporary = folder / fmt::format(".{}.{}.{}.part{}", target.stem().string(),
+                                              ::getpid(), counter++, target.extension().string());
+    if (!std::ofstream(temporary, std::ios::binary)) {
+        return Error{
+            fmt::format("{}: cannot be written: {}", target.string(), std::strerror(errno))};
+    }
+    return AtomicFile(std::move(target), std::move(temporary));
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+    if (this != &other) {
+        remove();
+        target_ = std::move(other.target_);
+        temporary_ = std::exchange(other.temporary_, {});
+    }
+    return *this;
+}
+
+AtomicFile::~AtomicFile() {
+    remove();
+}
+
+Result<void> AtomicFile::commit() {
+    std::error_code code;
+    fs::rename(temporary_, target_, code);
+    if (code) {
+        return Error{fmt::format("{}: cannot be written: {}", target_.string(), code.message())};
+    }
+    temporary_.clear();
+    return {};
+}
+
+void AtomicFile::remove() noexcept {
+    if (!temporary_.empty()) {
+        std::error_code ignored;
+        fs::remove(temporary_, ignored);
+    }
+}
+
+Result<void> write_text_file(const fs::path& path, std::string_view text) {
+    auto file = AtomicFile::create(path);
+    if (!file) {
+        return file.error();
+    }
+    std::ofstream stream(file->temporary(), std::ios::binary);
+    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    stream.close();
+    if (!stream) {
+        return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno))};
+    }
+    return file->commit();
+}
+
+Result<std::string> read_text_file(const fs::path& path, std::size_t limit) {
+    std::error_code code;
+    if (fs::is_directory(path, code)) {
+        return Error{fmt::format("{}: is a folder, a file was expected", path.string())};
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) {
+        return Error{fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno))};
+    }
+    std::string text;
+    std::array<char, 65536> buffer{};
+    while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0) {
+        text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > limit) {
+            return Error{fmt::format("{}: holds over {} bytes, at most that many were expected",
+                                     path.string(), limit)};
+        }
+    }
+    return text;
+}
+
+} // namespace reljef

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+
+#include "engine/core/result.h"
+
+namespace reljef {
+
+/// An output file that appears whole or not at all: write to `temporary()`, then `commit()`. What
+/// is not committed is removed.
+class AtomicFile {
+public:
+    /// Fails with one sentence when the folder of `target` does not exist or cannot be written.
+    static Result<AtomicFile> create(std::filesystem::path target);
+
+    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile&& other) noexcept;
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+    ~AtomicFile();
+
+    /// Beside the target, with the target's extension.
+    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+    [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+
+    /// Renames the temporary file to the target.
+    Result<void> commit();
+
+private:
+    AtomicFile(std::filesystem::path target, std::filesystem::path temporary)
+        : target_(std::move(target)), temporary_(std::move(temporary)) {}
+    void remove() noexcept;
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+};
+
+/// Writes `text` to `path`, whole or not at all.
+Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// The content of a file of at most `limit` bytes.
+Result<std::string> read_text_file(const std::filesystem::path& path,
+                                   std::size_t limit = std::size_t{1} << 24);
+
+} // namespace reljef

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "engine/core/grid.h"
+
+namespace reljef {
+
+/// Eight bits a channel; r, g, b are sRGB-encoded, a is linear.
+struct Rgba8 {
+    std::uint8_t r = 0;
+    std::uint8_t g = 0;
+    std::uint8_t b = 0;
+    std::uint8_t a = 255;
+
+    friend bool operator==(const Rgba8&, const Rgba8&) = default;
+};
+static_assert(sizeof(Rgba8) == 4);
+
+/// A picture, row 0 at the top (north for a map).
+using Image = Grid<Rgba8>;
+
+/// sRGB-encoded value in [0,1] of a linear one (IEC 61966-2-1); input outside [0,1] is clamped, NaN
+/// gives 0.
+float srgb_from_linear(float linear);
+
+/// Linear value in [0,1] of an sRGB-encoded one in [0,1] (IEC 61966-2-1).
+float linear_from_srgb(float encoded);
+
+/// The nearest 8-bit sRGB colour of a linear one; channels outside [0,1] are clamped.
+Rgba8 rgba8_from_linear(glm::vec3 linear, std::uint8_t alpha = 255);
+
+/// Linear r, g, b in [0,1]; alpha is left out.
+glm::vec3 linear_from_rgba8(Rgba8 color);
+
+} // namespace reljef

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <variant>
+
+#include <glm/vec2.hpp>
+
+namespace reljef {
+
+/// A key by what is printed on it (US layout), wherever it stands on the user's keyboard.
+enum class Key {
+    unknown,
+    // clang-format off
+    a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
+    digit0, digit1, digit2, digit3, digit4, digit5, digit6, digit7, digit8, digit9,
+    f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,
+    left, right, up, down,
+    page_up, page_down, home, end, insert, erase,
+    escape, enter, tab, backspace, space,
+    plus, minus, comma, period, slash, backslash, semicolon, apostrophe, grave,
+    left_bracket, right_bracket,
+    // clang-format on
+    shift,
+    control,
+    alt,
+    super
+};
+
+enum class MouseButton { left, right, middle, other };
+
+/// Which modifier keys were down.
+struct Modifiers {
+    bool shift = false;
+    bool control = false;
+    bool alt = false;
+    bool super = false;
+
+    friend bool operator==(const Modifiers&, const Modifiers&) = default;
+};
+
+/// Left and right shift, control, alt and super are one key each; the keypad's plus, minus, enter
+/// and digits are those of the main block, and `=` is plus.
+struct KeyEvent {
+    Key key = Key::unknown;
+    bool pressed = false; ///< false: released
+    bool repeat = false;  ///< pressed again by holding it down
+    Modifiers modifiers;
+};
+
+/// Framebuffer pixels from the upper left corner; unbounded while the mouse is captured.
+struct MouseMoveEvent {
+    glm::dvec2 position{0.0, 0.0};
+};
+
+struct MouseButtonEvent {
+    MouseButton button = MouseButton::left;
+    bool pressed = false;
+    glm::dvec2 position{0.0, 0.0}; ///< as in MouseMoveEvent
+    Modifiers modifiers;
+};
+
+/// Wheel steps; y > 0 is away from the user, x > 0 to the left.
+struct ScrollEvent {
+    glm::dvec2 offset{0.0, 0.0};
+};
+
+/// The new size in pixels; 0 by 0 while the window is minimized.
+struct ResizeEvent {
+    glm::ivec2 framebuffer{0, 0};
+};
+
+/// The user asked to close the window.
+struct CloseEvent {};
+
+/// The window got or lost the keyboard.
+struct FocusEvent {
+    bool focused = false;
+};
+
+using Event = std::variant<KeyEvent, MouseMoveEvent, MouseButtonEvent, ScrollEvent, ResizeEvent,
+                           CloseEvent, FocusEvent>;
+
+} // namespace reljef

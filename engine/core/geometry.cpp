@@ -1,0 +1,71 @@
+#include "engine/core/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace reljef {
+
+void Box::add(glm::dvec3 point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+}
+
+void Box::add(const Box& box) {
+    low = glm::min(low, box.low);
+    high = glm::max(high, box.high);
+}
+
+Box transformed(const glm::dmat4& to_from_local, const Box& box) {
+    Box result;
+    if (box.empty()) {
+        return result;
+    }
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 point{(corner & 1U) != 0 ? box.high.x : box.low.x,
+                               (corner & 2U) != 0 ? box.high.y : box.low.y,
+                               (corner & 4U) != 0 ? box.high.z : box.low.z};
+        result.add(glm::dvec3(to_from_local * glm::dvec4(point, 1.0)));
+    }
+    return result;
+}
+
+std::optional<Interval> intersect(const Ray& ray, const Box& box) {
+    if (box.empty()) {
+        return std::nullopt;
+    }
+    Interval range{0.0, std::numeric_limits<double>::infinity()};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray.direction[axis] == 0.0) {
+            if (ray.origin[axis] < box.low[axis] || ray.origin[axis] > box.high[axis]) {
+                return std::nullopt;
+            }
+            continue;
+        }
+        const double t0 = (box.low[axis] - ray.origin[axis]) / ray.direction[axis];
+        const double t1 = (box.high[axis] - ray.origin[axis]) / ray.direction[axis];
+        range.begin = std::max(range.begin, std::min(t0, t1));
+        range.end = std::min(range.end, std::max(t0, t1));
+    }
+    return range.begin <= range.end ? std::optional(range) : std::nullopt;
+}
+
+Frustum::Frustum(const glm::dmat4& clip_from_world) {
+    const glm::dmat4 rows = glm::transpose(clip_from_world);
+    planes_ = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
+               rows[3] - rows[1], rows[2],           rows[3] - rows[2]};
+}
+
+bool Frustum::may_see(const Box& box) const {
+    return !box.empty() &&
+           std::none_of(planes_.begin(), planes_.end(), [&](const glm::dvec4& plane) {
+               const glm::dvec3 farthest{plane.x >= 0.0 ? box.high.x : box.low.x,
+                                         plane.y >= 0.0 ? box.high.y : box.low.y,
+                                         plane.z >= 0.0 ? box.high.z : box.low.z};
+               return glm::dot(glm::dvec3(plane), farthest) + plane.w < 0.0;
+           });
+}
+
+} // namespace reljef

@@ -1,0 +1,109 @@
+#include "engine/render/draw_list.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+namespace reljef::render {
+namespace {
+
+int count_nodes(const scene::Node& node) {
+    int count = 1;
+    for (const auto& child : node.children()) {
+        count += count_nodes(*child);
+    }
+    return count;
+}
+
+std::size_t cell_triangles(const terrain::Tile& tile) {
+    return 2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
+}
+
+double distance_to(glm::dvec3 point, const Box& box) {
+    return glm::distance(point, glm::clamp(point, box.low, box.high));
+}
+
+// Depths along the view between which all of the scene lies.
+void fit_orthographic_depth(scene::Camera& camera, const Box& bounds) {
+    if (bounds.empty()) {
+        return;
+    }
+    const glm::dvec3 forward = scene::view_axes(camera).forward;
+    const double middle = glm::dot(bounds.center() - camera.eye, forward);
+    const double reach = 0.5 * glm::length(bounds.size()) + 1.0;
+    camera.orthographic_near = middle - reach;
+    camera.orthographic_far = middle + reach;
+}
+
+// Adds what one visible node shows.
+class Selector {
+public:
+    Selector(DrawList& list, const Frustum& frustum) : list_(list), frustum_(frustum) {}
+
+    void add(const scene::Node& node, const glm::dmat4& world_from_local) {
+        if (const auto* light = node.get<scene::Light>(); light != nullptr && !list_.sun) {
+            list_.sun = *light;
+        } else if (const auto* mesh = node.get<scene::MeshNode>()) {
+            if (sees(node, world_from_local)) {
+                list_.meshes.push_back({mesh, world_from_local});
+            }
+        } else if (const auto* terrain = node.get<scene::TerrainNode>()) {
+            if (sees(node, world_from_local)) {
+                add_tiles(*terrain, world_from_local);
+            }
+        }
+    }
+
+private:
+    bool sees(const scene::Node& node, const glm::dmat4& world_from_local) {
+        const bool seen = frustum_.may_see(transformed(world_from_local, node.local_bounds()));
+        list_.stats.skipped.nodes_outside_frustum += seen ? 0 : 1;
+        return seen;
+    }
+
+    void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        const bool flat = terrain.material.technique.id == scene::TechniqueId::texture;
+        const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const Box bounds = transformed(world_from_local, tiles[i].bounds);
+            if (frustum_.may_see(bounds)) {
+                list_.tiles.push_back({&terrain, world_from_local, static_cast<int>(i), flat,
+                                       distance_to(list_.camera.eye, bounds)});
+            } else {
+                ++list_.stats.skipped.tiles_outside_frustum;
+                list_.stats.skipped.triangles_outside_frustum += flat ? 2 : cell_triangles(tiles[i]);
+            }
+        }
+    }
+
+    DrawList& list_;
+    const Frustum& frustum_;
+};
+
+} // namespace
+
+DrawList select(const scene::Scene& scene, glm::ivec2 size) {
+    DrawList list;
+    list.camera = scene.camera();
+    list.size = size;
+    list.sky = scene.sky();
+    if (list.camera.projection == scene::ProjectionKind::orthographic) {
+        fit_orthographic_depth(list.camera, scene.root().world_bounds());
+    }
+    const Frustum frustum(scene::clip_from_world(list.camera, size));
+    Selector selector(list, frustum);
+    int visited = 0;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& transform) {
+        ++visited;
+        selector.add(node, transform);
+    });
+    std::stable_sort(list.tiles.begin(), list.tiles.end(), [](const TileDraw& a, const TileDraw& b) {
+        return a.distance < b.distance;
+    });
+    list.stats.nodes = count_nodes(scene.root());
+    list.stats.skipped.invisible_nodes = list.stats.nodes - visited;
+    list.stats.skipped.sky = list.sky ? 0 : 1;
+    return list;
+}
+
+} // namespace reljef::render

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/core/geometry.h"
+#include "engine/render/frame_stats.h"
+#include "engine/scene/scene.h"
+
+namespace reljef::render {
+
+/// One terrain tile to draw.
+struct TileDraw {
+    const scene::TerrainNode* terrain = nullptr;
+    glm::dmat4 world_from_local{1.0};
+    int tile = 0;          ///< index into the surface's tiles
+    bool flat = false;     ///< the reference surface instead of the heightfield
+    double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+};
+
+struct MeshDraw {
+    const scene::MeshNode* mesh = nullptr;
+    glm::dmat4 world_from_local{1.0};
+};
+
+/// What to draw this frame: pure data, decided on the CPU. Valid as long as the scene is unchanged.
+struct DrawList {
+    scene::Camera camera;
+    glm::ivec2 size{0};          ///< of the picture, pixels
+    std::optional<scene::Light> sun; ///< the first light in the tree
+    std::optional<scene::Sky> sky;
+    std::vector<TileDraw> tiles; ///< front to back
+    std::vector<MeshDraw> meshes;
+    FrameStats stats;            ///< nodes and what was skipped, so far
+};
+
+/// Looks at the scene through its camera: leaves out what is hidden or outside the frustum and orders
+/// the rest. An orthographic camera's depth range is fitted to the scene.
+DrawList select(const scene::Scene& scene, glm::ivec2 size);
+
+} // namespace reljef::render

@@ -1,0 +1,328 @@
+#include "engine/render/driver.h"
+
+#include <chrono>
+#include <cmath>
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/gl/draw.h"
+#include "engine/gl/read_pixels.h"
+#include "engine/gl/state.h"
+#include "engine/render/frame_block.h"
+
+#include <glad/gl.h>
+
+namespace reljef::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Relative to the eye: what remains is small enough for floats.
+glm::mat4 relative_from(const scene::Camera& camera, const glm::dmat4& world_from_local,
+                        glm::dvec3 local_origin) {
+    glm::dmat4 relative = world_from_local;
+    relative[3] = world_from_local * glm::dvec4(local_origin, 1.0);
+    relative[3] -= glm::dvec4(camera.eye, 0.0);
+    return glm::mat4(relative);
+}
+
+double extinction(const scene::Sky& sky) {
+    constexpr double contrast_left = 0.02;
+    return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
+}
+
+FrameBlock frame_block(const DrawList& list) {
+    FrameBlock block{};
+    block.clip_from_relative = glm::mat4(scene::clip_from_view(list.camera, list.size) *
+                                         scene::view_from_world_rotation(list.camera));
+    block.view_forward = glm::vec4(glm::vec3(scene::view_axes(list.camera).forward), 0.0F);
+    if (list.sun) {
+        block.to_sun = glm::vec4(glm::vec3(scene::to_light(*list.sun)), 0.0F);
+        block.sun_color = glm::vec4(list.sun->color, 0.0F);
+        block.ambient_color = glm::vec4(list.sun->ambient, 0.0F);
+    }
+    if (list.sky) {
+        block.sky_zenith = glm::vec4(list.sky->zenith, 0.0F);
+        block.sky_horizon = glm::vec4(list.sky->horizon, static_cast<float>(extinction(*list.sky)));
+    }
+    return block;
+}
+
+std::uint32_t features_of(const DrawList& list, bool hits) {
+    std::uint32_t features = hits ? feature_hit : 0U;
+    features |= list.sun ? feature_lit : 0U;
+    features |= list.sky && list.sky->visibility > 0.0 ? feature_fog : 0U;
+    return features;
+}
+
+// Draws a list and counts what it sets; what is set already is not set again.
+class Painter {
+public:
+    Painter(const DrawList& list, bool hits, ShaderLibrary& shaders, const Residency& residency,
+            FrameStats& stats)
+        : list_(list), features_(features_of(list, hits)), hits_(hits), shaders_(shaders),
+          residency_(residency), stats_(stats) {}
+
+    Result<void> draw_tiles() {
+        if (list_.tiles.empty()) {
+            return {};
+        }
+        if (auto used = use({ShaderKind::terrain, features_}); !used) {
+            return used;
+        }
+        for (const TileDraw& draw : list_.tiles) {
+            draw_tile(draw);
+        }
+        return {};
+    }
+
+    Result<void> draw_meshes() {
+        if (list_.meshes.empty()) {
+            return {};
+        }
+        if (auto used = use({ShaderKind::mesh, features_}); !used) {
+            return used;
+        }
+        for (const MeshDraw& draw : list_.meshes) {
+            if (!draw.mesh->mesh->indices.empty()) {
+                draw_mesh(draw);
+            }
+        }
+        return {};
+    }
+
+    Result<void> draw_sky(const gl::VertexArray& no_vertices) {
+        if (auto used = use({ShaderKind::sky, features_}); !used) {
+            return used;
+        }
+        set_wireframe(false);
+        gl::set_depth_writing(false);
+        gl::set_depth_test(gl::DepthTest::greater_or_equal);
+        const auto corner = scene::view_ray(list_.camera, list_.size, {0.0, list_.size.y});
+        const auto right = scene::view_ray(list_.camera, list_.size, glm::dvec2(list_.size));
+        const auto up = scene::view_ray(list_.camera, list_.size, {0.0, 0.0});
+        program_->set_uniform("ray_corner", glm::vec4(glm::vec3(corner.direction), 0.0F));
+        program_->set_uniform("ray_right",
+                              glm::vec4(glm::vec3(right.direction - corner.direction), 0.0F));
+        program_->set_uniform("ray_up", glm::vec4(glm::vec3(up.direction - corner.direction), 0.0F));
+        no_vertices.bind();
+        gl::draw_arrays(gl::Primitive::triangles, 0, 3);
+        gl::set_depth_writing(true);
+        gl::set_depth_test(gl::DepthTest::greater);
+        stats_.state_changes += 5;
+        ++stats_.draws;
+        return {};
+    }
+
+    void set_wireframe(bool wireframe) {
+        if (wireframe != wireframe_) {
+            gl::set_polygon_mode(wireframe ? gl::PolygonMode::line : gl::PolygonMode::fill);
+            wireframe_ = wireframe;
+            ++stats_.state_changes;
+        }
+    }
+
+private:
+    Result<void> use(ShaderVariant variant) {
+        auto program = shaders_.program(variant);
+        if (!program) {
+            return program.error();
+        }
+        program_ = *program;
+        program_->use();
+        ++stats_.state_changes;
+        return {};
+    }
+
+    void bind_maps(const TileDraw& draw) {
+        if (hits_ || maps_of_ == draw.terrain->surface.get()) {
+            return;
+        }
+        maps_of_ = draw.terrain->surface.get();
+        const ResidentMaps& maps = residency_.maps(draw);
+        maps.color.bind(0);
+        program_->set_uniform("color_from_sample", maps.color_from_sample);
+        ++stats_.state_changes;
+        if (maps.gradient.id() != 0U) {
+            maps.gradient.bind(1);
+            program_->set_uniform("gradient_from_sample", maps.gradient_from_sample);
+            ++stats_.state_changes;
+        }
+        program_->set_uniform("world_from_terrain", glm::mat3(glm::dmat3(draw.world_from_local)));
+    }
+
+    void draw_tile(const TileDraw& draw) {
+        const ResidentMesh& mesh = residency_.tile(draw);
+        const scene::TerrainSurface& surface = *draw.terrain->surface;
+        const auto& tile = surface.tiles()[static_cast<std::size_t>(draw.tile)];
+        bind_maps(draw);
+        set_wireframe(draw.terrain->material.wireframe);
+        program_->set_uniform("relative_from_tile",
+                              relative_from(list_.camera, draw.world_from_local, mesh.origin));
+        program_->set_uniform("tile_samples",
+                              glm::vec4(tile.col, tile.row, mesh.samples_per_vertex.x,
+                                        mesh.samples_per_vertex.y));
+        program_->set_uniform("vertices_per_row", mesh.vertices_per_row);
+        draw_resident(mesh, gl::IndexType::uint16);
+        ++stats_.tiles;
+    }
+
+    void draw_mesh(const MeshDraw& draw) {
+        set_wireframe(draw.mesh->material.wireframe);
+        const glm::dmat3 turn(draw.world_from_local);
+        program_->set_uniform("relative_from_local",
+                              relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
+        program_->set_uniform("world_from_normal", glm::mat3(glm::inverseTranspose(turn)));
+        program_->set_uniform("albedo", draw.mesh->material.color);
+        draw_resident(residency_.mesh(draw), gl::IndexType::uint32);
+    }
+
+    void draw_resident(const ResidentMesh& mesh, gl::IndexType type) {
+        mesh.vertex_array.bind();
+        gl::draw_elements({.type = type, .count = mesh.index_count});
+        stats_.triangles += static_cast<std::size_t>(mesh.index_count) / 3;
+        ++stats_.draws;
+        ++stats_.state_changes;
+    }
+
+    const DrawList& list_;
+    std::uint32_t features_;
+    bool hits_;
+    ShaderLibrary& shaders_;
+    const Residency& residency_;
+    FrameStats& stats_;
+    gl::Program* program_ = nullptr;
+    const scene::TerrainSurface* maps_of_ = nullptr;
+    bool wireframe_ = false;
+};
+
+Hit hit_from(glm::vec4 channels) {
+    return channels.w > 0.0F || channels.x >= 0.0F ? Hit{channels.x, channels.y, channels.z, channels.w}
+                                                   : Hit{};
+}
+
+} // namespace
+
+Driver::Driver(const DriverOptions& options, gl::Framebuffer target)
+    : options_(options), color_target_(std::move(target)), no_vertices_(gl::VertexArray::create()),
+      shaders_(options.shader_dir) {}
+
+Result<Driver> Driver::create(const DriverOptions& options) {
+    auto target = gl::Framebuffer::create({.size = options.size});
+    if (!target) {
+        return target.error();
+    }
+    auto block = gl::Buffer::create_writable(sizeof(FrameBlock));
+    if (!block) {
+        return block.error();
+    }
+    Driver driver(options, std::move(*target));
+    driver.frame_block_ = std::move(*block);
+    return driver;
+}
+
+Result<void> Driver::resize(glm::ivec2 size) {
+    auto target = gl::Framebuffer::create({.size = size});
+    if (!target) {
+        return target.error();
+    }
+    color_target_ = std::move(*target);
+    hit_target_ = {};
+    return {};
+}
+
+Result<FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
+    const auto start = Clock::now();
+    const DrawList list = select(scene, size());
+    FrameStats stats = list.stats;
+    if (auto done = prepare(list, false, stats); !done) {
+        return done.error();
+    }
+    gl::TimerQuery timer = wait && !options_.software ? gl::TimerQuery::create() : gl::TimerQuery();
+    if (timer.id() != 0U) {
+        timer.begin();
+    }
+    const auto drawing = Clock::now();
+    color_target_.bind();
+    color_target_.clear_color(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+    if (auto done = draw_content(list, false, stats); !done) {
+        return done.error();
+    }
+    if (timer.id() != 0U) {
+        timer.end();
+    }
+    stats.cpu_ms = milliseconds_since(start);
+    if (wait) {
+        glFinish();
+        const auto measured = timer.poll();
+        stats.gpu_ms = measured ? std::chrono::duration<double, std::milli>(*measured).count()
+                                : milliseconds_since(drawing);
+    }
+    return stats;
+}
+
+Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
+    if (hit_target_.size() != size()) {
+        auto target = gl::Framebuffer::create({.size = size(), .colors = {gl::Format::rgba32f}});
+        if (!target) {
+            return target.error();
+        }
+        hit_target_ = std::move(*target);
+    }
+    const DrawList list = select(scene, size());
+    FrameStats stats;
+    if (auto done = prepare(list, true, stats); !done) {
+        return done.error();
+    }
+    hit_target_.bind();
+    hit_target_.clear_color(glm::vec4(-1.0F));
+    if (auto done = draw_content(list, true, stats); !done) {
+        return done.error();
+    }
+    const Grid<glm::vec4> channels = gl::read_float_color(hit_target_);
+    HitBuffer hits(channels.cols(), channels.rows());
+    for (int row = 0; row < hits.rows(); ++row) {
+        for (int col = 0; col < hits.cols(); ++col) {
+            hits(col, row) = hit_from(channels(col, row));
+        }
+    }
+    return hits;
+}
+
+Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
+    const FrameBlock block = frame_block(list);
+    frame_block_.write(0, std::as_bytes(std::span(&block, 1)));
+    ++stats.uploads;
+    stats.upload_bytes += sizeof(block);
+    return residency_.prepare(list, !hits, stats);
+}
+
+Result<void> Driver::draw_content(const DrawList& list, bool hits, FrameStats& stats) {
+    gl::set_reversed_depth();
+    gl::set_culling(gl::Culling::back);
+    (hits ? hit_target_ : color_target_).clear_depth();
+    frame_block_.bind_uniform_block(0);
+    Painter painter(list, hits, shaders_, residency_, stats);
+    auto done = painter.draw_tiles();
+    if (done) {
+        done = painter.draw_meshes();
+    }
+    if (done && list.sky && !hits) {
+        done = painter.draw_sky(no_vertices_);
+    }
+    painter.set_wireframe(false);
+    return done;
+}
+
+Image Driver::read_color() const { return gl::read_color(color_target_); }
+
+void Driver::show_in_window(glm::ivec2 window_size) const {
+    color_target_.blit_to_window(window_size);
+}
+
+} // namespace reljef::render

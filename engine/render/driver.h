@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/color.h"
+#include "engine/core/hit.h"
+#include "engine/core/result.h"
+#include "engine/gl/framebuffer.h"
+#include "engine/gl/timer_query.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/frame_stats.h"
+#include "engine/render/residency.h"
+#include "engine/render/shader_library.h"
+
+namespace reljef::render {
+
+struct DriverOptions {
+    glm::ivec2 size{1024, 768};       ///< of the picture, pixels
+    std::filesystem::path shader_dir; ///< files there come before the built-in shaders
+    bool software = true;             ///< the renderer is a CPU: time by a clock, not by queries
+};
+
+/// Draws scenes with the context that is current, into a framebuffer object of its own with 32-bit
+/// float depth, reversed. Destroy while its context is current.
+class Driver {
+public:
+    /// Fails when the size is outside what the driver can draw.
+    static Result<Driver> create(const DriverOptions& options = {});
+
+    /// Draws a frame; `wait` also waits until it is finished and fills FrameStats::gpu_ms.
+    Result<FrameStats> draw(const scene::Scene& scene, bool wait = false);
+
+    /// Draws what each pixel of the scene shows instead of its colour.
+    Result<HitBuffer> draw_hits(const scene::Scene& scene);
+
+    /// The last frame drawn. Waits for it.
+    [[nodiscard]] Image read_color() const;
+    /// Copies the last frame to the window's back buffer.
+    void show_in_window(glm::ivec2 window_size) const;
+
+    Result<void> resize(glm::ivec2 size);
+    [[nodiscard]] glm::ivec2 size() const { return color_target_.size(); }
+
+private:
+    Driver(const DriverOptions& options, gl::Framebuffer target);
+
+    Result<void> prepare(const DrawList& list, bool hits, FrameStats& stats);
+    Result<void> draw_content(const DrawList& list, bool hits, FrameStats& stats);
+
+    DriverOptions options_;
+    gl::Framebuffer color_target_;
+    gl::Framebuffer hit_target_; // made when first asked for
+    gl::Buffer frame_block_;
+    gl::VertexArray no_vertices_;
+    ShaderLibrary shaders_;
+    Residency residency_;
+};
+
+} // namespace reljef::render

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+namespace reljef::render {
+
+/// The uniform block `FrameBlock` of every shader, std140. Its members stand in shaders/frame_block.inc.
+struct FrameBlock {
+    using mat4 = glm::mat4;
+    using vec4 = glm::vec4;
+#include "shaders/frame_block.inc"
+};
+static_assert(offsetof(FrameBlock, clip_from_relative) == 0);
+static_assert(offsetof(FrameBlock, view_forward) == 64);
+static_assert(offsetof(FrameBlock, sky_horizon) == 64 + 5 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 6 * 16);
+
+} // namespace reljef::render

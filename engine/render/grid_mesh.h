@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/terrain/heightfield.h"
+#include "engine/terrain/placement.h"
+#include "engine/terrain/tile_layout.h"
+
+namespace reljef::render {
+
+/// One vertex of a tile, as in terrain.vert.
+struct GridVertex {
+    glm::vec3 position; ///< metres from the tile's origin
+    float height;       ///< true metres
+};
+static_assert(sizeof(GridVertex) == 16);
+
+/// A tile as a regular grid of vertices, row after row.
+struct GridMesh {
+    glm::dvec3 origin{0.0}; ///< local metres; positions are relative to it
+    int cols = 0;           ///< quads
+    int rows = 0;           ///< quads
+    std::vector<GridVertex> vertices; ///< (cols + 1) × (rows + 1)
+};
+
+/// Every sample of the tile a vertex.
+GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
+                   const terrain::Tile& tile);
+
+/// The tile's part of the flat reference surface at `height` metres; one quad on a plane, a few on an
+/// ellipsoid.
+GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height);
+
+/// Two triangles a quad, counter-clockwise from above, split from the north-west to the south-east
+/// corner. Precondition: (cols + 1)·(rows + 1) <= 65,536.
+std::vector<std::uint16_t> grid_indices(int cols, int rows);
+
+} // namespace reljef::render

@@ -1,0 +1,274 @@
+#include "engine/render/residency.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "engine/core/worker_pool.h"
+#include "engine/gl/limits.h"
+#include "engine/render/terrain_maps.h"
+
+namespace reljef::render {
+namespace {
+
+template <class T> std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+void count_upload(FrameStats& stats, std::size_t bytes) {
+    ++stats.uploads;
+    stats.upload_bytes += bytes;
+}
+
+// Sample coordinates of the heightfield onto texels whose outermost centres are the outermost samples.
+glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
+    const glm::vec2 scale = glm::vec2(texels - 1) / (glm::vec2(samples - 1) * glm::vec2(texels));
+    return {scale, 0.5F / glm::vec2(texels)};
+}
+
+Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format, std::span<const std::byte> texels,
+                                FrameStats& stats) {
+    auto texture = gl::Texture2D::create({.size = size,
+                                          .format = format,
+                                          .levels = gl::full_chain,
+                                          .filter = gl::Filter::trilinear});
+    if (texture) {
+        texture->upload(0, texels);
+        texture->generate_mipmaps();
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
+                               const std::optional<glm::dvec3>& to_sun, FrameStats& stats) {
+    const int largest = gl::query_limits().max_texture_size;
+    const Grid<float>& heights = surface.heightfield().heights;
+    const glm::ivec2 samples{heights.cols(), heights.rows()};
+    ResidentMaps maps;
+    const Image color = color_map(surface, to_sun, largest);
+    auto color_texture = mipmapped({color.cols(), color.rows()}, gl::Format::rgba8_srgb,
+                                   std::as_bytes(color.samples()), stats);
+    if (!color_texture) {
+        return color_texture.error();
+    }
+    maps.color = std::move(*color_texture);
+    maps.color_from_sample = texture_from_sample(samples, maps.color.size());
+    if (!to_sun) {
+        return maps;
+    }
+    const Grid<std::uint32_t> gradient = gradient_map(surface, largest);
+    auto gradient_texture = mipmapped({gradient.cols(), gradient.rows()}, gl::Format::rg16f,
+                                      std::as_bytes(gradient.samples()), stats);
+    if (!gradient_texture) {
+        return gradient_texture.error();
+    }
+    maps.gradient = std::move(*gradient_texture);
+    maps.gradient_from_sample = texture_from_sample(samples, maps.gradient.size());
+    return maps;
+}
+
+struct MeshVertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+};
+
+std::vector<MeshVertex> interleaved(const scene::Mesh& mesh) {
+    std::vector<MeshVertex> vertices;
+    vertices.reserve(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        vertices.push_back({mesh.positions[i], mesh.normals[i]});
+    }
+    return vertices;
+}
+
+} // namespace
+
+Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
+    forget_unused();
+    if (auto done = prepare_tiles(list, stats); !done) {
+        return done;
+    }
+    if (with_maps) {
+        if (auto done = prepare_maps(list, stats); !done) {
+            return done;
+        }
+    }
+    for (const MeshDraw& draw : list.meshes) {
+        if (auto done = prepare_mesh(draw, stats); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+void Residency::forget_unused() {
+    std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
+    std::erase_if(meshes_, [](const auto& entry) { return entry.second.owner.expired(); });
+}
+
+Residency::Surface& Residency::surface_of(const TileDraw& draw) {
+    const auto& surface = draw.terrain->surface;
+    auto [entry, is_new] = surfaces_.try_emplace(surface.get());
+    if (is_new) {
+        entry->second.owner = surface;
+        entry->second.tiles.resize(surface->tiles().size());
+        entry->second.flat_tiles.resize(surface->flat_tiles().size());
+    }
+    return entry->second;
+}
+
+Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+    std::vector<const TileDraw*> missing;
+    for (const TileDraw& draw : list.tiles) {
+        Surface& surface = surface_of(draw);
+        const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
+        if (slots[static_cast<std::size_t>(draw.tile)]) {
+            ++stats.skipped.uploads_unchanged;
+        } else {
+            missing.push_back(&draw);
+        }
+    }
+    // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the driver's.
+    constexpr std::size_t batch = 32;
+    for (std::size_t first = 0; first < missing.size(); first += batch) {
+        const std::size_t count = std::min(batch, missing.size() - first);
+        std::vector<GridMesh> grids(count);
+        parallel_for(static_cast<int>(count), [&](int i) {
+            const TileDraw& draw = *missing[first + static_cast<std::size_t>(i)];
+            const scene::TerrainSurface& surface = *draw.terrain->surface;
+            const auto index = static_cast<std::size_t>(draw.tile);
+            grids[static_cast<std::size_t>(i)] =
+                draw.flat ? flat_mesh(surface.placement(), surface.flat_tiles()[index],
+                                      terrain::reference_height(surface.heightfield()))
+                          : full_mesh(surface.heightfield(), surface.placement(),
+                                      surface.tiles()[index]);
+        });
+        for (std::size_t i = 0; i < count; ++i) {
+            if (auto done = upload_tile(*missing[first + i], grids[i], stats); !done) {
+                return done;
+            }
+        }
+    }
+    return {};
+}
+
+Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats) {
+    auto indices = indices_for(grid.cols, grid.rows, stats);
+    if (!indices) {
+        return indices.error();
+    }
+    auto vertices = gl::Buffer::create(bytes_of(grid.vertices));
+    if (!vertices) {
+        return vertices.error();
+    }
+    count_upload(stats, vertices->size());
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    const auto index = static_cast<std::size_t>(draw.tile);
+    const terrain::Tile& tile = draw.flat ? surface.flat_tiles()[index] : surface.tiles()[index];
+    ResidentMesh mesh{std::move(*vertices), gl::VertexArray::create(), grid.origin,
+                      6 * grid.cols * grid.rows, grid.cols + 1,
+                      glm::vec2(tile.cols, tile.rows) / glm::vec2(grid.cols, grid.rows)};
+    const std::array attributes{
+        gl::VertexAttribute{.location = 0, .components = 3},
+        gl::VertexAttribute{.location = 1, .components = 1, .offset = offsetof(GridVertex, height)}};
+    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
+    mesh.vertex_array.set_indices(**indices);
+    Surface& resident = surface_of(draw);
+    auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
+    slots[index] = std::move(mesh);
+    return {};
+}
+
+Result<void> Residency::prepare_maps(const DrawList& list, FrameStats& stats) {
+    const auto to_sun = list.sun ? std::optional(scene::to_light(*list.sun)) : std::nullopt;
+    std::set<const scene::TerrainSurface*> seen;
+    for (const TileDraw& draw : list.tiles) {
+        if (!seen.insert(draw.terrain->surface.get()).second) {
+            continue;
+        }
+        // The sun in the terrain's own frame, were the node turned.
+        const auto to_sun_local =
+            to_sun ? std::optional(glm::transpose(glm::dmat3(draw.world_from_local)) * *to_sun)
+                   : std::nullopt;
+        Surface& surface = surface_of(draw);
+        if (surface.maps && surface.to_sun == to_sun_local) {
+            ++stats.skipped.uploads_unchanged;
+            continue;
+        }
+        auto maps = make_maps(*draw.terrain->surface, to_sun_local, stats);
+        if (!maps) {
+            return maps.error();
+        }
+        surface.maps = std::move(*maps);
+        surface.to_sun = to_sun_local;
+    }
+    return {};
+}
+
+Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
+    const scene::Mesh& mesh = *draw.mesh->mesh;
+    if (meshes_.contains(&mesh) || mesh.indices.empty()) {
+        stats.skipped.uploads_unchanged += meshes_.contains(&mesh) ? 1 : 0;
+        return {};
+    }
+    check(mesh.normals.size() == mesh.positions.size(), "a mesh needs a normal for every position");
+    auto vertices = gl::Buffer::create(bytes_of(interleaved(mesh)));
+    if (!vertices) {
+        return vertices.error();
+    }
+    auto indices = gl::Buffer::create(bytes_of(mesh.indices));
+    if (!indices) {
+        return indices.error();
+    }
+    count_upload(stats, vertices->size());
+    count_upload(stats, indices->size());
+    Mesh entry;
+    entry.owner = draw.mesh->mesh;
+    entry.indices = std::move(*indices);
+    entry.resident.vertices = std::move(*vertices);
+    entry.resident.vertex_array = gl::VertexArray::create();
+    entry.resident.index_count = static_cast<int>(mesh.indices.size());
+    const std::array attributes{
+        gl::VertexAttribute{.location = 0, .components = 3},
+        gl::VertexAttribute{.location = 1, .components = 3, .offset = offsetof(MeshVertex, normal)}};
+    entry.resident.vertex_array.set_vertices(0, entry.resident.vertices,
+                                             {.stride = sizeof(MeshVertex)}, attributes);
+    entry.resident.vertex_array.set_indices(entry.indices);
+    meshes_.emplace(&mesh, std::move(entry));
+    return {};
+}
+
+Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, FrameStats& stats) {
+    const auto found = grid_indices_.find({cols, rows});
+    if (found != grid_indices_.end()) {
+        return &found->second;
+    }
+    auto buffer = gl::Buffer::create(bytes_of(grid_indices(cols, rows)));
+    if (!buffer) {
+        return buffer.error();
+    }
+    count_upload(stats, buffer->size());
+    return &grid_indices_.emplace(std::pair{cols, rows}, std::move(*buffer)).first->second;
+}
+
+const ResidentMesh& Residency::tile(const TileDraw& draw) const {
+    const Surface& surface = surfaces_.at(draw.terrain->surface.get());
+    const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
+    const auto& slot = slots[static_cast<std::size_t>(draw.tile)];
+    check(slot.has_value(), "a tile that was not prepared");
+    return *slot;
+}
+
+const ResidentMaps& Residency::maps(const TileDraw& draw) const {
+    const Surface& surface = surfaces_.at(draw.terrain->surface.get());
+    check(surface.maps.has_value(), "maps that were not prepared");
+    return *surface.maps;
+}
+
+const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {
+    return meshes_.at(draw.mesh->mesh.get()).resident;
+}
+
+} // namespace reljef::render

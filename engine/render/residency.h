@@ -1,0 +1,76 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/gl/buffer.h"
+#include "engine/gl/texture.h"
+#include "engine/gl/vertex_array.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/grid_mesh.h"
+
+namespace reljef::render {
+
+/// Triangles that are in the driver's memory.
+struct ResidentMesh {
+    gl::Buffer vertices;
+    gl::VertexArray vertex_array;
+    glm::dvec3 origin{0.0}; ///< local metres
+    int index_count = 0;
+    int vertices_per_row = 0;
+    glm::vec2 samples_per_vertex{1.0F};
+};
+
+/// Colour and gradient of a terrain, and how sample coordinates become texture coordinates:
+/// sample · xy + zw.
+struct ResidentMaps {
+    gl::Texture2D color;    ///< rgb: albedo, a: share of the sun that is seen
+    gl::Texture2D gradient; ///< rise over run, east and north; empty without a sun
+    glm::vec4 color_from_sample{0.0F};
+    glm::vec4 gradient_from_sample{0.0F};
+};
+
+/// What of the scene is in the driver's memory. Only what is drawn gets there, and stays while the
+/// scene holds its surface. Needs a current context; destroy while it is current.
+class Residency {
+public:
+    /// Puts what the list draws into the driver's memory and counts it in `stats`; fails when the
+    /// driver has no memory left.
+    Result<void> prepare(const DrawList& list, bool with_maps, FrameStats& stats);
+
+    /// Precondition: prepared.
+    [[nodiscard]] const ResidentMesh& tile(const TileDraw& draw) const;
+    [[nodiscard]] const ResidentMaps& maps(const TileDraw& draw) const;
+    [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+
+private:
+    struct Surface {
+        std::weak_ptr<const scene::TerrainSurface> owner;
+        std::vector<std::optional<ResidentMesh>> tiles;
+        std::vector<std::optional<ResidentMesh>> flat_tiles;
+        std::optional<ResidentMaps> maps;
+        std::optional<glm::dvec3> to_sun; // the sun that the maps are made for
+    };
+    struct Mesh {
+        std::weak_ptr<const scene::Mesh> owner;
+        ResidentMesh resident;
+        gl::Buffer indices;
+    };
+
+    void forget_unused();
+    Surface& surface_of(const TileDraw& draw);
+    Result<void> prepare_tiles(const DrawList& list, FrameStats& stats);
+    Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
+    Result<void> prepare_maps(const DrawList& list, FrameStats& stats);
+    Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
+    Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
+
+    std::map<const scene::TerrainSurface*, Surface> surfaces_;
+    std::map<const scene::Mesh*, Mesh> meshes_;
+    std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
+};
+
+} // namespace reljef::render

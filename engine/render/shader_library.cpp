@@ -1,0 +1,160 @@
+#include "engine/render/shader_library.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "engine/core/atomic_file.h"
+
+namespace reljef::render {
+namespace {
+
+constexpr std::uint32_t feature_combinations = 1U << 3U;
+
+std::string_view name_of(ShaderKind kind) {
+    switch (kind) {
+    case ShaderKind::terrain:
+        return "terrain";
+    case ShaderKind::mesh:
+        return "mesh";
+    case ShaderKind::sky:
+        return "sky";
+    }
+    return {};
+}
+
+std::string header_of(std::uint32_t features) {
+    std::string header = "#version 450 core\n";
+    for (const auto& [feature, name] : {std::pair{feature_lit, "LIT"}, std::pair{feature_fog, "FOG"},
+                                        std::pair{feature_hit, "HIT"}}) {
+        if ((features & feature) != 0) {
+            header += fmt::format("#define {}\n", name);
+        }
+    }
+    return header;
+}
+
+// Joins a shader file and what it includes into one text that still knows its files' lines.
+class Joiner {
+public:
+    explicit Joiner(const std::filesystem::path& folder) : folder_(folder) {}
+
+    Result<gl::StageSource> join(gl::Stage stage, const std::string& name, std::string header) {
+        source_ = {stage, name, std::move(header), {}};
+        if (auto appended = append(name, 0, 0); !appended) {
+            return appended.error();
+        }
+        return std::move(source_);
+    }
+
+private:
+    static constexpr int deepest_include = 8;
+
+    [[nodiscard]] Result<std::string> text_of(const std::string& name) const {
+        std::error_code ignored;
+        if (!folder_.empty() && std::filesystem::exists(folder_ / name, ignored)) {
+            return read_text_file(folder_ / name);
+        }
+        const auto shaders = embedded_shaders();
+        const auto found = std::find_if(shaders.begin(), shaders.end(),
+                                        [&](const EmbeddedShader& s) { return s.name == name; });
+        if (found == shaders.end()) {
+            return Error{fmt::format("shader {}: there is no such file", name)};
+        }
+        return std::string(found->text);
+    }
+
+    Result<void> append(const std::string& name, std::size_t number, int depth) {
+        if (depth > deepest_include) {
+            return Error{fmt::format("shader {}: included more than {} deep", name, deepest_include)};
+        }
+        const auto text = text_of(name);
+        if (!text) {
+            return text.error();
+        }
+        source_.text += fmt::format("#line 1 {}\n", number);
+        std::size_t line_number = 0;
+        for (std::size_t at = 0; at < text->size();) {
+            const std::size_t end = std::min(text->find('\n', at), text->size());
+            const std::string line = text->substr(at, end - at);
+            at = end + 1;
+            ++line_number;
+            const auto included = included_file(line);
+            if (included.empty()) {
+                source_.text += line + '\n';
+                continue;
+            }
+            source_.included.emplace_back(included);
+            if (auto appended = append(included, source_.included.size(), depth + 1); !appended) {
+                return appended.error();
+            }
+            source_.text += fmt::format("#line {} {}\n", line_number + 1, number);
+        }
+        return {};
+    }
+
+    // The file that a line `#include "file"` names; empty for any other line.
+    static std::string included_file(const std::string& line) {
+        constexpr std::string_view start = "#include \"";
+        if (line.rfind(start, 0) != 0) {
+            return {};
+        }
+        return line.substr(start.size(), line.find('"', start.size()) - start.size());
+    }
+
+    const std::filesystem::path& folder_;
+    gl::StageSource source_;
+};
+
+Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& folder) {
+    const std::string name(name_of(variant.kind));
+    const std::string header = header_of(variant.features);
+    auto vertex = Joiner(folder).join(gl::Stage::vertex, name + ".vert", header);
+    if (!vertex) {
+        return vertex.error();
+    }
+    auto fragment = Joiner(folder).join(gl::Stage::fragment, name + ".frag", header);
+    if (!fragment) {
+        return fragment.error();
+    }
+    const std::array stages{std::move(*vertex), std::move(*fragment)};
+    return gl::Program::create(stages);
+}
+
+} // namespace
+
+ShaderVariant without_meaningless(ShaderVariant variant) {
+    if (variant.kind == ShaderKind::sky) {
+        variant.features &= feature_lit;
+    } else if ((variant.features & feature_hit) != 0) {
+        variant.features = feature_hit;
+    }
+    return variant;
+}
+
+std::vector<ShaderVariant> all_variants() {
+    std::set<ShaderVariant> variants;
+    for (const ShaderKind kind : {ShaderKind::terrain, ShaderKind::mesh, ShaderKind::sky}) {
+        for (std::uint32_t features = 0; features < feature_combinations; ++features) {
+            variants.insert(without_meaningless({kind, features}));
+        }
+    }
+    return {variants.begin(), variants.end()};
+}
+
+Result<gl::Program*> ShaderLibrary::program(ShaderVariant variant) {
+    variant = without_meaningless(variant);
+    const auto found = programs_.find(variant);
+    if (found != programs_.end()) {
+        return &found->second;
+    }
+    auto program = compile(variant, folder_);
+    if (!program) {
+        return program.error();
+    }
+    return &programs_.emplace(variant, std::move(*program)).first->second;
+}
+
+} // namespace reljef::render

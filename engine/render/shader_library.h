@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gl/program.h"
+
+namespace reljef::render {
+
+/// One file of shaders/ as built into the program.
+struct EmbeddedShader {
+    std::string_view name;
+    std::string_view text;
+};
+std::span<const EmbeddedShader> embedded_shaders();
+
+/// What is drawn.
+enum class ShaderKind { terrain, mesh, sky };
+
+/// What a variant of a shader is compiled with; a scene that lacks it never pays for it.
+enum ShaderFeature : std::uint32_t {
+    feature_lit = 1U << 0U, ///< there is a sun
+    feature_fog = 1U << 1U, ///< there is air
+    feature_hit = 1U << 2U, ///< writes the hit instead of the colour
+};
+
+struct ShaderVariant {
+    ShaderKind kind = ShaderKind::terrain;
+    std::uint32_t features = 0;
+
+    friend auto operator<=>(const ShaderVariant&, const ShaderVariant&) = default;
+};
+
+/// The variant without the features that mean nothing to it: a hit has neither light nor fog, the sky
+/// is not seen through air and is never hit.
+ShaderVariant without_meaningless(ShaderVariant variant);
+
+/// Every variant that means something, each once.
+std::vector<ShaderVariant> all_variants();
+
+/// Programs by variant, compiled when first asked for. Needs a current context.
+class ShaderLibrary {
+public:
+    /// Files in `folder` come before the embedded ones; an empty path: only those.
+    explicit ShaderLibrary(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
+
+    /// The program of a variant. Fails with the file and line where it does not compile, or when a
+    /// file is missing. Valid as long as the library.
+    Result<gl::Program*> program(ShaderVariant variant);
+
+private:
+    std::filesystem::path folder_;
+    std::map<ShaderVariant, gl::Program> programs_;
+};
+
+} // namespace reljef::render

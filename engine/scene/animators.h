@@ -1,0 +1,14 @@
+#pragma once
+
+#include "engine/scene/fly_path.h"
+#include "engine/scene/scene.h"
+
+namespace reljef::scene {
+
+/// Moves a camera node along a path, again from its beginning where it ends.
+Animator fly_path_animator(FlyPath path);
+
+/// Turns a node about its own z axis, degrees a second, counter-clockwise from above.
+Animator rotation_animator(double degrees_per_second);
+
+} // namespace reljef::scene

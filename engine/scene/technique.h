@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace reljef::scene {
+
+/// How a terrain's surface is drawn.
+enum class TechniqueId {
+    texture,  ///< colour over the flat reference surface
+    polygons, ///< the heightfield as triangles
+};
+
+/// One number a technique can be told.
+struct ParameterInfo {
+    std::string_view name;
+    double default_value = 0.0;
+    double low = 0.0;  ///< least value allowed
+    double high = 0.0; ///< greatest value allowed
+    bool whole = false; ///< whole numbers only
+    std::string_view meaning;
+};
+
+struct TechniqueInfo {
+    TechniqueId id;
+    std::string_view name; ///< as on the command line
+    std::string_view meaning;
+    std::string_view source; ///< where it is described
+    std::span<const ParameterInfo> parameters;
+};
+
+/// Every technique there is, in the order of the sources.
+std::span<const TechniqueInfo> technique_catalogue();
+const TechniqueInfo& technique_info(TechniqueId id);
+
+/// A technique with a value for each of its parameters, in the catalogue's order.
+struct Technique {
+    TechniqueId id = TechniqueId::polygons;
+    std::vector<double> values;
+};
+
+/// The technique with its default parameters.
+Technique make_technique(TechniqueId id);
+
+/// From "ID" or "ID:key=value,key=value". Errors name what was found and what was expected.
+Result<Technique> parse_technique(std::string_view text);
+
+/// "ID:key=value,…" with every parameter: parse_technique gives the same technique back.
+std::string to_string(const Technique& technique);
+
+} // namespace reljef::scene

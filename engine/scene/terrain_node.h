@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/geometry.h"
+#include "engine/core/result.h"
+#include "engine/scene/technique.h"
+#include "engine/terrain/heightfield.h"
+#include "engine/terrain/min_max_pyramid.h"
+#include "engine/terrain/placement.h"
+#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/tile_layout.h"
+
+namespace reljef::scene {
+
+/// How a surface looks.
+struct Material {
+    Technique technique = make_technique(TechniqueId::polygons);
+    bool wireframe = false;
+    glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain brings its own
+};
+
+struct TerrainOptions {
+    /// Absent: ellipsoid for georeferenced heights, else plane.
+    std::optional<terrain::PlacementKind> placement;
+    double exaggeration = 1.0;
+};
+
+/// A terrain placed in a node's local frame (metres, x east, y north, z up), ready to be drawn and
+/// asked. The data is shared and never changes.
+class TerrainSurface {
+public:
+    static Result<TerrainSurface> create(std::shared_ptr<const terrain::Terrain> terrain,
+                                         const TerrainOptions& options = {});
+
+    [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
+    [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }
+    [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
+    [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }
+
+    /// Tiles of the surface, and of the flat reference surface, with the same indices.
+    [[nodiscard]] const std::vector<terrain::Tile>& tiles() const { return tiles_; }
+    [[nodiscard]] const std::vector<terrain::Tile>& flat_tiles() const { return flat_tiles_; }
+    [[nodiscard]] const Box& bounds() const { return bounds_; }
+
+    /// z of the surface straight above or below (x, y) in the local frame, exaggeration included;
+    /// nothing outside the heightfield.
+    [[nodiscard]] std::optional<double> height_at(double x, double y) const;
+
+    /// Where a ray in the local frame first meets the surface.
+    [[nodiscard]] std::optional<terrain::SurfaceHit> pick(const Ray& ray) const;
+
+private:
+    TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain, terrain::Placement placement);
+
+    std::shared_ptr<const terrain::Terrain> terrain_;
+    terrain::Placement placement_;
+    terrain::MinMaxPyramid pyramid_;
+    std::vector<terrain::Tile> tiles_;
+    std::vector<terrain::Tile> flat_tiles_;
+    Box bounds_;
+};
+
+/// What makes a node a terrain.
+struct TerrainNode {
+    std::shared_ptr<const TerrainSurface> surface;
+    Material material;
+};
+
+} // namespace reljef::scene

@@ -1,0 +1,101 @@
+#include "engine/terrain/placement.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+namespace reljef::terrain {
+
+Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKind kind,
+                                    double exaggeration) {
+    const Grid<float>& heights = heightfield.heights;
+    check(!heights.empty(), "placement of an empty heightfield");
+    if (!(std::isfinite(exaggeration) && exaggeration > 0.0)) {
+        return Error{
+            fmt::format("exaggeration {}: a finite number above 0 was expected", exaggeration)};
+    }
+    if (kind == PlacementKind::ellipsoid && !heightfield.georeference) {
+        return Error{
+            "placement ellipsoid: the terrain names no place on Earth, a georeferenced one "
+            "or placement plane was expected"};
+    }
+    Placement placement;
+    placement.center_ = 0.5 * glm::dvec2(heights.cols() - 1, heights.rows() - 1);
+    placement.spacing_ = heightfield.spacing;
+    placement.exaggeration_ = exaggeration;
+    if (heightfield.georeference) {
+        placement.geodetic_ = heightfield.georeference->geodetic;
+    }
+    if (kind == PlacementKind::ellipsoid) {
+        const glm::dvec2 origin = placement.geodetic_->latitude_longitude(placement.center_);
+        placement.frame_ = geo::LocalFrame({origin.x, origin.y, 0.0});
+    }
+    return placement;
+}
+
+PlacementKind Placement::kind() const {
+    return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
+}
+
+glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
+    if (!frame_) {
+        return {(sample.x - center_.x) * spacing_.x, (center_.y - sample.y) * spacing_.y,
+                sample.z * exaggeration_};
+    }
+    const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(sample));
+    return frame_->local_from_geodetic({position.x, position.y, sample.z * exaggeration_});
+}
+
+std::optional<glm::dvec3> Placement::sample_from_world(glm::dvec3 world) const {
+    if (!frame_) {
+        return glm::dvec3(center_.x + world.x / spacing_.x, center_.y - world.y / spacing_.y,
+                          world.z / exaggeration_);
+    }
+    const geo::Geodetic position = frame_->geodetic_from_local(world);
+    const Result<glm::dvec2> sample = geodetic_->sample(position.latitude, position.longitude);
+    if (!sample) {
+        return std::nullopt;
+    }
+    return glm::dvec3(*sample, position.height / exaggeration_);
+}
+
+glm::dvec3 Placement::up(glm::dvec3 world) const {
+    if (!frame_) {
+        return {0.0, 0.0, 1.0};
+    }
+    const geo::Geodetic position = frame_->geodetic_from_local(world);
+    return frame_->local_direction(
+        geo::normal_from_geodetic(position.latitude, position.longitude));
+}
+
+std::optional<geo::Geodetic> Placement::geodetic_from_world(glm::dvec3 world) const {
+    if (!geodetic_) {
+        return std::nullopt;
+    }
+    if (frame_) {
+        geo::Geodetic position = frame_->geodetic_from_local(world);
+        position.height /= exaggeration_;
+        return position;
+    }
+    const std::optional<glm::dvec3> sample = sample_from_world(world);
+    const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(*sample));
+    return geo::Geodetic{position.x, position.y, sample->z};
+}
+
+std::optional<glm::dvec3> Placement::world_from_geodetic(geo::Geodetic position) const {
+    if (!geodetic_) {
+        return std::nullopt;
+    }
+    if (frame_) {
+        position.height *= exaggeration_;
+        return frame_->local_from_geodetic(position);
+    }
+    const Result<glm::dvec2> sample = geodetic_->sample(position.latitude, position.longitude);
+    if (!sample) {
+        return std::nullopt;
+    }
+    return world_from_sample(glm::dvec3(*sample, position.height));
+}
+
+} // namespace reljef::terrain

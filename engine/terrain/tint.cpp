@@ -1,0 +1,131 @@
+#include "engine/terrain/tint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <glm/common.hpp>
+
+namespace reljef::terrain {
+namespace {
+
+struct Stop {
+    float at;       // share of the height range
+    glm::vec3 color; // sRGB, 0..255
+};
+
+constexpr std::array<Stop, 7> scale{{{0.00F, {112.0F, 146.0F, 96.0F}},
+                                     {0.15F, {142.0F, 166.0F, 108.0F}},
+                                     {0.32F, {189.0F, 189.0F, 132.0F}},
+                                     {0.50F, {190.0F, 165.0F, 115.0F}},
+                                     {0.68F, {158.0F, 126.0F, 92.0F}},
+                                     {0.84F, {168.0F, 158.0F, 150.0F}},
+                                     {1.00F, {244.0F, 244.0F, 246.0F}}}};
+constexpr Rgba8 water{82, 118, 148, 255};
+constexpr Rgba8 no_data{128, 128, 128, 255};
+
+Rgba8 rgba8(glm::vec3 color) {
+    const glm::vec3 rounded = glm::clamp(color + 0.5F, glm::vec3(0.0F), glm::vec3(255.0F));
+    return {static_cast<std::uint8_t>(rounded.r), static_cast<std::uint8_t>(rounded.g),
+            static_cast<std::uint8_t>(rounded.b), 255};
+}
+
+Rgba8 tint(float share) {
+    const auto* upper = std::find_if(scale.begin() + 1, scale.end() - 1,
+                                     [&](const Stop& stop) { return share < stop.at; });
+    const Stop& lower = *(upper - 1);
+    const float t = std::clamp((share - lower.at) / (upper->at - lower.at), 0.0F, 1.0F);
+    return rgba8(glm::mix(lower.color, upper->color, t));
+}
+
+bool is_void(const Heightfield& heightfield, int col, int row) {
+    return !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
+}
+
+// Heights at two shares of the sorted samples that are no voids, from at most 2^16 of them.
+HeightRange percentiles(const Heightfield& heightfield, double low, double high) {
+    const auto heights = heightfield.heights.samples();
+    const auto voids = heightfield.void_mask.samples();
+    const std::size_t step = std::max<std::size_t>(1, heights.size() >> 16U);
+    std::vector<float> picked;
+    for (std::size_t i = 0; i < heights.size(); i += step) {
+        if (voids.empty() || voids[i] == 0) {
+            picked.push_back(heights[i]);
+        }
+    }
+    if (picked.empty()) {
+        return heightfield.range;
+    }
+    const auto at = [&](double share) {
+        const auto nth = picked.begin() + static_cast<std::ptrdiff_t>(
+                                              share * static_cast<double>(picked.size() - 1));
+        std::nth_element(picked.begin(), nth, picked.end());
+        return static_cast<double>(*nth);
+    };
+    return {at(low), at(high)};
+}
+
+bool is_level_sea(const Heightfield& heightfield, int col, int row) {
+    const auto& heights = heightfield.heights;
+    for (int r = row - 1; r <= row + 1; ++r) {
+        for (int c = col - 1; c <= col + 1; ++c) {
+            if (heights.clamped(c, r) != 0.0F) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+glm::vec3 vector_from(Rgba8 color) { return {color.r, color.g, color.b}; }
+
+// Beneath's color at the place of a pixel of a picture that covers the same ground.
+Rgba8 nearest(const Image& beneath, const Image& over, int col, int row) {
+    const auto scaled = [](int index, int from, int to) {
+        return from > 1 ? static_cast<int>(std::lround(static_cast<double>(index) * (to - 1) / (from - 1)))
+                        : 0;
+    };
+    return beneath(scaled(col, over.cols(), beneath.cols()), scaled(row, over.rows(), beneath.rows()));
+}
+
+} // namespace
+
+Image hypsometric_tint(const Heightfield& heightfield) {
+    const auto& heights = heightfield.heights;
+    const HeightRange range = percentiles(heightfield, 0.01, 0.99);
+    const double extent = range.high - range.low;
+    Image image(heights.cols(), heights.rows());
+    for (int row = 0; row < image.rows(); ++row) {
+        for (int col = 0; col < image.cols(); ++col) {
+            if (is_void(heightfield, col, row)) {
+                image(col, row) = no_data;
+            } else if (is_level_sea(heightfield, col, row)) {
+                image(col, row) = water;
+            } else {
+                const double above = heights(col, row) - range.low;
+                image(col, row) = tint(extent > 0.0 ? static_cast<float>(above / extent) : 0.3F);
+            }
+        }
+    }
+    return image;
+}
+
+Image composite(const Image& color, const Image& beneath) {
+    if (color.empty()) {
+        return beneath;
+    }
+    Image result = color;
+    for (int row = 0; row < result.rows(); ++row) {
+        for (int col = 0; col < result.cols(); ++col) {
+            Rgba8& pixel = result(col, row);
+            if (pixel.a < 255) {
+                const glm::vec3 under = vector_from(nearest(beneath, color, col, row));
+                pixel = rgba8(glm::mix(under, vector_from(pixel), static_cast<float>(pixel.a) / 255.0F));
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace reljef::terrain

@@ -1,0 +1,23 @@
+#include "frame_block.glsl"
+#include "surface_light.glsl"
+#include "air.glsl"
+
+in vec3 relative_position;
+in vec3 world_normal;
+
+uniform vec3 albedo; // linear
+
+#ifdef HIT
+layout(location = 0) out vec4 hit; // no place on the heightfield, its depth
+#else
+layout(location = 0) out vec4 color;
+#endif
+
+void main() {
+#ifdef HIT
+    hit = vec4(-1.0, -1.0, 0.0, dot(relative_position, view_forward.xyz));
+#else
+    vec3 lit = lit_color(albedo, normalize(world_normal), 1.0);
+    color = vec4(seen_through_air(lit, length(relative_position)), 1.0);
+#endif
+}
