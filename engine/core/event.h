@@ -43,7 +43,7 @@ struct KeyEvent {
     Key key = Key::unknown;
     bool pressed = false; ///< false: released
     bool repeat = false;  ///< pressed again by holding it down
-    Modifiers modifiers;
+    Modifiers modifiers{};
 };
 
 /// Framebuffer pixels from the upper left corner; unbounded while the mouse is captured.
@@ -55,7 +55,7 @@ struct MouseButtonEvent {
     MouseButton button = MouseButton::left;
     bool pressed = false;
     glm::dvec2 position{0.0, 0.0}; ///< as in MouseMoveEvent
-    Modifiers modifiers;
+    Modifiers modifiers{};
 };
 
 /// Wheel steps; y > 0 is away from the user, x > 0 to the left.

@@ -21,8 +21,8 @@ namespace reljef::scene {
 struct Light {
     double azimuth = 300.0; ///< degrees clockwise from north, where it comes from
     double altitude = 40.0; ///< degrees above the horizon
-    glm::vec3 color{1.15F, 1.07F, 0.95F};  ///< linear, what a surface that faces it reflects at albedo 1
-    glm::vec3 ambient{0.22F, 0.27F, 0.36F}; ///< linear, what a level surface reflects from the sky at albedo 1
+    glm::vec3 color{1.70F, 1.60F, 1.43F};  ///< linear, what a surface that faces it reflects at albedo 1
+    glm::vec3 ambient{0.30F, 0.35F, 0.44F}; ///< linear, what a level surface reflects from the sky at albedo 1
 };
 
 /// Unit vector towards the light.

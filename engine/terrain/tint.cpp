@@ -15,13 +15,14 @@ struct Stop {
     glm::vec3 color; // sRGB, 0..255
 };
 
-constexpr std::array<Stop, 7> scale{{{0.00F, {112.0F, 146.0F, 96.0F}},
-                                     {0.15F, {142.0F, 166.0F, 108.0F}},
-                                     {0.32F, {189.0F, 189.0F, 132.0F}},
-                                     {0.50F, {190.0F, 165.0F, 115.0F}},
-                                     {0.68F, {158.0F, 126.0F, 92.0F}},
-                                     {0.84F, {168.0F, 158.0F, 150.0F}},
-                                     {1.00F, {244.0F, 244.0F, 246.0F}}}};
+// Imhof's tints, darkened from ink on paper to the albedo of ground.
+constexpr std::array<Stop, 7> scale{{{0.00F, {94.0F, 123.0F, 81.0F}},
+                                     {0.15F, {119.0F, 139.0F, 91.0F}},
+                                     {0.32F, {159.0F, 159.0F, 111.0F}},
+                                     {0.50F, {160.0F, 139.0F, 97.0F}},
+                                     {0.68F, {133.0F, 106.0F, 77.0F}},
+                                     {0.84F, {141.0F, 133.0F, 126.0F}},
+                                     {1.00F, {205.0F, 205.0F, 207.0F}}}};
 constexpr Rgba8 water{82, 118, 148, 255};
 constexpr Rgba8 no_data{128, 128, 128, 255};
 

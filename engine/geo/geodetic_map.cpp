@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/geo/georeference.h"
+
+namespace reljef::geo {
+namespace {
+
+constexpr int most_iterations = 40;
+constexpr double converged_samples = 1e-9;
+
+/// Where along one axis to interpolate: the first of four control points, the weights of the four
+/// and the weights' derivatives.
+struct Cubic {
+    int first = 0;
+    std::array<double, 4> weights{};
+    std::array<double, 4> slopes{};
+};
+
+/// Four-point Lagrange interpolation at `position`, in control points.
+Cubic cubic_at(double position, int points) {
+    Cubic cubic;
+    const double last = static_cast<double>(points) - 4.0;
+    cubic.first = static_cast<int>(std::clamp(std::floor(position) - 1.0, 0.0, last));
+    const double u = position - cubic.first;
+    const double a = u - 1.0;
+    const double b = u - 2.0;
+    const double c = u - 3.0;
+    cubic.weights = {-a * b * c / 6.0, u * b * c / 2.0, -u * a * c / 2.0, u * a * b / 6.0};
+    cubic.slopes = {-(b * c + a * c + a * b) / 6.0, (b * c + u * c + u * b) / 2.0,
+                    -(a * c + u * c + u * a) / 2.0, (a * b + u * b + u * a) / 6.0};
+    return cubic;
+}
+
+Grid<glm::dvec3> with_third(const Grid<glm::dvec2>& control) {
+    Grid<glm::dvec3> result(control.cols(), control.rows());
+    std::transform(control.samples().begin(), control.samples().end(), result.samples().begin(),
+                   [](glm::dvec2 value) { return glm::dvec3(value, 0.0); });
+    return result;
+}
+
+Error no_sample(double latitude, double longitude) {
+    return {fmt::format("{},{}: lies outside what the raster's projection can show, a position on "
+                        "or near the raster was expected",
+                        latitude, longitude)};
+}
+
+} // namespace
+
+GeodeticMap::GeodeticMap(const Grid<glm::dvec2>& control, glm::dvec2 first, glm::dvec2 step)
+    : GeodeticMap(with_third(control), first, step, Kind::degrees) {}
+
+GeodeticMap::GeodeticMap(const Grid<glm::dvec3>& normals, glm::dvec2 first, glm::dvec2 step)
+    : GeodeticMap(normals, first, step, Kind::normals) {}
+
+GeodeticMap::GeodeticMap(Grid<glm::dvec3> control, glm::dvec2 first, glm::dvec2 step, Kind kind)
+    : kind_(kind), control_(std::move(control)), first_(first), step_(step) {
+    check(control_.cols() >= 4 && control_.rows() >= 4, "GeodeticMap needs 4×4 control points");
+    check(step.x > 0.0 && step.y > 0.0, "GeodeticMap needs a step > 0");
+    base_ = control_(control_.cols() / 2, control_.rows() / 2);
+    for (glm::dvec3& value : control_.samples()) {
+        value -= base_;
+    }
+}
+
+GeodeticMap::Value GeodeticMap::evaluate(glm::dvec2 sample) const {
+    check(!control_.empty(), "GeodeticMap without control points");
+    const glm::dvec2 position = (sample - first_) / step_;
+    const Cubic across = cubic_at(position.x, control_.cols());
+    const Cubic down = cubic_at(position.y, control_.rows());
+    Value value;
+    for (std::size_t j = 0; j < 4; ++j) {
+        glm::dvec3 at{0.0};
+        glm::dvec3 by_col{0.0};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::dvec3 control =
+                control_(across.first + static_cast<int>(i), down.first + static_cast<int>(j));
+            at += across.weights[i] * control;
+            by_col += across.slopes[i] * control;
+        }
+        value.at += down.weights[j] * at;
+        value.by_col += down.weights[j] * by_col;
+        value.by_row += down.slopes[j] * at;
+    }
+    value.by_col /= step_.x;
+    value.by_row /= step_.y;
+    return value;
+}
+
+glm::dvec2 GeodeticMap::middle() const {
+    return first_ + 0.5 * step_ * glm::dvec2(control_.cols() - 1, control_.rows() - 1);
+}
+
+glm::dvec2 GeodeticMap::latitude_longitude(glm::dvec2 sample) const {
+    const glm::dvec3 value = base_ + evaluate(sample).at;
+    if (kind_ == Kind::degrees) {
+        return glm::dvec2(value);
+    }
+    return {glm::degrees(std::atan2(value.z, std::hypot(value.x, value.y))),
+            glm::degrees(std::atan2(value.y, value.x))};
+}
+
+GeodeticMap::Target GeodeticMap::target(double latitude, double longitude) const {
+    if (kind_ == Kind::degrees) {
+        const double turns = std::round((longitude - latitude_longitude(middle()).y) / 360.0);
+        const glm::dvec3 at(latitude - base_.x, longitude - 360.0 * turns - base_.y, 0.0);
+        return {at, {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0)}};
+    }
+    const double lambda = glm::radians(longitude);
+    const glm::dvec3 up = normal_from_geodetic(latitude, longitude);
+    const glm::dvec3 east(-std::sin(lambda), std::cos(lambda), 0.0);
+    return {up - base_, {east, glm::cross(up, east)}};
+}
+
+Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const {
+    if (!(std::abs(latitude) <= 90.0) || !std::isfinite(longitude)) {
+        return Error{
+            fmt::format("{},{}: is no position, a latitude in [-90, 90] and a longitude in "
+                        "degrees were expected",
+                        latitude, longitude)};
+    }
+    const Target wanted = target(latitude, longitude);
+    const auto& [first, second] = wanted.directions;
+    glm::dvec2 sample = middle();
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+        const Value value = evaluate(sample);
+        const glm::dvec3 miss = wanted.at - value.at;
+        const glm::dmat2 jacobian(glm::dot(value.by_col, first), glm::dot(value.by_col, second),
+                                  glm::dot(value.by_row, first), glm::dot(value.by_row, second));
+        const glm::dvec2 step =
+            glm::inverse(jacobian) * glm::dvec2(glm::dot(miss, first), glm::dot(miss, second));
+        sample += step;
+        if (!std::isfinite(sample.x) || !std::isfinite(sample.y)) {
+            break;
+        }
+        if (std::abs(step.x) <= converged_samples && std::abs(step.y) <= converged_samples) {
+            const bool other_side =
+                kind_ == Kind::normals && glm::dot(base_ + wanted.at, base_ + value.at) <= 0.0;
+            return other_side ? Result<glm::dvec2>(no_sample(latitude, longitude)) : sample;
+        }
+    }
+    return no_sample(latitude, longitude);
+}
+
+} // namespace reljef::geo

@@ -1,0 +1,71 @@
+#include "engine/geo/georeference.h"
+
+#include <cmath>
+#include <vector>
+
+#include <GeographicLib/Ellipsoid.hpp>
+#include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/Geodesic.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace reljef::geo {
+namespace {
+
+glm::dvec3 geocentric_from_geodetic(const Geodetic& position) {
+    glm::dvec3 result{0.0};
+    GeographicLib::Geocentric::WGS84().Forward(position.latitude, position.longitude,
+                                               position.height, result.x, result.y, result.z);
+    return result;
+}
+
+} // namespace
+
+LocalFrame::LocalFrame(Geodetic origin)
+    : origin_(origin), center_(geocentric_from_geodetic(origin)) {
+    std::vector<double> rotation(9); // row by row; its columns are east, north and up
+    glm::dvec3 ignored{0.0};
+    GeographicLib::Geocentric::WGS84().Forward(origin.latitude, origin.longitude, origin.height,
+                                               ignored.x, ignored.y, ignored.z, rotation);
+    for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+        axes_[axis] = {rotation[axis], rotation[3 + axis], rotation[6 + axis]};
+    }
+}
+
+glm::dvec3 LocalFrame::local_from_geodetic(Geodetic position) const {
+    return local_direction(geocentric_from_geodetic(position) - center_);
+}
+
+glm::dvec3 LocalFrame::local_direction(glm::dvec3 geocentric) const {
+    return {glm::dot(axes_[0], geocentric), glm::dot(axes_[1], geocentric),
+            glm::dot(axes_[2], geocentric)};
+}
+
+Geodetic LocalFrame::geodetic_from_local(glm::dvec3 local) const {
+    const glm::dvec3 point = center_ + local.x * axes_[0] + local.y * axes_[1] + local.z * axes_[2];
+    Geodetic result;
+    GeographicLib::Geocentric::WGS84().Reverse(point.x, point.y, point.z, result.latitude,
+                                               result.longitude, result.height);
+    return result;
+}
+
+glm::dvec3 normal_from_geodetic(double latitude, double longitude) {
+    const double phi = glm::radians(latitude);
+    const double lambda = glm::radians(longitude);
+    return {std::cos(phi) * std::cos(lambda), std::cos(phi) * std::sin(lambda), std::sin(phi)};
+}
+
+glm::dvec2 metres_per_degree(double latitude) {
+    const GeographicLib::Ellipsoid& ellipsoid = GeographicLib::Ellipsoid::WGS84();
+    return {glm::radians(ellipsoid.CircleRadius(latitude)),
+            glm::radians(ellipsoid.MeridionalCurvatureRadius(latitude))};
+}
+
+double geodesic_distance(Geodetic from, Geodetic to) {
+    double distance = 0.0;
+    GeographicLib::Geodesic::WGS84().Inverse(from.latitude, from.longitude, to.latitude,
+                                             to.longitude, distance);
+    return distance;
+}
+
+} // namespace reljef::geo

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "engine/core/result.h"
+#include "engine/gl/unique_id.h"
+
+namespace reljef::gl {
+
+/// Bytes in the driver's memory: vertices, indices, uniform or storage blocks. Default-constructed
+/// and moved-from ones hold nothing (id 0, size 0).
+class Buffer {
+public:
+    Buffer() = default;
+
+    /// Contents that never change. Fails when the driver has no memory. Precondition: not empty.
+    static Result<Buffer> create(std::span<const std::byte> content);
+    /// `size` bytes of undefined content, to be filled with write(). Precondition: size > 0.
+    static Result<Buffer> create_writable(std::size_t size);
+
+    /// Replaces the bytes from `offset` on. Precondition: made by create_writable(), and the bytes
+    /// fit.
+    void write(std::size_t offset, std::span<const std::byte> bytes);
+
+    /// As the uniform or shader storage block of that binding point, for all programs.
+    void bind_uniform_block(unsigned int binding) const;
+    void bind_storage_block(unsigned int binding) const;
+
+    [[nodiscard]] unsigned int id() const { return id_.get(); }
+    [[nodiscard]] std::size_t size() const { return id() == 0U ? 0 : size_; }
+
+private:
+    UniqueId<delete_buffer> id_;
+    std::size_t size_ = 0;
+    bool writable_ = false;
+};
+
+} // namespace reljef::gl

@@ -1,0 +1,29 @@
+#include "engine/gl/functions.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+namespace reljef::gl {
+
+namespace {
+
+constexpr int needed_major = 4;
+constexpr int needed_minor = 5;
+
+} // namespace
+
+Result<void> load_functions(GetProcAddress get_proc_address) {
+    const int version = gladLoadGL(get_proc_address);
+    if (version == 0) {
+        return Error{"no OpenGL functions found, expected OpenGL 4.5 core"};
+    }
+    const int major = GLAD_VERSION_MAJOR(version);
+    const int minor = GLAD_VERSION_MINOR(version);
+    if (major < needed_major || (major == needed_major && minor < needed_minor)) {
+        return Error{fmt::format("found OpenGL {}.{} ({}), expected 4.5 core or newer", major,
+                                 minor, reinterpret_cast<const char*>(glGetString(GL_VERSION)))};
+    }
+    return {};
+}
+
+} // namespace reljef::gl

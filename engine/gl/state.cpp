@@ -1,0 +1,60 @@
+#include "engine/gl/state.h"
+
+#include <glad/gl.h>
+
+namespace reljef::gl {
+
+namespace {
+
+void enable(GLenum capability, bool on) {
+    if (on) {
+        glEnable(capability);
+    } else {
+        glDisable(capability);
+    }
+}
+
+} // namespace
+
+void set_reversed_depth() {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glDepthRangef(0.0F, 1.0F);
+    glClearDepthf(0.0F);
+    set_depth_test(DepthTest::greater);
+    set_depth_writing(true);
+}
+
+void set_depth_test(DepthTest test) {
+    enable(GL_DEPTH_TEST, test != DepthTest::off);
+    glDepthFunc(test == DepthTest::greater_or_equal ? GL_GEQUAL : GL_GREATER);
+}
+
+void set_depth_writing(bool on) {
+    glDepthMask(on ? GL_TRUE : GL_FALSE);
+}
+
+void set_culling(Culling culling) {
+    glFrontFace(GL_CCW);
+    glCullFace(culling == Culling::front ? GL_FRONT : GL_BACK);
+    enable(GL_CULL_FACE, culling != Culling::none);
+}
+
+void set_polygon_mode(PolygonMode mode) {
+    glPolygonMode(GL_FRONT_AND_BACK, mode == PolygonMode::line ? GL_LINE : GL_FILL);
+}
+
+void set_polygon_offset(float slope_factor, float units) {
+    enable(GL_POLYGON_OFFSET_FILL, slope_factor != 0.0F || units != 0.0F);
+    glPolygonOffset(-slope_factor, -units);
+}
+
+void set_blending(bool on) {
+    enable(GL_BLEND, on);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void set_viewport(glm::ivec2 origin, glm::ivec2 size) {
+    glViewport(origin.x, origin.y, size.x, size.y);
+}
+
+} // namespace reljef::gl

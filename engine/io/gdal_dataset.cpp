@@ -1,0 +1,142 @@
+#include "engine/io/gdal_dataset.h"
+
+#include <algorithm>
+#include <mutex>
+#include <system_error>
+#include <utility>
+
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+
+namespace reljef::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t most_messages = 10;
+constexpr std::size_t longest_message = 200;
+constexpr int most_archive_entries = 1000;
+
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+    while (!text.empty() && (text.back() == '.' || text.back() == ' ')) {
+        text.pop_back();
+    }
+    if (text.size() > longest_message) {
+        text.resize(longest_message);
+        text += "…";
+    }
+    return text;
+}
+
+std::string extension_of(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return extension;
+}
+
+std::string raster_in_zip(const fs::path& path) {
+    const std::string archive = "/vsizip/{" + path.string() + "}";
+    const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
+    for (int i = 0; i < std::min(entries.size(), most_archive_entries); ++i) {
+        std::string entry = archive + "/" + entries[i];
+        if (entry.back() != '/' && GDALIdentifyDriver(entry.c_str(), nullptr) != nullptr) {
+            return entry;
+        }
+    }
+    return path.string();
+}
+
+std::string name_for_gdal(const fs::path& path) {
+    const std::string extension = extension_of(path);
+    if (extension == ".zip") {
+        return raster_in_zip(path);
+    }
+    return extension == ".gz" ? "/vsigzip/" + fs::absolute(path).string() : path.string();
+}
+
+Result<void> check_file(const fs::path& path) {
+    const std::string name = path.string();
+    std::error_code code;
+    const fs::file_status status = fs::status(path, code);
+    if (!fs::exists(status)) {
+        return Error{fmt::format("{}: does not exist, a raster file was expected", name)};
+    }
+    if (fs::is_directory(status)) {
+        return Error{fmt::format("{}: is a folder, one raster file was expected (tiles of a folder "
+                                 "are not put together)",
+                                 name)};
+    }
+    if (!fs::is_regular_file(status)) {
+        return Error{fmt::format("{}: is no regular file, a raster file was expected", name)};
+    }
+    if (fs::file_size(path, code) == 0) {
+        return Error{fmt::format("{}: is empty, a raster file was expected", name)};
+    }
+    return {};
+}
+
+} // namespace
+
+void register_drivers() {
+    static std::once_flag once;
+    std::call_once(once, [] { GDALAllRegister(); });
+}
+
+GdalMessages::GdalMessages() {
+    CPLPushErrorHandlerEx(&GdalMessages::handle, this);
+}
+
+GdalMessages::~GdalMessages() {
+    CPLPopErrorHandler();
+}
+
+void GdalMessages::handle(CPLErr kind, CPLErrorNum /*number*/, const char* text) {
+    auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    if (kind != CE_Warning && kind != CE_Failure && kind != CE_Fatal) {
+        return;
+    }
+    std::string message = one_line(text);
+    if (kind != CE_Warning) {
+        self->last_error_ = message;
+    }
+    std::vector<std::string>& all = self->all_;
+    if (all.size() < most_messages && std::find(all.begin(), all.end(), message) == all.end()) {
+        all.push_back(std::move(message));
+    }
+}
+
+std::string GdalMessages::reason() const {
+    return last_error_.empty() ? "" : fmt::format(" (GDAL: {})", last_error_);
+}
+
+void GdalMessages::clear() {
+    all_.clear();
+    last_error_.clear();
+}
+
+Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {
+    register_drivers();
+    if (auto file = check_file(path); !file) {
+        return file.error();
+    }
+    constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+    Dataset dataset(GDALDataset::Open(name_for_gdal(path).c_str(), flags));
+    if (dataset == nullptr) {
+        return Error{
+            fmt::format("{}: cannot be opened as a raster{}, a whole file in one of GDAL's "
+                        "formats was expected",
+                        path.string(), messages.reason())};
+    }
+    if (dataset->GetRasterCount() == 0) {
+        return Error{fmt::format(
+            "{}: holds no raster of its own, a file with one raster was expected", path.string())};
+    }
+    return dataset;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gdal_priv.h>
+
+#include "engine/core/result.h"
+
+namespace reljef::io {
+
+/// Keeps what GDAL says in the current thread, instead of letting it print, until the end of scope.
+class GdalMessages {
+public:
+    GdalMessages();
+    ~GdalMessages();
+    GdalMessages(const GdalMessages&) = delete;
+    GdalMessages& operator=(const GdalMessages&) = delete;
+
+    /// GDAL's last error in one line of at most 200 characters, ready to follow a sentence:
+    /// " (GDAL: …)"; empty when there was none.
+    [[nodiscard]] std::string reason() const;
+    /// Each different warning and error once, in order, at most ten.
+    [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
+    void clear();
+
+private:
+    static void handle(CPLErr kind, CPLErrorNum number, const char* text);
+
+    std::vector<std::string> all_;
+    std::string last_error_;
+};
+
+struct DatasetCloser {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
+
+/// A file's raster, read-only; inside a .zip the first that GDAL opens. At least one band.
+Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);
+
+/// The drivers are registered once, however many threads ask.
+void register_drivers();
+
+} // namespace reljef::io

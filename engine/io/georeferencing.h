@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include "engine/core/result.h"
+#include "engine/geo/georeference.h"
+#include "engine/io/raster.h"
+#include "engine/io/sample_grid.h"
+
+namespace reljef::io {
+
+/// GDAL's geotransform as an affine over its pixel coordinates, (0,0) at the outer corner of the
+/// first pixel; absent where the raster has none.
+std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset);
+
+/// The horizontal part of a raster's CRS with x east and y north; absent where it names none.
+/// Degrees without a CRS are taken for WGS 84, with a note.
+std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
+                                                  std::vector<std::string>& notes);
+
+/// What a CRS is called: its name, its code ("EPSG:4326", empty where it has none) and its unit.
+struct CrsWords {
+    std::string name;
+    std::string code;
+    std::string horizontal_unit;
+};
+CrsWords words_of(const OGRSpatialReference& crs);
+
+/// Where the samples of a raster lie.
+struct Place {
+    SampleGrid grid; ///< col grows east and row south
+    bool flipped_cols = false;
+    bool flipped_rows = false;
+    glm::dvec2 spacing{1.0}; ///< metres
+    std::optional<geo::Georeference> georeference;
+};
+
+/// Fails only where RasterOptions::spacing contradicts the file; all else that is odd is noted.
+Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
+                       const RasterOptions& options, std::vector<std::string>& notes);
+
+} // namespace reljef::io

@@ -1,0 +1,152 @@
+#include "engine/io/raster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/io/gdal_dataset.h"
+#include "engine/io/georeferencing.h"
+#include "engine/io/height_unit.h"
+#include "engine/io/imagery.h"
+#include "engine/io/sample_reader.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr std::size_t most_gdal_notes = 3;
+
+/// Part of a longer progress.
+Progress part(const Progress& whole, double begin, double end) {
+    if (!whole) {
+        return {};
+    }
+    return [whole, begin, end](double fraction) { whole(begin + (end - begin) * fraction); };
+}
+
+Result<void> check_options(const RasterOptions& options, const std::string& name) {
+    if (!std::isfinite(options.height_scale) || options.height_scale == 0.0 ||
+        !std::isfinite(options.height_offset)) {
+        return Error{
+            fmt::format("{}: height scale {} and offset {} were asked for, finite numbers and a "
+                        "scale other than 0 were expected",
+                        name, options.height_scale, options.height_offset)};
+    }
+    return {};
+}
+
+template <class T> void flip(Grid<T>& grid, const Place& place) {
+    if (place.flipped_rows) {
+        for (int row = 0; row < grid.rows() / 2; ++row) {
+            std::swap_ranges(grid.row(row).begin(), grid.row(row).end(),
+                             grid.row(grid.rows() - 1 - row).begin());
+        }
+    }
+    for (int row = 0; place.flipped_cols && row < grid.rows(); ++row) {
+        std::reverse(grid.row(row).begin(), grid.row(row).end());
+    }
+}
+
+terrain::Heightfield heightfield_of(Samples samples, Place& place) {
+    flip(samples.heights, place);
+    flip(samples.void_mask, place);
+    terrain::Heightfield result;
+    result.range = terrain::height_range(samples.heights, samples.void_mask);
+    terrain::fill_voids(samples.heights, samples.void_mask);
+    result.heights = std::move(samples.heights);
+    result.void_mask = std::move(samples.void_mask);
+    result.void_count = samples.void_count;
+    result.spacing = place.spacing;
+    result.georeference = std::move(place.georeference);
+    return result;
+}
+
+Result<Samples> samples_with_heights(GDALDataset& dataset, const ReadPlan& plan,
+                                     const std::string& name, const RasterOptions& options,
+                                     const GdalMessages& messages,
+                                     std::vector<std::string>& notes) {
+    auto samples = read_samples(dataset, plan, name, options, messages, notes);
+    if (samples && samples->void_count == samples->heights.size()) {
+        return Error{
+            fmt::format("{}: all {}×{} samples are voids, at least one height was expected", name,
+                        plan.grid.cols, plan.grid.rows)};
+    }
+    return samples;
+}
+
+void note_messages(const GdalMessages& messages, std::vector<std::string>& notes) {
+    const std::size_t count = std::min(messages.all().size(), most_gdal_notes);
+    for (std::size_t i = 0; i < count; ++i) {
+        notes.push_back("GDAL says: " + messages.all()[i]);
+    }
+}
+
+} // namespace
+
+Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
+                                      const RasterOptions& options) {
+    const std::string name = path.string();
+    if (auto good = check_options(options, name); !good) {
+        return good.error();
+    }
+    GdalMessages messages;
+    auto dataset = open_raster(path, messages);
+    if (!dataset) {
+        return dataset.error();
+    }
+    terrain::Terrain terrain;
+    terrain.name = path.filename().string();
+    const auto plan = plan_reading(**dataset, name, options, terrain.notes);
+    if (!plan) {
+        return plan.error();
+    }
+    auto place = place_of(**dataset, plan->grid, name, options, terrain.notes);
+    if (!place) {
+        return place.error();
+    }
+    note_messages(messages, terrain.notes);
+    RasterOptions reading = options;
+    reading.progress = part(options.progress, 0.0, options.imagery.empty() ? 1.0 : 0.5);
+    auto samples = samples_with_heights(**dataset, *plan, name, reading, messages, terrain.notes);
+    if (!samples) {
+        return samples.error();
+    }
+    terrain.heightfield = heightfield_of(std::move(*samples), *place);
+    if (!options.imagery.empty()) {
+        reading.progress = part(options.progress, 0.5, 1.0);
+        auto color = read_imagery(**dataset, place->grid, reading, terrain.notes);
+        if (!color) {
+            return color.error();
+        }
+        terrain.color = std::move(*color);
+    }
+    return terrain;
+}
+
+Result<RasterInfo> read_raster_info(const std::filesystem::path& path) {
+    GdalMessages messages;
+    auto opened = open_raster(path, messages);
+    if (!opened) {
+        return opened.error();
+    }
+    GDALDataset& dataset = **opened;
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    RasterInfo info;
+    info.cols = dataset.GetRasterXSize();
+    info.rows = dataset.GetRasterYSize();
+    info.format = dataset.GetDriver()->GetDescription();
+    info.type = GDALGetDataTypeName(band.GetRasterDataType());
+    info.vertical_unit = height_unit_of(dataset, band).name;
+    std::vector<std::string> ignored;
+    if (const auto crs = horizontal_crs(dataset, ignored)) {
+        CrsWords words = words_of(*crs);
+        info.crs_name = std::move(words.name);
+        info.crs_code = std::move(words.code);
+        info.horizontal_unit = std::move(words.horizontal_unit);
+    }
+    return info;
+}
+
+} // namespace reljef::io

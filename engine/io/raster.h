@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/core/worker_pool.h"
+#include "engine/terrain/heightfield.h"
+
+namespace reljef::io {
+
+struct RasterOptions {
+    /// Memory for the terrain, CPU and GPU, bytes. A raster that needs more (bytes_per_sample each)
+    /// is read at the finest whole-number reduction that fits, with a note that says so.
+    std::size_t memory_budget = std::size_t{512} << 20;
+    /// Only this part of the raster, in its own full-resolution samples.
+    struct Window {
+        int col = 0, row = 0, cols = 0, rows = 0;
+    };
+    std::optional<Window> window;
+    /// Metres between samples, for rasters that name no coordinate system (an error for the
+    /// others).
+    std::optional<double> spacing;
+    /// Height in metres = value in metres · height_scale + height_offset; finite, scale not 0. For
+    /// pictures whose grey values stand for another range than metres.
+    double height_scale = 1.0;
+    double height_offset = 0.0;
+    /// Colour to drape: a georeferenced image that overlaps, in any CRS, or one without a place,
+    /// which is stretched over the whole raster, corner pixels on corner samples. Empty: none.
+    std::filesystem::path imagery;
+    Progress progress;
+    std::stop_token stop;
+};
+
+/// Bytes a terrain takes per sample once it is drawn: height, vertex, gradient, colour with
+/// mipmaps, void mask.
+inline constexpr std::size_t bytes_per_sample = 40;
+
+/// The longest side of a draped image, pixels.
+inline constexpr int longest_image_side = 4096;
+
+/// Any raster GDAL opens, as a terrain: heights in metres, spacing in metres, voids masked and
+/// filled, georeference where there is one (checked to 1e-4 m against the exact transform), imagery
+/// draped where given. One file, also inside a .zip or .gz; its first band, or the luminance of a
+/// picture. South-up rasters are turned. Voids: the declared value, a mask or alpha of 0, NaN,
+/// infinity, and −32768 and −32767 even where they are not declared.
+///
+/// Terrain::color, where imagery is given, has the image's own resolution, at most
+/// longest_image_side and a share of the budget; alpha is 0 where the image has nothing, so that a
+/// tint shows there.
+///
+/// What is odd about the file is told in Terrain::notes. Errors name the file, what was found and
+/// what was expected. Nothing is written beside the file. Safe from several threads at a time.
+Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
+                                      const RasterOptions& options = {});
+
+/// What a raster says of itself, without reading its samples.
+struct RasterInfo {
+    int cols = 0;
+    int rows = 0;
+    std::string format; ///< GDAL's driver, "SRTMHGT"
+    std::string type;   ///< "Int16", "Float32", …
+    std::string crs_name;
+    std::string crs_code;
+    std::string horizontal_unit;
+    std::string vertical_unit; ///< "metre", "US survey foot", …; "metre" where the file names none
+};
+
+/// Errors as read_terrain has them for a file that does not open.
+Result<RasterInfo> read_raster_info(const std::filesystem::path& path);
+
+} // namespace reljef::io

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "engine/io/sample_decoder.h"
+#include "engine/io/sample_reader.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr int largest_reduction = 1024;
+constexpr double coarser_for_overview = 4.0 / 3.0 + 1e-9;
+constexpr std::size_t largest_block = std::size_t{1} << 28; // bytes
+constexpr double near_whole = 1e-6;
+
+using Window = RasterOptions::Window;
+
+std::string size_text(double bytes) {
+    return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
+                        : fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
+Result<Window> window_of(GDALDataset& dataset, const std::string& name,
+                         const RasterOptions& options) {
+    const int cols = dataset.GetRasterXSize();
+    const int rows = dataset.GetRasterYSize();
+    if (cols < 2 || rows < 2) {
+        return Error{
+            fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name, cols, rows)};
+    }
+    const Window window = options.window.value_or(Window{0, 0, cols, rows});
+    const bool inside = window.col >= 0 && window.row >= 0 && window.cols >= 2 &&
+                        window.rows >= 2 && window.cols <= cols - window.col &&
+                        window.rows <= rows - window.row;
+    if (!inside) {
+        return Error{
+            fmt::format("{}: the window of {}×{} samples at {},{} was asked for, at least 2×2 "
+                        "inside its {}×{} were expected",
+                        name, window.cols, window.rows, window.col, window.row, cols, rows)};
+    }
+    return window;
+}
+
+Result<void> check_blocks(GDALRasterBand& band, const std::string& name) {
+    int cols = 0;
+    int rows = 0;
+    band.GetBlockSize(&cols, &rows);
+    const double bytes =
+        static_cast<double>(cols) * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
+    if (bytes > static_cast<double>(largest_block)) {
+        return Error{fmt::format(
+            "{}: is stored in blocks of {}×{} samples, which take {} each, blocks "
+            "of at most {} were expected",
+            name, cols, rows, size_text(bytes), size_text(static_cast<double>(largest_block)))};
+    }
+    return {};
+}
+
+/// A window in one of the raster's resolutions; `scale` full samples lie in one of its samples.
+struct Level {
+    int overview = -1;
+    glm::dvec2 scale{1.0};
+    Window window;
+};
+
+Level level_of(GDALRasterBand& band, int overview, const Window& full) {
+    if (overview < 0) {
+        return {overview, glm::dvec2(1.0), full};
+    }
+    GDALRasterBand* reduced = band.GetOverview(overview);
+    Level level;
+    if (reduced == nullptr || reduced->GetXSize() < 2 || reduced->GetYSize() < 2) {
+        return level;
+    }
+    const int cols = reduced->GetXSize();
+    const int rows = reduced->GetYSize();
+    level.overview = overview;
+    level.scale = {static_cast<double>(band.GetXSize()) / cols,
+                   static_cast<double>(band.GetYSize()) / rows};
+    const glm::dvec2 low = glm::dvec2(full.col, full.row) / level.scale;
+    const glm::dvec2 high = glm::dvec2(full.col + full.cols, full.row + full.rows) / level.scale;
+    level.window.col = static_cast<int>(std::ceil(low.x - near_whole));
+    level.window.row = static_cast<int>(std::ceil(low.y - near_whole));
+    level.window.cols = std::min(static_cast<int>(high.x + near_whole), cols) - level.window.col;
+    level.window.rows = std::min(static_cast<int>(high.y + near_whole), rows) - level.window.row;
+    return level;
+}
+
+std::optional<int> smallest_reduction(const Window& window, std::size_t budget) {
+    const std::size_t samples = budget / bytes_per_sample;
+    for (int k = 1; k <= largest_reduction; ++k) {
+        if (window.cols / k < 2 || window.rows / k < 2) {
+            break;
+        }
+        if (static_cast<std::size_t>(window.cols / k) * static_cast<std::size_t>(window.rows / k) <=
+            samples) {
+            return k;
+        }
+    }
+    return std::nullopt;
+}
+
+ReadPlan plan_of(const Level& level, int reduction) {
+    ReadPlan plan;
+    plan.overview = level.overview;
+    plan.col = level.window.col;
+    plan.row = level.window.row;
+    plan.reduction = reduction;
+    plan.grid.cols = level.window.cols / reduction;
+    plan.grid.rows = level.window.rows / reduction;
+    plan.grid.step = level.scale * static_cast<double>(reduction);
+    plan.grid.origin = level.scale * glm::dvec2(plan.col, plan.row) + 0.5 * plan.grid.step;
+    return plan;
+}
+
+/// `plan`, or the one of the coarsest overview that gives nearly as much.
+ReadPlan with_overview(GDALRasterBand& band, const Window& full, const RasterOptions& options,
+                       ReadPlan plan) {
+    const double coarsest = plan.grid.step.x * coarser_for_overview;
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+        const Level level = level_of(band, i, full);
+        if (level.overview < 0 || level.window.cols < 2 || level.window.rows < 2) {
+            continue;
+        }
+        const auto reduction = smallest_reduction(level.window, options.memory_budget);
+        if (!reduction) {
+            continue;
+        }
+        const ReadPlan candidate = plan_of(level, *reduction);
+        if (candidate.grid.step.x <= coarsest && candidate.reduction < plan.reduction) {
+            plan = candidate;
+        }
+    }
+    return plan;
+}
+
+} // namespace
+
+Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
+                              const RasterOptions& options, std::vector<std::string>& notes) {
+    auto window = window_of(dataset, name, options);
+    if (!window) {
+        return window.error();
+    }
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    if (auto blocks = check_blocks(band, name); !blocks) {
+        return blocks.error();
+    }
+    const double bytes = static_cast<double>(window->cols) * window->rows * bytes_per_sample;
+    const auto reduction = smallest_reduction(*window, options.memory_budget);
+    if (!reduction) {
+        return Error{
+            fmt::format("{}: {}×{} samples take {} of memory, at most {} were expected, also "
+                        "at 1/{}",
+                        name, window->cols, window->rows, size_text(bytes),
+                        size_text(static_cast<double>(options.memory_budget)), largest_reduction)};
+    }
+    ReadPlan plan = plan_of(Level{-1, glm::dvec2(1.0), *window}, *reduction);
+    if (*reduction == 1) {
+        return plan;
+    }
+    if (kind_of_values(dataset) == ValueKind::plain) {
+        plan = with_overview(band, *window, options, plan);
+    }
+    notes.push_back(fmt::format("{}×{} samples would take {}: read at 1/{:.4g} ({}×{}) to fit {}",
+                                window->cols, window->rows, size_text(bytes), plan.grid.step.x,
+                                plan.grid.cols, plan.grid.rows,
+                                size_text(static_cast<double>(options.memory_budget))));
+    return plan;
+}
+
+} // namespace reljef::io

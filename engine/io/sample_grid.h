@@ -1,0 +1,29 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+namespace reljef::io {
+
+/// Which places of a raster the samples of a heightfield are: sample (col, row) has its centre at
+/// origin + step·(col, row) in GDAL's pixel coordinates, whose (0, 0) is the OUTER corner of the
+/// first pixel. A negative step turns the raster over.
+struct SampleGrid {
+    glm::dvec2 origin{0.5};
+    glm::dvec2 step{1.0};
+    int cols = 0;
+    int rows = 0;
+
+    [[nodiscard]] glm::dvec2 pixel_from_sample(glm::dvec2 sample) const {
+        return origin + step * sample;
+    }
+    void flip_cols() {
+        origin.x += step.x * (cols - 1);
+        step.x = -step.x;
+    }
+    void flip_rows() {
+        origin.y += step.y * (rows - 1);
+        step.y = -step.y;
+    }
+};
+
+} // namespace reljef::io

@@ -1,0 +1,113 @@
+#include "engine/platform/egl_context.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "engine/platform/egl_library.h"
+
+namespace reljef::platform {
+
+namespace {
+
+constexpr std::string_view packages =
+    "install the packages libegl1, libegl-mesa0 and libgl1-mesa-dri, or the GPU's own driver";
+
+EGLContext create(const Egl& egl, EGLDisplay display, int major, int minor, bool debug) {
+    const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                           major,
+                                           EGL_CONTEXT_MINOR_VERSION,
+                                           minor,
+                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                           EGL_CONTEXT_OPENGL_DEBUG,
+                                           debug ? EGL_TRUE : EGL_FALSE,
+                                           EGL_NONE};
+    return egl.create_context(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+}
+
+/// A context of that display, as new as possible up to what is needed; or why there is none.
+Result<EGLContext> create(const Egl& egl, EGLDisplay display, bool debug) {
+    // Displays belong to the process and are shared by their users: they are never terminated.
+    if (egl.initialize(display, nullptr, nullptr) == EGL_FALSE) {
+        return Error{fmt::format("eglInitialize failed with 0x{:04x}", egl.get_error())};
+    }
+    const char* extensions = egl.query_string(display, EGL_EXTENSIONS);
+    for (const char* needed : {"EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"}) {
+        if (!has_extension(extensions, needed)) {
+            return Error{fmt::format("the driver lacks {}", needed)};
+        }
+    }
+    if (egl.bind_api(EGL_OPENGL_API) == EGL_FALSE) {
+        return Error{"the driver offers no desktop OpenGL"};
+    }
+    EGLContext context = create(egl, display, 4, 5, debug);
+    if (context == EGL_NO_CONTEXT) {
+        context = create(egl, display, 3, 2, debug);
+    }
+    if (context == EGL_NO_CONTEXT) {
+        return Error{fmt::format("the driver gives neither OpenGL 4.5 nor 3.2 core (0x{:04x})",
+                                 egl.get_error())};
+    }
+    return context;
+}
+
+class EglContext final : public Context {
+public:
+    EglContext(Egl egl, EGLDisplay display, EGLContext context)
+        : egl_(std::move(egl)), display_(display), context_(context) {}
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
+    ~EglContext() override {
+        release();
+        egl_.destroy_context(display_, context_);
+    }
+
+    [[nodiscard]] ContextKind kind() const override { return ContextKind::egl; }
+
+private:
+    Result<void> bind() override {
+        egl_.bind_api(EGL_OPENGL_API);
+        if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
+            return Error{fmt::format("eglMakeCurrent failed with 0x{:04x}", egl_.get_error())};
+        }
+        return {};
+    }
+
+    void unbind() override {
+        egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+
+    [[nodiscard]] gl::GetProcAddress get_proc_address() const override {
+        return egl_.get_proc_address;
+    }
+
+    Egl egl_;
+    EGLDisplay display_;
+    EGLContext context_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Context>> create_egl_context(const ContextOptions& options,
+                                                    EglDevices devices) {
+    auto egl = open_egl();
+    if (!egl) {
+        return egl.error();
+    }
+    std::string why = "there is no device";
+    for (const EglCandidate& candidate : egl_candidates(*egl)) {
+        if (devices == EglDevices::hardware && !candidate.hardware) {
+            continue;
+        }
+        const auto context = create(*egl, candidate.display, options.debug);
+        if (context) {
+            return std::unique_ptr<Context>(
+                std::make_unique<EglContext>(std::move(*egl), candidate.display, *context));
+        }
+        why = context.error().message;
+    }
+    return Error{fmt::format("no EGL display without a window system: {}; {}", why, packages)};
+}
+
+} // namespace reljef::platform

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#ifndef EGL_NO_X11
+#define EGL_NO_X11
+#endif
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include "engine/core/result.h"
+#include "engine/platform/shared_library.h"
+
+namespace reljef::platform {
+
+/// libEGL's functions, by their C declarations.
+struct Egl {
+    SharedLibrary library;
+    PFNEGLGETPROCADDRESSPROC get_proc_address = nullptr;
+    PFNEGLQUERYSTRINGPROC query_string = nullptr;
+    PFNEGLGETERRORPROC get_error = nullptr;
+    PFNEGLINITIALIZEPROC initialize = nullptr;
+    PFNEGLBINDAPIPROC bind_api = nullptr;
+    PFNEGLCREATECONTEXTPROC create_context = nullptr;
+    PFNEGLDESTROYCONTEXTPROC destroy_context = nullptr;
+    PFNEGLMAKECURRENTPROC make_current = nullptr;
+    PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = nullptr;
+    PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;            ///< may be null
+    PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = nullptr; ///< may be null
+};
+
+/// Opens libEGL.so.1. Fails naming the package to install.
+Result<Egl> open_egl();
+
+/// Whether a list of extensions, separated by blanks, holds that one. `list` may be null.
+bool has_extension(const char* list, std::string_view name);
+
+/// A display without a window system.
+struct EglCandidate {
+    EGLDisplay display = EGL_NO_DISPLAY;
+    bool hardware = false; ///< not known to be a CPU rasterizer
+};
+
+/// The displays worth trying, the best first: GPUs, then Mesa's surfaceless platform, then its
+/// software device. None is initialized.
+std::vector<EglCandidate> egl_candidates(const Egl& egl);
+
+} // namespace reljef::platform

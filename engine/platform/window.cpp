@@ -1,0 +1,139 @@
+#include "engine/platform/window.h"
+
+#include <algorithm>
+#include <utility>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "engine/core/check.h"
+#include "engine/platform/glfw_context.h"
+#include "engine/platform/glfw_input.h"
+
+namespace reljef::platform {
+
+namespace {
+
+glm::ivec2 size_in_pixels(GLFWwindow* window) {
+    glm::ivec2 size{0, 0};
+    glfwGetFramebufferSize(window, &size.x, &size.y);
+    return size;
+}
+
+/// A position in GLFW's screen units as framebuffer pixels.
+glm::dvec2 in_pixels(GLFWwindow* window, double x, double y) {
+    glm::ivec2 units{0, 0};
+    glfwGetWindowSize(window, &units.x, &units.y);
+    const glm::dvec2 pixels(size_in_pixels(window));
+    return glm::dvec2(x, y) * pixels / glm::dvec2(std::max(units.x, 1), std::max(units.y, 1));
+}
+
+using Queue = std::vector<Event>;
+
+Queue& queue(GLFWwindow* window) {
+    return *static_cast<Queue*>(glfwGetWindowUserPointer(window));
+}
+
+void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int modifiers) {
+    queue(window).emplace_back(KeyEvent{.key = key_from_glfw(key),
+                                        .pressed = action != GLFW_RELEASE,
+                                        .repeat = action == GLFW_REPEAT,
+                                        .modifiers = modifiers_from_glfw(modifiers)});
+}
+
+void on_mouse_move(GLFWwindow* window, double x, double y) {
+    queue(window).emplace_back(MouseMoveEvent{in_pixels(window, x, y)});
+}
+
+void on_mouse_button(GLFWwindow* window, int button, int action, int modifiers) {
+    glm::dvec2 at{0.0, 0.0};
+    glfwGetCursorPos(window, &at.x, &at.y);
+    queue(window).emplace_back(MouseButtonEvent{.button = mouse_button_from_glfw(button),
+                                                .pressed = action == GLFW_PRESS,
+                                                .position = in_pixels(window, at.x, at.y),
+                                                .modifiers = modifiers_from_glfw(modifiers)});
+}
+
+void on_scroll(GLFWwindow* window, double x, double y) {
+    queue(window).emplace_back(ScrollEvent{{x, y}});
+}
+
+void on_resize(GLFWwindow* window, int width, int height) {
+    queue(window).emplace_back(ResizeEvent{{width, height}});
+}
+
+void on_close(GLFWwindow* window) {
+    queue(window).emplace_back(CloseEvent{});
+}
+
+void on_focus(GLFWwindow* window, int focused) {
+    queue(window).emplace_back(FocusEvent{focused == GLFW_TRUE});
+}
+
+class GlfwWindow final : public Window {
+public:
+    /// Precondition: a context of kind glfw.
+    explicit GlfwWindow(std::unique_ptr<Context> context)
+        : context_(std::move(context)), window_(window_of(*context_)) {
+        glfwSetWindowUserPointer(window_, &events_);
+        glfwSetKeyCallback(window_, on_key);
+        glfwSetCursorPosCallback(window_, on_mouse_move);
+        glfwSetMouseButtonCallback(window_, on_mouse_button);
+        glfwSetScrollCallback(window_, on_scroll);
+        glfwSetFramebufferSizeCallback(window_, on_resize);
+        glfwSetWindowCloseCallback(window_, on_close);
+        glfwSetWindowFocusCallback(window_, on_focus);
+        glfwSwapInterval(1);
+    }
+
+    Context& context() override { return *context_; }
+
+    [[nodiscard]] bool should_close() const override {
+        return glfwWindowShouldClose(window_) == GLFW_TRUE;
+    }
+    void request_close() override { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+
+    std::vector<Event> poll_events() override {
+        glfwPollEvents();
+        return std::exchange(events_, {});
+    }
+    std::vector<Event> wait_events(std::chrono::milliseconds timeout) override {
+        if (events_.empty() && timeout.count() > 0) {
+            glfwWaitEventsTimeout(std::chrono::duration<double>(timeout).count());
+        }
+        return poll_events();
+    }
+
+    [[nodiscard]] glm::ivec2 framebuffer_size() const override { return size_in_pixels(window_); }
+    void set_title(const std::string& title) override {
+        glfwSetWindowTitle(window_, title.c_str());
+    }
+    void swap_buffers() override { glfwSwapBuffers(window_); }
+    void set_vsync(bool on) override { glfwSwapInterval(on ? 1 : 0); }
+    void capture_mouse(bool on) override {
+        glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    }
+
+private:
+    static GLFWwindow* window_of(Context& context) {
+        auto* owner = dynamic_cast<GlfwContext*>(&context);
+        check(owner != nullptr, "a window without a GLFW context");
+        return owner->window();
+    }
+
+    Queue events_;
+    std::unique_ptr<Context> context_;
+    GLFWwindow* window_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Window>> make_window(const ContextOptions& options) {
+    auto context = make_context(ContextKind::glfw, options);
+    if (!context) {
+        return context.error();
+    }
+    return std::unique_ptr<Window>(std::make_unique<GlfwWindow>(std::move(*context)));
+}
+
+} // namespace reljef::platform

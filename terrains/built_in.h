@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace reljef::terrains {
+
+/// A scene file of terrains/ that is part of the program.
+struct BuiltInScene {
+    std::string_view name; ///< what TERRAIN is called on the command line
+    std::string_view text; ///< the scene file
+};
+
+/// natural and urban.
+std::span<const BuiltInScene> built_in_scenes();
+
+} // namespace reljef::terrains
