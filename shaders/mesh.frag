@@ -2,8 +2,10 @@
 #include "surface_light.glsl"
 #include "air.glsl"
 
-in vec3 relative_position;
 in vec3 world_normal;
+#ifdef HIT
+in float view_depth;
+#endif
 
 uniform vec3 albedo; // linear
 
@@ -15,9 +17,9 @@ layout(location = 0) out vec4 color;
 
 void main() {
 #ifdef HIT
-    hit = vec4(-1.0, -1.0, 0.0, dot(relative_position, view_forward.xyz));
+    hit = vec4(-1.0, -1.0, 0.0, view_depth);
 #else
     vec3 lit = lit_color(albedo, normalize(world_normal), 1.0);
-    color = vec4(seen_through_air(lit, length(relative_position)), 1.0);
+    color = vec4(seen_through_air(lit), 1.0);
 #endif
 }

@@ -2,9 +2,10 @@
 #include "surface_light.glsl"
 #include "air.glsl"
 
-in vec3 relative_position;
 in vec2 tile_place;
-in float surface_height;
+#ifdef HIT
+in vec2 height_and_depth;
+#endif
 
 uniform vec4 tile_samples;
 uniform vec4 color_from_sample;    // texture coordinate = sample · xy + zw
@@ -23,7 +24,7 @@ layout(location = 0) out vec4 color;
 void main() {
     vec2 place = tile_samples.xy + tile_place;
 #ifdef HIT
-    hit = vec4(place, surface_height, dot(relative_position, view_forward.xyz));
+    hit = vec4(place, height_and_depth);
 #else
     vec4 texel = texture(color_map, place * color_from_sample.xy + color_from_sample.zw);
     vec3 lit = texel.rgb;
@@ -32,6 +33,6 @@ void main() {
     vec3 normal = world_from_terrain * normalize(vec3(-gradient, 1.0));
     lit = lit_color(texel.rgb, normal, texel.a);
 #endif
-    color = vec4(seen_through_air(lit, length(relative_position)), 1.0);
+    color = vec4(seen_through_air(lit), 1.0);
 #endif
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <queue>
 
 #include "engine/core/worker_pool.h"
 #include "terrains/noise.h"
@@ -11,124 +11,182 @@ namespace reljef::terrains {
 namespace {
 
 constexpr float diagonal = 1.41421356F;
-constexpr std::size_t height_classes = 1U << 15U;
-
-// Values of Node::next besides the number of the next cell.
 constexpr std::int32_t nobody = -1;
-constexpr std::int32_t unseen = -2;
-constexpr std::int32_t done = -3;
-constexpr std::int32_t wall = -4;
 
 std::size_t at(std::int32_t cell) {
     return static_cast<std::size_t>(cell);
 }
 
+/// How far a cell stands higher over its lowest neighbour than is stable, `stable` over straight
+/// ones.
+float excess_over(const Grid<float>& heights, int col, int row, float stable) {
+    float excess = 0.0F;
+    for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+            const float reach = stable * (x != 0 && y != 0 ? diagonal : 1.0F);
+            const float drop = heights(col, row) - heights.clamped(col + x, row + y);
+            excess = std::max(excess, drop - reach);
+        }
+    }
+    return excess;
+}
+
 } // namespace
 
 FlowRouter::FlowRouter(int cols, int rows, std::uint32_t seed, float disorder)
-    : cols_(cols), rows_(rows), stride_(cols + 2),
-      seed_(seed), neighbours_{{1, 1.0F},
-                               {-1, 1.0F},
-                               {stride_, 1.0F},
-                               {-stride_, 1.0F},
-                               {stride_ + 1, diagonal},
-                               {stride_ - 1, diagonal},
-                               {-stride_ + 1, diagonal},
-                               {-stride_ - 1, diagonal}},
-      nodes_(at(stride_) * at(rows + 2), Node{0.0F, wall}), first_(height_classes) {
-    for (int i = 0; i < 16; ++i) {
-        disturbance_[i] = 1.0F + disorder * (static_cast<float>(i) / 7.5F - 1.0F);
-    }
-    const std::size_t cells = at(cols) * at(rows);
-    drainage_.order.reserve(cells);
-    drainage_.receiver.assign(cells, 0);
-    drainage_.distance.assign(cells, 0.0F);
-    drainage_.area.assign(cells, 1.0F);
-}
-
-void FlowRouter::route(std::span<const float> heights, std::span<const std::uint8_t> outlets) {
-    prepare(heights, outlets);
-    for (; current_ < first_.size(); ++current_) {
-        while (first_[current_] != nobody) {
-            const std::int32_t cell = first_[current_];
-            first_[current_] = nodes_[at(cell)].next;
-            visit(cell);
+    : cols_(cols), rows_(rows), seed_(seed) {
+    constexpr int steps[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
+                                 {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+    for (std::size_t i = 0; i < 8; ++i) {
+        Neighbour& neighbour = neighbours_[i];
+        neighbour.x = steps[i][0];
+        neighbour.y = steps[i][1];
+        neighbour.offset = neighbour.y * cols + neighbour.x;
+        for (std::size_t chance = 0; chance < 16; ++chance) {
+            const float stretch = 1.0F + disorder * (static_cast<float>(chance) / 7.5F - 1.0F);
+            neighbour.distance[chance] = stretch * (i < 4 ? 1.0F : diagonal);
+            neighbour.nearness[chance] = 1.0F / neighbour.distance[chance];
         }
     }
+    const std::size_t cells = at(cols) * at(rows);
+    cut_.resize(cells);
+    seen_by_.resize(cells);
+    came_from_.resize(cells);
+    donors_.resize(cells);
+    drainage_.order.resize(cells);
+    drainage_.receiver.resize(cells);
+    drainage_.distance.resize(cells);
+    drainage_.area.resize(cells);
+}
+
+void FlowRouter::route(std::span<const float> heights, std::span<const std::uint8_t> outlets,
+                       unsigned threads) {
+    heights_ = heights;
+    outlets_ = outlets;
+    parallel_for(rows_, [&](int row) { find_steepest(row); },
+                 {.threads = threads, .stop = {}, .progress = {}});
+    drain_pits();
     accumulate();
 }
 
-void FlowRouter::prepare(std::span<const float> heights, std::span<const std::uint8_t> outlets) {
-    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-    lowest_ = *low;
-    classes_per_metre_ = static_cast<float>(height_classes - 1) / std::max(*high - *low, 1.0F);
-    current_ = 0;
-    outlets_ = outlets;
-    std::fill(first_.begin(), first_.end(), nobody);
-    drainage_.order.clear();
-    for (std::int32_t row = 0; row < rows_; ++row) {
-        const std::size_t from = at(row) * at(cols_);
-        const std::size_t to = at(row + 1) * at(stride_) + 1;
-        for (std::size_t col = 0; col < at(cols_); ++col) {
-            nodes_[to + col] = {heights[from + col], unseen};
-            if (outlets[from + col] != 0) {
-                push(static_cast<std::int32_t>(to + col), heights[from + col]);
+bool FlowRouter::is_inside(std::int32_t cell, const Neighbour& neighbour) const {
+    const int col = cell % cols_ + neighbour.x;
+    const int row = cell / cols_ + neighbour.y;
+    return col >= 0 && row >= 0 && col < cols_ && row < rows_;
+}
+
+// Equal heights are told apart by their place, so that no water runs in a circle.
+bool FlowRouter::is_lower(std::int32_t cell, std::int32_t than) const {
+    const float height = heights_[at(cell)];
+    return height < heights_[at(than)] || (height == heights_[at(than)] && cell < than);
+}
+
+void FlowRouter::find_steepest(int row) {
+    for (int col = 0; col < cols_; ++col) {
+        const std::int32_t cell = row * cols_ + col;
+        const bool inner = col > 0 && row > 0 && col < cols_ - 1 && row < rows_ - 1;
+        std::uint32_t luck = hash(seed_, cell, 0);
+        float steepest = 0.0F;
+        drainage_.receiver[at(cell)] = cell;
+        drainage_.distance[at(cell)] = 0.0F;
+        for (const Neighbour& neighbour : neighbours_) {
+            const std::uint32_t chance = luck & 15U;
+            luck >>= 4U;
+            if (!inner && !is_inside(cell, neighbour)) {
+                continue;
+            }
+            const float drop = heights_[at(cell)] - heights_[at(cell + neighbour.offset)];
+            const float slope = drop * neighbour.nearness[chance];
+            if (slope > steepest && outlets_[at(cell)] == 0) {
+                steepest = slope;
+                drainage_.receiver[at(cell)] = cell + neighbour.offset;
+                drainage_.distance[at(cell)] = neighbour.distance[chance];
             }
         }
     }
 }
 
-void FlowRouter::push(std::int32_t cell, float level) {
-    const auto wanted = static_cast<std::size_t>((level - lowest_) * classes_per_metre_);
-    const std::size_t queue = std::clamp(wanted, current_, first_.size() - 1);
-    nodes_[at(cell)] = {level, first_[queue]};
-    first_[queue] = cell;
+// The lowest pit comes first: a way may end on an earlier one, whose end lies lower still.
+void FlowRouter::drain_pits() {
+    std::vector<std::int32_t> pits;
+    for (std::int32_t cell = 0; cell < cols_ * rows_; ++cell) {
+        if (drainage_.receiver[at(cell)] == cell && outlets_[at(cell)] == 0) {
+            pits.push_back(cell);
+        }
+    }
+    std::sort(pits.begin(), pits.end(),
+              [&](std::int32_t one, std::int32_t other) { return is_lower(one, other); });
+    std::fill(cut_.begin(), cut_.end(), std::uint8_t{0});
+    std::fill(seen_by_.begin(), seen_by_.end(), nobody);
+    for (const std::int32_t pit : pits) {
+        drain(pit);
+    }
 }
 
-void FlowRouter::visit(std::int32_t cell) {
-    constexpr float rise_under_water = 1.0e-3F; // keeps the flow going through a depression
-    const float height = nodes_[at(cell)].height;
-    const std::int32_t index = unpadded(cell);
-    std::uint32_t luck = hash(seed_, index, 0);
-    std::int32_t receiver = cell;
-    float receiver_distance = 0.0F;
-    float steepest = std::numeric_limits<float>::lowest();
-    for (const Neighbour& neighbour : neighbours_) {
-        const std::int32_t other = cell + neighbour.step;
-        const Node node = nodes_[at(other)];
-        if (node.next == unseen) {
-            push(other, std::max(node.height, height + rise_under_water));
-        } else if (node.next == done) {
-            const float distance = neighbour.distance * disturbance_[luck & 15U];
-            const float drop = height - node.height;
-            if (drop > steepest * distance) {
-                steepest = drop / distance;
-                receiver = other;
-                receiver_distance = distance;
+void FlowRouter::drain(std::int32_t pit) {
+    const auto is_higher = [&](std::int32_t one, std::int32_t other) {
+        return is_lower(other, one);
+    };
+    std::priority_queue<std::int32_t, std::vector<std::int32_t>, decltype(is_higher)> shore(
+        is_higher);
+    seen_by_[at(pit)] = pit;
+    shore.push(pit);
+    while (!shore.empty()) {
+        const std::int32_t cell = shore.top();
+        shore.pop();
+        if (is_lower(cell, pit) || cut_[at(cell)] != 0 || outlets_[at(cell)] != 0) {
+            cut(pit, cell);
+            return;
+        }
+        for (const Neighbour& neighbour : neighbours_) {
+            const std::int32_t other = cell + neighbour.offset;
+            if (is_inside(cell, neighbour) && seen_by_[at(other)] != pit) {
+                seen_by_[at(other)] = pit;
+                came_from_[at(other)] = cell;
+                shore.push(other);
             }
         }
-        luck >>= 4U;
     }
-    const bool leaves = outlets_[at(index)] != 0;
-    drainage_.receiver[at(index)] = leaves ? index : unpadded(receiver);
-    drainage_.distance[at(index)] = leaves ? 0.0F : receiver_distance;
-    drainage_.order.push_back(index);
-    nodes_[at(cell)].next = done;
 }
 
+/// Lets the cells of the way that a search has gone drain along it.
+void FlowRouter::cut(std::int32_t pit, std::int32_t end) {
+    for (std::int32_t cell = end; cell != pit;) {
+        const std::int32_t before = came_from_[at(cell)];
+        const bool is_straight = cell % cols_ == before % cols_ || cell / cols_ == before / cols_;
+        drainage_.receiver[at(before)] = cell;
+        drainage_.distance[at(before)] = is_straight ? 1.0F : diagonal;
+        cut_[at(before)] = 1;
+        cell = before;
+    }
+}
+
+// Follows every stream from its springs until it meets one that is not yet complete.
 void FlowRouter::accumulate() {
+    std::fill(donors_.begin(), donors_.end(), std::uint8_t{0});
     std::fill(drainage_.area.begin(), drainage_.area.end(), 1.0F);
-    for (std::size_t i = drainage_.order.size(); i-- > 0;) {
-        const std::int32_t cell = drainage_.order[i];
-        const std::int32_t receiver = drainage_.receiver[at(cell)];
+    for (std::size_t cell = 0; cell < donors_.size(); ++cell) {
+        const std::size_t receiver = at(drainage_.receiver[cell]);
         if (receiver != cell) {
-            drainage_.area[at(receiver)] += drainage_.area[at(cell)];
+            ++donors_[receiver];
         }
     }
-}
-
-std::int32_t FlowRouter::unpadded(std::int32_t cell) const {
-    return (cell / stride_ - 1) * cols_ + cell % stride_ - 1;
+    const std::vector<std::uint8_t> springs = donors_;
+    std::size_t place = drainage_.order.size();
+    for (std::size_t spring = 0; spring < springs.size(); ++spring) {
+        for (std::size_t cell = spring; springs[spring] == 0;) {
+            const std::size_t receiver = at(drainage_.receiver[cell]);
+            drainage_.order[--place] = static_cast<std::int32_t>(cell);
+            if (receiver == cell) {
+                break;
+            }
+            drainage_.area[receiver] += drainage_.area[cell];
+            if (--donors_[receiver] != 0) {
+                break;
+            }
+            cell = receiver;
+        }
+    }
 }
 
 void erode(std::span<float> heights, const Drainage& drainage, const ErosionStep& step) {
@@ -153,22 +211,13 @@ void erode(std::span<float> heights, const Drainage& drainage, const ErosionStep
 void slide(Grid<float>& heights, std::span<const float> talus, float spacing, int passes,
            unsigned threads) {
     Grid<float> before;
-    const int cols = heights.cols();
+    const std::size_t cols = at(heights.cols());
     for (int pass = 0; pass < passes; ++pass) {
         before = heights;
         const auto slide_row = [&](int row) {
-            for (int col = 0; col < cols; ++col) {
-                float excess = 0.0F;
-                const float height = before(col, row);
-                const float stable = spacing * talus[at(row) * at(cols) + at(col)];
-                for (int y = -1; y <= 1; ++y) {
-                    for (int x = -1; x <= 1; ++x) {
-                        const float reach = stable * (x != 0 && y != 0 ? diagonal : 1.0F);
-                        const float drop = height - before.clamped(col + x, row + y);
-                        excess = std::max(excess, drop - reach);
-                    }
-                }
-                heights(col, row) = height - 0.5F * excess;
+            for (int col = 0; col < heights.cols(); ++col) {
+                const float stable = spacing * talus[at(row) * cols + at(col)];
+                heights(col, row) -= 0.5F * excess_over(before, col, row, stable);
             }
         };
         parallel_for(heights.rows(), slide_row, {.threads = threads, .stop = {}, .progress = {}});

@@ -22,13 +22,13 @@ struct ErosionStep {
     std::span<const float> uplift;      ///< metres, one per cell
     std::span<const float> erodibility; ///< one per cell: the metres that one metre of slope loses
                                         ///< at a catchment of 1 m², per metre of the cell's size
-    std::span<const float> talus; ///< steepest stable slope, one per cell
-    float spacing = 1.0F;         ///< metres between cells
+    std::span<const float> talus;       ///< steepest stable slope, one per cell
+    float spacing = 1.0F;               ///< metres between cells
 };
 
-/// Finds the drainage of heights by flooding them from the outlets in order of height (Barnes et
-/// al. 2014, with a queue of height classes): a depression drains over its lowest rim. Scratch
-/// memory is kept between calls.
+/// Finds the drainage of heights: every cell drains to its steepest neighbour, and a pit along the
+/// lowest way to something lower, as if a canyon were cut (Soille et al. 2003). Scratch memory is
+/// kept between calls.
 class FlowRouter {
 public:
     /// Distances between neighbours are disturbed by up to the part `disorder` of them, by `seed`,
@@ -37,42 +37,42 @@ public:
     /// >= 1, 0 <= disorder < 1.
     FlowRouter(int cols, int rows, std::uint32_t seed, float disorder);
 
-    /// `outlets` is 1 where water leaves. Precondition: both hold cols * rows values, the heights
-    /// all finite, one outlet at least.
-    void route(std::span<const float> heights, std::span<const std::uint8_t> outlets);
+    /// `outlets` is 1 where water leaves. The same result on any number of threads. Precondition:
+    /// both hold cols * rows values, the heights all finite, one outlet at least.
+    void route(std::span<const float> heights, std::span<const std::uint8_t> outlets,
+               unsigned threads);
 
     /// What the last call of `route` found.
     [[nodiscard]] const Drainage& drainage() const& { return drainage_; }
     [[nodiscard]] Drainage drainage() && { return std::move(drainage_); }
 
 private:
-    struct Node {
-        float height = 0.0F;   // once queued: of the water that stands over the cell
-        std::int32_t next = 0; // in its class of height; or one of the states below
-    };
     struct Neighbour {
-        std::int32_t step = 0; // in padded cells
-        float distance = 1.0F;
+        int x = 0;
+        int y = 0;
+        std::int32_t offset = 0; // in cells
+        float distance[16] = {}; // as disturbed by each of 16 chances, in cells
+        float nearness[16] = {}; // one over it
     };
 
-    void prepare(std::span<const float> heights, std::span<const std::uint8_t> outlets);
-    void push(std::int32_t cell, float level);
-    void visit(std::int32_t cell);
+    [[nodiscard]] bool is_inside(std::int32_t cell, const Neighbour& neighbour) const;
+    [[nodiscard]] bool is_lower(std::int32_t cell, std::int32_t than) const;
+    void find_steepest(int row);
+    void drain_pits();
+    void drain(std::int32_t pit);
+    void cut(std::int32_t pit, std::int32_t end);
     void accumulate();
-    [[nodiscard]] std::int32_t unpadded(std::int32_t cell) const;
 
     int cols_;
     int rows_;
-    int stride_; // of the padded arrays: a wall of one cell around
     std::uint32_t seed_;
-    float disturbance_[16];
     Neighbour neighbours_[8];
-    std::vector<Node> nodes_;
-    std::vector<std::int32_t> first_; // of every class of height
+    std::span<const float> heights_;
     std::span<const std::uint8_t> outlets_;
-    float lowest_ = 0.0F;
-    float classes_per_metre_ = 1.0F;
-    std::size_t current_ = 0;
+    std::vector<std::uint8_t> cut_;       // 1 on the way from a pit
+    std::vector<std::int32_t> seen_by_;   // the pit whose search has seen a cell
+    std::vector<std::int32_t> came_from_; // in that search
+    std::vector<std::uint8_t> donors_;    // that have not been followed yet
     Drainage drainage_;
 };
 

@@ -298,7 +298,7 @@ Surroundings surroundings_of(const Land& land, const LandOptions& options) {
 
 Rgba8 encoded(Tint tint) {
     const auto channel = [](float value) {
-        return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+        return static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
     };
     return {channel(tint.r), channel(tint.g), channel(tint.b), 255};
 }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/ext/vector_int2.hpp>
+
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
 #include "terrains/erosion.h"
@@ -45,6 +47,11 @@ Image paint_cover(const Land& land, const LandOptions& options);
 inline float smoothstep(float low, float high, float value) {
     const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
     return t * t * (3.0F - 2.0F * t);
+}
+
+/// The column and row of a cell.
+inline glm::ivec2 place_of(std::int32_t cell, int cols) {
+    return {cell % cols, cell / cols};
 }
 
 /// Square kilometres that drain through a cell.

@@ -12,13 +12,13 @@ namespace reljef::terrains::natural {
 namespace {
 
 constexpr int coarsest = 3; // levels of halved resolution
-constexpr float highest = 3250.0F;
+constexpr float highest = 3000.0F;
 
 struct LevelPlan {
     int steps;    // pairs of them on one drainage
     float uplift; // metres a step where the land rises fastest
 };
-constexpr LevelPlan plan_of_level[coarsest + 1] = {{1, 60.0F}, {3, 60.0F}, {8, 60.0F}, {35, 60.0F}};
+constexpr LevelPlan plan_of_level[coarsest + 1] = {{1, 60.0F}, {2, 60.0F}, {6, 60.0F}, {30, 60.0F}};
 
 /// What one level of resolution works on.
 struct Level {
@@ -60,25 +60,25 @@ float spline(const Grid<float>& grid, float x, float y) {
 float between(const Grid<float>& coarse, int col, int row) {
     const int x = col / 2;
     const int y = row / 2;
-    const int right = x + col % 2;
-    const int below = y + row % 2;
+    const int right = x + (col & 1);
+    const int below = y + (row & 1);
     return 0.25F * (coarse.clamped(x, y) + coarse.clamped(right, y) + coarse.clamped(x, below) +
                     coarse.clamped(right, below));
 }
 
-/// A grid of twice the resolution: the quadratic B-spline of the coarse one.
+/// A grid of twice the resolution, linear between the coarse one's samples.
 Grid<float> refined(const Grid<float>& coarse, int size, unsigned threads) {
     Grid<float> fine(size, size);
     for_rows(size, threads, [&](int row) {
         for (int col = 0; col < size; ++col) {
-            fine(col, row) =
-                spline(coarse, 0.5F * static_cast<float>(col), 0.5F * static_cast<float>(row));
+            fine(col, row) = between(coarse, col, row);
         }
     });
     return fine;
 }
 
-/// The same, bent by noise: valleys lose the grid's straight directions.
+/// A smooth grid of twice the resolution, bent by noise: valleys lose the grid's straight
+/// directions.
 Grid<float> bent(const Grid<float>& coarse, int size, const LandOptions& options) {
     Grid<float> east(coarse.cols(), coarse.rows());
     Grid<float> south(coarse.cols(), coarse.rows());
@@ -203,7 +203,7 @@ Drainage wear(Level& level, const Grid<std::uint8_t>& outlets, int halvings,
     FlowRouter router(level.heights.cols(), level.heights.rows(), options.seed + 41,
                       halvings > 0 ? 0.45F : 0.2F);
     for (int step = 0; step < plan.steps; ++step) {
-        router.route(level.heights.samples(), outlets.samples());
+        router.route(level.heights.samples(), outlets.samples(), options.threads);
         for (int repeat = 0; repeat < 2; ++repeat) { // valleys move little in one step
             erode(level.heights.samples(), router.drainage(),
                   {uplift, erodibility, level.talus.samples(), spacing});

@@ -42,7 +42,7 @@ std::vector<Point> points_of(const Land& land) {
         }
         const std::int32_t receiver = drainage.receiver[at(cell)];
         Point point;
-        point.place = {static_cast<float>(cell % cols), static_cast<float>(cell / cols)};
+        point.place = glm::vec2(place_of(cell, cols));
         point.half_width = width_of(upstream);
         point.next = receiver == cell ? nobody : point_of_cell[at(receiver)];
         const auto index = static_cast<std::int32_t>(points.size());
@@ -91,8 +91,8 @@ void meander(std::vector<Point>& points, const LandOptions& options) {
 void find_levels(std::vector<Point>& points, const Land& land) {
     constexpr float least_fall = 0.01F;
     for (Point& point : points) {
-        const int col = static_cast<int>(point.place.x + 0.5F);
-        const int row = static_cast<int>(point.place.y + 0.5F);
+        const int col = static_cast<int>(std::lround(point.place.x));
+        const int row = static_cast<int>(std::lround(point.place.y));
         const float bed = land.heights(col, row) - 1.0F - 1.5F * std::min(point.half_width, 1.5F);
         point.level =
             point.next == nobody ? bed : std::max(bed, points[at(point.next)].level + least_fall);

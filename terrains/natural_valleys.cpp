@@ -4,8 +4,11 @@
 #include <limits>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
 #include "engine/core/worker_pool.h"
-#include "terrains/noise.h"
 
 namespace reljef::terrains::natural {
 namespace {
@@ -65,11 +68,11 @@ bool may_hold_lake(const Land& land, std::int32_t cell) {
 }
 
 bool far_from(const std::vector<Reach>& reaches, std::int32_t cell, int cols) {
-    return std::all_of(reaches.begin(), reaches.end(), [&](const Reach& reach) {
-        const float dx = static_cast<float>(reach.cells.front() % cols - cell % cols);
-        const float dy = static_cast<float>(reach.cells.front() / cols - cell / cols);
-        return std::sqrt(dx * dx + dy * dy) * design_spacing > lake_spacing;
-    });
+    const auto is_far = [&](const Reach& reach) {
+        const glm::vec2 between{place_of(reach.cells.front(), cols) - place_of(cell, cols)};
+        return glm::length(between) * design_spacing > lake_spacing;
+    };
+    return std::all_of(reaches.begin(), reaches.end(), is_far);
 }
 
 /// The flattest reaches of rivers, far from each other.
@@ -190,17 +193,14 @@ void measure_height_above(Land& land, const std::vector<std::int32_t>& stream) {
 }
 
 /// Sets the cells around one of a lake's river that lie low enough under water.
-void drown(Land& land, std::int32_t river, float level, float reach) {
-    const int cols = land.heights.cols();
-    const int around = static_cast<int>(reach);
-    for (int row = river / cols - around; row <= river / cols + around; ++row) {
-        for (int col = river % cols - around; col <= river % cols + around; ++col) {
-            if (col < 0 || row < 0 || col >= cols || row >= land.heights.rows()) {
-                continue;
-            }
-            const auto dx = static_cast<float>(col - river % cols);
-            const auto dy = static_cast<float>(row - river / cols);
-            const float near = 1.0F - (dx * dx + dy * dy) / (reach * reach);
+void drown(Land& land, glm::ivec2 river, float level, float reach) {
+    const glm::ivec2 last{land.heights.cols() - 1, land.heights.rows() - 1};
+    const glm::ivec2 low = glm::max(river - static_cast<int>(reach), glm::ivec2{0});
+    const glm::ivec2 high = glm::min(river + static_cast<int>(reach), last);
+    for (int row = low.y; row <= high.y; ++row) {
+        for (int col = low.x; col <= high.x; ++col) {
+            const glm::vec2 away{glm::ivec2{col, row} - river};
+            const float near = 1.0F - glm::dot(away, away) / (reach * reach);
             const float over = land.heights(col, row) - level;
             if (near > 0.0F && over < lake_depth * near && over > -lake_depth) {
                 land.heights(col, row) = level;
@@ -220,7 +220,8 @@ void fill_lakes(Land& land, const std::vector<Reach>& reaches) {
                 smoothstep(-0.05F, 0.15F, part) * (1.0F - smoothstep(0.4F, 0.6F, part));
             const auto luck = static_cast<float>(reach.cells[i] % 7);
             if (ends > 0.05F) {
-                drown(land, reach.cells[i], level, ends * (20.0F + luck));
+                drown(land, place_of(reach.cells[i], land.heights.cols()), level,
+                      ends * (20.0F + luck));
             }
         }
     }

@@ -93,7 +93,7 @@ struct Georeference {
     GeodeticMap geodetic;        ///< WGS 84
 };
 
-/// A local east-north-up frame tangent to WGS 84. There and back again is within 5e-9 m near the
+/// A local east-north-up frame tangent to WGS 84. There and back again is within 1e-8 m near the
 /// origin (what degrees in double can tell).
 class LocalFrame {
 public:

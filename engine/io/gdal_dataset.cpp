@@ -14,6 +14,7 @@ namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr GIntBig most_cached_bytes = GIntBig{1} << 28;
 constexpr std::size_t most_messages = 10;
 constexpr std::size_t longest_message = 200;
 constexpr int most_archive_entries = 1000;
@@ -84,10 +85,13 @@ Result<void> check_file(const fs::path& path) {
 
 void register_drivers() {
     static std::once_flag once;
-    std::call_once(once, [] { GDALAllRegister(); });
+    std::call_once(once, [] {
+        GDALAllRegister();
+        GDALSetCacheMax64(std::min(GDALGetCacheMax64(), most_cached_bytes));
+    });
 }
 
-GdalMessages::GdalMessages() {
+GdalMessages::GdalMessages() : strict_jpeg_("GDAL_ERROR_ON_LIBJPEG_WARNING", "TRUE", false) {
     CPLPushErrorHandlerEx(&GdalMessages::handle, this);
 }
 

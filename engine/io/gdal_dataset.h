@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <cpl_conv.h>
 #include <gdal_priv.h>
 
 #include "engine/core/result.h"
@@ -12,6 +13,7 @@
 namespace reljef::io {
 
 /// Keeps what GDAL says in the current thread, instead of letting it print, until the end of scope.
+/// Meanwhile a JPEG cut short is an error, not a grey rest.
 class GdalMessages {
 public:
     GdalMessages();
@@ -29,6 +31,7 @@ public:
 private:
     static void handle(CPLErr kind, CPLErrorNum number, const char* text);
 
+    CPLConfigOptionSetter strict_jpeg_;
     std::vector<std::string> all_;
     std::string last_error_;
 };
@@ -41,7 +44,8 @@ using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 /// A file's raster, read-only; inside a .zip the first that GDAL opens. At least one band.
 Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);
 
-/// The drivers are registered once, however many threads ask.
+/// The drivers are registered once, however many threads ask, and GDAL's cache of blocks, which all
+/// readers share, is kept to 256 MB.
 void register_drivers();
 
 } // namespace reljef::io

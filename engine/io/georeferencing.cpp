@@ -19,6 +19,7 @@ namespace {
 constexpr double wgs84_radius = 6378137.0;
 constexpr double near_pole = 85.0; // degrees; east and north are of no use beyond
 constexpr double tolerated_distortion = 0.01;
+constexpr double told_rotation = 10.0;      // degrees; less is a projection's own convergence
 constexpr double tolerated_map_error = 0.1; // samples
 
 /// One step along the columns and one along the rows.
@@ -50,7 +51,7 @@ void turn(const Steps& steps, Place& place) {
 
 void note_rotation(const Steps& steps, std::vector<std::string>& notes) {
     const double angle = glm::degrees(std::atan2(steps.col.y, steps.col.x));
-    if (std::abs(angle) > 1.0) {
+    if (std::abs(angle) > told_rotation) {
         notes.push_back(fmt::format("its rows run {:.1f}° from east: placement plane draws it "
                                     "unturned, ellipsoid as it lies",
                                     angle));

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int jpeg_quality = 95;
+constexpr int rows_at_a_time = 64;
 constexpr int sheet_gap = 4; // pixels
 constexpr Rgba8 sheet_background{24, 24, 24, 255};
 
@@ -29,7 +30,7 @@ std::uint8_t rounded(float value) {
 }
 
 /// A row of `channels` values in [0,1] each pixel: grey, grey and alpha, RGB, or RGBA and more.
-void store_row(const std::vector<float>& values, int channels, bool linear, std::span<Rgba8> row) {
+void store_row(std::span<const float> values, int channels, bool linear, std::span<Rgba8> row) {
     const auto stride = static_cast<std::size_t>(channels);
     for (std::size_t i = 0; i < row.size(); ++i) {
         const float* pixel = &values[i * stride];
@@ -51,17 +52,22 @@ Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
     Image image(spec.width, spec.height);
     const bool linear = spec.format.is_floating_point();
     const int channels = std::min(spec.nchannels, 4);
-    std::vector<float> values(static_cast<std::size_t>(spec.width) *
-                              static_cast<std::size_t>(channels));
-    for (int row = 0; row < spec.height; ++row) {
-        const int y = spec.y + row;
-        if (!input.read_scanlines(0, 0, y, y + 1, 0, 0, channels, OIIO::TypeDesc::FLOAT,
-                                  values.data())) {
+    const std::size_t row_values =
+        static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
+    std::vector<float> values(row_values * rows_at_a_time);
+    for (int begin = 0; begin < spec.height; begin += rows_at_a_time) {
+        const int end = std::min(begin + rows_at_a_time, spec.height);
+        if (!input.read_scanlines(0, 0, spec.y + begin, spec.y + end, 0, 0, channels,
+                                  OIIO::TypeDesc::FLOAT, values.data())) {
             return Error{
                 fmt::format("{}: cannot be read at row {} ({}), a whole picture was expected",
-                            path.string(), row, input.geterror())};
+                            path.string(), begin, input.geterror())};
         }
-        store_row(values, channels, linear, image.row(row));
+        for (int row = begin; row < end; ++row) {
+            const auto first = static_cast<std::size_t>(row - begin) * row_values;
+            store_row(std::span(values).subspan(first, row_values), channels, linear,
+                      image.row(row));
+        }
     }
     return image;
 }

@@ -36,7 +36,7 @@ std::string text_of(const toml::node& node) {
         text.resize(longest);
         text += "…";
     }
-    return node.is_string() && text.empty() ? "empty" : text;
+    return text;
 }
 
 std::string text_of(const NumberRange& range) {

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "engine/gl/draw.h"
 #include "engine/gl/read_pixels.h"
@@ -36,11 +37,23 @@ double extinction(const scene::Sky& sky) {
     return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
 }
 
+// The view ray at depth 1 of a place on the picture, from gl_FragCoord.
+glm::vec4 ray_from_pixel(const scene::Camera& camera, glm::dvec2 size) {
+    const double half = std::tan(0.5 * glm::radians(camera.vertical_fov));
+    const glm::dvec2 extent{half * size.x / size.y, half};
+    return glm::vec4(glm::vec2(2.0 * extent / size), glm::vec2(-extent));
+}
+
+bool is_perspective(const DrawList& list) {
+    return list.camera.projection == scene::ProjectionKind::perspective;
+}
+
 FrameBlock frame_block(const DrawList& list) {
     FrameBlock block{};
     block.clip_from_relative = glm::mat4(scene::clip_from_view(list.camera, list.size) *
                                          scene::view_from_world_rotation(list.camera));
     block.view_forward = glm::vec4(glm::vec3(scene::view_axes(list.camera).forward), 0.0F);
+    block.ray_from_pixel = ray_from_pixel(list.camera, glm::dvec2(list.size));
     if (list.sun) {
         block.to_sun = glm::vec4(glm::vec3(scene::to_light(*list.sun)), 0.0F);
         block.sun_color = glm::vec4(list.sun->color, 0.0F);
@@ -56,7 +69,8 @@ FrameBlock frame_block(const DrawList& list) {
 std::uint32_t features_of(const DrawList& list, bool hits) {
     std::uint32_t features = hits ? feature_hit : 0U;
     features |= list.sun ? feature_lit : 0U;
-    features |= list.sky && list.sky->visibility > 0.0 ? feature_fog : 0U;
+    // A map is seen from no particular distance: no air.
+    features |= is_perspective(list) && list.sky && list.sky->visibility > 0.0 ? feature_fog : 0U;
     return features;
 }
 

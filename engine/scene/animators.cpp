@@ -1,6 +1,7 @@
 #include "engine/scene/animators.h"
 
 #include <cmath>
+#include <optional>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -20,11 +21,17 @@ Animator fly_path_animator(FlyPath path) {
 }
 
 Animator rotation_animator(double degrees_per_second) {
-    return [degrees_per_second](Node& node, double time) {
-        const glm::dvec3 position(node.parent_from_local()[3]);
-        node.set_parent_from_local(glm::rotate(glm::translate(glm::dmat4(1.0), position),
-                                               glm::radians(degrees_per_second * time),
-                                               glm::dvec3(0.0, 0.0, 1.0)));
+    return [degrees_per_second, start = std::optional<glm::dmat3>()](Node& node,
+                                                                     double time) mutable {
+        const glm::dmat4& now = node.parent_from_local();
+        if (!start) {
+            start = glm::dmat3(now);
+        }
+        const glm::dmat4 turn = glm::rotate(
+            glm::dmat4(1.0), glm::radians(degrees_per_second * time), glm::dvec3(0.0, 0.0, 1.0));
+        glm::dmat4 turned = glm::dmat4(*start) * turn;
+        turned[3] = now[3];
+        node.set_parent_from_local(turned);
     };
 }
 

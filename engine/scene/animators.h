@@ -8,7 +8,8 @@ namespace reljef::scene {
 /// Moves a camera node along a path, again from its beginning where it ends.
 Animator fly_path_animator(FlyPath path);
 
-/// Turns a node about its own z axis, degrees a second, counter-clockwise from above.
+/// Turns a node about its own z axis, degrees a second, counter-clockwise from above; how it was
+/// turned and scaled when first run is kept beneath. One animator for each node.
 Animator rotation_animator(double degrees_per_second);
 
 } // namespace reljef::scene

@@ -10,12 +10,16 @@
 namespace reljef::scene {
 namespace {
 
-bool is_finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(glm::dvec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // Slope at the middle of three values: zero at an extremum, else the harmonic mean of the two
-// secants, which keeps both pieces monotone.
+// secants, which keeps both pieces monotone. A secant may be infinite: the other one then limits
+// it.
 double limited_slope(double before, double after) {
-    return before * after > 0.0 ? 2.0 * before * after / (before + after) : 0.0;
+    const bool same_way = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
+    return same_way ? 2.0 / (1.0 / before + 1.0 / after) : 0.0;
 }
 
 struct Knot {
@@ -25,16 +29,16 @@ struct Knot {
 
 // The piece between b and c, with neighbours a and d; times ascend, a may equal b and c equal d.
 double hermite(Knot a, Knot b, Knot c, Knot d, double time) {
-    const auto secant = [](Knot from, Knot to) {
-        const double dt = to.time - from.time;
-        return dt > 0.0 ? (to.value - from.value) / dt : 0.0;
-    };
-    const double middle = secant(b, c);
     const double length = c.time - b.time;
-    const double slope_b = limited_slope(secant(a, b), middle) * length;
-    const double slope_c = limited_slope(middle, secant(c, d)) * length;
-    const double t = (time - b.time) / length;
     const double rise = c.value - b.value;
+    // Slopes are per length of the piece: all are finite, however close its neighbours' times.
+    const auto secant = [&](Knot from, Knot to) {
+        const double share = (to.time - from.time) / length;
+        return share > 0.0 ? (to.value - from.value) / share : 0.0;
+    };
+    const double slope_b = limited_slope(secant(a, b), rise);
+    const double slope_c = limited_slope(rise, secant(c, d));
+    const double t = (time - b.time) / length;
     const double value = b.value + t * (slope_b + t * (3.0 * rise - 2.0 * slope_b - slope_c +
                                                        t * (slope_b + slope_c - 2.0 * rise)));
     return std::clamp(value, std::min(b.value, c.value), std::max(b.value, c.value));
@@ -96,8 +100,8 @@ FlyPath orbit_path(const Box& bounds, double seconds) {
     std::vector<FlyKey> keys;
     for (int i = 0; i <= steps; ++i) {
         const double angle = glm::radians(360.0 * i / steps - 90.0);
-        const glm::dvec3 eye{middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle),
-                             bounds.high.z + 0.45 * radius};
+        const glm::dvec3 eye{middle.x + radius * std::cos(angle),
+                             middle.y + radius * std::sin(angle), bounds.high.z + 0.45 * radius};
         keys.push_back({seconds * i / steps, eye, {middle.x, middle.y, bounds.low.z}});
     }
     return FlyPath::create(std::move(keys)).value();
@@ -119,7 +123,8 @@ FlyPath flyover_path(const Box& bounds, const std::function<double(double, doubl
         double highest = bounds.low.z;
         for (int j = -2; j <= 2; ++j) {
             for (int i = -2; i <= 2; ++i) {
-                highest = std::max(highest, ground(at.x + 0.02 * width * i, at.y + 0.02 * width * j));
+                highest =
+                    std::max(highest, ground(at.x + 0.02 * width * i, at.y + 0.02 * width * j));
             }
         }
         return highest + above;

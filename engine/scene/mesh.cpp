@@ -59,8 +59,11 @@ Mesh sphere_mesh(float radius, int segments) {
         for (int col = 0; col <= around; ++col) {
             const float v = static_cast<float>(row) / static_cast<float>(down);
             const float u = static_cast<float>(col) / static_cast<float>(around);
-            const glm::vec3 normal{std::sin(pi * v) * std::cos(2.0F * pi * u),
-                                   std::sin(pi * v) * std::sin(2.0F * pi * u), std::cos(pi * v)};
+            // The last column stands exactly where the first does, the poles are points.
+            const float angle = col < around ? 2.0F * pi * u : 0.0F;
+            const float ring = row > 0 && row < down ? std::sin(pi * v) : 0.0F;
+            const glm::vec3 normal{ring * std::cos(angle), ring * std::sin(angle),
+                                   std::cos(pi * v)};
             mesh.positions.push_back(radius * normal);
             mesh.normals.push_back(normal);
             mesh.texture_coordinates.emplace_back(u, v);
@@ -72,8 +75,8 @@ Mesh sphere_mesh(float radius, int segments) {
     for (int row = 0; row < down; ++row) {
         for (int col = 0; col < around; ++col) {
             for (const std::uint32_t index :
-                 {vertex(col, row), vertex(col, row + 1), vertex(col + 1, row + 1), vertex(col, row),
-                  vertex(col + 1, row + 1), vertex(col + 1, row)}) {
+                 {vertex(col, row), vertex(col, row + 1), vertex(col + 1, row + 1),
+                  vertex(col, row), vertex(col + 1, row + 1), vertex(col + 1, row)}) {
                 mesh.indices.push_back(index);
             }
         }

@@ -33,9 +33,8 @@ std::vector<std::string_view> names_of(const auto& infos) {
 // Splits at the first `separator`; the second part is empty where there is none.
 std::pair<std::string_view, std::string_view> split(std::string_view text, char separator) {
     const auto at = text.find(separator);
-    return at == std::string_view::npos
-               ? std::pair{text, std::string_view{}}
-               : std::pair{text.substr(0, at), text.substr(at + 1)};
+    return at == std::string_view::npos ? std::pair{text, std::string_view{}}
+                                        : std::pair{text.substr(0, at), text.substr(at + 1)};
 }
 
 Result<double> parse_value(const TechniqueInfo& technique, const ParameterInfo& parameter,
@@ -62,7 +61,8 @@ Result<void> set_parameter(Technique& technique, std::string_view assignment) {
             .base();
     if (parameter == info.parameters.data() + info.parameters.size()) {
         return info.parameters.empty()
-                   ? Error{fmt::format("technique {}: parameter '{}' found, it has none", info.name, key)}
+                   ? Error{fmt::format("technique {}: parameter '{}' found, it has none", info.name,
+                                       key)}
                    : Error{fmt::format("technique {}: parameter '{}' found, one of {} was expected",
                                        info.name, key, fmt::join(names_of(info.parameters), ", "))};
     }
@@ -76,11 +76,14 @@ Result<void> set_parameter(Technique& technique, std::string_view assignment) {
 
 } // namespace
 
-std::span<const TechniqueInfo> technique_catalogue() { return catalogue; }
+std::span<const TechniqueInfo> technique_catalogue() {
+    return catalogue;
+}
 
 const TechniqueInfo& technique_info(TechniqueId id) {
-    const auto* const found = std::find_if(catalogue.begin(), catalogue.end(),
-                                           [&](const TechniqueInfo& info) { return info.id == id; });
+    const auto* const found =
+        std::find_if(catalogue.begin(), catalogue.end(),
+                     [&](const TechniqueInfo& info) { return info.id == id; });
     check(found != catalogue.end(), "technique without a catalogue entry");
     return *found;
 }
@@ -103,8 +106,8 @@ Result<Technique> parse_technique(std::string_view text) {
                                  fmt::join(names_of(catalogue), ", "))};
     }
     Technique technique = make_technique(info->id);
-    if (assignments.empty() && text.size() != name.size()) {
-        return Error{fmt::format("technique '{}' found, key=value was expected after the colon", text)};
+    if (text.ends_with(':') || text.ends_with(',')) {
+        return Error{fmt::format("technique '{}' found, key=value was expected at its end", text)};
     }
     while (!assignments.empty()) {
         const auto [first, rest] = split(assignments, ',');

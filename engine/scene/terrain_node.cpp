@@ -32,21 +32,24 @@ Result<TerrainSurface> TerrainSurface::create(std::shared_ptr<const terrain::Ter
 
 std::optional<double> TerrainSurface::height_at(double x, double y) const {
     const Grid<float>& heights = heightfield().heights;
-    // On a curved Earth the vertical through (x, y) leans against z: look up where the ground below the
-    // last guess stands; each round shrinks the miss by the slope of that lean, below 1 % over 100 km.
-    constexpr int rounds = 8;
+    // On a curved Earth the vertical through (x, y) leans against z: look up where the ground below
+    // the last guess stands; each round shrinks the miss by the slope of that lean, below 1 % over
+    // 100 km.
+    const int rounds = placement_.kind() == terrain::PlacementKind::plane ? 1 : 8;
     double z = 0.0;
     for (int i = 0; i < rounds; ++i) {
         const auto sample = placement_.sample_from_world({x, y, z});
-        if (!sample || sample->x < 0.0 || sample->y < 0.0 || sample->x > heights.cols() - 1 ||
-            sample->y > heights.rows() - 1) {
+        if (!sample) {
             return std::nullopt;
         }
         const double height = terrain::bilinear_height(heights.view(), glm::dvec2(*sample));
         z = placement_.world_from_sample({sample->x, sample->y, height}).z;
-        if (placement_.kind() == terrain::PlacementKind::plane) {
-            break;
-        }
+    }
+    // Over the border or not shows only at the height of the ground.
+    const auto sample = placement_.sample_from_world({x, y, z});
+    if (!sample || sample->x < 0.0 || sample->y < 0.0 || sample->x > heights.cols() - 1 ||
+        sample->y > heights.rows() - 1) {
+        return std::nullopt;
     }
     return z;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/core/worker_pool.h"
@@ -9,32 +10,38 @@
 namespace reljef::terrain {
 namespace {
 
-// East, north and up at a place of the heightfield, in the scene frame.
+// The ground at a place of the heightfield, in the scene frame: the way from one sample to the next
+// one along the columns (east) and against the rows (north), metres, and the unit vector up.
 struct Axes {
     glm::dvec3 east{1.0, 0.0, 0.0};
     glm::dvec3 north{0.0, 1.0, 0.0};
     glm::dvec3 up{0.0, 0.0, 1.0};
 };
 
-// Rise over run along the columns (east) and against the rows (north), from neighbours that exist.
-glm::dvec2 local_slope(const Grid<float>& heights, glm::dvec2 spacing, int col, int row) {
+// Rise per sample along the columns (east) and against the rows (north), metres, from neighbours
+// that exist.
+glm::dvec2 rise(const Grid<float>& heights, int col, int row) {
     const int west = std::max(col - 1, 0);
     const int east = std::min(col + 1, heights.cols() - 1);
     const int north = std::max(row - 1, 0);
     const int south = std::min(row + 1, heights.rows() - 1);
     const auto height = [&](int c, int r) { return static_cast<double>(heights(c, r)); };
-    return {(height(east, row) - height(west, row)) / ((east - west) * spacing.x),
-            (height(col, north) - height(col, south)) / ((south - north) * spacing.y)};
+    return {(height(east, row) - height(west, row)) / (east - west),
+            (height(col, north) - height(col, south)) / (south - north)};
 }
 
-Axes axes_at(const Placement& placement, glm::dvec2 sample) {
+// By differences over a sample, or half of one at the border: beyond it there may be no place on
+// Earth.
+Axes axes_at(const Placement& placement, glm::dvec2 sample, glm::dvec2 last) {
     const auto place = [&](double col, double row) {
         return placement.world_from_sample({col, row, 0.0});
     };
+    const glm::dvec2 from = glm::max(sample - 0.5, glm::dvec2(0.0));
+    const glm::dvec2 to = glm::min(sample + 0.5, last);
     Axes axes;
     axes.up = placement.up(place(sample.x, sample.y));
-    axes.east = glm::normalize(place(sample.x + 0.5, sample.y) - place(sample.x - 0.5, sample.y));
-    axes.north = glm::normalize(place(sample.x, sample.y - 0.5) - place(sample.x, sample.y + 0.5));
+    axes.east = (place(to.x, sample.y) - place(from.x, sample.y)) / (to.x - from.x);
+    axes.north = (place(sample.x, from.y) - place(sample.x, to.y)) / (to.y - from.y);
     return axes;
 }
 
@@ -43,41 +50,51 @@ Axes between(const Axes& a, const Axes& b, double t) {
             a.up + t * (b.up - a.up)};
 }
 
-// The ground axes at every `step`-th sample; they turn so slowly that between them linear is enough.
+// The ground axes at most 32 samples apart, border to border; they turn so slowly that between them
+// linear is enough.
 class AxesGrid {
 public:
     AxesGrid(const Placement& placement, int cols, int rows)
-        : axes_((cols - 1) / step + 2, (rows - 1) / step + 2) {
+        : axes_((cols - 2) / widest_step + 2, (rows - 2) / widest_step + 2),
+          step_(glm::dvec2(cols - 1, rows - 1) / glm::dvec2(axes_.cols() - 1, axes_.rows() - 1)) {
         for (int row = 0; row < axes_.rows(); ++row) {
             for (int col = 0; col < axes_.cols(); ++col) {
-                axes_(col, row) = axes_at(placement, {col * step, row * step});
+                axes_(col, row) = axes_at(placement, glm::dvec2(col, row) * step_,
+                                          glm::dvec2(cols - 1, rows - 1));
             }
         }
     }
 
     [[nodiscard]] Axes at(int col, int row) const {
-        const int c = col / step;
-        const int r = row / step;
-        const double u = static_cast<double>(col % step) / step;
-        const double v = static_cast<double>(row % step) / step;
-        return between(between(axes_(c, r), axes_(c + 1, r), u),
-                       between(axes_(c, r + 1), axes_(c + 1, r + 1), u), v);
+        const glm::dvec2 place = glm::dvec2(col, row) / step_;
+        const int c = std::min(static_cast<int>(place.x), axes_.cols() - 2);
+        const int r = std::min(static_cast<int>(place.y), axes_.rows() - 2);
+        return between(between(axes_(c, r), axes_(c + 1, r), place.x - c),
+                       between(axes_(c, r + 1), axes_(c + 1, r + 1), place.x - c), place.y - r);
     }
 
 private:
-    static constexpr int step = 32;
+    static constexpr int widest_step = 32;
     Grid<Axes> axes_;
+    glm::dvec2 step_;
 };
 
-glm::vec2 scene_slope(const Axes& axes, glm::dvec2 slope) {
-    const glm::dvec3 normal = axes.up - slope.x * axes.east - slope.y * axes.north;
-    return glm::vec2(glm::dvec2(-normal.x, -normal.y) / normal.z);
+// Ground beyond the horizon of a whole Earth leans over; it counts as upright.
+constexpr double least_upright = 1e-6;
+
+glm::vec2 scene_slope(const Axes& axes, glm::dvec2 rise_per_sample) {
+    const glm::dvec3 cross = glm::cross(axes.east + rise_per_sample.x * axes.up,
+                                        axes.north + rise_per_sample.y * axes.up);
+    const double area = glm::length(cross);
+    const glm::dvec3 normal = area > 0.0 ? cross / area : axes.up; // none at a pole
+    return glm::vec2(glm::dvec2(-normal.x, -normal.y) / std::max(normal.z, least_upright));
 }
 
 } // namespace
 
 Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement& placement) {
     const Grid<float>& heights = heightfield.heights;
+    check(heights.cols() >= 2 && heights.rows() >= 2, "gradients need at least 2x2 samples");
     Grid<glm::vec2> gradients(heights.cols(), heights.rows());
     std::optional<AxesGrid> axes;
     if (placement.kind() == PlacementKind::ellipsoid) {
@@ -85,9 +102,9 @@ Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement&
     }
     parallel_for(heights.rows(), [&](int row) {
         for (int col = 0; col < heights.cols(); ++col) {
-            const glm::dvec2 slope = placement.exaggeration() *
-                                     local_slope(heights, heightfield.spacing, col, row);
-            gradients(col, row) = axes ? scene_slope(axes->at(col, row), slope) : glm::vec2(slope);
+            const glm::dvec2 slope = placement.exaggeration() * rise(heights, col, row);
+            gradients(col, row) = axes ? scene_slope(axes->at(col, row), slope)
+                                       : glm::vec2(slope / heightfield.spacing);
         }
     });
     return gradients;

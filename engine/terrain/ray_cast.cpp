@@ -32,17 +32,24 @@ Roots solve_quadratic(double a, double b, double c) {
     return {{low, high}, 2};
 }
 
+enum class Side { unknown, above, below };
+
 // Follows one ray through the pyramid, front to back, and remembers on which side of the surface it
 // is. Intervals of t meet exactly at the planes between cells, so no crossing falls between two.
 class Traversal {
 public:
-    Traversal(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& ray)
-        : heights_(heights), pyramid_(pyramid), ray_(ray) {}
+    // `side`: where the ray is known to be before its range begins.
+    Traversal(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& ray,
+              Side side = Side::unknown)
+        : heights_(heights), pyramid_(pyramid), ray_(ray), side_(side) {}
 
     std::optional<double> run(Interval range) {
         visit(pyramid_.levels() - 1, 0, 0, range);
         return hit_;
     }
+
+    // Where the last stretch over the surface lay.
+    [[nodiscard]] Side side() const { return side_; }
 
 private:
     // The part of `range` in which one coordinate of the ray lies in [low, high).
@@ -74,12 +81,11 @@ private:
             return;
         }
         const MinMax bounds = pyramid_.level(level)(col, row);
-        const auto [lowest, highest] =
-            std::minmax({ray_.at(range.begin).z, ray_.at(range.end).z});
+        const auto [lowest, highest] = std::minmax({ray_.at(range.begin).z, ray_.at(range.end).z});
         if (lowest > bounds.high) {
-            side_ = Side::above;
+            pass(lowest - bounds.high, range.begin);
         } else if (highest < bounds.low) {
-            side_ = Side::below;
+            pass(highest - bounds.low, range.begin);
         } else if (level == 0) {
             visit_cell(col, row, range);
         } else {
@@ -147,49 +153,68 @@ private:
         }
     }
 
-    enum class Side { unknown, above, below };
-
     GridView<const float> heights_;
     const MinMaxPyramid& pyramid_;
     Ray ray_;
-    Side side_ = Side::unknown;
+    Side side_;
     std::optional<double> hit_;
 };
 
+bool is_finite(glm::dvec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 constexpr double bend_tolerance = 1e-3; // samples, and metres of height
 constexpr int most_halvings = 24;
+constexpr int most_halvings_unmapped = 8; // of a stretch without a place on the map
 
-// A stretch of a world ray as seen in sample coordinates.
+// A world ray as seen in sample coordinates, followed front to back.
 class BentRay {
 public:
     BentRay(GridView<const float> heights, const MinMaxPyramid& pyramid, const Placement& placement,
             const Ray& ray)
         : heights_(heights), pyramid_(pyramid), placement_(placement), ray_(ray) {}
 
-    std::optional<SurfaceHit> first_hit_between(double begin, double end, int halvings) const {
+    std::optional<SurfaceHit> first_hit_between(double begin, double end, int halvings) {
         const auto from = placement_.sample_from_world(ray_.at(begin));
         const auto to = placement_.sample_from_world(ray_.at(end));
         const double middle = 0.5 * (begin + end);
         const auto halfway = placement_.sample_from_world(ray_.at(middle));
-        if (halvings > 0 && (!from || !to || !halfway || bend(*from, *to, *halfway) > bend_tolerance)) {
+        const bool unmapped = !from && !to && !halfway;
+        const bool straight = from && to && halfway && bend(*from, *to, *halfway) <= bend_tolerance;
+        if (!straight && halvings > (unmapped ? most_halvings - most_halvings_unmapped : 0)) {
             if (const auto hit = first_hit_between(begin, middle, halvings - 1)) {
                 return hit;
             }
             return first_hit_between(middle, end, halvings - 1);
         }
         if (!from || !to) {
+            side_ = Side::unknown;
             return std::nullopt;
         }
-        auto hit = first_hit(heights_, pyramid_, Ray{*from, *to - *from}, Interval{0.0, 1.0});
-        if (hit) {
-            hit->t = begin + hit->t * (end - begin);
-        }
-        return hit;
+        return first_hit_on({*from, *to - *from}, {begin, end});
     }
 
 private:
+    // On a straight piece, which is left at t = 1; `range` is what it is of the world ray.
+    std::optional<SurfaceHit> first_hit_on(const Ray& piece, Interval range) {
+        Traversal traversal(heights_, pyramid_, piece, side_);
+        const auto t = traversal.run({0.0, 1.0});
+        // Beyond the border the ray is neither above nor below.
+        side_ = is_over_surface(piece.at(1.0)) ? traversal.side() : Side::unknown;
+        if (!t) {
+            return std::nullopt;
+        }
+        return SurfaceHit{range.begin + *t * (range.end - range.begin), piece.at(*t)};
+    }
+
+    [[nodiscard]] bool is_over_surface(glm::dvec3 sample) const {
+        return sample.x >= 0.0 && sample.y >= 0.0 && sample.x <= heights_.cols() - 1 &&
+               sample.y <= heights_.rows() - 1;
+    }
+
     // How far the middle of a stretch lies from the straight line: samples, or metres of height.
-    [[nodiscard]] double bend(glm::dvec3 from, glm::dvec3 to, glm::dvec3 halfway) const {
+    [[nodiscard]] static double bend(glm::dvec3 from, glm::dvec3 to, glm::dvec3 halfway) {
         const glm::dvec3 off = halfway - 0.5 * (from + to);
         return std::max(std::hypot(off.x, off.y), std::abs(off.z));
     }
@@ -198,10 +223,11 @@ private:
     const MinMaxPyramid& pyramid_;
     const Placement& placement_;
     Ray ray_;
+    Side side_ = Side::unknown;
 };
 
-// The stretch of the ray that can meet the surface: inside the box around the placed border, blown up
-// by the Earth's bulge over it.
+// The stretch of the ray that can meet the surface: inside the box around the placed border, blown
+// up by the Earth's bulge over it.
 std::optional<Interval> reach(GridView<const float> heights, const MinMaxPyramid& pyramid,
                               const Placement& placement, const Ray& ray) {
     Box box;
@@ -223,6 +249,9 @@ std::optional<Interval> reach(GridView<const float> heights, const MinMaxPyramid
 
 std::optional<SurfaceHit> first_hit(GridView<const float> heights, const MinMaxPyramid& pyramid,
                                     const Ray& sample_ray, Interval range) {
+    if (!is_finite(sample_ray.origin) || !is_finite(sample_ray.direction)) {
+        return std::nullopt;
+    }
     const auto t = Traversal(heights, pyramid, sample_ray).run(range);
     if (!t) {
         return std::nullopt;
@@ -232,6 +261,9 @@ std::optional<SurfaceHit> first_hit(GridView<const float> heights, const MinMaxP
 
 std::optional<SurfaceHit> pick(GridView<const float> heights, const MinMaxPyramid& pyramid,
                                const Placement& placement, const Ray& world_ray) {
+    if (!is_finite(world_ray.origin) || !is_finite(world_ray.direction)) {
+        return std::nullopt;
+    }
     const auto range = reach(heights, pyramid, placement, world_ray);
     if (!range) {
         return std::nullopt;

@@ -41,42 +41,69 @@ float sample(GridView<const float> heights, bool by_rows, int line, int index) {
     return by_rows ? heights(index, line) : heights(line, index);
 }
 
-// Height of the shadow's upper edge over a line, from the line before it.
+// Samples beyond the border that still count as on it: a sun in the south by its cosine.
+constexpr double border_slack = 1e-6;
+
+// The upper edge of a shadow over a sample.
+struct Edge {
+    double height = -1e30; // metres
+    double run = 0.0;      // metres over the ground from what throws it
+};
+
+Edge between(Edge a, Edge b, double t) {
+    return {std::lerp(a.height, b.height, t), std::lerp(a.run, b.run, t)};
+}
+
+// The highest edges over one line of samples, from the line before it.
 class ShadowFront {
 public:
-    ShadowFront(GridView<const float> heights, const Sweep& sweep, double exaggeration, double drop)
+    // `drop`: metres that an edge falls from line to line. `widening`: what counts as high is an
+    // edge's height and so many metres for each metre of its run.
+    ShadowFront(GridView<const float> heights, const Sweep& sweep, double exaggeration, double drop,
+                double widening)
         : heights_(heights), sweep_(sweep), exaggeration_(exaggeration), drop_(drop),
-          edge_(static_cast<std::size_t>(sweep.line_length), -1e30), next_(edge_) {}
+          widening_(widening), edges_(static_cast<std::size_t>(sweep.line_length)), next_(edges_) {}
 
     // Moves to `line`; `previous` is the line before it.
     void advance(int previous) {
         for (int i = 0; i < sweep_.line_length; ++i) {
-            const double place = i + sweep_.shift;
-            const double floor_place = std::floor(place);
-            const int left = static_cast<int>(floor_place);
-            next_[static_cast<std::size_t>(i)] =
-                left < 0 || left + 1 >= sweep_.line_length
-                    ? -1e30
-                    : std::lerp(top(previous, left), top(previous, left + 1), place - floor_place) -
-                          drop_;
+            const double last = sweep_.line_length - 1;
+            const double place = std::clamp(i + sweep_.shift, 0.0, last);
+            Edge& edge = next_[static_cast<std::size_t>(i)];
+            if (std::abs(i + sweep_.shift - place) > border_slack) {
+                edge = {}; // nothing is known beyond the border
+                continue;
+            }
+            const int left = static_cast<int>(place);
+            const int right = std::min(left + 1, sweep_.line_length - 1);
+            edge = between(top(previous, left), top(previous, right), place - left);
+            edge.height -= drop_;
+            edge.run += sweep_.run;
         }
-        std::swap(edge_, next_);
+        std::swap(edges_, next_);
     }
 
-    [[nodiscard]] double edge(int index) const { return edge_[static_cast<std::size_t>(index)]; }
+    // Share of the sun that is seen from a height over a sample of the line, not yet in [0,1]: a
+    // penumbra of a disc of `spread` metres for each metre of run, at least `least` metres high.
+    [[nodiscard]] double share(int index, double height, double spread, double least) const {
+        const Edge& edge = edges_[static_cast<std::size_t>(index)];
+        return 0.5 - (edge.height - height) / std::max(2.0 * spread * edge.run, least);
+    }
 
 private:
-    [[nodiscard]] double top(int line, int index) const {
-        return std::max(edge(index),
-                        exaggeration_ * sample(heights_, sweep_.by_rows, line, index));
+    [[nodiscard]] Edge top(int line, int index) const {
+        const double ground = exaggeration_ * sample(heights_, sweep_.by_rows, line, index);
+        const Edge& edge = edges_[static_cast<std::size_t>(index)];
+        return edge.height + widening_ * edge.run > ground ? edge : Edge{ground, 0.0};
     }
 
     GridView<const float> heights_;
     Sweep sweep_;
     double exaggeration_;
     double drop_;
-    std::vector<double> edge_;
-    std::vector<double> next_;
+    double widening_;
+    std::vector<Edge> edges_;
+    std::vector<Edge> next_;
 };
 
 std::uint8_t byte_share(double share) {
@@ -97,17 +124,20 @@ Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spac
     const glm::dvec3 unit_run = to_sun / horizontal;
     const Sweep sweep = sweep_along(heights, spacing, unit_run);
     const double drop = sweep.run * unit_run.z;
-    // Half a sample of the shadow's way over the ground, at least the sun's own blur over that way.
-    const double penumbra = 0.5 * drop + 2.0 * sun_angular_radius * sweep.run;
-    ShadowFront front(heights, sweep, exaggeration, drop);
+    // Half the disc as metres of height on a metre of run; even its lower limb's rays fall.
+    const double spread =
+        std::min(sun_angular_radius * (1.0 + unit_run.z * unit_run.z), 0.5 * unit_run.z);
+    // What hides the disc's middle, and what reaches farthest into its other half.
+    ShadowFront deep(heights, sweep, exaggeration, drop, 0.0);
+    ShadowFront wide(heights, sweep, exaggeration, drop, spread);
     for (int n = 1; n < sweep.lines; ++n) {
         const int line = sweep.first + n * sweep.direction;
-        front.advance(line - sweep.direction);
+        deep.advance(line - sweep.direction);
+        wide.advance(line - sweep.direction);
         for (int i = 0; i < sweep.line_length; ++i) {
-            const double buried =
-                front.edge(i) - exaggeration * sample(heights, sweep.by_rows, line, i);
-            auto& share = sweep.by_rows ? visible(i, line) : visible(line, i);
-            share = byte_share(0.5 - 0.5 * buried / penumbra);
+            const double height = exaggeration * sample(heights, sweep.by_rows, line, i);
+            (sweep.by_rows ? visible(i, line) : visible(line, i)) = byte_share(
+                std::min(deep.share(i, height, spread, drop), wide.share(i, height, spread, drop)));
         }
     }
     return visible;

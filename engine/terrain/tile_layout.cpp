@@ -1,8 +1,9 @@
 #include "engine/terrain/tile_layout.h"
 
 #include <algorithm>
+#include <array>
 
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 
 namespace reljef::terrain {
 namespace {
@@ -18,31 +19,37 @@ HeightRange range_of(const Grid<float>& heights, const Tile& tile) {
     return range;
 }
 
-// The box around a tile's nine border and middle places at its lowest and highest height. On a curved
-// Earth the ground between them bulges by at most an eighth of the chord's square over the radius,
-// which is what the farthest of the middles from its corners' box shows; twice that is added.
+// How far a row of three places bends away from the line: the second difference.
+glm::dvec3 bend(glm::dvec3 from, glm::dvec3 middle, glm::dvec3 to) {
+    return glm::abs(from - 2.0 * middle + to);
+}
+
+// The box around a tile's nine border and middle places at its lowest and highest height. On a
+// curved Earth the ground bulges out between them, at most by an eighth of the second differences
+// along and across; twice that is added.
 Box placed_bounds(const Placement& placement, const Tile& tile, HeightRange range) {
-    Box corners;
-    Box all;
-    for (int j = 0; j <= 2; ++j) {
-        for (int i = 0; i <= 2; ++i) {
-            for (const double height : {range.low, range.high}) {
-                const glm::dvec3 point = placement.world_from_sample(
-                    {tile.col + 0.5 * i * tile.cols, tile.row + 0.5 * j * tile.rows, height});
-                all.add(point);
-                if (i != 1 && j != 1) {
-                    corners.add(point);
-                }
+    Box box;
+    glm::dvec3 most_bend(0.0);
+    for (const double height : {range.low, range.high}) {
+        std::array<std::array<glm::dvec3, 3>, 3> places;
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                places[j][i] = placement.world_from_sample(
+                    {tile.col + 0.5 * static_cast<double>(i) * tile.cols,
+                     tile.row + 0.5 * static_cast<double>(j) * tile.rows, height});
+                box.add(places[j][i]);
             }
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            most_bend = glm::max(most_bend, bend(places[k][0], places[k][1], places[k][2]) +
+                                                bend(places[0][k], places[1][k], places[2][k]));
         }
     }
     if (placement.kind() == PlacementKind::ellipsoid) {
-        const glm::dvec3 bulge =
-            glm::max(glm::abs(all.low - corners.low), glm::abs(all.high - corners.high));
-        all.low -= bulge;
-        all.high += bulge;
+        box.low -= 0.25 * most_bend;
+        box.high += 0.25 * most_bend;
     }
-    return all;
+    return box;
 }
 
 template <class RangeOfTile>
@@ -53,7 +60,8 @@ std::vector<Tile> cut(const Heightfield& heightfield, const Placement& placement
     std::vector<Tile> tiles;
     for (int row = 0; row < rows; row += tile_cells) {
         for (int col = 0; col < cols; col += tile_cells) {
-            Tile tile{col, row, std::min(tile_cells, cols - col), std::min(tile_cells, rows - row), {}};
+            Tile tile{
+                col, row, std::min(tile_cells, cols - col), std::min(tile_cells, rows - row), {}};
             tile.bounds = placed_bounds(placement, tile, range_of_tile(tile));
             tiles.push_back(tile);
         }

@@ -1,0 +1,119 @@
+#include "app/frame_sink.h"
+
+#include <array>
+#include <charconv>
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/video_encoder.h"
+#include "engine/io/image.h"
+
+namespace reljef::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PictureSink : public FrameSink {
+public:
+    explicit PictureSink(fs::path file) : file_(std::move(file)) {}
+    Result<void> write(const Image& picture, int /*index*/) override {
+        return io::write_image(file_, picture);
+    }
+    Result<void> finish() override { return {}; }
+
+private:
+    fs::path file_;
+};
+
+class SequenceSink : public FrameSink {
+public:
+    explicit SequenceSink(fs::path pattern) : pattern_(std::move(pattern)) {}
+    Result<void> write(const Image& picture, int index) override {
+        const auto file = numbered(pattern_, index);
+        return file ? io::write_image(*file, picture) : file.error();
+    }
+    Result<void> finish() override { return {}; }
+
+private:
+    fs::path pattern_;
+};
+
+class VideoSink : public FrameSink {
+public:
+    explicit VideoSink(VideoEncoder encoder) : encoder_(std::move(encoder)) {}
+    Result<void> write(const Image& picture, int /*index*/) override {
+        return encoder_.write(picture);
+    }
+    Result<void> finish() override { return encoder_.finish(); }
+
+private:
+    VideoEncoder encoder_;
+};
+
+bool has_number(const fs::path& path) { return path.string().find('%') != std::string::npos; }
+
+// Makes the folder of the pattern, and writes its first file once to see that it can be written.
+Result<void> make_folder(const fs::path& pattern) {
+    const auto first = numbered(pattern, 0);
+    if (!first) {
+        return first.error();
+    }
+    if (!first->has_parent_path()) {
+        return {};
+    }
+    std::error_code code;
+    fs::create_directories(first->parent_path(), code);
+    if (code) {
+        return Error{fmt::format("{}: the folder cannot be made: {}", first->parent_path().string(),
+                                 code.message())};
+    }
+    return {};
+}
+
+} // namespace
+
+bool is_video(const fs::path& path) {
+    constexpr std::array extensions{".mp4", ".mkv", ".webm", ".mov"};
+    return std::find(extensions.begin(), extensions.end(), path.extension()) != extensions.end();
+}
+
+Result<fs::path> numbered(const fs::path& pattern, int index) {
+    const std::string text = pattern.string();
+    const auto begin = text.find('%');
+    const auto end = text.find('d', begin == std::string::npos ? 0 : begin);
+    const Error wrong{fmt::format("-o: '{}' found, one number like %04d was expected in it", text)};
+    if (begin == std::string::npos || end == std::string::npos ||
+        text.find('%', begin + 1) != std::string::npos) {
+        return wrong;
+    }
+    int width = 0;
+    if (end > begin + 1) {
+        const auto [last, code] = std::from_chars(text.data() + begin + 1, text.data() + end, width);
+        if (code != std::errc{} || last != text.data() + end || width > 12) {
+            return wrong;
+        }
+    }
+    return fs::path(fmt::format("{}{:0{}}{}", text.substr(0, begin), index, width, text.substr(end + 1)));
+}
+
+Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
+                                                   const FrameSinkOptions& options) {
+    using Sink = std::unique_ptr<FrameSink>;
+    if (is_video(output)) {
+        auto encoder = VideoEncoder::create(output, options.size, options.frames_per_second);
+        return encoder ? Result<Sink>(Sink(new VideoSink(std::move(*encoder)))) : encoder.error();
+    }
+    if (has_number(output)) {
+        auto made = make_folder(output);
+        return made ? Result<Sink>(Sink(new SequenceSink(output))) : made.error();
+    }
+    if (options.frames > 1) {
+        return Error{fmt::format("-o: '{}' found, a numbered name like %04d.png or a video was expected "
+                                 "for {} frames",
+                                 output.string(), options.frames)};
+    }
+    return Sink(new PictureSink(output));
+}
+
+} // namespace reljef::app

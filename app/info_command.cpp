@@ -1,0 +1,146 @@
+#include <array>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/options.h"
+#include "app/terrain_source.h"
+#include "engine/io/raster.h"
+
+namespace reljef::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoChoice {
+    TerrainChoice terrain;
+    bool json = false;
+};
+
+Json extent_of(const terrain::Heightfield& heightfield) {
+    const double cols = heightfield.heights.cols() - 1;
+    const double rows = heightfield.heights.rows() - 1;
+    Json extent{{"width_m", cols * heightfield.spacing.x}, {"height_m", rows * heightfield.spacing.y}};
+    if (!heightfield.georeference) {
+        return extent;
+    }
+    double south = 90.0;
+    double north = -90.0;
+    double west = 1e9;
+    double east = -1e9;
+    constexpr int steps = 32;
+    for (int i = 0; i <= steps; ++i) {
+        const double t = static_cast<double>(i) / steps;
+        for (const glm::dvec2 sample : {glm::dvec2(t * cols, 0.0), glm::dvec2(t * cols, rows),
+                                        glm::dvec2(0.0, t * rows), glm::dvec2(cols, t * rows)}) {
+            const auto place = heightfield.georeference->geodetic.latitude_longitude(sample);
+            south = std::min(south, place.x);
+            north = std::max(north, place.x);
+            west = std::min(west, place.y);
+            east = std::max(east, place.y);
+        }
+    }
+    extent["south"] = south;
+    extent["north"] = north;
+    extent["west"] = west;
+    extent["east"] = east;
+    return extent;
+}
+
+// What the terrain's own file says; a generated one has none.
+Json file_info(const io::SceneDescription& description) {
+    const auto info = io::read_raster_info(description.heights);
+    if (!info) {
+        return {};
+    }
+    return {{"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
+}
+
+Json describe(const TerrainSource& source) {
+    const terrain::Heightfield& heightfield = source.terrain.heightfield;
+    const Json file = source.description.generator.empty() ? file_info(source.description) : Json();
+    Json info;
+    info["name"] = source.terrain.name;
+    info["cols"] = heightfield.heights.cols();
+    info["rows"] = heightfield.heights.rows();
+    info["type"] = file.is_null() ? Json("Float32") : file["type"];
+    info["format"] = file.is_null() ? Json("generated") : file["format"];
+    if (const auto& georeference = heightfield.georeference) {
+        info["crs"] = {{"name", georeference->crs_name},
+                       {"code", georeference->crs_code},
+                       {"horizontal_unit", georeference->horizontal_unit},
+                       {"vertical_datum", georeference->vertical_datum}};
+    } else {
+        info["crs"] = nullptr;
+    }
+    info["spacing"] = {{"x_m", heightfield.spacing.x}, {"y_m", heightfield.spacing.y}};
+    info["extent"] = extent_of(heightfield);
+    info["height_range"] = {{"low_m", heightfield.range.low}, {"high_m", heightfield.range.high}};
+    info["voids"] = heightfield.void_count;
+    info["memory_bytes"] = heightfield.heights.size() * io::bytes_per_sample;
+    info["notes"] = source.terrain.notes;
+    return info;
+}
+
+void print_text(const Json& info) {
+    const auto number = [&](const char* group, const char* key) {
+        return info[group][key].get<double>();
+    };
+    fmt::print("{}: {} x {} {} ({})\n", info["name"].get<std::string>(), info["cols"].get<int>(),
+               info["rows"].get<int>(), info["type"].get<std::string>(),
+               info["format"].get<std::string>());
+    if (info["crs"].is_null()) {
+        fmt::print("  CRS      none\n");
+    } else {
+        const auto code = info["crs"]["code"].get<std::string>();
+        fmt::print("  CRS      {}{}\n", info["crs"]["name"].get<std::string>(),
+                   code.empty() ? "" : " (" + code + ")");
+    }
+    fmt::print("  spacing  {:.4f} x {:.4f} m\n", number("spacing", "x_m"), number("spacing", "y_m"));
+    fmt::print("  extent   {:.1f} x {:.1f} m\n", number("extent", "width_m"),
+               number("extent", "height_m"));
+    if (info["extent"].contains("south")) {
+        fmt::print("           latitude {:.6f} to {:.6f}, longitude {:.6f} to {:.6f}\n",
+                   number("extent", "south"), number("extent", "north"), number("extent", "west"),
+                   number("extent", "east"));
+    }
+    fmt::print("  heights  {:.2f} to {:.2f} m\n", number("height_range", "low_m"),
+               number("height_range", "high_m"));
+    fmt::print("  voids    {}\n", info["voids"].get<std::size_t>());
+    fmt::print("  memory   {:.1f} MB when drawn\n", info["memory_bytes"].get<double>() * 1e-6);
+    for (const auto& note : info["notes"]) {
+        fmt::print("  note     {}\n", note.get<std::string>());
+    }
+}
+
+Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
+    TerrainChoice terrain = choice.terrain;
+    terrain.quiet = true; // the notes are part of the answer
+    auto source = open_terrain(terrain, interrupt.token());
+    if (!source) {
+        return source.error();
+    }
+    const Json info = describe(*source);
+    if (choice.json) {
+        fmt::print("{}\n", info.dump(2));
+    } else {
+        print_text(info);
+    }
+    return {};
+}
+
+} // namespace
+
+Command add_info_command(CLI::App& program, Interrupt& interrupt) {
+    auto* arguments = program.add_subcommand("info", "say what a terrain holds");
+    auto choice = std::make_shared<InfoChoice>();
+    add_terrain_options(*arguments, choice->terrain);
+    arguments->add_flag("--json", choice->json, "as JSON");
+    arguments->footer("Examples:\n  reljef info N45E006.hgt\n  reljef info dem.tif --json");
+    return {arguments, [choice, &interrupt] { return print_info(*choice, interrupt); }};
+}
+
+} // namespace reljef::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <stop_token>
+#include <thread>
+
+namespace reljef::app {
+
+/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; a second one ends the program at once. Make
+/// it first thing in main(), before other threads begin.
+class Interrupt {
+public:
+    Interrupt();
+
+    [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+    [[nodiscard]] bool requested() const { return source_.stop_requested(); }
+
+private:
+    std::stop_source source_;
+    std::jthread watcher_;
+};
+
+} // namespace reljef::app

@@ -1,0 +1,255 @@
+#include "app/options.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace reljef::app {
+namespace {
+
+// A number that is the whole text, or nothing.
+template <class T> std::optional<T> number_from(std::string_view text) {
+    T value{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc{} || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+// Lets a parser with a Result set `target` and turns its error into the parser library's.
+template <class Parse, class Target>
+CLI::Option* add_parsed(CLI::App& command, const char* names, Target& target, const Parse& parse,
+                        const char* description, const char* type) {
+    return command
+        .add_option_function<std::string>(
+            names,
+            [&target, parse](const std::string& text) {
+                auto value = parse(text);
+                if (!value) {
+                    throw CLI::ValidationError(value.error().message);
+                }
+                target = std::move(*value);
+            },
+            description)
+        ->type_name(type);
+}
+
+Result<glm::dvec3> parse_point(std::string_view option, std::string_view text) {
+    const auto numbers = parse_numbers<3>(option, text, "x,y,z in scene metres");
+    if (!numbers) {
+        return numbers.error();
+    }
+    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+}
+
+Result<GeodeticView> parse_geodetic_view(const std::string& text) {
+    constexpr const char* expected = "LAT,LON,HEIGHT,HEADING,PITCH in degrees and metres";
+    const auto numbers = parse_numbers<5>("--camera", text, expected);
+    if (!numbers) {
+        return numbers.error();
+    }
+    const auto [latitude, longitude, height, heading, pitch] = *numbers;
+    if (std::abs(latitude) > 90.0 || std::abs(pitch) > 90.0) {
+        return Error{fmt::format("--camera: '{}' found, a latitude and a pitch from -90 to 90 were "
+                                 "expected",
+                                 text)};
+    }
+    return GeodeticView{latitude, longitude, height, heading, pitch};
+}
+
+Result<glm::dvec2> parse_sun(const std::string& text) {
+    const auto numbers = parse_numbers<2>("--sun", text, "AZIMUTH,ALTITUDE in degrees");
+    if (!numbers) {
+        return numbers.error();
+    }
+    const auto [azimuth, altitude] = *numbers;
+    if (!(altitude > 0.0 && altitude <= 90.0)) {
+        return Error{fmt::format("--sun: altitude {} found, over 0 to 90 was expected", altitude)};
+    }
+    return glm::dvec2(azimuth, altitude);
+}
+
+Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
+    const auto kind = platform::context_kind_from_string(text);
+    if (!kind && text != "auto") {
+        return Error{fmt::format("--context: '{}' found, one of auto, glfw, egl, osmesa was expected",
+                                 text)};
+    }
+    return kind;
+}
+
+Result<scene::Pose> parse_pose(const std::string& text) {
+    const auto pose = scene::pose_from_string(text);
+    if (!pose) {
+        return Error{fmt::format("--pose: '{}' found, one of overview, low, grazing, map was expected",
+                                 text)};
+    }
+    return *pose;
+}
+
+// Parses a number in [low, high], or above low where `above`.
+auto number_in(std::string option, double low, double high, bool above = false) {
+    return [=](const std::string& text) -> Result<double> {
+        const auto value = number_from<double>(text);
+        if (!value || !(above ? *value > low : *value >= low) || !(*value <= high)) {
+            return Error{fmt::format("{}: '{}' found, a number {} {} to {} was expected", option, text,
+                                     above ? "over" : "from", low, high)};
+        }
+        return *value;
+    };
+}
+
+auto whole_number_in(std::string option, int low, int high) {
+    return [=](const std::string& text) -> Result<int> {
+        const auto value = number_from<int>(text);
+        if (!value || *value < low || *value > high) {
+            return Error{fmt::format("{}: '{}' found, a whole number from {} to {} was expected", option,
+                                     text, low, high)};
+        }
+        return *value;
+    };
+}
+
+// Looks a word up in a list of (word, value).
+template <class T>
+auto word_of(std::string option, std::vector<std::pair<std::string, T>> words) {
+    return [=](const std::string& text) -> Result<T> {
+        std::string expected;
+        for (const auto& [word, value] : words) {
+            if (word == text) {
+                return value;
+            }
+            expected += (expected.empty() ? "" : ", ") + word;
+        }
+        return Error{fmt::format("{}: '{}' found, one of {} was expected", option, text, expected)};
+    };
+}
+
+void add_picture_options(CLI::App& command, ViewChoice& choice) {
+    add_parsed(command, "--context", choice.context, parse_context,
+               "auto, glfw (window), egl (GPU without a window) or osmesa (CPU)", "KIND");
+    add_parsed(command, "--size", choice.size,
+               [](const std::string& text) { return parse_size(text); },
+               "of the picture, pixels (1024x768)", "WxH");
+    add_parsed(command, "--technique", choice.technique,
+               [](const std::string& text) { return scene::parse_technique(text); },
+               "how the surface is drawn; 'reljef techniques' lists them (polygons)",
+               "ID[:key=value,...]");
+    command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
+    add_parsed(command, "--projection", choice.projection,
+               word_of<scene::ProjectionKind>(
+                   "--projection", {{"perspective", scene::ProjectionKind::perspective},
+                                    {"orthographic", scene::ProjectionKind::orthographic}}),
+               "perspective, or orthographic: a map where no camera is given", "KIND");
+    add_parsed(command, "--sun", choice.sun, parse_sun,
+               "where the light comes from: clockwise from north, above the horizon (300,40)",
+               "AZIMUTH,ALTITUDE");
+    command.add_option("--shader-dir", choice.shader_dir,
+                       "shader files here come before the built-in ones")
+        ->type_name("FOLDER");
+}
+
+void add_camera_options(CLI::App& command, ViewChoice& choice) {
+    add_parsed(command, "--fov", choice.vertical_fov, number_in("--fov", 1e-3, 179.0),
+               "vertical field of view, degrees (57.3)", "DEG");
+    auto* eye = add_parsed(command, "--eye", choice.eye,
+                           [](const std::string& text) { return parse_point("--eye", text); },
+                           "where the camera stands, scene metres", "x,y,z");
+    auto* look = add_parsed(command, "--look", choice.look,
+                            [](const std::string& text) { return parse_point("--look", text); },
+                            "what it looks at, scene metres", "x,y,z");
+    look->needs(eye);
+    eye->needs(look);
+    add_parsed(command, "--camera", choice.geodetic, parse_geodetic_view,
+               "where on Earth it stands and looks, degrees and metres",
+               "LAT,LON,HEIGHT,HEADING,PITCH")
+        ->excludes(eye);
+    add_parsed(command, "--pose", choice.pose, parse_pose, "overview, low, grazing or map (overview)",
+               "NAME")
+        ->excludes(eye);
+    command
+        .add_option("--path", choice.path,
+                    "fly: orbit, flyover, or a path file (TOML, [[key]] time, eye, look)")
+        ->type_name("NAME|FILE");
+    add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
+               "pictures along the path (1)", "N");
+    add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.0, 1000.0, true),
+               "pictures a second in a video (25)", "F");
+}
+
+} // namespace
+
+Result<glm::ivec2> parse_size(std::string_view text) {
+    const auto cross = text.find('x');
+    const auto width = number_from<int>(text.substr(0, cross));
+    const auto height = cross == std::string_view::npos ? std::nullopt
+                                                        : number_from<int>(text.substr(cross + 1));
+    const auto fits = [](std::optional<int> side) {
+        return side && *side >= 1 && *side <= largest_picture_side;
+    };
+    if (!fits(width) || !fits(height)) {
+        return Error{fmt::format("--size: '{}' found, WxH with each from 1 to {} was expected", text,
+                                 largest_picture_side)};
+    }
+    return glm::ivec2(*width, *height);
+}
+
+template <std::size_t N>
+Result<std::array<double, N>> parse_numbers(std::string_view option, std::string_view text,
+                                            std::string_view expected) {
+    std::array<double, N> numbers{};
+    std::string_view rest = text;
+    bool right = true;
+    for (std::size_t i = 0; i < N && right; ++i) {
+        const auto comma = rest.find(',');
+        const auto value = number_from<double>(rest.substr(0, comma));
+        const bool is_last = comma == std::string_view::npos;
+        right = value && std::isfinite(*value) && is_last == (i + 1 == N);
+        numbers[i] = value.value_or(0.0);
+        rest = is_last ? std::string_view() : rest.substr(comma + 1);
+    }
+    if (!right) {
+        return Error{fmt::format("{}: '{}' found, {} was expected", option, text, expected)};
+    }
+    return numbers;
+}
+
+template Result<std::array<double, 2>> parse_numbers<2>(std::string_view, std::string_view,
+                                                        std::string_view);
+template Result<std::array<double, 3>> parse_numbers<3>(std::string_view, std::string_view,
+                                                        std::string_view);
+template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::string_view,
+                                                        std::string_view);
+
+void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
+    command
+        .add_option("TERRAIN", choice.terrain,
+                    "natural, urban, a scene file (.toml) or a DEM file of any format GDAL reads")
+        ->required();
+    command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
+        ->type_name("FILE");
+    add_parsed(command, "--exaggeration", choice.exaggeration,
+               number_in("--exaggeration", 0.0, 1e6, true), "of the heights, in the picture only (1)",
+               "X");
+    add_parsed(command, "--placement", choice.placement,
+               word_of<terrain::PlacementKind>("--placement",
+                                               {{"plane", terrain::PlacementKind::plane},
+                                                {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
+               "plane, or ellipsoid: on the curved Earth (georeferenced terrains)", "KIND");
+    add_parsed(command, "--memory", choice.memory_megabytes,
+               whole_number_in("--memory", 1, 1'000'000),
+               "for the terrain, megabytes; larger files are read coarser (512)", "MB");
+    add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
+               "0: as many as the machine has (0)", "N");
+    command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
+}
+
+void add_view_options(CLI::App& command, ViewChoice& choice) {
+    add_picture_options(command, choice);
+    add_camera_options(command, choice);
+}
+
+} // namespace reljef::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/result.h"
+#include "engine/platform/context.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/poses.h"
+#include "engine/scene/technique.h"
+#include "engine/terrain/placement.h"
+
+namespace CLI {
+class App;
+}
+
+namespace reljef::app {
+
+/// Which terrain, and how it is read.
+struct TerrainChoice {
+    std::string terrain; ///< a built-in name, a scene file (.toml) or a DEM file
+    std::filesystem::path imagery;
+    std::optional<double> exaggeration; ///< absent: the scene file's, else 1
+    std::optional<terrain::PlacementKind> placement;
+    int memory_megabytes = 512;
+    int threads = 0; ///< 0: as many as the machine has
+    bool quiet = false;
+};
+
+/// From where on Earth, and whereto: --camera.
+struct GeodeticView {
+    double latitude = 0.0;
+    double longitude = 0.0;
+    double height = 0.0;  ///< metres above the DEM's zero
+    double heading = 0.0; ///< degrees clockwise from north
+    double pitch = 0.0;   ///< degrees above the horizon
+};
+
+/// Where the camera stands and what the picture is like.
+struct ViewChoice {
+    std::optional<platform::ContextKind> context; ///< absent: auto
+    glm::ivec2 size{1024, 768};
+    scene::Technique technique = scene::make_technique(scene::TechniqueId::polygons);
+    bool wireframe = false;
+    double vertical_fov = 57.3;
+    scene::ProjectionKind projection = scene::ProjectionKind::perspective;
+    std::optional<glm::dvec3> eye;
+    std::optional<glm::dvec3> look;
+    std::optional<GeodeticView> geodetic;
+    std::optional<scene::Pose> pose;
+    std::optional<glm::dvec2> sun; ///< azimuth, altitude, degrees; absent: the scene file's
+    std::string path;              ///< a built-in path ("orbit", "flyover") or a path file; empty: none
+    int frames = 1;
+    double frames_per_second = 25.0;
+    std::filesystem::path shader_dir;
+};
+
+/// The largest picture side that may be asked for, pixels.
+inline constexpr int largest_picture_side = 16384;
+
+/// Parses "1024x768". Each side 1 … largest_picture_side.
+Result<glm::ivec2> parse_size(std::string_view text);
+
+/// Parses exactly `N` finite numbers separated by commas; `option` is named in the error.
+template <std::size_t N>
+Result<std::array<double, N>> parse_numbers(std::string_view option, std::string_view text,
+                                            std::string_view expected);
+
+/// Adds the options of a group to a command; they are checked as they are parsed (CLI::ParseError).
+void add_terrain_options(CLI::App& command, TerrainChoice& choice);
+void add_view_options(CLI::App& command, ViewChoice& choice);
+
+} // namespace reljef::app

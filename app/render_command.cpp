@@ -1,0 +1,191 @@
+#include <chrono>
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/command.h"
+#include "app/frame_sink.h"
+#include "app/options.h"
+#include "app/progress_line.h"
+#include "app/scene_setup.h"
+#include "engine/io/image.h"
+#include "engine/render/device.h"
+
+namespace reljef::app {
+namespace {
+
+struct RenderChoice {
+    TerrainChoice terrain;
+    ViewChoice view;
+    std::filesystem::path output;
+    std::filesystem::path hits;
+    std::filesystem::path contact_sheet;
+    bool stats = false;
+};
+
+constexpr int sheet_columns = 4;
+constexpr int sheet_picture_width = 320;
+constexpr int most_sheet_pictures = 24;
+
+Result<render::Device> make_device(const RenderChoice& choice) {
+    if (choice.terrain.threads > 0) {
+        // llvmpipe reads it when the context is made.
+        ::setenv("LP_NUM_THREADS", std::to_string(choice.terrain.threads).c_str(), 1);
+    }
+    render::DeviceOptions options;
+    options.context = choice.view.context;
+    options.context_options.size = choice.view.size;
+    options.context_options.visible = false;
+    options.driver.size = choice.view.size;
+    options.driver.shader_dir = choice.view.shader_dir;
+    return render::Device::create(options);
+}
+
+void move_camera(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
+    const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
+    const scene::FlyKey key = path.at(path.begin() + share * path.duration());
+    auto& camera = *scene.camera->get<scene::Camera>();
+    camera.eye = key.eye;
+    camera.look = key.look;
+}
+
+void print_stats(const render::FrameStats& stats, const platform::Context& context) {
+    fmt::print("renderer: {}\n"
+               "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
+               "uploads: {} ({:.1f} MB)\n"
+               "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the frustum, {} "
+               "uploads that were there\n"
+               "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
+               context.renderer(), stats.nodes, stats.tiles, stats.triangles, stats.draws,
+               stats.state_changes, stats.uploads, static_cast<double>(stats.upload_bytes) * 1e-6,
+               stats.skipped.invisible_nodes, stats.skipped.nodes_outside_frustum,
+               stats.skipped.tiles_outside_frustum, stats.skipped.triangles_outside_frustum,
+               stats.skipped.uploads_unchanged, stats.cpu_ms, stats.gpu_ms);
+}
+
+// Draws the frames one after the other and hands them on.
+Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, render::Device& device,
+                         const std::optional<scene::FlyPath>& path, const Interrupt& interrupt) {
+    const int frames = choice.view.frames;
+    auto sink = make_frame_sink(choice.output, {.size = choice.view.size,
+                                                .frames = frames,
+                                                .frames_per_second = choice.view.frames_per_second});
+    if (!sink) {
+        return sink.error();
+    }
+    const int sheet_step = (frames + most_sheet_pictures - 1) / most_sheet_pictures;
+    std::vector<Image> sheet;
+    ProgressLine line("drawing", choice.terrain.quiet);
+    for (int index = 0; index < frames; ++index) {
+        if (interrupt.requested()) {
+            return Error{"interrupted"};
+        }
+        if (path) {
+            move_camera(scene, *path, index, frames);
+        }
+        const auto stats = device.driver().draw(scene.scene, choice.stats);
+        if (!stats) {
+            return stats.error();
+        }
+        Image picture = device.driver().read_color();
+        if (auto written = (*sink)->write(picture, index); !written) {
+            return written;
+        }
+        if (choice.stats && index == frames - 1) {
+            print_stats(*stats, device.context());
+        }
+        if (!choice.contact_sheet.empty() && index % sheet_step == 0) {
+            sheet.push_back(std::move(picture));
+        }
+        line.update(static_cast<double>(index + 1) / frames);
+    }
+    if (auto finished = (*sink)->finish(); !finished) {
+        return finished;
+    }
+    return sheet.empty() ? Result<void>()
+                         : io::write_image(choice.contact_sheet,
+                                           io::contact_sheet(sheet, sheet_columns, sheet_picture_width));
+}
+
+Result<void> check_choice(const RenderChoice& choice) {
+    if (choice.output.empty() && choice.hits.empty()) {
+        return Error{"render: no output found, -o FILE or --hit FILE was expected"};
+    }
+    if (!choice.hits.empty() && choice.view.frames > 1) {
+        return Error{"render: --hit found with many frames, one frame was expected"};
+    }
+    if (choice.view.frames > 1 && choice.view.path.empty()) {
+        return Error{"render: --frames found without a --path to fly along"};
+    }
+    return {};
+}
+
+Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
+    if (auto checked = check_choice(choice); !checked) {
+        return checked;
+    }
+    auto device = make_device(choice);
+    if (!device) {
+        return device.error();
+    }
+    auto source = open_terrain(choice.terrain, interrupt.token());
+    if (!source) {
+        return source.error();
+    }
+    auto scene = make_scene(std::move(*source), choice.terrain, choice.view);
+    if (!scene) {
+        return scene.error();
+    }
+    const auto path = open_path(*scene, choice.view);
+    if (!path) {
+        return path.error();
+    }
+    if (*path) {
+        move_camera(*scene, **path, 0, 1);
+    }
+    if (!choice.hits.empty()) {
+        const auto hits = device->driver().draw_hits(scene->scene);
+        if (!hits) {
+            return hits.error();
+        }
+        if (auto written = io::write_hits(choice.hits, *hits); !written) {
+            return written;
+        }
+    }
+    return choice.output.empty() ? Result<void>()
+                                 : draw_frames(choice, *scene, *device, *path, interrupt);
+}
+
+} // namespace
+
+Command add_render_command(CLI::App& program, Interrupt& interrupt) {
+    auto* arguments = program.add_subcommand("render", "draw pictures without a window");
+    auto choice = std::make_shared<RenderChoice>();
+    add_terrain_options(*arguments, choice->terrain);
+    add_view_options(*arguments, choice->view);
+    arguments
+        ->add_option("-o,--output", choice->output,
+                     "picture (out.png), numbered pictures ('frames/%04d.png') or video (flight.mp4)")
+        ->type_name("FILE");
+    arguments
+        ->add_option("--hit", choice->hits,
+                     "OpenEXR file of what each pixel shows: col, row, height, depth")
+        ->type_name("FILE");
+    arguments
+        ->add_option("--contact-sheet", choice->contact_sheet,
+                     "picture with small copies of up to 24 frames")
+        ->type_name("FILE");
+    arguments->add_flag("--stats", choice->stats, "print what the last frame took and skipped");
+    arguments->footer(
+        "Examples:\n"
+        "  reljef render N45E006.hgt -o alps.png\n"
+        "  reljef render N45E006.hgt --camera 45.7,6.8,4000,20,-15 -o mont-blanc.png\n"
+        "  reljef render urban --path orbit --frames 48 -o 'frames/%04d.png' --contact-sheet sheet.png\n"
+        "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
+        "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
+        "  reljef render dem.tif --technique texture --hit hit.exr");
+    return {arguments, [choice, &interrupt] { return render(*choice, interrupt); }};
+}
+
+} // namespace reljef::app

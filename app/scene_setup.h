@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "app/options.h"
+#include "app/terrain_source.h"
+#include "engine/scene/fly_path.h"
+#include "engine/scene/scene.h"
+
+namespace reljef::app {
+
+/// A terrain under a sun and a sky, with a camera.
+struct TerrainScene {
+    scene::Scene scene;
+    scene::Node* terrain = nullptr; ///< owned by the scene
+    scene::Node* camera = nullptr;  ///< owned by the scene
+    Box bounds;                     ///< of the terrain, scene metres
+
+    /// z of the ground at x, y; the lowest of the terrain where there is none.
+    [[nodiscard]] double ground(double x, double y) const;
+};
+
+/// Builds the scene. Fails where the placement or the camera does not fit the terrain.
+Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
+                                const ViewChoice& view);
+
+/// The path that --path names; nothing without one.
+Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view);
+
+} // namespace reljef::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <stop_token>
+
+#include "app/options.h"
+#include "engine/io/scene_file.h"
+#include "engine/terrain/heightfield.h"
+
+namespace reljef::app {
+
+/// A terrain that was read or generated, and what its scene file says.
+struct TerrainSource {
+    terrain::Terrain terrain;
+    io::SceneDescription description;
+};
+
+/// Opens what TERRAIN names, with progress on stderr. Errors name the terrain, what was found and what
+/// was expected.
+Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop);
+
+} // namespace reljef::app

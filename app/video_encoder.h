@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+
+#include <glm/vec2.hpp>
+#include <sys/types.h>
+
+#include "engine/core/atomic_file.h"
+#include "engine/core/color.h"
+#include "engine/core/result.h"
+
+namespace reljef::app {
+
+/// Pictures piped to ffmpeg, which must be installed. The file appears with finish(); before that the
+/// encoder is ended and nothing is left.
+class VideoEncoder {
+public:
+    static Result<VideoEncoder> create(const std::filesystem::path& file, glm::ivec2 size,
+                                       double frames_per_second);
+    VideoEncoder(VideoEncoder&& other) noexcept;
+    VideoEncoder& operator=(VideoEncoder&&) = delete;
+    VideoEncoder(const VideoEncoder&) = delete;
+    VideoEncoder& operator=(const VideoEncoder&) = delete;
+    ~VideoEncoder();
+
+    /// Precondition: the picture has the size given to create().
+    Result<void> write(const Image& picture);
+    Result<void> finish();
+
+private:
+    VideoEncoder(AtomicFile file, pid_t process, int pipe)
+        : file_(std::move(file)), process_(process), pipe_(pipe) {}
+
+    AtomicFile file_;
+    pid_t process_ = -1;
+    int pipe_ = -1;
+};
+
+} // namespace reljef::app

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# ./dev fly without a display: frames and contact sheets of both terrains, and the frame-rate table.
+set -euo pipefail
+root=$1
+output=$("$root/dev" fly 2>&1) || { echo "$output"; exit 1; }
+for terrain in natural urban; do
+    [[ -s $root/out/$terrain.png && -s $root/out/$terrain/0023.png ]] || {
+        echo "no frames of $terrain under out/"
+        exit 1
+    }
+done
+for technique in texture polygons; do
+    grep -q "$technique" <<<"$output" || {
+        echo "the table names no $technique: $output"
+        exit 1
+    }
+done

@@ -1,0 +1,59 @@
+#include "app/frame_sink.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::app {
+namespace {
+
+TEST(Numbered, replaces_the_number) {
+    EXPECT_EQ(numbered("frames/%04d.png", 7)->string(), "frames/0007.png");
+    EXPECT_EQ(numbered("%d.png", 12345)->string(), "12345.png");
+}
+
+TEST(Numbered, refuses_any_other_pattern) {
+    for (const char* pattern : {"a.png", "%s.png", "%04d-%d.png", "%n%d.png", "%.png", "%99999d.png",
+                                "%-4d.png", "100%.png"}) {
+        EXPECT_FALSE(numbered(pattern, 1)) << pattern;
+    }
+}
+
+TEST(FrameSink, sequence_makes_its_folder_and_files) {
+    const test::TemporaryFolder folder;
+    auto sink = make_frame_sink(folder.path() / "a" / "%02d.png", {.size = {4, 3}, .frames = 2});
+    ASSERT_TRUE(sink) << sink.error().message;
+    EXPECT_TRUE((*sink)->write(Image(4, 3), 0));
+    EXPECT_TRUE((*sink)->write(Image(4, 3), 1));
+    EXPECT_TRUE((*sink)->finish());
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "a" / "01.png"));
+}
+
+TEST(FrameSink, video_that_is_not_finished_leaves_nothing) {
+    const test::TemporaryFolder folder;
+    {
+        auto sink = make_frame_sink(folder.path() / "flight.mp4", {.size = {33, 21}, .frames = 2});
+        if (!sink) {
+            GTEST_SKIP() << sink.error().message;
+        }
+        EXPECT_TRUE((*sink)->write(Image(33, 21), 0));
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(FrameSink, video_of_odd_size_appears) {
+    const test::TemporaryFolder folder;
+    auto sink = make_frame_sink(folder.path() / "flight.mp4", {.size = {33, 21}, .frames = 2});
+    if (!sink) {
+        GTEST_SKIP() << sink.error().message;
+    }
+    EXPECT_TRUE((*sink)->write(Image(33, 21, Rgba8{200, 100, 50}), 0));
+    EXPECT_TRUE((*sink)->write(Image(33, 21), 1));
+    const auto finished = (*sink)->finish();
+    ASSERT_TRUE(finished) << finished.error().message;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"flight.mp4"});
+    EXPECT_GT(std::filesystem::file_size(folder.path() / "flight.mp4"), 100U);
+}
+
+} // namespace
+} // namespace reljef::app

@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/command_line.h"
+#include "tests/support/test_data.h"
+
+namespace reljef {
+namespace {
+
+TEST(InfoCommand, generated_terrain) {
+    const auto result = test::reljef({"info", "natural", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto info = nlohmann::json::parse(result.out);
+    EXPECT_EQ(info["cols"], 1025);
+    EXPECT_EQ(info["rows"], 1025);
+    EXPECT_TRUE(info["crs"].is_null());
+    EXPECT_EQ(info["voids"], 0);
+    EXPECT_GT(info["height_range"]["high_m"], info["height_range"]["low_m"]);
+}
+
+TEST(InfoCommand, real_tile) {
+    RELJEF_NEED_DATA("natural/srtm3/N49E001.hgt");
+    const auto result =
+        test::reljef({"info", test::data_path("natural/srtm3/N49E001.hgt").string(), "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto info = nlohmann::json::parse(result.out);
+    EXPECT_EQ(info["cols"], 1201);
+    EXPECT_EQ(info["type"], "Int16");
+    EXPECT_EQ(info["crs"]["code"], "EPSG:4326");
+    EXPECT_EQ(info["voids"], 19088);
+    EXPECT_EQ(info["height_range"]["low_m"], -16.0);
+    EXPECT_EQ(info["height_range"]["high_m"], 256.0);
+    EXPECT_NEAR(info["extent"]["south"], 49.0, 1e-9);
+    EXPECT_NEAR(info["extent"]["east"], 2.0, 1e-9);
+}
+
+TEST(InfoCommand, feet_are_not_metres) {
+    RELJEF_NEED_DATA("urban/annarbor/test_dsm.tif");
+    const auto result =
+        test::reljef({"info", test::data_path("urban/annarbor/test_dsm.tif").string(), "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto info = nlohmann::json::parse(result.out);
+    EXPECT_NEAR(info["spacing"]["x_m"], 2.0 * 0.3048, 1e-5);
+    EXPECT_NEAR(info["height_range"]["high_m"], 300.34, 0.01);
+}
+
+TEST(InfoCommand, text_names_the_essentials) {
+    const auto result = test::reljef({"info", "urban"});
+    ASSERT_EQ(result.exit_code, 0);
+    for (const char* word : {"urban", "1024 x 1024", "spacing", "heights", "voids", "memory"}) {
+        EXPECT_NE(result.out.find(word), std::string::npos) << word;
+    }
+}
+
+} // namespace
+} // namespace reljef

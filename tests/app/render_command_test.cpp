@@ -1,0 +1,111 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/image.h"
+#include "tests/app/command_line.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace reljef {
+namespace {
+
+// Standard deviation of the green channel: a picture of something is not of one colour.
+double contrast(const Image& image) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const Rgba8 pixel : image.samples()) {
+        sum += pixel.g;
+        squares += static_cast<double>(pixel.g) * pixel.g;
+    }
+    const auto n = static_cast<double>(image.size());
+    return std::sqrt(squares / n - sum * sum / (n * n));
+}
+
+class EveryRaster : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryRaster, gives_a_picture) {
+    RELJEF_NEED_DATA(GetParam());
+    const test::TemporaryFolder folder;
+    const auto file = (folder.path() / "picture.png").string();
+    const auto result = test::reljef({"render", test::data_path(GetParam()).string(), "--size", "320x240",
+                                      "--context", "osmesa", "-o", file});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto image = io::read_image(file);
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_GT(contrast(*image), 5.0);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"picture.png"});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Data, EveryRaster,
+    testing::Values("natural/SainteHelens.dem", "natural/craterlake-elev-16bit-30m.tif",
+                    "natural/derived/mt_rainier_90m_cog.tif", "natural/derived/n45e006_513_metres.pgm",
+                    "natural/derived/n45e006_513_png16_0-4672m.png", "natural/derived/sthelens.hf2",
+                    "natural/derived/sthelens.ter", "natural/derived/sthelens_ftUS_compound_crs.tif",
+                    "natural/irrlicht_terrain-heightmap.bmp", "natural/luxembourg_elev.tif",
+                    "natural/mt_rainier_90m.tif", "natural/n00_e006_3arc_v2.dt1",
+                    "natural/png16_height_1024.png", "natural/sba_elev32_wgs84_512x512.tif",
+                    "natural/springcreek_30m.asc", "natural/srtm3/N22W160v2.3a.hgt.zip",
+                    "natural/srtm3/N44E006.hgt", "natural/srtm3/N44E007.hgt",
+                    "natural/srtm3/N45E006.hgt", "natural/srtm3/N45E007.hgt",
+                    "natural/srtm3/N49E001.hgt", "urban/annarbor/test_building.tif",
+                    "urban/annarbor/test_dsm.tif", "urban/annarbor/test_dtm.tif",
+                    "urban/delft/tud-dsm-5m.tif", "urban/delft/tud-dtm-5m.tif"));
+
+TEST(RenderCommand, drapes_imagery) {
+    RELJEF_NEED_DATA("natural/craterlake-imagery-30m.tif");
+    const test::TemporaryFolder folder;
+    const auto plain = (folder.path() / "plain.png").string();
+    const auto draped = (folder.path() / "draped.png").string();
+    const auto dem = test::data_path("natural/craterlake-elev-16bit-30m.tif").string();
+    const std::vector<std::string> common{"render", dem, "--size", "320x240", "--context", "osmesa"};
+    auto arguments = common;
+    arguments.insert(arguments.end(), {"-o", plain});
+    ASSERT_EQ(test::reljef(arguments).exit_code, 0);
+    arguments = common;
+    arguments.insert(arguments.end(),
+                     {"-o", draped, "--imagery",
+                      test::data_path("natural/craterlake-imagery-30m.tif").string()});
+    const auto result = test::reljef(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(*io::read_image(plain), *io::read_image(draped));
+}
+
+TEST(RenderCommand, sequence_and_contact_sheet) {
+    const test::TemporaryFolder folder;
+    const auto result = test::reljef({"render", "urban", "--path", "orbit", "--frames", "3", "--size",
+                                      "160x120", "--context", "osmesa", "--technique", "texture", "-o",
+                                      (folder.path() / "f" / "%03d.png").string(), "--contact-sheet",
+                                      (folder.path() / "sheet.png").string()});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "f" / "002.png"));
+    EXPECT_NE(*io::read_image(folder.path() / "f" / "000.png"),
+              *io::read_image(folder.path() / "f" / "001.png"));
+    EXPECT_TRUE(io::read_image(folder.path() / "sheet.png"));
+}
+
+TEST(RenderCommand, same_command_same_bits) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"a.png", "b.png"}) {
+        ASSERT_EQ(test::reljef({"render", "natural", "--size", "200x150", "--context", "osmesa", "-o",
+                                (folder.path() / name).string()})
+                      .exit_code,
+                  0);
+    }
+    EXPECT_EQ(*io::read_image(folder.path() / "a.png"), *io::read_image(folder.path() / "b.png"));
+}
+
+TEST(RenderCommand, works_from_any_folder) {
+    const test::TemporaryFolder folder;
+    test::ProgramOptions options;
+    options.folder = folder.path();
+    const auto result = test::reljef({"render", "natural", "--size", "80x60", "--context", "osmesa",
+                                      "--technique", "texture", "-o", "here.png"},
+                                     options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"here.png"});
+}
+
+} // namespace
+} // namespace reljef

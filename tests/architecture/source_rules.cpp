@@ -1,0 +1,299 @@
+#include "tests/architecture/source_rules.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace reljef::test {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+// What each room may include directly; what lies below these is allowed too.
+const std::map<std::string_view, Names>& include_table() {
+    static const std::map<std::string_view, Names> table{
+        {"core", {}},
+        {"geo", {"core"}},
+        {"terrain", {"geo"}},
+        {"io", {"terrain"}},
+        {"scene", {"terrain"}},
+        {"truth", {"scene"}},
+        {"gl", {"core"}},
+        {"platform", {"gl"}},
+        {"shaders", {}},
+        {"render", {"scene", "gl", "shaders"}},
+        {"terrains", {"terrain"}},
+    };
+    return table;
+}
+
+bool is_identifier(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+std::size_t after(std::string_view text, std::string_view what, std::size_t from) {
+    const std::size_t found = text.find(what, from);
+    return found == std::string_view::npos ? text.size() : found + what.size();
+}
+
+std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
+    for (std::size_t i = begin + 1; i < text.size(); ++i) {
+        if (text[i] == '\\') {
+            ++i;
+        } else if (text[i] == text[begin]) {
+            return i + 1;
+        }
+    }
+    return text.size();
+}
+
+std::size_t end_of_raw_string(std::string_view text, std::size_t begin) {
+    const std::size_t open = text.find('(', begin);
+    if (open == std::string_view::npos) {
+        return text.size();
+    }
+    const std::string close = ")" + std::string(text.substr(begin + 2, open - begin - 2)) + "\"";
+    return after(text, close, open);
+}
+
+// The end of the comment or literal that begins here; `begin` where none does.
+std::size_t end_of_quiet(std::string_view text, std::size_t begin) {
+    const std::string_view rest = text.substr(begin);
+    const bool in_word = begin > 0 && is_identifier(text[begin - 1]);
+    if (rest.starts_with("//")) {
+        return std::min(text.find('\n', begin), text.size());
+    }
+    if (rest.starts_with("/*")) {
+        return after(text, "*/", begin + 2);
+    }
+    if (rest.starts_with("R\"") && !in_word) {
+        return end_of_raw_string(text, begin);
+    }
+    if (rest.starts_with('"') || (rest.starts_with('\'') && !in_word)) { // not 1'000
+        return end_of_quoted(text, begin);
+    }
+    return begin;
+}
+
+bool starts_with_any(std::string_view text, const Names& beginnings) {
+    return std::any_of(beginnings.begin(), beginnings.end(),
+                       [&](std::string_view beginning) { return text.starts_with(beginning); });
+}
+
+std::string folder_of(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? "" : std::string(path.substr(0, slash));
+}
+
+struct Library {
+    std::string_view name;
+    Names headers; // how their paths begin
+    Names folders; // where they may be included
+};
+
+const std::vector<Library>& guarded_libraries() {
+    static const std::vector<Library> libraries{
+        {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
+        {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
+        {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
+    };
+    return libraries;
+}
+
+bool may_use_gl(std::string_view path) {
+    return starts_with_any(path, {"engine/gl/", "engine/platform/", "engine/render/", "tests/gl/",
+                                  "tests/platform/"}) ||
+           (path.starts_with("tests/") && path.ends_with("_gl_test.cpp"));
+}
+
+class CircleSearch {
+public:
+    explicit CircleSearch(std::span<const SourceFile> files) {
+        for (const SourceFile& file : files) {
+            for (const Include& include : includes_of(file.text)) {
+                includes_[file.path].push_back(include.path);
+            }
+        }
+    }
+
+    Complaints run() {
+        for (const auto& [file, includes] : includes_) {
+            visit(file);
+        }
+        return found_;
+    }
+
+private:
+    void visit(const std::string& file) {
+        const auto on_way = std::find(way_.begin(), way_.end(), file);
+        if (on_way != way_.end()) {
+            report(on_way);
+            return;
+        }
+        const auto known = includes_.find(file);
+        if (known == includes_.end() || !seen_.insert(file).second) {
+            return;
+        }
+        way_.push_back(file);
+        for (const std::string& included : known->second) {
+            visit(included);
+        }
+        way_.pop_back();
+    }
+
+    void report(std::vector<std::string>::const_iterator begin) {
+        std::string circle;
+        for (auto file = begin; file != way_.cend(); ++file) {
+            circle += *file + " -> ";
+        }
+        found_.push_back(circle + *begin);
+    }
+
+    std::map<std::string, std::vector<std::string>> includes_;
+    std::set<std::string> seen_;
+    std::vector<std::string> way_;
+    Complaints found_;
+};
+
+} // namespace
+
+std::string code_of(std::string_view text) {
+    std::string code(text);
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t end = end_of_quiet(text, i);
+        const bool literal = end > i && text[i] != '/';
+        for (std::size_t k = i; k < end; ++k) {
+            const bool border = literal && (k == i || k + 1 == end);
+            code[k] = border || text[k] == '\n' ? text[k] : ' ';
+        }
+        i = std::max(end, i + 1);
+    }
+    return code;
+}
+
+std::vector<Include> includes_of(std::string_view text) {
+    static const std::regex directive(R"((?:^|\n)[ \t]*#[ \t]*include[ \t]*["<])");
+    const std::string code = code_of(text);
+    std::vector<Include> includes;
+    for (std::sregex_iterator match(code.begin(), code.end(), directive), end; match != end;
+         ++match) {
+        const auto begin = static_cast<std::size_t>(match->position() + match->length());
+        const bool quoted = text[begin - 1] == '"';
+        const std::size_t close = std::min(text.find(quoted ? '"' : '>', begin), text.size());
+        includes.push_back({std::string(text.substr(begin, close - begin)), quoted});
+    }
+    return includes;
+}
+
+std::string room_of(std::string_view path) {
+    if (path.starts_with("engine/")) {
+        path.remove_prefix(std::string_view("engine/").size());
+    }
+    const std::size_t slash = path.find('/');
+    const std::string room(path.substr(0, slash));
+    const bool known =
+        include_table().contains(room) || room == "app" || room == "bench" || room == "tests";
+    return slash != std::string_view::npos && known ? room : "";
+}
+
+bool may_include(std::string_view from, std::string_view to) {
+    if (from == to) {
+        return true;
+    }
+    const auto row = include_table().find(from);
+    if (row == include_table().end()) { // app, bench and tests
+        return to != "shaders";
+    }
+    return std::any_of(row->second.begin(), row->second.end(),
+                       [&](std::string_view room) { return may_include(room, to); });
+}
+
+Complaints forbidden_includes(const SourceFile& file) {
+    Complaints complaints;
+    const std::string from = room_of(file.path);
+    for (const Include& include : includes_of(file.text)) {
+        const std::string to = room_of(include.path);
+        if (!to.empty() && !may_include(from, to)) {
+            complaints.push_back(file.path + " includes " + include.path + ": " + from +
+                                 " may not include " + to);
+        }
+        if (to.empty() == include.quoted) {
+            complaints.push_back(file.path + " includes " + include.path +
+                                 ": the project's own files are included from the root in quotes, "
+                                 "libraries in angle brackets");
+        }
+    }
+    return complaints;
+}
+
+Complaints libraries_outside_their_room(const SourceFile& file) {
+    Complaints complaints;
+    for (const Include& include : includes_of(file.text)) {
+        for (const Library& library : guarded_libraries()) {
+            if (!include.quoted && starts_with_any(include.path, library.headers) &&
+                !starts_with_any(file.path, library.folders)) {
+                complaints.push_back(file.path + " includes " + include.path + ": only " +
+                                     std::string(library.folders.front()) + " may include " +
+                                     std::string(library.name));
+            }
+        }
+    }
+    return complaints;
+}
+
+Complaints gl_outside_its_rooms(const SourceFile& file) {
+    static const std::regex call(R"(\bgl[A-Z]\w*\s*\()");
+    Complaints complaints;
+    if (may_use_gl(file.path)) {
+        return complaints;
+    }
+    for (const Include& include : includes_of(file.text)) {
+        if (starts_with_any(include.path, {"glad/", "GL/", "EGL/", "GLES", "GLFW/", "KHR/"})) {
+            complaints.push_back(file.path + " includes " + include.path + " outside GL's rooms");
+        }
+    }
+    const std::string code = code_of(file.text);
+    for (std::sregex_iterator match(code.begin(), code.end(), call), end; match != end; ++match) {
+        complaints.push_back(file.path + " calls " + match->str() + ") outside GL's rooms");
+    }
+    return complaints;
+}
+
+Complaints machine_paths(const SourceFile& file) {
+    static const std::regex path(R"((?:^|[^\w.\-}])(/(?:work|home|root|Users|tmp)/[\w.\-/]*))");
+    Complaints complaints;
+    for (std::sregex_iterator match(file.text.begin(), file.text.end(), path), end; match != end;
+         ++match) {
+        complaints.push_back(file.path + " names " + match->str(1) + ", a place on one machine");
+    }
+    return complaints;
+}
+
+Complaints include_circles(std::span<const SourceFile> files) {
+    return CircleSearch(files).run();
+}
+
+Complaints unlisted_files(std::span<const SourceFile> files) {
+    static const std::regex separators("[\\s()]+");
+    std::map<std::string, std::set<std::string>> listed;
+    for (const SourceFile& file : files) {
+        if (file.path.ends_with("CMakeLists.txt")) {
+            std::sregex_token_iterator word(file.text.begin(), file.text.end(), separators, -1);
+            listed[folder_of(file.path)].insert(word, {});
+        }
+    }
+    Complaints complaints;
+    for (const SourceFile& file : files) {
+        const std::string folder = folder_of(file.path);
+        const bool source = file.path.ends_with(".cpp") || file.path.ends_with(".h");
+        if (source && !listed[folder].contains(file.path.substr(folder.size() + 1))) {
+            complaints.push_back(file.path + " is not named in " + folder + "/CMakeLists.txt");
+        }
+    }
+    return complaints;
+}
+
+} // namespace reljef::test

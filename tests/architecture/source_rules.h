@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reljef::test {
+
+/// A file of the project.
+struct SourceFile {
+    std::string path; ///< from the root, "engine/core/grid.h"
+    std::string text;
+};
+
+/// One sentence for each place where a rule is broken; empty where it holds.
+using Complaints = std::vector<std::string>;
+
+/// The text with comments and the insides of literals blanked: same length, same lines.
+std::string code_of(std::string_view text);
+
+/// What a file includes, as written, in order.
+struct Include {
+    std::string path;
+    bool quoted = false;
+};
+std::vector<Include> includes_of(std::string_view text);
+
+/// "core" for engine/core/grid.h, "app" for app/main.cpp, "" for a file in no room.
+std::string room_of(std::string_view path);
+
+/// Whether a file of room `from` may include one of room `to`: its own room, the rooms of the table
+/// and all that lies below them.
+bool may_include(std::string_view from, std::string_view to);
+
+/// Includes of the project's files that the table does not allow, or that do not start at the root.
+Complaints forbidden_includes(const SourceFile& file);
+
+/// GeographicLib outside engine/geo, GDAL and OpenImageIO outside engine/io (the tests of these
+/// rooms may).
+Complaints libraries_outside_their_room(const SourceFile& file);
+
+/// OpenGL's, EGL's and GLFW's headers, and calls of gl functions, outside engine/gl,
+/// engine/platform, engine/render and the tests with a context.
+Complaints gl_outside_its_rooms(const SourceFile& file);
+
+/// Folders that exist on one machine only.
+Complaints machine_paths(const SourceFile& file);
+
+/// Files that include each other in a circle, each circle once.
+Complaints include_circles(std::span<const SourceFile> files);
+
+/// Sources and headers that the CMakeLists.txt of their folder does not name.
+Complaints unlisted_files(std::span<const SourceFile> files);
+
+} // namespace reljef::test

@@ -1,0 +1,209 @@
+#include "tests/architecture/source_rules.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace reljef::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+SourceFile file_with(std::string path, std::string text) {
+    return {std::move(path), std::move(text)};
+}
+
+std::vector<std::string> include_paths(std::string_view text) {
+    std::vector<std::string> paths;
+    for (const Include& include : includes_of(text)) {
+        paths.push_back(include.path);
+    }
+    return paths;
+}
+
+TEST(CodeOf, BlanksCommentsAndLiteralsAndKeepsTheLines) {
+    EXPECT_EQ(code_of("a // b\nc"), "a     \nc");
+    EXPECT_EQ(code_of("a /* b\nc */ d"), "a     \n     d");
+    EXPECT_EQ(code_of(R"(f("//", 'x'))"), R"(f("  ", ' '))");
+    EXPECT_EQ(code_of(R"(f("a\"b") + g)"), R"(f("    ") + g)");
+    EXPECT_EQ(code_of("1'000 + glClear()"), "1'000 + glClear()");
+}
+
+TEST(CodeOf, BlanksRawStrings) {
+    EXPECT_EQ(code_of("R\"x(a)\" b)x\" c"), "R          \" c");
+    EXPECT_EQ(code_of("R\"(never"), "R      r");
+}
+
+TEST(CodeOf, SurvivesWhatIsNeverClosed) {
+    EXPECT_EQ(code_of("a \"b").size(), 4U);
+    EXPECT_EQ(code_of("a /*b"), "a    ");
+    EXPECT_EQ(code_of(""), "");
+}
+
+TEST(IncludesOf, FindsBothKindsInAnyLayout) {
+    EXPECT_THAT(include_paths("#include \"engine/a.h\"\n  #  include <b/c.h> // why\n"),
+                ElementsAre("engine/a.h", "b/c.h"));
+}
+
+TEST(IncludesOf, OverlooksCommentsAndStrings) {
+    EXPECT_THAT(include_paths("// #include \"a.h\"\n/*\n#include <b.h>\n*/\n"), IsEmpty());
+    EXPECT_THAT(include_paths("auto s = R\"(\n#include <b.h>\n)\";"), IsEmpty());
+}
+
+TEST(RoomOf, IsTheFolderBelowEngineOrAtTheTop) {
+    EXPECT_EQ(room_of("engine/core/grid.h"), "core");
+    EXPECT_EQ(room_of("terrains/noise.h"), "terrains");
+    EXPECT_EQ(room_of("tests/core/grid_test.cpp"), "tests");
+    EXPECT_EQ(room_of("fmt/format.h"), "");
+    EXPECT_EQ(room_of("core"), "");
+}
+
+TEST(IncludeTable, AllowsWhatLiesBelow) {
+    EXPECT_TRUE(may_include("geo", "core"));
+    EXPECT_TRUE(may_include("io", "core"));
+    EXPECT_TRUE(may_include("render", "terrain"));
+    EXPECT_TRUE(may_include("render", "gl"));
+    EXPECT_TRUE(may_include("truth", "geo"));
+    EXPECT_TRUE(may_include("app", "render"));
+    EXPECT_TRUE(may_include("tests", "app"));
+}
+
+TEST(IncludeTable, RefusesUpwardAndSideways) {
+    EXPECT_FALSE(may_include("core", "geo"));
+    EXPECT_FALSE(may_include("terrain", "io"));
+    EXPECT_FALSE(may_include("io", "scene"));
+    EXPECT_FALSE(may_include("scene", "gl"));
+    EXPECT_FALSE(may_include("gl", "geo"));
+    EXPECT_FALSE(may_include("render", "platform"));
+    EXPECT_FALSE(may_include("render", "io"));
+    EXPECT_FALSE(may_include("terrains", "io"));
+    EXPECT_FALSE(may_include("scene", "app"));
+    EXPECT_FALSE(may_include("render", "tests"));
+}
+
+TEST(IncludeTable, GivesTheShadersToRenderOnly) {
+    EXPECT_TRUE(may_include("render", "shaders"));
+    EXPECT_FALSE(may_include("app", "shaders"));
+    EXPECT_FALSE(may_include("scene", "shaders"));
+}
+
+TEST(ForbiddenIncludes, NameTheFileAndWhatItIncludes) {
+    EXPECT_THAT(
+        forbidden_includes(file_with("engine/core/a.h", "#include \"engine/io/image.h\"\n")),
+        ElementsAre("engine/core/a.h includes engine/io/image.h: core may not include io"));
+    EXPECT_THAT(forbidden_includes(file_with("engine/io/a.h", "#include \"engine/core/b.h\"\n")),
+                IsEmpty());
+}
+
+TEST(ForbiddenIncludes, WantOwnFilesFromTheRootAndLibrariesInAngleBrackets) {
+    EXPECT_THAT(forbidden_includes(file_with("engine/core/a.h", "#include \"b.h\"\n")), SizeIs(1));
+    EXPECT_THAT(forbidden_includes(file_with("app/a.cpp", "#include <engine/core/b.h>\n")),
+                SizeIs(1));
+    EXPECT_THAT(forbidden_includes(file_with("engine/core/a.h", "#include <vector>\n")), IsEmpty());
+}
+
+TEST(Libraries, StayInTheirRoomAndItsTests) {
+    const std::string gdal = "#include <gdal_priv.h>\n";
+    const std::string images = "#include <OpenImageIO/imageio.h>\n";
+    const std::string geodesy = "#include <GeographicLib/Geocentric.hpp>\n";
+    EXPECT_THAT(libraries_outside_their_room(file_with("engine/io/a.cpp", gdal + images)),
+                IsEmpty());
+    EXPECT_THAT(libraries_outside_their_room(file_with("tests/io/a.cpp", gdal)), IsEmpty());
+    EXPECT_THAT(libraries_outside_their_room(file_with("engine/geo/a.cpp", geodesy)), IsEmpty());
+    EXPECT_THAT(libraries_outside_their_room(file_with("app/a.cpp", gdal + images + geodesy)),
+                SizeIs(3));
+    EXPECT_THAT(libraries_outside_their_room(file_with("engine/geo/a.cpp", gdal)),
+                ElementsAre(HasSubstr("only engine/io/ may include GDAL")));
+    EXPECT_THAT(libraries_outside_their_room(file_with("engine/io/a.cpp", geodesy)), SizeIs(1));
+    EXPECT_THAT(libraries_outside_their_room(
+                    file_with("bench/a.cpp", "#include <ogr_spatialref.h>\n#include <cpl_vsi.h>")),
+                SizeIs(2));
+}
+
+TEST(Gl, StaysInItsRooms) {
+    const std::string text = "#include <glad/gl.h>\nvoid f() { glClear(0); }\n";
+    for (const char* const path :
+         {"engine/gl/a.cpp", "engine/platform/a.cpp", "engine/render/a.cpp", "tests/gl/a.h",
+          "tests/platform/a_test.cpp", "tests/render/a_gl_test.cpp"}) {
+        EXPECT_THAT(gl_outside_its_rooms(file_with(path, text)), IsEmpty()) << path;
+    }
+    for (const char* const path : {"engine/scene/a.cpp", "app/a_gl_test.cpp", "bench/a.cpp",
+                                   "tests/render/a_test.cpp", "engine/glue/a.cpp"}) {
+        EXPECT_THAT(gl_outside_its_rooms(file_with(path, text)), SizeIs(2)) << path;
+    }
+}
+
+TEST(Gl, HeadersOfWindowsAndContextsCountToo) {
+    const std::string text = "#include <GLFW/glfw3.h>\n#include <EGL/egl.h>\n"
+                             "#include <GL/osmesa.h>\n#include <glm/vec3.hpp>\n";
+    EXPECT_THAT(gl_outside_its_rooms(file_with("app/a.cpp", text)), SizeIs(3));
+}
+
+TEST(Gl, OnlyCallsAreMeant) {
+    EXPECT_THAT(gl_outside_its_rooms(file_with(
+                    "app/a.cpp", "// glClear(0)\nauto s = \"glClear(0)\"; global(); glow(1);")),
+                IsEmpty());
+    EXPECT_THAT(gl_outside_its_rooms(file_with("app/a.cpp", "::glDrawArrays (a, b);")),
+                ElementsAre(HasSubstr("glDrawArrays")));
+}
+
+TEST(MachinePaths, AreFoundInTextAndComments) {
+    EXPECT_THAT(machine_paths(file_with("a.cpp", "open(\"/ho"
+                                                 "me/ann/x.tif\")")),
+                ElementsAre("a.cpp names /ho"
+                            "me/ann/x.tif, a place on one machine"));
+    EXPECT_THAT(machine_paths(file_with("a.h", "// see /wo"
+                                               "rk/main\n")),
+                SizeIs(1));
+    EXPECT_THAT(machine_paths(file_with("dev", "/tm"
+                                               "p/out")),
+                SizeIs(1));
+}
+
+TEST(MachinePaths, PlacesEveryMachineHasAndPartsOfPathsAreFine) {
+    EXPECT_THAT(machine_paths(file_with("a", "/dev/null /usr/share/x ../wo"
+                                             "rk/y at/ho"
+                                             "me/z")),
+                IsEmpty());
+}
+
+TEST(IncludeCircles, AreFoundAtAnyLength) {
+    const std::vector<SourceFile> files{
+        {"engine/a.h", "#include \"engine/b.h\"\n"},
+        {"engine/b.h", "#include \"engine/c.h\"\n"},
+        {"engine/c.h", "#include \"engine/a.h\"\n"},
+        {"engine/self.h", "#include \"engine/self.h\"\n"},
+    };
+    EXPECT_THAT(include_circles(files),
+                ElementsAre("engine/a.h -> engine/b.h -> engine/c.h -> engine/a.h",
+                            "engine/self.h -> engine/self.h"));
+}
+
+TEST(IncludeCircles, SharedHeadersAreNone) {
+    const std::vector<SourceFile> files{
+        {"engine/a.h", "#include \"engine/b.h\"\n#include \"engine/c.h\"\n"},
+        {"engine/b.h", "#include \"engine/d.h\"\n"},
+        {"engine/c.h", "#include \"engine/d.h\"\n#include \"engine/b.h\"\n"},
+        {"engine/d.h", ""},
+    };
+    EXPECT_THAT(include_circles(files), IsEmpty());
+}
+
+TEST(UnlistedFiles, AreNamed) {
+    const std::vector<SourceFile> files{
+        {"engine/core/CMakeLists.txt", "reljef_room(core HEADERS a.h\n  SOURCES a.cpp)"},
+        {"engine/core/a.h", ""},
+        {"engine/core/a.cpp", ""},
+        {"engine/core/readme.md", ""},
+        {"engine/core/h.cpp", ""},
+        {"engine/geo/b.h", ""},
+    };
+    EXPECT_THAT(unlisted_files(files),
+                ElementsAre("engine/core/h.cpp is not named in engine/core/CMakeLists.txt",
+                            "engine/geo/b.h is not named in engine/geo/CMakeLists.txt"));
+}
+
+} // namespace
+} // namespace reljef::test

@@ -1,0 +1,85 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/bench/bench_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef {
+namespace {
+
+// One line on stderr that begins with the program's name and holds each of `parts`; no table.
+void expect_refusal(const test::ProgramResult& result, int exit_code,
+                    const std::vector<std::string>& parts) {
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err.rfind("reljef-bench: ", 0), 0U) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    for (const std::string& part : parts) {
+        EXPECT_THAT(result.err, testing::HasSubstr(part));
+    }
+}
+
+struct Misuse {
+    std::vector<std::string> arguments;
+    std::vector<std::string> parts;
+};
+
+class BenchMisused : public testing::TestWithParam<Misuse> {};
+
+TEST_P(BenchMisused, is_one_line_and_status_2) {
+    expect_refusal(test::reljef_bench(GetParam().arguments), 2, GetParam().parts);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Arguments, BenchMisused,
+    testing::Values(Misuse{{}, {"suite", "tables"}}, //
+                    Misuse{{"pareto"}, {"pareto", "tables"}},
+                    Misuse{{"stress", "--quick"}, {"stress", "tables"}},
+                    Misuse{{"tables", "--technique", "magic"}, {"magic", "texture"}},
+                    Misuse{{"tables", "--technique", "polygons:lods=0"}, {"lods=0"}},
+                    Misuse{{"tables", "--rounds", "0"}, {"--rounds", "'0'"}},
+                    Misuse{{"tables", "--rounds", "many"}, {"--rounds", "'many'"}},
+                    Misuse{{"tables", "--threads", "-1"}, {"--threads", "'-1'"}},
+                    Misuse{{"tables", "--size", "0x768"}, {"--size", "0x768"}},
+                    Misuse{{"tables", "--context", "vulkan"}, {"--context", "vulkan", "osmesa"}},
+                    Misuse{{"tables", "--html", "report"}, {"--html"}},
+                    Misuse{{"tables", "--terrain"}, {"--terrain"}},
+                    Misuse{{"tables", "natural"}, {"natural"}}));
+
+TEST(BenchBadInput, unknown_terrain) {
+    expect_refusal(test::reljef_bench({"tables", "--terrain", "atlantis", "--context", "osmesa"}),
+                   1, {"atlantis", "natural, urban"});
+}
+
+TEST(BenchBadInput, missing_file) {
+    expect_refusal(
+        test::reljef_bench({"tables", "--terrain", "/none/a.tif", "--context", "osmesa"}), 1,
+        {"/none/a.tif"});
+}
+
+TEST(BenchBadInput, json_that_cannot_be_written_costs_no_measuring) {
+    expect_refusal(test::reljef_bench({"tables", "--json", "/nonexistent/t.json"}), 1,
+                   {"/nonexistent/t.json"});
+}
+
+TEST(BenchBadInput, json_that_is_a_folder) {
+    const test::TemporaryFolder folder;
+    expect_refusal(test::reljef_bench({"tables", "--json", folder.path().string()}), 1,
+                   {folder.path().string(), "folder"});
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(BenchBadInput, failed_run_keeps_the_earlier_results) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.write("t.json", "earlier");
+    expect_refusal(test::reljef_bench({"tables", "--terrain", "atlantis", "--context", "osmesa",
+                                       "--json", file.string()}),
+                   1, {"atlantis"});
+    EXPECT_EQ(test::read_bytes(file), "earlier");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"t.json"});
+}
+
+} // namespace
+} // namespace reljef

@@ -1,0 +1,176 @@
+#include "bench/measure.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace reljef::bench {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// Things to draw that write down their order and take a known time of a made-up clock.
+class Measuring : public testing::Test {
+protected:
+    DrawFrame thing(char name, double takes_ms) {
+        return [this, name, takes_ms]() -> Result<void> {
+            order_ += name;
+            now_ms_ += takes_ms;
+            return {};
+        };
+    }
+
+    MeasureOptions rounds(int count) {
+        MeasureOptions options;
+        options.warm_up_rounds = 0;
+        options.least_rounds = count;
+        options.most_rounds = count;
+        options.seconds = 0.0;
+        options.now_ms = [this] { return now_ms_; };
+        return options;
+    }
+
+    std::string order_;
+    double now_ms_ = 1e6;
+};
+
+TEST_F(Measuring, goes_in_turn_and_not_one_after_the_other) {
+    const std::vector<DrawFrame> things{thing('A', 1.0), thing('B', 2.0), thing('C', 4.0)};
+    const auto measured = measure(things, rounds(3));
+    ASSERT_TRUE(measured);
+    EXPECT_EQ(order_, "ABCABCABC");
+    EXPECT_THAT(measured->ms, ElementsAre(ElementsAre(1.0, 1.0, 1.0), ElementsAre(2.0, 2.0, 2.0),
+                                          ElementsAre(4.0, 4.0, 4.0)));
+    EXPECT_FALSE(measured->stopped);
+}
+
+TEST_F(Measuring, warm_up_is_drawn_and_not_timed) {
+    int drawn = 0;
+    const std::vector<DrawFrame> things{[&]() -> Result<void> {
+        now_ms_ += ++drawn <= 2 ? 500.0 : 3.0; // the first frames compile and upload
+        return {};
+    }};
+    auto options = rounds(4);
+    options.warm_up_rounds = 2;
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_EQ(drawn, 6);
+    EXPECT_THAT(measured->ms, ElementsAre(ElementsAre(3.0, 3.0, 3.0, 3.0)));
+}
+
+TEST_F(Measuring, goes_on_until_the_time_is_over) {
+    const std::vector<DrawFrame> things{thing('A', 60.0), thing('B', 40.0)};
+    auto options = rounds(5);
+    options.most_rounds = 1000;
+    options.seconds = 2.0;
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_THAT(measured->ms, Each(SizeIs(20)));
+}
+
+TEST_F(Measuring, slow_frames_get_the_least_rounds_all_the_same) {
+    const std::vector<DrawFrame> things{thing('A', 60'000.0), thing('B', 40'000.0)};
+    auto options = rounds(5);
+    options.most_rounds = 1000;
+    options.seconds = 2.0;
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_THAT(measured->ms, Each(SizeIs(5)));
+}
+
+TEST_F(Measuring, fast_frames_end_at_the_most_rounds) {
+    const std::vector<DrawFrame> things{thing('A', 0.001)};
+    auto options = rounds(5);
+    options.most_rounds = 70;
+    options.seconds = 100.0;
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_THAT(measured->ms, Each(SizeIs(70)));
+}
+
+TEST_F(Measuring, progress_rises_to_one) {
+    const std::vector<DrawFrame> things{thing('A', 60.0), thing('B', 40.0)};
+    for (const double seconds : {0.0, 0.2, 2.0}) {
+        auto options = rounds(5);
+        options.most_rounds = 12;
+        options.seconds = seconds;
+        double last = 0.0;
+        options.progress = [&](double fraction) {
+            EXPECT_GE(fraction, last);
+            last = fraction;
+        };
+        ASSERT_TRUE(measure(things, options));
+        EXPECT_DOUBLE_EQ(last, 1.0) << seconds;
+    }
+}
+
+TEST_F(Measuring, stop_ends_after_the_frame_and_keeps_what_was_timed) {
+    std::stop_source stop;
+    const std::vector<DrawFrame> things{thing('A', 1.0),
+                                        [&]() -> Result<void> {
+                                            order_ += 'B';
+                                            if (order_.size() == 5) {
+                                                stop.request_stop();
+                                            }
+                                            return {};
+                                        },
+                                        thing('C', 4.0)};
+    auto options = rounds(100);
+    options.stop = stop.get_token();
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_TRUE(measured->stopped);
+    EXPECT_EQ(order_, "ABCAB");
+    EXPECT_THAT(measured->ms, ElementsAre(SizeIs(2), SizeIs(2), SizeIs(1)));
+}
+
+TEST_F(Measuring, stop_before_the_first_frame_draws_nothing) {
+    std::stop_source stop;
+    stop.request_stop();
+    const std::vector<DrawFrame> things{thing('A', 1.0), thing('B', 1.0)};
+    auto options = rounds(5);
+    options.warm_up_rounds = 2;
+    options.stop = stop.get_token();
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_EQ(order_, "");
+    EXPECT_THAT(measured->ms, ElementsAre(IsEmpty(), IsEmpty()));
+}
+
+TEST_F(Measuring, frame_that_fails_is_told_in_its_words) {
+    for (const int warm_up_rounds : {0, 1}) {
+        order_.clear();
+        const std::vector<DrawFrame> things{
+            thing('A', 1.0), []() -> Result<void> { return Error{"the card caught fire"}; },
+            thing('C', 1.0)};
+        auto options = rounds(5);
+        options.warm_up_rounds = warm_up_rounds;
+        const auto measured = measure(things, options);
+        ASSERT_FALSE(measured);
+        EXPECT_EQ(measured.error().message, "the card caught fire");
+        EXPECT_EQ(order_, "A");
+    }
+}
+
+TEST(MeasuringByTheSystemClock, is_in_milliseconds) {
+    using Clock = std::chrono::steady_clock;
+    const std::vector<DrawFrame> things{[]() -> Result<void> {
+        const auto end = Clock::now() + std::chrono::milliseconds(3);
+        while (Clock::now() < end) {
+        }
+        return {};
+    }};
+    MeasureOptions options;
+    options.most_rounds = options.least_rounds;
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_THAT(measured->ms.front(), Each(testing::Ge(3.0)));
+    EXPECT_THAT(measured->ms.front(), testing::Contains(testing::Le(300.0)));
+}
+
+} // namespace
+} // namespace reljef::bench

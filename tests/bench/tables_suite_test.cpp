@@ -1,0 +1,150 @@
+#include "bench/tables_suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/bench/bench_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::bench {
+namespace {
+
+using nlohmann::json;
+
+class TablesSuite : public testing::Test {
+protected:
+    TablesOptions small_options() {
+        TablesOptions options;
+        options.terrains = {folder_.write("a.asc", test::small_dem).string(),
+                            folder_.write("b.asc", test::small_dem).string()};
+        options.size = {64, 48};
+        options.context = platform::ContextKind::osmesa;
+        options.rounds = 6;
+        options.quiet = true;
+        return options;
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(TablesSuite, has_every_technique_and_the_null_row_of_every_terrain) {
+    const Results results = run_tables(small_options(), {});
+    ASSERT_FALSE(results.stopped) << results.stopped->message;
+    const std::size_t techniques = scene::technique_catalogue().size();
+    ASSERT_EQ(results.rows.size(), 2 * (techniques + 1));
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        const Row& row = results.rows[i];
+        const std::size_t place = i % (techniques + 1);
+        EXPECT_EQ(row.scene, i <= techniques ? "a.asc" : "b.asc");
+        EXPECT_EQ(row.null_row, place == techniques);
+        EXPECT_EQ(row.technique.id, row.null_row ? scene::TechniqueId::texture
+                                                 : scene::technique_catalogue()[place].id);
+        EXPECT_EQ(row.frames, 6U);
+        EXPECT_GT(row.ms.median, 0.0);
+        EXPECT_LE(row.ms.median, row.ms.p95);
+        EXPECT_TRUE(row.noise_floor.has_value());
+        EXPECT_GT(row.stats.triangles, 0U);
+    }
+}
+
+TEST_F(TablesSuite, draws_each_row_with_its_own_technique) {
+    const Results results = run_tables(small_options(), {});
+    ASSERT_FALSE(results.stopped);
+    for (const Row& row : results.rows) { // 2 by 2 cells, or one flat square
+        EXPECT_EQ(row.stats.triangles, row.technique.id == scene::TechniqueId::texture ? 2U : 8U);
+    }
+}
+
+TEST_F(TablesSuite, warm_frames_upload_no_terrain) {
+    const Results results = run_tables(small_options(), {});
+    ASSERT_FALSE(results.stopped);
+    for (const Row& row : results.rows) {
+        EXPECT_LE(row.stats.uploads, 1); // the camera
+        EXPECT_GT(row.stats.skipped.uploads_unchanged, 0);
+    }
+}
+
+TEST_F(TablesSuite, ratio_is_to_texture_on_the_same_terrain) {
+    const Results results = run_tables(small_options(), {});
+    ASSERT_FALSE(results.stopped);
+    const std::size_t rows_a_terrain = results.rows.size() / 2;
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        const Row& texture = results.rows[i / rows_a_terrain * rows_a_terrain];
+        EXPECT_EQ(texture.ratio_to_texture, 1.0);
+        EXPECT_DOUBLE_EQ(results.rows[i].ratio_to_texture,
+                         results.rows[i].ms.median / texture.ms.median);
+    }
+}
+
+TEST_F(TablesSuite, texture_is_measured_beside_the_technique_asked_for) {
+    auto options = small_options();
+    options.terrains.resize(1);
+    options.techniques = {scene::make_technique(scene::TechniqueId::polygons)};
+    const Results results = run_tables(options, {});
+    ASSERT_EQ(results.rows.size(), 3U);
+    EXPECT_EQ(results.rows[0].technique.id, scene::TechniqueId::texture);
+    EXPECT_EQ(results.rows[1].technique.id, scene::TechniqueId::polygons);
+    EXPECT_TRUE(results.rows[2].null_row);
+}
+
+TEST_F(TablesSuite, environment_is_written_down) {
+    auto options = small_options();
+    options.threads = 1;
+    const Environment environment = run_tables(options, {}).environment;
+    EXPECT_THAT(environment.renderer, testing::HasSubstr("llvmpipe"));
+    EXPECT_THAT(environment.gl, testing::StartsWith("4.5"));
+    EXPECT_EQ(environment.context, "osmesa");
+    EXPECT_EQ(environment.threads, 1U);
+    EXPECT_FALSE(environment.cpu.empty());
+    EXPECT_FALSE(environment.commit.empty());
+}
+
+TEST_F(TablesSuite, terrain_that_cannot_be_opened_costs_no_measuring) {
+    auto options = small_options();
+    options.terrains.emplace_back("atlantis");
+    const Results results = run_tables(options, {});
+    EXPECT_TRUE(results.rows.empty());
+    ASSERT_TRUE(results.stopped);
+    EXPECT_THAT(results.stopped->message, testing::HasSubstr("atlantis"));
+}
+
+TEST_F(TablesSuite, stop_at_once_gives_no_rows_and_says_why) {
+    std::stop_source stop;
+    stop.request_stop();
+    const Results results = run_tables(small_options(), stop.get_token());
+    EXPECT_TRUE(results.rows.empty());
+    ASSERT_TRUE(results.stopped);
+    EXPECT_THAT(results.stopped->message, testing::HasSubstr("interrupted"));
+}
+
+TEST(BenchProgram, prints_the_table_and_writes_the_json) {
+    const test::TemporaryFolder folder;
+    const auto dem = folder.write("dem.asc", test::small_dem).string();
+    const auto file = folder.path() / "t.json";
+    const auto result =
+        test::reljef_bench({"tables", "--terrain", dem, "--size", "64x48", "--context", "osmesa",
+                            "--rounds", "5", "--quiet", "--json", file.string()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    for (const char* part : {"dem.asc", "texture", "polygons:lods=1", "noise floor", "llvmpipe"}) {
+        EXPECT_THAT(result.out, testing::HasSubstr(part));
+    }
+    const json report = json::parse(test::read_bytes(file));
+    EXPECT_EQ(report.at("schema"), "reljef-bench/1");
+    EXPECT_EQ(report.at("rows").size(), scene::technique_catalogue().size() + 1);
+    EXPECT_EQ(report.at("rows").at(0).at("frames"), 5);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"dem.asc", "t.json"}));
+}
+
+TEST(BenchProgram, help_names_the_suite_there_is_and_none_that_is_not) {
+    const auto result = test::reljef_bench({"--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out, testing::HasSubstr("tables"));
+    for (const char* absent : {"pareto", "stress", "peers"}) {
+        EXPECT_THAT(result.out, testing::Not(testing::HasSubstr(absent)));
+    }
+}
+
+} // namespace
+} // namespace reljef::bench

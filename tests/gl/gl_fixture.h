@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/core/grid.h"
+#include "engine/gl/debug_log.h"
+#include "engine/gl/framebuffer.h"
+#include "engine/gl/program.h"
+#include "engine/gl/vertex_array.h"
+#include "engine/platform/context.h"
+
+namespace reljef::test {
+
+/// A test with an OSMesa context; it fails when the driver reports an error or anything above low
+/// severity.
+class GlTest : public ::testing::Test {
+protected:
+    void SetUp() override;
+    void TearDown() override;
+
+    /// What the driver has complained about so far, and starts anew: for tests that provoke it.
+    std::vector<std::string> take_problems();
+
+private:
+    std::unique_ptr<platform::Context> context_;
+    std::optional<gl::DebugLog> log_;
+};
+
+/// Fails the test and aborts when there is no value.
+template <class T> T must(Result<T> result) {
+    if (!result) {
+        ADD_FAILURE() << result.error().message;
+    }
+    return std::move(result).value();
+}
+
+/// A float target of that size with depth.
+gl::Framebuffer float_target(glm::ivec2 size);
+
+/// A vertex stage that covers the target with one triangle at clip depth `uniform float depth`, and
+/// the fragment stage, in which `color` is the float output.
+gl::Program cover_program(const std::string& fragment_body);
+/// Draws it; the program is ready to use, the target bound.
+void cover(const gl::Program& program);
+
+} // namespace reljef::test

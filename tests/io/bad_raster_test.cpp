@@ -1,0 +1,261 @@
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/io/raster.h"
+#include "tests/io/made_raster.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace reljef::io {
+namespace {
+
+using test::made_raster;
+using test::MadeRaster;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class BadRaster : public ::testing::Test {
+protected:
+    /// One line that names the file; returns it.
+    static std::string refused(const std::filesystem::path& path) {
+        const auto terrain = read_terrain(path);
+        EXPECT_FALSE(terrain) << path;
+        if (terrain) {
+            return {};
+        }
+        const std::string& message = terrain.error().message;
+        EXPECT_EQ(message.rfind(path.string() + ":", 0), 0U) << message;
+        EXPECT_THAT(message, HasSubstr("expected"));
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        return message;
+    }
+    [[nodiscard]] std::filesystem::path write(const std::string& name,
+                                              const std::string& bytes) const {
+        return folder.write(name, bytes);
+    }
+    [[nodiscard]] std::filesystem::path made(const MadeRaster& raster,
+                                             const std::string& name) const {
+        EXPECT_TRUE(test::write(raster, folder.path() / name)) << name;
+        return folder.path() / name;
+    }
+
+    test::TemporaryFolder folder;
+};
+
+void put16(std::string& bytes, unsigned value) {
+    bytes += static_cast<char>(value & 0xFFU);
+    bytes += static_cast<char>((value >> 8U) & 0xFFU);
+}
+
+void put32(std::string& bytes, unsigned value) {
+    put16(bytes, value & 0xFFFFU);
+    put16(bytes, value >> 16U);
+}
+
+void put_tag(std::string& bytes, unsigned tag, unsigned type, unsigned value) {
+    put16(bytes, tag);
+    put16(bytes, type);
+    put32(bytes, 1);
+    put32(bytes, value);
+}
+
+/// A little-endian TIFF of 16-bit samples whose only strip holds 64 bytes, whatever its size
+/// claims.
+std::string lying_tiff(unsigned cols, unsigned rows, unsigned rows_per_strip) {
+    std::string bytes = "II*";
+    bytes += '\0';
+    put32(bytes, 8);
+    put16(bytes, 8);
+    put_tag(bytes, 256, 4, cols);
+    put_tag(bytes, 257, 4, rows);
+    put_tag(bytes, 258, 3, 16);
+    put_tag(bytes, 259, 3, 5); // LZW
+    put_tag(bytes, 262, 3, 1);
+    put_tag(bytes, 273, 4, 200);
+    put_tag(bytes, 278, 4, rows_per_strip);
+    put_tag(bytes, 279, 4, 64);
+    put32(bytes, 0);
+    bytes.resize(264, 'x');
+    return bytes;
+}
+
+TEST_F(BadRaster, Missing) {
+    EXPECT_THAT(refused(folder.path() / "none.tif"), HasSubstr("does not exist"));
+}
+
+TEST_F(BadRaster, Empty) {
+    EXPECT_THAT(refused(write("a.tif", "")), HasSubstr("is empty"));
+}
+
+TEST_F(BadRaster, AFolder) {
+    EXPECT_THAT(refused(folder.path()), HasSubstr("is a folder"));
+}
+
+TEST_F(BadRaster, ADevice) {
+    EXPECT_THAT(refused("/dev/null"), HasSubstr("no regular file"));
+}
+
+TEST_F(BadRaster, NotARaster) {
+    EXPECT_THAT(refused(write("a.tif", "This is a letter.\n")), HasSubstr("cannot be opened"));
+    EXPECT_THAT(refused(write("a.txt", "hello")), HasSubstr("cannot be opened"));
+    EXPECT_THAT(refused(write("N45E006.hgt", "hello")), HasSubstr("cannot be opened"));
+    EXPECT_THAT(refused(write("a.zip", "PK\x03\x04 nothing")), HasSubstr("cannot be opened"));
+    EXPECT_THAT(refused(write("a.gz", "\x1f\x8b nothing")), HasSubstr("cannot be opened"));
+}
+
+TEST_F(BadRaster, InfoRefusesTheSame) {
+    EXPECT_FALSE(read_raster_info(folder.path() / "none.tif"));
+    EXPECT_FALSE(read_raster_info(folder.path()));
+    EXPECT_FALSE(read_raster_info(write("a.tif", "This is a letter.\n")));
+}
+
+TEST_F(BadRaster, OneSampleOrOneLine) {
+    const auto flat = [](int, int) { return 5.0; };
+    EXPECT_THAT(refused(made(made_raster(1, 1, flat), "a.tif")),
+                HasSubstr("1×1 samples, at least 2×2"));
+    EXPECT_THAT(refused(made(made_raster(1, 9, flat), "b.tif")), HasSubstr("1×9"));
+    EXPECT_THAT(refused(made(made_raster(9, 1, flat), "c.tif")), HasSubstr("9×1"));
+}
+
+TEST_F(BadRaster, TwoByTwoIsEnough) {
+    const auto terrain =
+        read_terrain(made(made_raster(2, 2, [](int col, int) { return col; }), "a.tif"));
+    EXPECT_TRUE(terrain);
+}
+
+TEST_F(BadRaster, AllVoid) {
+    MadeRaster raster = made_raster(5, 4, [](int, int) { return -9999.0; });
+    raster.nodata = -9999.0;
+    EXPECT_THAT(refused(made(raster, "a.tif")), HasSubstr("all 5×4 samples are voids"));
+    EXPECT_THAT(refused(made(made_raster(5, 4, [](int, int) { return std::nan(""); }), "b.tif")),
+                HasSubstr("voids"));
+    EXPECT_THAT(refused(made(made_raster(5, 4, [](int, int) { return -32768.0; }), "c.tif")),
+                HasSubstr("voids"));
+}
+
+TEST_F(BadRaster, HeadersThatClaimAHundredThousandSquared) {
+    EXPECT_THAT(refused(write("a.tif", lying_tiff(100000, 100000, 100000))),
+                AnyOf(HasSubstr("blocks"), HasSubstr("cannot be")));
+    EXPECT_THAT(refused(write("b.tif", lying_tiff(100000, 100000, 16))), HasSubstr("cannot be"));
+    EXPECT_THAT(refused(write("c.tif", lying_tiff(0x7FFFFFFF, 0x7FFFFFFF, 0x7FFFFFFF))),
+                HasSubstr("expected"));
+    EXPECT_THAT(refused(write("d.tif", lying_tiff(0, 0, 1))), HasSubstr("cannot be"));
+    EXPECT_THAT(refused(write("a.pgm", "P5\n100000 100000\n65535\n0123456789")),
+                HasSubstr("cannot be"));
+    EXPECT_THAT(refused(write("a.asc", "ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\n"
+                                       "cellsize 30\nNODATA_value -9999\n1 2 3 4\n")),
+                HasSubstr("cannot be"));
+    EXPECT_THAT(
+        refused(write("b.asc", "ncols 0\nnrows 0\nxllcorner 0\nyllcorner 0\ncellsize 30\n1")),
+        HasSubstr("cannot be"));
+    std::string bmp = "BM";
+    put32(bmp, 64);
+    put32(bmp, 0);
+    put32(bmp, 54);
+    put32(bmp, 40);
+    put32(bmp, 100000);
+    put32(bmp, 100000);
+    put16(bmp, 1);
+    put16(bmp, 24);
+    bmp.resize(64, '\0');
+    EXPECT_THAT(refused(write("a.bmp", bmp)), HasSubstr("cannot be"));
+}
+
+TEST_F(BadRaster, FilesCutShort) {
+    const auto wave = [](int col, int row) { return 100 + (col * row) % 50; };
+    MadeRaster raster = made_raster(200, 150, wave);
+    struct Format {
+        const char* driver;
+        const char* name;
+        GDALDataType type;
+    };
+    for (const Format& format : {Format{"GTiff", "a.tif", GDT_Float32},
+                                 {"PNG", "a.png", GDT_UInt16},
+                                 {"BMP", "a.bmp", GDT_Byte},
+                                 {"PNM", "a.pgm", GDT_UInt16},
+                                 {"AAIGrid", "a.asc", GDT_Int16},
+                                 {"HF2", "a.hf2", GDT_Float32},
+                                 {"JPEG", "a.jpg", GDT_Byte}}) {
+        raster.format = format.driver;
+        raster.type = format.type;
+        const auto path = made(raster, format.name);
+        ASSERT_TRUE(read_terrain(path)) << format.name;
+        const std::string whole = test::read_bytes(path);
+        for (const double share : {0.02, 0.3, 0.6, 0.95}) {
+            const auto length = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+            refused(write(std::string("cut_") + format.name, whole.substr(0, length)));
+        }
+    }
+}
+
+TEST_F(BadRaster, RealFilesCutShort) {
+    for (const std::string name :
+         {"natural/srtm3/N45E006.hgt", "natural/srtm3/N22W160v2.3a.hgt.zip",
+          "natural/n00_e006_3arc_v2.dt1", "natural/SainteHelens.dem", "natural/springcreek_30m.asc",
+          "natural/derived/sthelens.ter", "natural/derived/sthelens.hf2",
+          "natural/derived/mt_rainier_90m_cog.tif", "natural/irrlicht_terrain-heightmap.bmp"}) {
+        RELJEF_NEED_DATA(name);
+        const std::string whole = test::read_bytes(test::data_path(name));
+        const std::string file = std::filesystem::path(name).filename().string();
+        for (const double share : {0.01, 0.5, 0.9}) {
+            const auto length = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+            refused(write(file, whole.substr(0, length)));
+        }
+    }
+}
+
+/// Bytes of whole files changed at random: anything may come of it but a crash or a hang.
+TEST_F(BadRaster, DamagedFilesDoNoHarm) {
+    std::mt19937 random(11);
+    MadeRaster raster = made_raster(40, 30, [](int col, int row) { return 100 + col * row % 50; });
+    for (const auto& [driver, name] :
+         std::vector<std::pair<std::string, std::string>>{{"GTiff", "a.tif"},
+                                                          {"PNG", "a.png"},
+                                                          {"BMP", "a.bmp"},
+                                                          {"PNM", "a.pgm"},
+                                                          {"AAIGrid", "a.asc"},
+                                                          {"HF2", "a.hf2"}}) {
+        raster.format = driver;
+        raster.type = driver == "AAIGrid" || driver == "HF2" ? GDT_Float32 : GDT_Byte;
+        const std::string whole = test::read_bytes(made(raster, name));
+        for (int i = 0; i < 60; ++i) {
+            std::string bytes = whole;
+            for (int change = 0; change < 4; ++change) {
+                const std::size_t reach =
+                    i % 2 == 0 ? std::min<std::size_t>(300, bytes.size()) : bytes.size();
+                bytes[random() % reach] = static_cast<char>(random() % 256);
+            }
+            RasterOptions options;
+            options.memory_budget = 1 << 22;
+            const auto terrain = read_terrain(write("damaged_" + name, bytes), options);
+            if (terrain) {
+                for (const float height : terrain->heightfield.heights.samples()) {
+                    ASSERT_TRUE(std::isfinite(height));
+                }
+            }
+        }
+    }
+}
+
+TEST_F(BadRaster, OptionsThatMakeNoSense) {
+    const auto path = made(made_raster(4, 4, [](int col, int) { return col; }), "a.tif");
+    RasterOptions options;
+    options.height_scale = 0.0;
+    EXPECT_FALSE(read_terrain(path, options));
+    options.height_scale = std::nan("");
+    EXPECT_FALSE(read_terrain(path, options));
+    options.height_scale = 1.0;
+    options.height_offset = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(read_terrain(path, options));
+    options.height_offset = 0.0;
+    EXPECT_TRUE(read_terrain(path, options));
+}
+
+} // namespace
+} // namespace reljef::io

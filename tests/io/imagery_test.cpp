@@ -1,0 +1,312 @@
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <gdal_utils.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/io/raster.h"
+#include "tests/io/made_raster.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace reljef::io {
+namespace {
+
+using test::made_raster;
+using test::MadeRaster;
+using ::testing::HasSubstr;
+
+constexpr std::array<double, 6> utm{500000.0, 10.0, 0.0, 5100000.0, 0.0, -10.0};
+
+int red_of(int col, int row) {
+    return (col * 4 + row) % 256;
+}
+int green_of(int col, int row) {
+    return (row * 4) % 256 + 0 * col;
+}
+int blue_of(int col, int row) {
+    return (col + row) % 256;
+}
+
+MadeRaster picture(int cols, int rows) {
+    MadeRaster raster = made_raster(cols, rows, red_of);
+    const MadeRaster green = made_raster(cols, rows, green_of);
+    const MadeRaster blue = made_raster(cols, rows, blue_of);
+    raster.values.insert(raster.values.end(), green.values.begin(), green.values.end());
+    raster.values.insert(raster.values.end(), blue.values.begin(), blue.values.end());
+    raster.bands = 3;
+    raster.type = GDT_Byte;
+    raster.colors = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand};
+    return raster;
+}
+
+MadeRaster flat(int cols, int rows) {
+    return made_raster(cols, rows, [](int col, int) { return 100.0 + col; });
+}
+
+std::string joined(const std::vector<std::string>& notes) {
+    std::string text;
+    for (const std::string& note : notes) {
+        text += note + "\n";
+    }
+    return text;
+}
+
+class Imagery : public ::testing::Test {
+protected:
+    [[nodiscard]] Result<terrain::Terrain> drape(const MadeRaster& heights, const MadeRaster& image,
+                                                 RasterOptions options = {}) const {
+        EXPECT_TRUE(test::write(heights, folder.path() / "heights.tif"));
+        EXPECT_TRUE(test::write(image, folder.path() / "image.tif"));
+        options.imagery = folder.path() / "image.tif";
+        return read_terrain(folder.path() / "heights.tif", options);
+    }
+
+    test::TemporaryFolder folder;
+};
+
+void expect_same(const Image& color, const MadeRaster& image) {
+    ASSERT_EQ(color.cols(), image.cols);
+    ASSERT_EQ(color.rows(), image.rows);
+    for (int row = 0; row < color.rows(); ++row) {
+        for (int col = 0; col < color.cols(); ++col) {
+            const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
+            const Rgba8 expected{byte(red_of(col, row)), byte(green_of(col, row)),
+                                 byte(blue_of(col, row)), 255};
+            ASSERT_EQ(color(col, row), expected) << col << "," << row;
+        }
+    }
+}
+
+TEST_F(Imagery, WithoutItThereIsNoColour) {
+    ASSERT_TRUE(test::write(flat(9, 9), folder.path() / "heights.tif"));
+    const auto terrain = read_terrain(folder.path() / "heights.tif");
+    ASSERT_TRUE(terrain);
+    EXPECT_TRUE(terrain->color.empty());
+}
+
+TEST_F(Imagery, OnTheSameGridItIsKeptToTheBit) {
+    MadeRaster heights = flat(50, 30);
+    MadeRaster image = picture(50, 30);
+    for (MadeRaster* raster : {&heights, &image}) {
+        raster->crs = "EPSG:32631";
+        raster->geotransform = utm;
+    }
+    const auto terrain = drape(heights, image);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    expect_same(terrain->color, image);
+}
+
+TEST_F(Imagery, WithoutAPlaceItIsStretchedCornerOnCorner) {
+    for (const auto& [cols, rows] : {std::pair(50, 30), std::pair(99, 59), std::pair(13, 40)}) {
+        const MadeRaster image = picture(cols, rows);
+        const auto terrain = drape(flat(50, 30), image);
+        ASSERT_TRUE(terrain) << terrain.error().message;
+        expect_same(terrain->color, image);
+    }
+}
+
+TEST_F(Imagery, AFinerOneKeepsItsResolution) {
+    MadeRaster heights = flat(26, 26);
+    heights.crs = "EPSG:32631";
+    heights.geotransform = utm;
+    MadeRaster image = made_raster(130, 130, [](int col, int) { return col; });
+    image.type = GDT_Byte;
+    image.crs = "EPSG:32631";
+    image.geotransform = {500000.0, 2.0, 0.0, 5100000.0, 0.0, -2.0};
+    const auto terrain = drape(heights, image);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    ASSERT_EQ(terrain->color.cols(), 126); // 25 intervals of 5 pixels
+    // the first sample lies at 5 m, the middle of image pixel 2
+    EXPECT_EQ(terrain->color(0, 60).r, 2);
+    EXPECT_EQ(terrain->color(125, 60).r, 127);
+    EXPECT_EQ(terrain->color(100, 60).g, 102); // grey
+}
+
+TEST_F(Imagery, InAnotherCrsItIsWarpedIntoPlace) {
+    MadeRaster heights = flat(101, 101);
+    heights.crs = "EPSG:4326";
+    heights.geotransform = {3.0, 0.001, 0.0, 46.0, 0.0, -0.001};
+    // UTM 31N with its central meridian at 3° east; grey grows with the northing
+    MadeRaster image = made_raster(200, 250, [](int, int row) { return 255 - row; });
+    image.type = GDT_Byte;
+    image.crs = "EPSG:32631";
+    image.geotransform = {495000.0, 100.0, 0.0, 5100000.0, 0.0, -100.0};
+    const auto terrain = drape(heights, image);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    const Image& color = terrain->color;
+    const glm::dvec2 scale = glm::dvec2(100.0) / glm::dvec2(color.cols() - 1, color.rows() - 1);
+    for (int row = 2; row < color.rows() - 2; row += 7) {
+        for (int col = 2; col < color.cols() - 2; col += 7) {
+            if (color(col, row).a == 0) {
+                continue;
+            }
+            const glm::dvec2 place = terrain->heightfield.georeference->geodetic.latitude_longitude(
+                scale * glm::dvec2(col, row));
+            // northing on and near the central meridian
+            const double northing =
+                0.9996 * geo::geodesic_distance({0.0, 3.0, 0.0}, {place.x, 3.0, 0.0});
+            const double expected = 255.0 - ((5100000.0 - northing) / 100.0 - 0.5);
+            ASSERT_NEAR(color(col, row).r, expected, 1.5) << place.x;
+        }
+    }
+    EXPECT_GT(color(color.cols() / 2, color.rows() / 2).a, 0);
+}
+
+TEST_F(Imagery, WhereItEndsThereIsNothing) {
+    MadeRaster heights = flat(100, 100);
+    MadeRaster image = picture(40, 100);
+    for (MadeRaster* raster : {&heights, &image}) {
+        raster->crs = "EPSG:32631";
+        raster->geotransform = utm;
+    }
+    const auto terrain = drape(heights, image);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    EXPECT_EQ(terrain->color(10, 50).a, 255);
+    EXPECT_EQ(terrain->color(60, 50).a, 0);
+    EXPECT_THAT(joined(terrain->notes), HasSubstr("imagery covers 40 %"));
+}
+
+TEST_F(Imagery, ElsewhereItIsAnError) {
+    MadeRaster heights = flat(100, 100);
+    heights.crs = "EPSG:32631";
+    heights.geotransform = utm;
+    MadeRaster image = picture(40, 100);
+    image.crs = "EPSG:4326";
+    image.geotransform = {-120.0, 0.001, 0.0, 35.0, 0.0, -0.001};
+    const auto terrain = drape(heights, image);
+    ASSERT_FALSE(terrain);
+    EXPECT_THAT(terrain.error().message, HasSubstr("image.tif: shows nothing of the terrain"));
+}
+
+TEST_F(Imagery, FollowsATurnedRaster) {
+    MadeRaster heights = flat(50, 30);
+    heights.crs = "EPSG:32631";
+    heights.geotransform = {500000.0, 10.0, 0.0, 5099700.0, 0.0, 10.0}; // south up
+    MadeRaster image = picture(50, 30);
+    image.crs = "EPSG:32631";
+    image.geotransform = utm;
+    const auto terrain = drape(heights, image);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    expect_same(terrain->color, image);
+}
+
+TEST_F(Imagery, FollowsAWindow) {
+    RasterOptions options;
+    options.window = RasterOptions::Window{10, 5, 21, 11};
+    for (const bool placed : {false, true}) {
+        MadeRaster heights = flat(50, 30);
+        MadeRaster image = picture(50, 30);
+        for (MadeRaster* raster : {&heights, &image}) {
+            if (placed) {
+                raster->crs = "EPSG:32631";
+                raster->geotransform = utm;
+            }
+        }
+        const auto terrain = drape(heights, image, options);
+        ASSERT_TRUE(terrain) << terrain.error().message;
+        ASSERT_EQ(terrain->color.cols(), 21);
+        EXPECT_EQ(terrain->color(0, 0).r, red_of(10, 5));
+        EXPECT_EQ(terrain->color(20, 10).b, blue_of(30, 15));
+    }
+}
+
+TEST_F(Imagery, IsScaledDownToTheBudget) {
+    RasterOptions options;
+    options.memory_budget = 50 * 50 * bytes_per_sample * 2;
+    const auto terrain = drape(flat(50, 50), picture(3000, 3000), options);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    const double bytes = static_cast<double>(terrain->color.size()) * 16.0 / 3.0;
+    EXPECT_LE(bytes, static_cast<double>(options.memory_budget));
+    EXPECT_GT(bytes, 0.2 * static_cast<double>(options.memory_budget));
+}
+
+TEST_F(Imagery, IsNeverLongerThanItsLimit) {
+    const auto terrain = drape(flat(50, 50), picture(5000, 20));
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    EXPECT_EQ(terrain->color.cols(), longest_image_side);
+}
+
+TEST_F(Imagery, AlphaAndPalettesAndDeepGreyAreUnderstood) {
+    MadeRaster grey = made_raster(4, 2, [](int col, int) { return col == 0 ? 0 : 30000; });
+    grey.type = GDT_UInt16;
+    const auto deep = drape(flat(4, 2), grey);
+    ASSERT_TRUE(deep) << deep.error().message;
+    EXPECT_EQ(deep->color(3, 1), (Rgba8{255, 255, 255, 255}));
+    EXPECT_EQ(deep->color(0, 1), (Rgba8{0, 0, 0, 255}));
+
+    MadeRaster indexed = made_raster(4, 2, [](int col, int) { return col % 2; });
+    indexed.type = GDT_Byte;
+    indexed.palette = {{10, 20, 30, 255}, {200, 100, 50, 255}};
+    const auto palette = drape(flat(4, 2), indexed);
+    ASSERT_TRUE(palette) << palette.error().message;
+    EXPECT_EQ(palette->color(0, 0), (Rgba8{10, 20, 30, 255}));
+    EXPECT_EQ(palette->color(3, 1), (Rgba8{200, 100, 50, 255}));
+
+    MadeRaster with_alpha = picture(4, 2);
+    with_alpha.bands = 4;
+    with_alpha.colors.push_back(GCI_AlphaBand);
+    with_alpha.values.insert(with_alpha.values.end(), {255, 255, 0, 0, 255, 255, 0, 0});
+    const auto alpha = drape(flat(4, 2), with_alpha);
+    ASSERT_TRUE(alpha) << alpha.error().message;
+    EXPECT_EQ(alpha->color(0, 0).a, 255);
+    EXPECT_EQ(alpha->color(3, 0).a, 0);
+    EXPECT_EQ(alpha->color(1, 1).r, red_of(1, 1));
+}
+
+TEST_F(Imagery, BadFilesAreNamed) {
+    ASSERT_TRUE(test::write(flat(9, 9), folder.path() / "heights.tif"));
+    RasterOptions options;
+    options.imagery = folder.path() / "none.png";
+    const auto missing = read_terrain(folder.path() / "heights.tif", options);
+    ASSERT_FALSE(missing);
+    EXPECT_THAT(missing.error().message, HasSubstr("none.png: does not exist"));
+    options.imagery = folder.write("text.png", "not a picture");
+    const auto text = read_terrain(folder.path() / "heights.tif", options);
+    ASSERT_FALSE(text);
+    EXPECT_THAT(text.error().message, HasSubstr("text.png"));
+}
+
+TEST_F(Imagery, ACutFileIsAnErrorNotHalfAPicture) {
+    MadeRaster image = picture(300, 300);
+    ASSERT_TRUE(test::write(flat(300, 300), folder.path() / "heights.tif"));
+    ASSERT_TRUE(test::write(image, folder.path() / "image.tif"));
+    const std::string whole = test::read_bytes(folder.path() / "image.tif");
+    RasterOptions options;
+    options.imagery = folder.write("cut.tif", whole.substr(0, whole.size() / 2));
+    const auto terrain = read_terrain(folder.path() / "heights.tif", options);
+    ASSERT_FALSE(terrain);
+    EXPECT_THAT(terrain.error().message, HasSubstr("cut.tif"));
+}
+
+TEST_F(Imagery, ThePairsOfTheTestDataFit) {
+    struct Pair {
+        const char* heights;
+        const char* image;
+        int cols;
+        int rows;
+    };
+    for (const Pair& pair :
+         {Pair{"natural/craterlake-elev-16bit-30m.tif", "natural/craterlake-imagery-30m.tif", 429,
+               279},
+          {"natural/sba_elev32_wgs84_512x512.tif", "natural/sba_rgb_wgs84_512x512.tif", 512, 512},
+          {"natural/png16_height_1024.png", "natural/png16_height_albedo_labelgrid.png", 2048,
+           2048},
+          {"natural/irrlicht_terrain-heightmap.bmp", "natural/irrlicht_terrain-texture.jpg", 1024,
+           1024}}) {
+        RELJEF_NEED_DATA(pair.heights);
+        RELJEF_NEED_DATA(pair.image);
+        RasterOptions options;
+        options.imagery = test::data_path(pair.image);
+        const auto terrain = read_terrain(test::data_path(pair.heights), options);
+        ASSERT_TRUE(terrain) << terrain.error().message;
+        EXPECT_EQ(terrain->color.cols(), pair.cols);
+        EXPECT_EQ(terrain->color.rows(), pair.rows);
+    }
+}
+
+} // namespace
+} // namespace reljef::io

@@ -1,0 +1,117 @@
+#include "tests/io/made_raster.h"
+
+#include <memory>
+
+#include <cpl_string.h>
+#include <ogr_spatialref.h>
+
+namespace reljef::test {
+namespace {
+
+struct Closer {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, Closer>;
+
+GDALDriver* driver(const std::string& name) {
+    GDALAllRegister();
+    return GetGDALDriverManager()->GetDriverByName(name.c_str());
+}
+
+CPLStringList list_of(const std::vector<std::string>& words) {
+    CPLStringList list;
+    for (const std::string& word : words) {
+        list.AddString(word.c_str());
+    }
+    return list;
+}
+
+void describe(GDALDataset& dataset, const MadeRaster& raster) {
+    if (raster.geotransform) {
+        std::array<double, 6> t = *raster.geotransform;
+        dataset.SetGeoTransform(t.data());
+    }
+    if (!raster.crs.empty()) {
+        OGRSpatialReference crs;
+        crs.SetFromUserInput(raster.crs.c_str());
+        crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        dataset.SetSpatialRef(&crs);
+    }
+}
+
+void describe(GDALRasterBand& band, const MadeRaster& raster) {
+    if (raster.nodata) {
+        band.SetNoDataValue(*raster.nodata);
+    }
+    if (!raster.unit.empty()) {
+        band.SetUnitType(raster.unit.c_str());
+    }
+    if (raster.scale != 1.0 || raster.offset != 0.0) {
+        band.SetScale(raster.scale);
+        band.SetOffset(raster.offset);
+    }
+    if (!raster.palette.empty()) {
+        GDALColorTable table;
+        for (std::size_t i = 0; i < raster.palette.size(); ++i) {
+            table.SetColorEntry(static_cast<int>(i), &raster.palette[i]);
+        }
+        band.SetColorInterpretation(GCI_PaletteIndex);
+        band.SetColorTable(&table);
+    }
+}
+
+bool fill(GDALDataset& dataset, const MadeRaster& raster) {
+    describe(dataset, raster);
+    const std::size_t samples =
+        static_cast<std::size_t>(raster.cols) * static_cast<std::size_t>(raster.rows);
+    for (int i = 0; i < raster.bands; ++i) {
+        GDALRasterBand& band = *dataset.GetRasterBand(i + 1);
+        describe(band, raster);
+        if (static_cast<std::size_t>(i) < raster.colors.size()) {
+            band.SetColorInterpretation(raster.colors[static_cast<std::size_t>(i)]);
+        }
+        auto* values = const_cast<double*>(&raster.values[static_cast<std::size_t>(i) * samples]);
+        if (band.RasterIO(GF_Write, 0, 0, raster.cols, raster.rows, values, raster.cols,
+                          raster.rows, GDT_Float64, 0, 0, nullptr) != CE_None) {
+            return false;
+        }
+    }
+    auto overviews = raster.overviews;
+    return overviews.empty() ||
+           dataset.BuildOverviews("AVERAGE", static_cast<int>(overviews.size()), overviews.data(),
+                                  0, nullptr, nullptr, nullptr) == CE_None;
+}
+
+} // namespace
+
+QuietGdal::QuietGdal() {
+    CPLPushErrorHandler(&CPLQuietErrorHandler);
+}
+QuietGdal::~QuietGdal() {
+    CPLPopErrorHandler();
+}
+
+bool write(const MadeRaster& raster, const std::filesystem::path& path) {
+    const QuietGdal quiet;
+    GDALDriver* wanted = driver(raster.format);
+    if (wanted == nullptr) {
+        return false;
+    }
+    const bool direct = raster.format == "GTiff";
+    CPLStringList options = list_of(raster.options);
+    CPLStringList none;
+    const Dataset dataset((direct ? wanted : driver("MEM"))
+                              ->Create(path.c_str(), raster.cols, raster.rows, raster.bands,
+                                       raster.type, (direct ? options : none).List()));
+    if (dataset == nullptr || !fill(*dataset, raster)) {
+        return false;
+    }
+    if (direct) {
+        return true;
+    }
+    const Dataset copy(
+        wanted->CreateCopy(path.c_str(), dataset.get(), FALSE, options.List(), nullptr, nullptr));
+    return copy != nullptr;
+}
+
+} // namespace reljef::test

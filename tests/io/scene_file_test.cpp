@@ -1,0 +1,179 @@
+#include "engine/io/scene_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::io {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<SceneDescription> parse(const std::string& text) {
+    return parse_scene(text, "scene.toml", "/data");
+}
+
+std::string error_of(const std::string& text) {
+    const auto scene = parse(text);
+    EXPECT_FALSE(scene) << text;
+    return scene ? "" : scene.error().message;
+}
+
+TEST(SceneFile, EveryKeyIsRead) {
+    const auto scene = parse(R"(
+name = "Mont Blanc"
+[terrain]
+heights = "alps.tif"
+imagery = "/images/alps.jpg"
+spacing = 30.0
+height_scale = 0.5
+height_offset = -10
+exaggeration = 1.5
+placement = "ellipsoid"
+[sun]
+azimuth = 200
+altitude = 12.5
+[air]
+visibility = 50000.0
+[camera]
+eye = [1, 2.5, 3]
+look = [0, 0, 0]
+)");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->name, "Mont Blanc");
+    EXPECT_EQ(scene->heights, "/data/alps.tif");
+    EXPECT_EQ(scene->imagery, "/images/alps.jpg");
+    EXPECT_EQ(scene->spacing, 30.0);
+    EXPECT_EQ(scene->height_scale, 0.5);
+    EXPECT_EQ(scene->height_offset, -10.0);
+    EXPECT_EQ(scene->exaggeration, 1.5);
+    EXPECT_EQ(scene->placement, "ellipsoid");
+    EXPECT_EQ(scene->sun_azimuth, 200.0);
+    EXPECT_EQ(scene->sun_altitude, 12.5);
+    EXPECT_EQ(scene->visibility, 50000.0);
+    EXPECT_EQ(scene->eye, glm::dvec3(1.0, 2.5, 3.0));
+    EXPECT_EQ(scene->look, glm::dvec3(0.0));
+}
+
+TEST(SceneFile, AGeneratorNeedsNothingElse) {
+    const auto scene = parse("[terrain]\ngenerator = \"urban\"");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->generator, "urban");
+    EXPECT_EQ(scene->size, 1025);
+    EXPECT_EQ(scene->seed, 1U);
+    EXPECT_FALSE(scene->tileable);
+    EXPECT_FALSE(scene->spacing);
+    EXPECT_FALSE(scene->placement);
+    EXPECT_FALSE(scene->eye);
+    EXPECT_EQ(scene->exaggeration, 1.0);
+    const auto full = parse("[terrain]\ngenerator = \"natural\"\nsize = 512\nseed = 4294967295\n"
+                            "tileable = true\nspacing = 2");
+    ASSERT_TRUE(full) << full.error().message;
+    EXPECT_EQ(full->size, 512);
+    EXPECT_EQ(full->seed, 4294967295U);
+    EXPECT_TRUE(full->tileable);
+}
+
+TEST(SceneFile, BrokenTomlIsNamedWithItsLine) {
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \n"), HasSubstr("scene.toml:2: is no TOML"));
+    EXPECT_THAT(error_of("[terrain\n"), HasSubstr("scene.toml:1"));
+    EXPECT_THAT(error_of("a = 1\na = 2\n"), HasSubstr("is no TOML"));
+    EXPECT_THAT(error_of(std::string("\0\x01\xff", 3)), HasSubstr("is no TOML"));
+}
+
+TEST(SceneFile, UnknownKeysAreRefusedWithTheKnownOnes) {
+    EXPECT_THAT(
+        error_of("[terrain]\ngenerator = \"urban\"\nsiez = 3\n"),
+        HasSubstr("scene.toml:3: [terrain] siez is unknown, one of heights, generator, size"));
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sea]\nlevel = 1\n"),
+                HasSubstr("sea is unknown, one of name, terrain, sun, air, camera"));
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sun]\nheight = 3\n"),
+                HasSubstr("[sun] height is unknown, one of azimuth, altitude"));
+}
+
+TEST(SceneFile, ExactlyOneSourceOfHeights) {
+    EXPECT_THAT(error_of(""), HasSubstr("neither given, exactly one was expected"));
+    EXPECT_THAT(error_of("[terrain]\nseed = 3"), HasSubstr("neither given"));
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\nheights = \"a.tif\""),
+                HasSubstr("both given"));
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nseed = 3"),
+                HasSubstr("[terrain] seed is given, but it belongs to a generator"));
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\nimagery = \"a.png\""),
+                HasSubstr("imagery is given"));
+}
+
+TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
+    const std::string urban = "[terrain]\ngenerator = \"urban\"\n";
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {urban + "size = 0", "size is 0, a whole number from 16 to 4096 was expected"},
+        {urban + "size = 100000", "size is 100000"},
+        {urban + "size = 99999999999999", "size is 99999999999999"},
+        {urban + "size = 1e3", "size is 1000.0, a whole number"},
+        {urban + "size = \"big\"", "size is 'big'"},
+        {urban + "seed = -1", "seed is -1"},
+        {urban + "seed = 4294967296", "seed is 4294967296"},
+        {urban + "tileable = 1", "tileable is 1, true or false was expected"},
+        {urban + "spacing = 0", "spacing is 0, a number above 0 was expected"},
+        {urban + "spacing = nan", "spacing is nan"},
+        {urban + "exaggeration = inf", "exaggeration is inf"},
+        {urban + "exaggeration = -2.0", "exaggeration is -2.0, a number above 0 and at most 1000"},
+        {urban + "placement = \"sphere\"", "is \"sphere\", one of plane, ellipsoid was expected"},
+        {"[terrain]\ngenerator = \"moon\"", "is \"moon\", one of natural, urban was expected"},
+        {"[terrain]\nheights = \"\"", "heights is ''"},
+        {"[terrain]\nheights = 3", "heights is 3"},
+        {"[terrain]\nheights = \"a.tif\"\nheight_scale = 0", "height_scale is 0"},
+        {urban + "[sun]\naltitude = 0", "[sun] altitude is 0, a number above 0 and at most 90"},
+        {urban + "[sun]\naltitude = 90.5", "altitude is 90.5"},
+        {urban + "[sun]\nazimuth = 400", "azimuth is 400, a number from -360 to 360"},
+        {urban + "[air]\nvisibility = -1", "[air] visibility is -1"},
+        {urban + "[camera]\neye = [1, 2, 3]", "eye stands alone"},
+        {urban + "[camera]\neye = [1, 2]\nlook = [1, 2, 3]", "three finite numbers"},
+        {urban + "[camera]\neye = [1, 2, inf]\nlook = [1, 2, 3]", "three finite numbers"},
+        {urban + "[camera]\neye = [1, 2, \"x\"]\nlook = [1, 2, 3]", "three finite numbers"},
+        {urban + "[camera]\neye = [1, 2, 3]\nlook = [1, 2, 3]", "look is where eye is"},
+        {"terrain = 3", "terrain is 3, a table [terrain] was expected"},
+        {"[[terrain]]\ngenerator = \"urban\"", "terrain is an array"}};
+    for (const auto& [text, words] : cases) {
+        const std::string message = error_of(text);
+        EXPECT_THAT(message, HasSubstr("scene.toml:")) << text;
+        EXPECT_THAT(message, HasSubstr(words)) << text;
+    }
+}
+
+TEST(SceneFile, PathsStartFromTheSceneFilesFolderAndTheNameIsItsOwn) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.write("my_alps.toml", "[terrain]\nheights = \"../dem/alps.tif\"\n");
+    const auto scene = read_scene_file(path);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->heights, folder.path() / "../dem/alps.tif");
+    EXPECT_EQ(scene->name, "my_alps");
+}
+
+TEST(SceneFile, MissingAndFoldersAreErrors) {
+    const test::TemporaryFolder folder;
+    const auto missing = read_scene_file(folder.path() / "none.toml");
+    ASSERT_FALSE(missing);
+    EXPECT_THAT(missing.error().message, HasSubstr("none.toml"));
+    EXPECT_FALSE(read_scene_file(folder.path()));
+}
+
+TEST(SceneFile, TheOnesThatComeWithReljefAreGood) {
+    const std::filesystem::path folder =
+        std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "terrains";
+    const auto natural = read_scene_file(folder / "natural.toml");
+    ASSERT_TRUE(natural) << natural.error().message;
+    EXPECT_EQ(natural->generator, "natural");
+    EXPECT_EQ(natural->size, 1025);
+    EXPECT_EQ(natural->seed, 1U);
+    const auto urban = read_scene_file(folder / "urban.toml");
+    ASSERT_TRUE(urban) << urban.error().message;
+    EXPECT_EQ(urban->generator, "urban");
+    EXPECT_EQ(urban->size, 1024);
+    const auto example = read_scene_file(folder / "example_dem.toml");
+    ASSERT_TRUE(example) << example.error().message;
+    EXPECT_FALSE(example->heights.empty());
+}
+
+} // namespace
+} // namespace reljef::io

@@ -1,0 +1,29 @@
+#include "engine/platform/shared_library.h"
+
+#include <array>
+#include <cstddef>
+
+#include <gmock/gmock.h>
+
+namespace reljef::platform {
+namespace {
+
+TEST(SharedLibraryTest, the_first_that_opens_is_taken) {
+    constexpr std::array<const char*, 2> names{"libno_such_library.so.9", "libm.so.6"};
+    const auto library = SharedLibrary::open(names);
+    ASSERT_TRUE(library) << library.error().message;
+    const auto cosine = library->function<double (*)(double)>("cos");
+    ASSERT_NE(cosine, nullptr);
+    EXPECT_EQ(cosine(0.0), 1.0);
+    EXPECT_EQ(library->function<void (*)()>("no_such_function"), nullptr);
+}
+
+TEST(SharedLibraryTest, none_is_an_error_that_names_the_first) {
+    constexpr std::array<const char*, 2> names{"libno_such_library.so.9", "libno_other.so"};
+    const auto library = SharedLibrary::open(names);
+    ASSERT_FALSE(library);
+    EXPECT_THAT(library.error().message, ::testing::HasSubstr("libno_such_library.so.9"));
+}
+
+} // namespace
+} // namespace reljef::platform

@@ -1,0 +1,117 @@
+#include "engine/platform/window.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <variant>
+
+#include <glad/gl.h>
+#include <gmock/gmock.h>
+
+#include "engine/gl/debug_log.h"
+#include "engine/gl/framebuffer.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace reljef::platform {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+class WindowGlTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (std::getenv("DISPLAY") == nullptr) {
+            GTEST_SKIP() << "no display: DISPLAY is not set";
+        }
+        auto made = make_window({.debug = true, .size = {320, 200}, .title = "test"});
+        ASSERT_TRUE(made) << made.error().message;
+        window_ = std::move(*made);
+        log_.emplace();
+    }
+    void TearDown() override {
+        if (log_) {
+            EXPECT_THAT(log_->problems(), ::testing::IsEmpty());
+        }
+        log_.reset();
+        window_.reset();
+    }
+
+    Window& window() { return *window_; }
+
+    /// Waits up to 5 s for an event of that kind.
+    template <class Kind> std::optional<Kind> next() {
+        const auto start = steady_clock::now();
+        while (steady_clock::now() - start < std::chrono::seconds(5)) {
+            for (const Event& event : window_->wait_events(milliseconds(50))) {
+                if (const auto* found = std::get_if<Kind>(&event)) {
+                    return *found;
+                }
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    std::unique_ptr<Window> window_;
+    std::optional<gl::DebugLog> log_;
+};
+
+TEST_F(WindowGlTest, has_the_asked_size_and_a_current_context) {
+    EXPECT_EQ(window().framebuffer_size(), glm::ivec2(320, 200));
+    EXPECT_EQ(window().context().kind(), ContextKind::glfw);
+    EXPECT_TRUE(window().context().is_current());
+    EXPECT_FALSE(window().should_close());
+}
+
+TEST_F(WindowGlTest, request_close_is_seen) {
+    window().request_close();
+    EXPECT_TRUE(window().should_close());
+}
+
+TEST_F(WindowGlTest, resizing_is_told) {
+    glfwSetWindowSize(glfwGetCurrentContext(), 400, 300);
+    const auto resize = next<ResizeEvent>();
+    ASSERT_TRUE(resize);
+    EXPECT_EQ(resize->framebuffer, glm::ivec2(400, 300));
+    EXPECT_EQ(window().framebuffer_size(), glm::ivec2(400, 300));
+}
+
+TEST_F(WindowGlTest, moving_the_mouse_is_told_in_pixels) {
+    glfwSetCursorPos(glfwGetCurrentContext(), 37.0, 41.0);
+    const auto move = next<MouseMoveEvent>();
+    ASSERT_TRUE(move);
+    EXPECT_EQ(move->position, glm::dvec2(37.0, 41.0));
+}
+
+TEST_F(WindowGlTest, poll_does_not_wait_and_wait_keeps_its_time) {
+    static_cast<void>(window().poll_events());
+    const auto start = steady_clock::now();
+    static_cast<void>(window().poll_events());
+    EXPECT_LT(steady_clock::now() - start, milliseconds(500));
+    static_cast<void>(window().wait_events(milliseconds(20)));
+    EXPECT_LT(steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST_F(WindowGlTest, a_framebuffer_blitted_to_it_keeps_its_bytes) {
+    window().set_vsync(false);
+    window().set_title("blit");
+    window().capture_mouse(true);
+    window().capture_mouse(false);
+    const auto framebuffer = gl::Framebuffer::create({.size = {320, 200}});
+    ASSERT_TRUE(framebuffer) << framebuffer.error().message;
+    framebuffer->clear_color(glm::vec4(0.5F, 0.0F, 1.0F, 1.0F));
+    framebuffer->blit_to_window(window().framebuffer_size());
+    gl::bind_window_framebuffer(window().framebuffer_size());
+    std::array<unsigned char, 4> pixel{};
+    glReadPixels(100, 100, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+    EXPECT_NEAR(pixel[0], 188, 1);
+    EXPECT_EQ(pixel[1], 0);
+    EXPECT_EQ(pixel[2], 255);
+    window().swap_buffers();
+}
+
+} // namespace
+} // namespace reljef::platform

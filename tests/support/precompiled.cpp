@@ -1,0 +1,1 @@
+// The tests reuse the precompiled header that CMake makes for this file.

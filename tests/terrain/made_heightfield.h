@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include <glm/vec2.hpp>
+
+#include "engine/terrain/heightfield.h"
+
+namespace reljef::test {
+
+/// Heights by formula: `height(col, row)`, metres.
+template <class Height> Grid<float> made_heights(int cols, int rows, const Height& height) {
+    Grid<float> heights(cols, rows);
+    for (int row = 0; row < rows; ++row) {
+        for (int col = 0; col < cols; ++col) {
+            heights(col, row) = static_cast<float>(height(col, row));
+        }
+    }
+    return heights;
+}
+
+/// Each sample by chance, evenly in [low, high).
+inline Grid<float> random_heights(int cols, int rows, float low, float high, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> height(low, high);
+    return made_heights(cols, rows, [&](int, int) { return height(random); });
+}
+
+/// Without a place on the Earth.
+inline terrain::Heightfield plane_heightfield(Grid<float> heights,
+                                              glm::dvec2 spacing = {1.0, 1.0}) {
+    terrain::Heightfield heightfield;
+    heightfield.range = terrain::height_range(heights, {});
+    heightfield.heights = std::move(heights);
+    heightfield.spacing = spacing;
+    return heightfield;
+}
+
+/// A geographic raster: (0,0) at a latitude and longitude, `step` degrees from sample to sample.
+inline terrain::Heightfield geographic_heightfield(Grid<float> heights, double latitude,
+                                                   double longitude, double step) {
+    constexpr int controls = 9;
+    const glm::dvec2 control_step{std::max(heights.cols() - 1, 1) / (controls - 1.0),
+                                  std::max(heights.rows() - 1, 1) / (controls - 1.0)};
+    Grid<glm::dvec2> control(controls, controls);
+    for (int j = 0; j < controls; ++j) {
+        for (int i = 0; i < controls; ++i) {
+            control(i, j) = {latitude - j * control_step.y * step,
+                             longitude + i * control_step.x * step};
+        }
+    }
+    const double middle = latitude - 0.5 * (heights.rows() - 1) * step;
+    terrain::Heightfield heightfield =
+        plane_heightfield(std::move(heights), geo::metres_per_degree(middle) * step);
+    heightfield.georeference.emplace();
+    heightfield.georeference->geodetic = geo::GeodeticMap(control, glm::dvec2(0.0), control_step);
+    return heightfield;
+}
+
+} // namespace reljef::test
