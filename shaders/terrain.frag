@@ -30,7 +30,7 @@ void main() {
     vec3 lit = texel.rgb;
 #ifdef LIT
     vec2 gradient = texture(gradient_map, place * gradient_from_sample.xy + gradient_from_sample.zw).xy;
-    vec3 normal = world_from_terrain * normalize(vec3(-gradient, 1.0));
+    vec3 normal = normalize(world_from_terrain * vec3(-gradient, 1.0));
     lit = lit_color(texel.rgb, normal, texel.a);
 #endif
     color = vec4(seen_through_air(lit), 1.0);

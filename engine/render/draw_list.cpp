@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "engine/render/grid_mesh.h"
 
 namespace reljef::render {
 namespace {
@@ -15,8 +18,11 @@ int count_nodes(const scene::Node& node) {
     return count;
 }
 
-std::size_t cell_triangles(const terrain::Tile& tile) {
-    return 2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
+// As it would be drawn.
+std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Tile& tile, bool flat) {
+    const int quads = flat_quads(terrain.surface->placement().kind());
+    return 2U * static_cast<std::size_t>(flat ? quads : tile.cols) *
+           static_cast<std::size_t>(flat ? quads : tile.rows);
 }
 
 double distance_to(glm::dvec3 point, const Box& box) {
@@ -44,26 +50,27 @@ public:
         if (const auto* light = node.get<scene::Light>(); light != nullptr && !list_.sun) {
             list_.sun = *light;
         } else if (const auto* mesh = node.get<scene::MeshNode>()) {
-            if (sees(node, world_from_local)) {
-                list_.meshes.push_back({mesh, world_from_local});
-            }
+            add_mesh(*mesh, world_from_local, node.local_bounds());
         } else if (const auto* terrain = node.get<scene::TerrainNode>()) {
-            if (sees(node, world_from_local)) {
-                add_tiles(*terrain, world_from_local);
-            }
+            add_tiles(*terrain, world_from_local);
         }
     }
 
 private:
-    bool sees(const scene::Node& node, const glm::dmat4& world_from_local) {
-        const bool seen = frustum_.may_see(transformed(world_from_local, node.local_bounds()));
-        list_.stats.skipped.nodes_outside_frustum += seen ? 0 : 1;
-        return seen;
+    void add_mesh(const scene::MeshNode& mesh, const glm::dmat4& world_from_local,
+                  const Box& local_bounds) {
+        if (frustum_.may_see(transformed(world_from_local, local_bounds))) {
+            list_.meshes.push_back({&mesh, world_from_local});
+        } else {
+            ++list_.stats.skipped.nodes_outside_frustum;
+            list_.stats.skipped.triangles_outside_frustum += mesh.mesh->indices.size() / 3;
+        }
     }
 
     void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         const bool flat = terrain.material.technique.id == scene::TechniqueId::texture;
         const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
+        const std::size_t before = list_.tiles.size();
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Box bounds = transformed(world_from_local, tiles[i].bounds);
             if (frustum_.may_see(bounds)) {
@@ -71,9 +78,11 @@ private:
                                        distance_to(list_.camera.eye, bounds)});
             } else {
                 ++list_.stats.skipped.tiles_outside_frustum;
-                list_.stats.skipped.triangles_outside_frustum += flat ? 2 : cell_triangles(tiles[i]);
+                list_.stats.skipped.triangles_outside_frustum +=
+                    triangle_count(terrain, tiles[i], flat);
             }
         }
+        list_.stats.skipped.nodes_outside_frustum += list_.tiles.size() == before ? 1 : 0;
     }
 
     DrawList& list_;

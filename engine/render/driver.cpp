@@ -32,6 +32,10 @@ glm::mat4 relative_from(const scene::Camera& camera, const glm::dmat4& world_fro
     return glm::mat4(relative);
 }
 
+glm::mat3 world_from_normal(const glm::dmat4& world_from_local) {
+    return glm::mat3(glm::inverseTranspose(glm::dmat3(world_from_local)));
+}
+
 double extinction(const scene::Sky& sky) {
     constexpr double contrast_left = 0.02;
     return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
@@ -154,10 +158,10 @@ private:
     }
 
     void bind_maps(const TileDraw& draw) {
-        if (hits_ || maps_of_ == draw.terrain->surface.get()) {
+        if (hits_ || maps_of_ == draw.terrain) {
             return;
         }
-        maps_of_ = draw.terrain->surface.get();
+        maps_of_ = draw.terrain;
         const ResidentMaps& maps = residency_.maps(draw);
         maps.color.bind(0);
         program_->set_uniform("color_from_sample", maps.color_from_sample);
@@ -167,7 +171,7 @@ private:
             program_->set_uniform("gradient_from_sample", maps.gradient_from_sample);
             ++stats_.state_changes;
         }
-        program_->set_uniform("world_from_terrain", glm::mat3(glm::dmat3(draw.world_from_local)));
+        program_->set_uniform("world_from_terrain", world_from_normal(draw.world_from_local));
     }
 
     void draw_tile(const TileDraw& draw) {
@@ -188,10 +192,9 @@ private:
 
     void draw_mesh(const MeshDraw& draw) {
         set_wireframe(draw.mesh->material.wireframe);
-        const glm::dmat3 turn(draw.world_from_local);
         program_->set_uniform("relative_from_local",
                               relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
-        program_->set_uniform("world_from_normal", glm::mat3(glm::inverseTranspose(turn)));
+        program_->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
         program_->set_uniform("albedo", draw.mesh->material.color);
         draw_resident(residency_.mesh(draw), gl::IndexType::uint32);
     }
@@ -211,14 +214,11 @@ private:
     const Residency& residency_;
     FrameStats& stats_;
     gl::Program* program_ = nullptr;
-    const scene::TerrainSurface* maps_of_ = nullptr;
+    const scene::TerrainNode* maps_of_ = nullptr;
     bool wireframe_ = false;
 };
 
-Hit hit_from(glm::vec4 channels) {
-    return channels.w > 0.0F || channels.x >= 0.0F ? Hit{channels.x, channels.y, channels.z, channels.w}
-                                                   : Hit{};
-}
+glm::vec4 channels_of(const Hit& hit) { return {hit.col, hit.row, hit.height, hit.depth}; }
 
 } // namespace
 
@@ -294,7 +294,7 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         return done.error();
     }
     hit_target_.bind();
-    hit_target_.clear_color(glm::vec4(-1.0F));
+    hit_target_.clear_color(channels_of(Hit{}));
     if (auto done = draw_content(list, true, stats); !done) {
         return done.error();
     }
@@ -302,7 +302,8 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
     HitBuffer hits(channels.cols(), channels.rows());
     for (int row = 0; row < hits.rows(); ++row) {
         for (int col = 0; col < hits.cols(); ++col) {
-            hits(col, row) = hit_from(channels(col, row));
+            const glm::vec4& hit = channels(col, row);
+            hits(col, row) = {hit.x, hit.y, hit.z, hit.w};
         }
     }
     return hits;

@@ -35,9 +35,12 @@ GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Place
     });
 }
 
+int flat_quads(terrain::PlacementKind kind) {
+    return kind == terrain::PlacementKind::plane ? 1 : flat_ellipsoid_quads;
+}
+
 GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height) {
-    const int quads =
-        placement.kind() == terrain::PlacementKind::plane ? 1 : flat_ellipsoid_quads;
+    const int quads = flat_quads(placement.kind());
     return grid_mesh(placement, tile, {quads, quads}, [&](glm::dvec2) { return height; });
 }
 

@@ -30,8 +30,10 @@ struct GridMesh {
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile);
 
-/// The tile's part of the flat reference surface at `height` metres; one quad on a plane, a few on an
-/// ellipsoid.
+/// Quads along a side of a tile of the flat reference surface: one on a plane, a few on an ellipsoid.
+int flat_quads(terrain::PlacementKind kind);
+
+/// The tile's part of the flat reference surface at `height` metres, of flat_quads() quads a side.
 GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height);
 
 /// Two triangles a quad, counter-clockwise from above, split from the north-west to the south-east

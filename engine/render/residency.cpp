@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
@@ -183,28 +182,47 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
 
 Result<void> Residency::prepare_maps(const DrawList& list, FrameStats& stats) {
     const auto to_sun = list.sun ? std::optional(scene::to_light(*list.sun)) : std::nullopt;
-    std::set<const scene::TerrainSurface*> seen;
+    maps_.clear();
+    std::map<const scene::TerrainSurface*, std::vector<SunMaps>> kept;
     for (const TileDraw& draw : list.tiles) {
-        if (!seen.insert(draw.terrain->surface.get()).second) {
+        if (maps_.contains(draw.terrain)) {
             continue;
         }
-        // The sun in the terrain's own frame, were the node turned.
+        // In the terrain's own frame: its node may be turned or scaled.
         const auto to_sun_local =
-            to_sun ? std::optional(glm::transpose(glm::dmat3(draw.world_from_local)) * *to_sun)
+            to_sun ? std::optional(glm::inverse(glm::dmat3(draw.world_from_local)) * *to_sun)
                    : std::nullopt;
-        Surface& surface = surface_of(draw);
-        if (surface.maps && surface.to_sun == to_sun_local) {
-            ++stats.skipped.uploads_unchanged;
-            continue;
-        }
-        auto maps = make_maps(*draw.terrain->surface, to_sun_local, stats);
+        auto maps = maps_for(draw, to_sun_local, stats);
         if (!maps) {
             return maps.error();
         }
-        surface.maps = std::move(*maps);
-        surface.to_sun = to_sun_local;
+        maps_.emplace(draw.terrain, *maps);
+        kept[draw.terrain->surface.get()].push_back({to_sun_local, *maps});
+        surface_of(draw).maps.push_back({to_sun_local, *maps});
+    }
+    for (auto& [surface, maps] : kept) {
+        surfaces_.at(surface).maps = std::move(maps);
     }
     return {};
+}
+
+Result<std::shared_ptr<const ResidentMaps>>
+Residency::maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun_local,
+                    FrameStats& stats) {
+    const std::vector<SunMaps>& there = surface_of(draw).maps;
+    const auto found = std::find_if(there.begin(), there.end(), [&](const SunMaps& entry) {
+        return entry.to_sun == to_sun_local;
+    });
+    if (found != there.end()) {
+        ++stats.skipped.uploads_unchanged;
+        return found->maps;
+    }
+    auto maps = make_maps(*draw.terrain->surface, to_sun_local, stats);
+    if (!maps) {
+        return maps.error();
+    }
+    return std::shared_ptr<const ResidentMaps>(
+        std::make_shared<const ResidentMaps>(std::move(*maps)));
 }
 
 Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
@@ -261,11 +279,7 @@ const ResidentMesh& Residency::tile(const TileDraw& draw) const {
     return *slot;
 }
 
-const ResidentMaps& Residency::maps(const TileDraw& draw) const {
-    const Surface& surface = surfaces_.at(draw.terrain->surface.get());
-    check(surface.maps.has_value(), "maps that were not prepared");
-    return *surface.maps;
-}
+const ResidentMaps& Residency::maps(const TileDraw& draw) const { return *maps_.at(draw.terrain); }
 
 const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {
     return meshes_.at(draw.mesh->mesh.get()).resident;

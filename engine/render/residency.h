@@ -47,12 +47,15 @@ public:
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
 
 private:
+    struct SunMaps {
+        std::optional<glm::dvec3> to_sun; // in the surface's own frame
+        std::shared_ptr<const ResidentMaps> maps;
+    };
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
         std::vector<std::optional<ResidentMesh>> tiles;
         std::vector<std::optional<ResidentMesh>> flat_tiles;
-        std::optional<ResidentMaps> maps;
-        std::optional<glm::dvec3> to_sun; // the sun that the maps are made for
+        std::vector<SunMaps> maps; // one for each way that the last frame's sun shone on it
     };
     struct Mesh {
         std::weak_ptr<const scene::Mesh> owner;
@@ -65,10 +68,13 @@ private:
     Result<void> prepare_tiles(const DrawList& list, FrameStats& stats);
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
     Result<void> prepare_maps(const DrawList& list, FrameStats& stats);
+    Result<std::shared_ptr<const ResidentMaps>>
+    maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun_local, FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
+    std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
     std::map<const scene::Mesh*, Mesh> meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };

@@ -55,7 +55,8 @@ TEST(Georeference, DistanceDoesNotLookAtHeights) {
 
 TEST(Georeference, MetresPerDegreeAreTheGeodesicOnesOfAShortStep) {
     constexpr double step = 1e-3;
-    for (double latitude = -89.0; latitude <= 89.0; latitude += 0.5) {
+    for (int half_degrees = -178; half_degrees <= 178; ++half_degrees) {
+        const double latitude = 0.5 * half_degrees;
         const glm::dvec2 metres = metres_per_degree(latitude);
         const double north =
             geodesic_distance({latitude - step / 2, 20.0, 0.0}, {latitude + step / 2, 20.0, 0.0});

@@ -44,9 +44,9 @@ protected:
         EXPECT_TRUE(terrain) << (terrain ? "" : terrain.error().message);
         return terrain ? std::move(*terrain) : terrain::Terrain{};
     }
-    [[nodiscard]] std::filesystem::path path() const { return folder.path() / "made.tif"; }
+    [[nodiscard]] std::filesystem::path path() const { return folder_.path() / "made.tif"; }
 
-    test::TemporaryFolder folder;
+    test::TemporaryFolder folder_;
 };
 
 MadeRaster ramp(int cols = 60, int rows = 40) {

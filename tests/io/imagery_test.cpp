@@ -59,13 +59,13 @@ class Imagery : public ::testing::Test {
 protected:
     [[nodiscard]] Result<terrain::Terrain> drape(const MadeRaster& heights, const MadeRaster& image,
                                                  RasterOptions options = {}) const {
-        EXPECT_TRUE(test::write(heights, folder.path() / "heights.tif"));
-        EXPECT_TRUE(test::write(image, folder.path() / "image.tif"));
-        options.imagery = folder.path() / "image.tif";
-        return read_terrain(folder.path() / "heights.tif", options);
+        EXPECT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
+        EXPECT_TRUE(test::write(image, folder_.path() / "image.tif"));
+        options.imagery = folder_.path() / "image.tif";
+        return read_terrain(folder_.path() / "heights.tif", options);
     }
 
-    test::TemporaryFolder folder;
+    test::TemporaryFolder folder_;
 };
 
 void expect_same(const Image& color, const MadeRaster& image) {
@@ -82,8 +82,8 @@ void expect_same(const Image& color, const MadeRaster& image) {
 }
 
 TEST_F(Imagery, WithoutItThereIsNoColour) {
-    ASSERT_TRUE(test::write(flat(9, 9), folder.path() / "heights.tif"));
-    const auto terrain = read_terrain(folder.path() / "heights.tif");
+    ASSERT_TRUE(test::write(flat(9, 9), folder_.path() / "heights.tif"));
+    const auto terrain = read_terrain(folder_.path() / "heights.tif");
     ASSERT_TRUE(terrain);
     EXPECT_TRUE(terrain->color.empty());
 }
@@ -258,26 +258,26 @@ TEST_F(Imagery, AlphaAndPalettesAndDeepGreyAreUnderstood) {
 }
 
 TEST_F(Imagery, BadFilesAreNamed) {
-    ASSERT_TRUE(test::write(flat(9, 9), folder.path() / "heights.tif"));
+    ASSERT_TRUE(test::write(flat(9, 9), folder_.path() / "heights.tif"));
     RasterOptions options;
-    options.imagery = folder.path() / "none.png";
-    const auto missing = read_terrain(folder.path() / "heights.tif", options);
+    options.imagery = folder_.path() / "none.png";
+    const auto missing = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("none.png: does not exist"));
-    options.imagery = folder.write("text.png", "not a picture");
-    const auto text = read_terrain(folder.path() / "heights.tif", options);
+    options.imagery = folder_.write("text.png", "not a picture");
+    const auto text = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(text);
     EXPECT_THAT(text.error().message, HasSubstr("text.png"));
 }
 
 TEST_F(Imagery, ACutFileIsAnErrorNotHalfAPicture) {
     MadeRaster image = picture(300, 300);
-    ASSERT_TRUE(test::write(flat(300, 300), folder.path() / "heights.tif"));
-    ASSERT_TRUE(test::write(image, folder.path() / "image.tif"));
-    const std::string whole = test::read_bytes(folder.path() / "image.tif");
+    ASSERT_TRUE(test::write(flat(300, 300), folder_.path() / "heights.tif"));
+    ASSERT_TRUE(test::write(image, folder_.path() / "image.tif"));
+    const std::string whole = test::read_bytes(folder_.path() / "image.tif");
     RasterOptions options;
-    options.imagery = folder.write("cut.tif", whole.substr(0, whole.size() / 2));
-    const auto terrain = read_terrain(folder.path() / "heights.tif", options);
+    options.imagery = folder_.write("cut.tif", whole.substr(0, whole.size() / 2));
+    const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(terrain);
     EXPECT_THAT(terrain.error().message, HasSubstr("cut.tif"));
 }

@@ -36,8 +36,8 @@ class Raster : public ::testing::Test {
 protected:
     [[nodiscard]] std::filesystem::path made(const MadeRaster& raster,
                                              const std::string& name = "made.tif") const {
-        EXPECT_TRUE(test::write(raster, folder.path() / name));
-        return folder.path() / name;
+        EXPECT_TRUE(test::write(raster, folder_.path() / name));
+        return folder_.path() / name;
     }
     [[nodiscard]] terrain::Terrain read(const MadeRaster& raster,
                                         const RasterOptions& options = {}) const {
@@ -46,7 +46,7 @@ protected:
         return terrain ? std::move(*terrain) : terrain::Terrain{};
     }
 
-    TemporaryFolder folder;
+    TemporaryFolder folder_;
 };
 
 TEST_F(Raster, EveryTypeOfNumberIsReadExactly) {
@@ -373,19 +373,19 @@ TEST_F(Raster, NothingIsWrittenBesideTheFile) {
     raster.type = GDT_UInt16;
     const auto path = made(raster, "made.png");
     std::filesystem::remove(path.string() + ".aux.xml");
-    ASSERT_EQ(folder.names(), std::vector<std::string>{"made.png"});
+    ASSERT_EQ(folder_.names(), std::vector<std::string>{"made.png"});
     RasterOptions options;
     options.imagery = path;
     options.memory_budget = 1 << 20;
     ASSERT_TRUE(read_terrain(path, options));
     ASSERT_TRUE(read_raster_info(path));
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"made.png"});
+    EXPECT_EQ(folder_.names(), std::vector<std::string>{"made.png"});
 }
 
 TEST_F(Raster, NothingIsPrinted) {
-    folder.write("cut.tif", std::string("II*\0\x08\0\0\0\x01", 9));
+    folder_.write("cut.tif", std::string("II*\0\x08\0\0\0\x01", 9));
     ::testing::internal::CaptureStderr();
-    EXPECT_FALSE(read_terrain(folder.path() / "cut.tif"));
+    EXPECT_FALSE(read_terrain(folder_.path() / "cut.tif"));
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
@@ -393,6 +393,7 @@ TEST_F(Raster, ManyThreadsReadAtOnce) {
     const auto path = made(made_raster(200, 100, wave));
     std::vector<std::jthread> threads;
     std::array<bool, 8> good{};
+    threads.reserve(good.size());
     for (bool& result : good) {
         threads.emplace_back([&path, &result] {
             const auto terrain = read_terrain(path);

@@ -34,8 +34,8 @@ struct Known {
     std::string inner;       ///< name within a .zip
 };
 
-void PrintTo(const Known& known, std::ostream* stream) {
-    *stream << known.file;
+std::ostream& operator<<(std::ostream& stream, const Known& known) {
+    return stream << known.file;
 }
 
 const std::vector<Known> known_files{
@@ -97,7 +97,7 @@ Dataset open(const Known& known) {
 
 class RealRaster : public ::testing::TestWithParam<Known> {
 protected:
-    const test::QuietGdal quiet;
+    const test::QuietGdal quiet_;
 };
 
 TEST_P(RealRaster, HasItsKnownSizeRangeVoidsAndSpacing) {

@@ -1,0 +1,108 @@
+#include "engine/render/grid_mesh.h"
+
+#include <array>
+#include <set>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::render {
+namespace {
+
+terrain::Placement placed(const terrain::Heightfield& heightfield) {
+    const auto kind = heightfield.georeference ? terrain::PlacementKind::ellipsoid
+                                               : terrain::PlacementKind::plane;
+    return terrain::Placement::create(heightfield, kind, 2.0).value();
+}
+
+// Twice the area of a triangle of the grid as seen from above, rows growing south.
+int area_from_above(const std::array<int, 3>& triangle, int cols) {
+    const auto x = [&](int vertex) { return vertex % (cols + 1); };
+    const auto y = [&](int vertex) { return -(vertex / (cols + 1)); };
+    const auto [a, b, c] = triangle;
+    return (x(b) - x(a)) * (y(c) - y(a)) - (x(c) - x(a)) * (y(b) - y(a));
+}
+
+TEST(GridIndices, CoverEveryQuadByTwoTrianglesCounterClockwiseFromAbove) {
+    for (const auto& [cols, rows] :
+         {std::pair{1, 1}, {2, 5}, {5, 2}, {128, 128}, {255, 255}, {1, 300}}) {
+        const auto indices = grid_indices(cols, rows);
+        ASSERT_EQ(indices.size(), static_cast<std::size_t>(6 * cols * rows));
+        std::set<std::array<int, 3>> seen;
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const std::array<int, 3> triangle{indices[i], indices[i + 1], indices[i + 2]};
+            ASSERT_EQ(area_from_above(triangle, cols), 1);
+            ASSERT_LT(*std::max_element(triangle.begin(), triangle.end()), (cols + 1) * (rows + 1));
+            std::array<int, 3> key = triangle;
+            std::sort(key.begin(), key.end());
+            ASSERT_TRUE(seen.insert(key).second) << "twice";
+            // Both triangles of a quad hold its north-west and its south-east corner.
+            const int north_west = key[0];
+            ASSERT_EQ(key[2], north_west + cols + 2);
+            ASSERT_LT(north_west % (cols + 1), cols) << "around the border";
+        }
+    }
+}
+
+TEST(GridIndicesDeathTest, DoNotReachMoreThanSixteenBits) {
+    EXPECT_DEATH(grid_indices(256, 256), "16-bit");
+}
+
+TEST(GridMesh, EverySampleIsAVertexInItsPlace) {
+    for (const terrain::Heightfield& heightfield :
+         {test::plane_heightfield(test::random_heights(150, 140, -50.0F, 900.0F, 1), {30.0, 31.0}),
+          test::geographic_heightfield(test::random_heights(150, 140, -50.0F, 900.0F, 2), 46.0, 7.0,
+                                       1.0 / 1200.0)}) {
+        const terrain::Placement placement = placed(heightfield);
+        for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement)) {
+            const GridMesh mesh = full_mesh(heightfield, placement, tile);
+            ASSERT_EQ(mesh.cols, tile.cols);
+            ASSERT_EQ(mesh.rows, tile.rows);
+            for (int row = 0; row <= tile.rows; ++row) {
+                for (int col = 0; col <= tile.cols; ++col) {
+                    const GridVertex& vertex =
+                        mesh.vertices[static_cast<std::size_t>(row * (tile.cols + 1) + col)];
+                    const float height = heightfield.heights(tile.col + col, tile.row + row);
+                    ASSERT_EQ(vertex.height, height);
+                    const glm::dvec3 world =
+                        placement.world_from_sample({tile.col + col, tile.row + row, height});
+                    ASSERT_LE(glm::distance(mesh.origin + glm::dvec3(vertex.position), world),
+                              5e-4);
+                }
+            }
+        }
+    }
+}
+
+TEST(GridMesh, AFlatTileOnAPlaneIsOneQuadAtItsHeight) {
+    const auto heightfield = test::plane_heightfield(Grid<float>(150, 140, 0.0F), {2.0, 3.0});
+    const terrain::Placement placement = placed(heightfield);
+    for (const terrain::Tile& tile : terrain::flat_tile_layout(heightfield, placement, 10.0)) {
+        const GridMesh mesh = flat_mesh(placement, tile, 10.0);
+        ASSERT_EQ(mesh.vertices.size(), 4U);
+        EXPECT_EQ(mesh.origin + glm::dvec3(mesh.vertices[0].position),
+                  placement.world_from_sample({tile.col, tile.row, 10.0}));
+        EXPECT_EQ(mesh.origin + glm::dvec3(mesh.vertices[3].position),
+                  placement.world_from_sample({tile.col + tile.cols, tile.row + tile.rows, 10.0}));
+    }
+}
+
+TEST(GridMesh, AFlatTileOnAnEllipsoidFollowsTheEarth) {
+    const auto heightfield =
+        test::geographic_heightfield(Grid<float>(129, 129, 0.0F), 46.0, 7.0, 1.0 / 1200.0);
+    const terrain::Placement placement = placed(heightfield);
+    const auto tiles = terrain::flat_tile_layout(heightfield, placement, 100.0);
+    const GridMesh mesh = flat_mesh(placement, tiles.front(), 100.0);
+    EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>((mesh.cols + 1) * (mesh.rows + 1)));
+    for (const GridVertex& vertex : mesh.vertices) {
+        const auto sample = placement.sample_from_world(mesh.origin + glm::dvec3(vertex.position));
+        ASSERT_TRUE(sample);
+        EXPECT_NEAR(sample->z, 100.0, 1e-3);
+        EXPECT_EQ(vertex.height, 100.0F);
+    }
+}
+
+} // namespace
+} // namespace reljef::render

@@ -1,0 +1,126 @@
+#include "engine/render/shader_library.h"
+
+#include <array>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glad/gl.h>
+
+#include "engine/render/frame_block.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::render {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ShaderLibraryGlTest : public test::GlTest {};
+
+TEST_F(ShaderLibraryGlTest, EveryVariantCompilesAndLinks) {
+    ShaderLibrary shaders;
+    for (const ShaderVariant& variant : all_variants()) {
+        const auto program = shaders.program(variant);
+        ASSERT_TRUE(program) << program.error().message;
+        EXPECT_NE((*program)->id(), 0U);
+    }
+}
+
+TEST_F(ShaderLibraryGlTest, CompilesAVariantOnce) {
+    ShaderLibrary shaders;
+    gl::Program* const first = test::must(shaders.program({ShaderKind::sky, feature_lit}));
+    EXPECT_EQ(test::must(shaders.program({ShaderKind::sky, feature_lit | feature_fog})), first)
+        << "fog means nothing to the sky";
+    EXPECT_NE(test::must(shaders.program({ShaderKind::sky, 0})), first);
+}
+
+struct Member {
+    const char* name;
+    std::size_t offset;
+};
+
+TEST_F(ShaderLibraryGlTest, TheFrameBlockLiesAsTheDriverSays) {
+    ShaderLibrary shaders;
+    const std::array members{Member{"clip_from_relative", offsetof(FrameBlock, clip_from_relative)},
+                             Member{"view_forward", offsetof(FrameBlock, view_forward)},
+                             Member{"to_sun", offsetof(FrameBlock, to_sun)},
+                             Member{"sun_color", offsetof(FrameBlock, sun_color)},
+                             Member{"ambient_color", offsetof(FrameBlock, ambient_color)},
+                             Member{"sky_zenith", offsetof(FrameBlock, sky_zenith)},
+                             Member{"sky_horizon", offsetof(FrameBlock, sky_horizon)},
+                             Member{"ray_from_pixel", offsetof(FrameBlock, ray_from_pixel)}};
+    for (const ShaderVariant& variant : all_variants()) {
+        const gl::Program& program = *test::must(shaders.program(variant));
+        EXPECT_EQ(program.block_size("FrameBlock"), static_cast<int>(sizeof(FrameBlock)));
+        for (const Member& member : members) {
+            GLuint index = GL_INVALID_INDEX;
+            glGetUniformIndices(program.id(), 1, &member.name, &index);
+            ASSERT_NE(index, GL_INVALID_INDEX) << member.name;
+            GLint offset = -1;
+            glGetActiveUniformsiv(program.id(), 1, &index, GL_UNIFORM_OFFSET, &offset);
+            EXPECT_EQ(offset, static_cast<GLint>(member.offset)) << member.name;
+        }
+    }
+}
+
+TEST_F(ShaderLibraryGlTest, AFileInTheFolderComesBeforeTheEmbeddedOne) {
+    const test::TemporaryFolder folder;
+    folder.write("sky.frag", "layout(location = 0) out vec4 color;\n"
+                             "uniform float only_here;\n"
+                             "void main() { color = vec4(only_here); }\n");
+    ShaderLibrary shaders(folder.path());
+    EXPECT_TRUE(test::must(shaders.program({ShaderKind::sky, 0}))->has_uniform("only_here"));
+    EXPECT_FALSE(test::must(shaders.program({ShaderKind::mesh, 0}))->has_uniform("only_here"));
+}
+
+TEST_F(ShaderLibraryGlTest, AnErrorNamesTheFileAndTheLine) {
+    const test::TemporaryFolder folder;
+    folder.write("sky.frag", "layout(location = 0) out vec4 color;\n"
+                             "void main() {\n"
+                             "    color = nonsense;\n"
+                             "}\n");
+    ShaderLibrary shaders(folder.path());
+    const auto failed = shaders.program({ShaderKind::sky, 0});
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message, AllOf(HasSubstr("sky.frag:3"), HasSubstr("nonsense")));
+}
+
+TEST_F(ShaderLibraryGlTest, AnErrorInAnIncludedFileNamesThatOne) {
+    const test::TemporaryFolder folder;
+    folder.write("air.glsl",
+                 "// one\n// two\nvec3 seen_through_air(vec3 color) { return wrong; }\n");
+    ShaderLibrary shaders(folder.path());
+    const auto failed = shaders.program({ShaderKind::mesh, 0});
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message, HasSubstr("air.glsl:3"));
+}
+
+TEST_F(ShaderLibraryGlTest, AnErrorAfterAnIncludeStillCountsTheLinesOfItsOwnFile) {
+    const test::TemporaryFolder folder;
+    folder.write("sky.frag", "#include \"frame_block.glsl\"\n"
+                             "#include \"air.glsl\"\n"
+                             "layout(location = 0) out vec4 color;\n"
+                             "void main() { color = nonsense; }\n");
+    ShaderLibrary shaders(folder.path());
+    const auto failed = shaders.program({ShaderKind::sky, 0});
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message, HasSubstr("sky.frag:4"));
+}
+
+TEST_F(ShaderLibraryGlTest, AMissingIncludeAndACircleAreErrors) {
+    const test::TemporaryFolder folder;
+    folder.write("sky.frag", "#include \"nowhere.glsl\"\n");
+    folder.write("mesh.frag", "#include \"mesh.frag\"\n");
+    ShaderLibrary shaders(folder.path());
+    const auto missing = shaders.program({ShaderKind::sky, 0});
+    ASSERT_FALSE(missing);
+    EXPECT_THAT(missing.error().message, HasSubstr("nowhere.glsl"));
+    const auto circle = shaders.program({ShaderKind::mesh, 0});
+    ASSERT_FALSE(circle);
+    EXPECT_THAT(circle.error().message, AllOf(HasSubstr("mesh.frag"), HasSubstr("deep")));
+}
+
+} // namespace
+} // namespace reljef::render
