@@ -90,7 +90,7 @@ Result<fs::path> numbered(const fs::path& pattern, int index) {
     int width = 0;
     if (end > begin + 1) {
         const auto [last, code] = std::from_chars(text.data() + begin + 1, text.data() + end, width);
-        if (code != std::errc{} || last != text.data() + end || width > 12) {
+        if (code != std::errc{} || last != text.data() + end || width < 0 || width > 12) {
             return wrong;
         }
     }

@@ -1,5 +1,6 @@
 #include "app/interrupt.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
@@ -15,16 +16,24 @@ sigset_t stop_signals() {
     return signals;
 }
 
+// Signals closer together than this are one: `timeout` and some shells deliver the same one twice.
+constexpr std::chrono::milliseconds one_signal{500};
+
 void watch(const std::stop_token& end, std::stop_source source) {
     const sigset_t signals = stop_signals();
     const timespec pause{0, 50'000'000}; // how late the watcher notices the program's end
+    std::chrono::steady_clock::time_point first;
     while (!end.stop_requested()) {
         const int signal = sigtimedwait(&signals, nullptr, &pause);
-        if (signal > 0 && source.stop_requested()) {
-            std::_Exit(128 + signal);
+        if (signal <= 0) {
+            continue;
         }
-        if (signal > 0) {
+        const auto now = std::chrono::steady_clock::now();
+        if (!source.stop_requested()) {
+            first = now;
             source.request_stop();
+        } else if (now - first > one_signal) {
+            std::_Exit(128 + signal);
         }
     }
 }

@@ -10,7 +10,7 @@
 #include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "engine/io/image.h"
-#include "engine/render/device.h"
+#include "app/device.h"
 
 namespace reljef::app {
 namespace {
@@ -28,18 +28,18 @@ constexpr int sheet_columns = 4;
 constexpr int sheet_picture_width = 320;
 constexpr int most_sheet_pictures = 24;
 
-Result<render::Device> make_device(const RenderChoice& choice) {
+Result<Device> make_device(const RenderChoice& choice) {
     if (choice.terrain.threads > 0) {
         // llvmpipe reads it when the context is made.
         ::setenv("LP_NUM_THREADS", std::to_string(choice.terrain.threads).c_str(), 1);
     }
-    render::DeviceOptions options;
+    DeviceOptions options;
     options.context = choice.view.context;
     options.context_options.size = choice.view.size;
     options.context_options.visible = false;
     options.driver.size = choice.view.size;
     options.driver.shader_dir = choice.view.shader_dir;
-    return render::Device::create(options);
+    return Device::create(options);
 }
 
 void move_camera(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
@@ -65,7 +65,7 @@ void print_stats(const render::FrameStats& stats, const platform::Context& conte
 }
 
 // Draws the frames one after the other and hands them on.
-Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, render::Device& device,
+Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device& device,
                          const std::optional<scene::FlyPath>& path, const Interrupt& interrupt) {
     const int frames = choice.view.frames;
     auto sink = make_frame_sink(choice.output, {.size = choice.view.size,

@@ -25,6 +25,8 @@ struct ViewerChoice {
 constexpr std::chrono::milliseconds between_titles{500};
 // How long a still window waits for an event before it looks whether it was asked to stop.
 constexpr std::chrono::milliseconds still{100};
+// The same where something moves and yet nothing new is seen.
+constexpr std::chrono::milliseconds stuck{10};
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -33,33 +35,42 @@ double seconds_since(Clock::time_point start) {
 // The loop between the window, what the viewer decides, and the driver.
 class WindowLoop {
 public:
-    WindowLoop(platform::Window& window, render::Driver& driver, TerrainScene& scene, Viewer& viewer)
-        : window_(window), driver_(driver), scene_(scene), viewer_(viewer) {}
+    /// `frames`: how many to draw, moving or not, before the window closes; 0: until the user ends
+    /// it.
+    WindowLoop(platform::Window& window, render::Driver& driver, TerrainScene& scene,
+               Viewer& viewer, int frames)
+        : window_(window), driver_(driver), scene_(scene), viewer_(viewer), frames_(frames) {}
 
-    /// Runs until the user ends it, or `frames` are drawn (0: no limit).
-    Result<void> run(int frames, const Interrupt& interrupt) {
+    Result<void> run(const Interrupt& interrupt) {
         auto before = Clock::now();
-        while (!viewer_.wants_to_close() && !window_.should_close() && !interrupt.requested()) {
-            receive(viewer_.is_moving() ? window_.poll_events() : window_.wait_events(still));
-            viewer_.advance(seconds_since(before));
-            before = Clock::now();
-            if (auto served = serve_requests(); !served) {
-                return served;
-            }
-            if (viewer_.take_redraw()) {
+        while (!is_over() && !interrupt.requested()) {
+            receive(window_.wait_events(pause()));
+            viewer_.advance(seconds_since(std::exchange(before, Clock::now())));
+            has_drawn_ = false;
+            if (viewer_.take_redraw() || frames_ > 0) {
                 if (auto drawn = draw(); !drawn) {
                     return drawn;
                 }
-                if (++drawn_ == frames) {
-                    break;
-                }
             }
+            serve_requests();
             show_title();
         }
         return {};
     }
 
 private:
+    [[nodiscard]] bool is_over() const {
+        return viewer_.wants_to_close() || window_.should_close() ||
+               (frames_ > 0 && drawn_ == frames_);
+    }
+
+    [[nodiscard]] std::chrono::milliseconds pause() const {
+        if (!viewer_.is_moving() && frames_ == 0) {
+            return drawn_ == 0 ? std::chrono::milliseconds(0) : still;
+        }
+        return has_drawn_ || drawn_ == 0 ? std::chrono::milliseconds(0) : stuck;
+    }
+
     void receive(const std::vector<Event>& events) {
         for (const Event& event : events) {
             if (!scene_.scene.dispatch(event)) {
@@ -72,19 +83,24 @@ private:
         }
     }
 
-    Result<void> serve_requests() {
+    void serve_requests() {
         if (viewer_.take_help_request()) {
-            fmt::print("{}", viewer_keys());
-            std::fflush(stdout);
+            fmt::print("{}", Viewer::keys());
         }
         if (viewer_.take_screenshot_request()) {
-            const auto file = next_screenshot(".");
-            const auto written = io::write_image(file, driver_.read_color());
-            // A folder that cannot be written is no reason to end the flight.
-            fmt::print("{}\n", written ? "saved " + file.filename().string() : written.error().message);
-            std::fflush(stdout);
+            save_picture();
         }
-        return {};
+        std::fflush(stdout);
+    }
+
+    // A folder that cannot be written is no reason to end the flight.
+    void save_picture() {
+        const auto file = next_screenshot(".");
+        if (const auto written = io::write_image(file, driver_.read_color()); !written) {
+            fmt::print(stderr, "reljef: {}\n", written.error().message);
+            return;
+        }
+        fmt::print("saved {}\n", file.filename().string());
     }
 
     Result<void> draw() {
@@ -103,16 +119,29 @@ private:
             return stats.error();
         }
         driver_.show_in_window(size);
+        timing_.last_ms = 1000.0 * seconds_since(start);
         window_.swap_buffers();
         stats_ = *stats;
-        frame_ms_ = 1000.0 * seconds_since(start);
+        has_drawn_ = true;
+        ++drawn_;
+        ++drawn_since_title_;
         return {};
     }
 
     void show_title() {
-        if (Clock::now() - titled_ >= between_titles) {
-            titled_ = Clock::now();
-            window_.set_title(viewer_.title(stats_, frame_ms_));
+        const bool is_first = title_.empty();
+        if (!is_first && Clock::now() - titled_ < between_titles) {
+            return;
+        }
+        const double seconds = seconds_since(std::exchange(titled_, Clock::now()));
+        timing_.frames_per_second.reset();
+        if (!is_first && viewer_.is_moving() && drawn_since_title_ > 0) {
+            timing_.frames_per_second = drawn_since_title_ / seconds;
+        }
+        drawn_since_title_ = 0;
+        const std::string title = viewer_.title(stats_, timing_);
+        if (title != std::exchange(title_, title)) {
+            window_.set_title(title);
         }
     }
 
@@ -120,11 +149,15 @@ private:
     render::Driver& driver_;
     TerrainScene& scene_;
     Viewer& viewer_;
+    int frames_;
     render::FrameStats stats_;
-    double frame_ms_ = 0.0;
-    int drawn_ = 0;
-    bool mouse_captured_ = false;
+    FrameTiming timing_;
+    std::string title_;
     Clock::time_point titled_;
+    int drawn_ = 0;
+    int drawn_since_title_ = 0;
+    bool has_drawn_ = false; // in this turn of the loop
+    bool mouse_captured_ = false;
 };
 
 // The path that was named, or the flight over the terrain.
@@ -139,20 +172,17 @@ Result<scene::FlyPath> path_or_flyover(const TerrainScene& scene, ViewChoice vie
     return std::move(**path);
 }
 
-Result<std::unique_ptr<platform::Window>> open_window(const ViewChoice& view) {
-    if (view.context && *view.context != platform::ContextKind::glfw) {
-        return Error{fmt::format("--context: {} found, view needs a window: auto or glfw was expected",
-                                 platform::to_string(*view.context))};
-    }
+Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice) {
     platform::ContextOptions options;
-    options.size = view.size;
+    options.size = choice.view.size;
+    options.title = "reljef - opening " + choice.terrain.terrain;
     return platform::make_window(options);
 }
 
 Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
-    auto window = open_window(choice.view);
+    auto window = open_window(choice);
     if (!window) {
-        return window.error();
+        return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
     auto source = open_terrain(choice.terrain, interrupt.token());
     if (!source) {
@@ -173,15 +203,23 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
         return driver.error();
     }
     if (!choice.terrain.quiet) {
-        fmt::print("{}", viewer_keys());
+        fmt::print("{}", Viewer::keys());
         std::fflush(stdout);
     }
-    Viewer viewer(*scene, std::move(*path));
+    Viewer viewer(*scene, std::move(*path), (*window)->framebuffer_size());
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }
-    return WindowLoop(**window, *driver, *scene, viewer)
-        .run(choice.frames_given ? choice.view.frames : 0, interrupt);
+    const int frames = choice.frames_given ? choice.view.frames : 0;
+    return WindowLoop(**window, *driver, *scene, viewer, frames).run(interrupt);
+}
+
+void expect_window(const ViewChoice& view) {
+    if (view.context && *view.context != platform::ContextKind::glfw) {
+        throw CLI::ValidationError(
+            fmt::format("--context: {} found, but view needs a window: auto or glfw was expected",
+                        platform::to_string(*view.context)));
+    }
 }
 
 } // namespace
@@ -191,14 +229,17 @@ Command add_view_command(CLI::App& program, Interrupt& interrupt) {
     auto choice = std::make_shared<ViewerChoice>();
     add_terrain_options(*arguments, choice->terrain);
     add_view_options(*arguments, choice->view);
-    arguments->footer("Keys:\n" + viewer_keys() +
-                      "With --path the flight begins at once. With --frames N the window closes after N "
-                      "drawn frames; a still picture is not drawn again.\n"
-                      "Examples:\n"
-                      "  reljef view natural\n"
-                      "  reljef view N45E006.hgt --camera 45.60,6.70,5200,20,-18\n"
-                      "  reljef view dem.tif --imagery photo.tif --path orbit\n"
-                      "  reljef view urban --technique texture --size 1600x900");
+    arguments->callback([choice] { expect_window(choice->view); });
+    arguments->footer(
+        "Keys:\n" + Viewer::keys() +
+        "The flight along --path begins at once; without it, P flies over the terrain. "
+        "Where\nnothing moves nothing is drawn, but with --frames N: then the window "
+        "closes after N frames.\n"
+        "Examples:\n"
+        "  reljef view natural\n"
+        "  reljef view N45E006.hgt --camera 45.60,6.70,5200,20,-18\n"
+        "  reljef view dem.tif --imagery photo.tif --path orbit\n"
+        "  reljef view urban --technique texture --size 1600x900");
     return {arguments, [arguments, choice, &interrupt] {
                 choice->frames_given = arguments->count("--frames") > 0;
                 return view(*choice, interrupt);

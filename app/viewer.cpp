@@ -8,164 +8,297 @@
 #include <fmt/format.h>
 
 #include "engine/scene/poses.h"
-#include "engine/scene/technique.h"
+#include "engine/terrain/heightfield.h"
 
 namespace reljef::app {
 namespace {
 
 // Flying once across the terrain takes this long.
 constexpr double seconds_across = 20.0;
-// How close the eye comes to the ground, of the terrain's width.
-constexpr double clearance_in_widths = 5e-4;
+// How far the eye stays above what is drawn: at most as high as a person's, metres.
+constexpr double clearance_in_widths = 1e-3;
+constexpr double highest_clearance = 2.0;
+// How long a first step lasts at most, seconds.
+constexpr double first_step = 1.0 / 60.0;
 
 double width_of(const TerrainScene& scene) {
     return std::max(scene.bounds.size().x, scene.bounds.size().y);
 }
 
-scene::FreeFlight make_flight(const TerrainScene& scene) {
-    return {*scene.camera->get<scene::Camera>(), width_of(scene) / seconds_across,
-            std::max(0.5, clearance_in_widths * width_of(scene)),
-            [&scene](double x, double y) { return scene.scene.height_at(x, y); }};
+// The highest that any triangulation of a cell and the bilinear surface have at a sample.
+double highest_at(GridView<const float> heights, glm::dvec2 sample) {
+    const int col = std::clamp(static_cast<int>(sample.x), 0, heights.cols() - 2);
+    const int row = std::clamp(static_cast<int>(sample.y), 0, heights.rows() - 2);
+    const double u = std::clamp(sample.x - col, 0.0, 1.0);
+    const double v = std::clamp(sample.y - row, 0.0, 1.0);
+    const double h00 = heights(col, row);
+    const double h10 = heights(col + 1, row);
+    const double h01 = heights(col, row + 1);
+    const double h11 = heights(col + 1, row + 1);
+    const double falling =
+        u > v ? h00 + u * (h10 - h00) + v * (h11 - h10) : h00 + v * (h01 - h00) + u * (h11 - h01);
+    const double rising = u + v < 1.0 ? h00 + u * (h10 - h00) + v * (h01 - h00)
+                                      : h11 + (1.0 - u) * (h01 - h11) + (1.0 - v) * (h10 - h11);
+    return std::max({falling, rising, terrain::bilinear_height(heights, sample)});
 }
 
-std::size_t index_of(scene::TechniqueId id) {
-    const auto catalogue = scene::technique_catalogue();
-    const auto found = std::find_if(catalogue.begin(), catalogue.end(),
-                                    [&](const auto& info) { return info.id == id; });
-    return static_cast<std::size_t>(found - catalogue.begin());
+std::optional<scene::GroundAt> ground_at(const scene::TerrainSurface& surface, double x, double y) {
+    const auto height = surface.height_at(x, y);
+    const auto sample =
+        height ? surface.placement().sample_from_world({x, y, *height}) : std::nullopt;
+    if (!sample) {
+        return std::nullopt;
+    }
+    const double highest = highest_at(surface.heightfield().heights.view(), glm::dvec2(*sample));
+    const double z = surface.placement().world_from_sample({sample->x, sample->y, highest}).z;
+    return scene::GroundAt{*height, std::max(*height, z)};
+}
+
+scene::FreeFlight make_flight(const TerrainScene& scene, const scene::Camera& start) {
+    const auto surface = scene.terrain->get<scene::TerrainNode>()->surface;
+    scene::FreeFlightOptions options;
+    options.speed = width_of(scene) / seconds_across;
+    options.clearance = std::min(highest_clearance, clearance_in_widths * width_of(scene));
+    options.ground = [surface](double x, double y) { return ground_at(*surface, x, y); };
+    options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
+    return {start, std::move(options)};
+}
+
+// Where to fly from when the scene begins as a map.
+scene::Camera perspective_start(const TerrainScene& scene) {
+    scene::Camera camera = *scene.camera->get<scene::Camera>();
+    if (camera.projection == scene::ProjectionKind::perspective) {
+        return camera;
+    }
+    const scene::Camera overview =
+        scene::pose_camera(scene::Pose::overview, scene.bounds,
+                           [&](double x, double y) { return scene.ground(x, y); });
+    camera.projection = scene::ProjectionKind::perspective;
+    camera.eye = overview.eye;
+    camera.look = overview.look;
+    camera.up = overview.up;
+    return camera;
+}
+
+// The catalogue's, with the parameters that were asked for.
+std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for) {
+    std::vector<scene::Technique> techniques;
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        techniques.push_back(info.id == asked_for.id ? asked_for : scene::make_technique(info.id));
+    }
+    return techniques;
+}
+
+std::string length_text(double metres) {
+    return metres < 10.0      ? fmt::format("{:.2f} m", metres)
+           : metres < 10000.0 ? fmt::format("{:.0f} m", metres)
+                              : fmt::format("{:.1f} km", metres / 1000.0);
 }
 
 } // namespace
 
 struct Viewer::Binding {
     Key key;
-    Action action;
+    Key other; // that does the same; unknown: none
+    void (Viewer::*action)();
+    const char* names;
+    const char* meaning;
 };
 
-Viewer::Viewer(TerrainScene& scene, scene::FlyPath path)
-    : scene_(scene), path_(std::move(path)), flight_(make_flight(scene)) {
-    if (camera().projection == scene::ProjectionKind::perspective) {
-        camera() = flight_.camera();
+std::span<const Viewer::Binding> Viewer::bindings() {
+    static constexpr std::array<Binding, 10> all{
+        {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
+         {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
+          "keep the height above the ground, or fly where you look"},
+         {Key::o, Key::unknown, &Viewer::toggle_map, "O", "map from straight above, and back"},
+         {Key::t, Key::unknown, &Viewer::next_technique, "T, 1 2 ...",
+          "next technique, or a certain one"},
+         {Key::f, Key::unknown, &Viewer::toggle_wireframe, "F",
+          "the triangles' edges only, or filled"},
+         {Key::m, Key::unknown, &Viewer::toggle_mouse_look, "M",
+          "turn with every move of the mouse, or only with its button held"},
+         {Key::r, Key::home, &Viewer::go_to_start, "R, Home", "back to the first view"},
+         {Key::c, Key::f12, &Viewer::ask_for_screenshot, "C, F12",
+          "save the picture here: reljef-0001.png and on"},
+         {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show these lines"},
+         {Key::escape, Key::unknown, &Viewer::leave, "Esc", "let go of the mouse, or end"}}};
+    return all;
+}
+
+std::string Viewer::keys() {
+    std::string text = "  W A S D, arrows  move (shift: faster; wheel: speed)\n"
+                       "  Q E              down, up; never under the ground\n"
+                       "  drag             turn; on the map: shift (wheel, Q E: closer, farther)\n";
+    for (const Binding& binding : bindings()) {
+        text += fmt::format("  {:<15}  {}\n", binding.names, binding.meaning);
     }
+    return text;
+}
+
+Viewer::Viewer(TerrainScene& scene, scene::FlyPath path, glm::ivec2 size)
+    : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
+      techniques_(techniques_with(material().technique)), flight_(make_flight(scene, start_)) {
+    if (camera().projection == scene::ProjectionKind::orthographic) {
+        map_.emplace(camera(), scene_.bounds, size_);
+    } else {
+        show_camera(flight_.camera());
+    }
+}
+
+scene::Material& Viewer::material() const {
+    return scene_.terrain->get<scene::TerrainNode>()->material;
 }
 
 void Viewer::receive(const Event& event) {
     if (std::holds_alternative<CloseEvent>(event)) {
         close_ = true;
-    } else if (std::holds_alternative<ResizeEvent>(event)) {
-        redraw_ = true;
-    } else if (const auto* key = std::get_if<KeyEvent>(&event); key != nullptr && receive_key(*key)) {
-        return;
-    } else if (!is_map()) {
-        flight_.receive(event);
     }
+    if (const auto* resize = std::get_if<ResizeEvent>(&event)) {
+        size_ = resize->framebuffer;
+        redraw_ = true;
+    }
+    if (const auto* key = std::get_if<KeyEvent>(&event); key != nullptr && receive_key(*key)) {
+        return;
+    }
+    if (map_) {
+        map_->receive(event);
+        return;
+    }
+    flight_.receive(event);
+    // Whoever steers takes over from the path.
+    playing_ = playing_ && !flight_.is_steered();
 }
 
 bool Viewer::receive_key(const KeyEvent& event) {
-    const bool pressed = event.pressed && !event.repeat;
-    if (event.key >= Key::digit1 && event.key <= Key::digit9) {
-        if (pressed) {
-            choose_technique(static_cast<std::size_t>(event.key) -
-                             static_cast<std::size_t>(Key::digit1));
-        }
-        return true;
-    }
-    // viewer_keys() says in words what stands here.
-    static constexpr std::array<Binding, 10> bindings{{{Key::p, &Viewer::toggle_path},
-                                                       {Key::t, &Viewer::next_technique},
-                                                       {Key::f, &Viewer::toggle_wireframe},
-                                                       {Key::o, &Viewer::toggle_map},
-                                                       {Key::m, &Viewer::toggle_mouse_look},
-                                                       {Key::f12, &Viewer::ask_for_screenshot},
-                                                       {Key::c, &Viewer::ask_for_screenshot},
-                                                       {Key::h, &Viewer::ask_for_help},
-                                                       {Key::f1, &Viewer::ask_for_help},
-                                                       {Key::escape, &Viewer::leave}}};
-    const auto* const found =
-        std::find_if(bindings.begin(), bindings.end(),
-                     [&](const Binding& binding) { return binding.key == event.key; });
-    if (found == bindings.end()) {
+    const Modifiers& with = event.modifiers;
+    if (!event.pressed || event.repeat || with.control || with.alt || with.super) {
         return false;
     }
-    if (pressed) {
-        (this->*found->action)();
+    if (event.key >= Key::digit1 && event.key <= Key::digit9) {
+        choose_technique(static_cast<std::size_t>(event.key) -
+                         static_cast<std::size_t>(Key::digit1));
+        return true;
     }
-    return true;
+    for (const Binding& binding : bindings()) {
+        if (event.key != Key::unknown && (binding.key == event.key || binding.other == event.key)) {
+            (this->*binding.action)();
+            return true;
+        }
+    }
+    return false;
+}
+
+bool Viewer::is_moving() const {
+    return playing_ || (map_ ? map_->is_steered() : flight_.is_steered());
 }
 
 void Viewer::advance(double seconds) {
-    const double step = std::isfinite(seconds) && seconds > 0.0 ? seconds : 0.0;
-    if (playing_) {
-        path_time_ = std::fmod(path_time_ + step, std::max(path_.duration(), 1e-9));
-        const scene::FlyKey key = path_.at(path_.begin() + path_time_);
-        scene::Camera next = camera();
-        next.eye = key.eye;
-        next.look = key.look;
-        next.up = {0.0, 0.0, 1.0};
-        flight_.set_camera(next);
-        show_camera(flight_.camera());
-        return;
+    double step = std::isfinite(seconds) && seconds > 0.0 ? seconds : 0.0;
+    if (rested_) {
+        step = std::min(step, first_step);
     }
-    moving_ = !is_map() && flight_.advance(step);
-    if (moving_) {
+    rested_ = !is_moving();
+    if (playing_) {
+        advance_path(step);
+    } else if (map_ && map_->advance(step)) {
+        show_camera(map_->camera());
+    } else if (!map_ && flight_.advance(step)) {
         show_camera(flight_.camera());
     }
 }
 
-bool Viewer::take_redraw() { return std::exchange(redraw_, false); }
-bool Viewer::take_screenshot_request() { return std::exchange(screenshot_, false); }
-bool Viewer::take_help_request() { return std::exchange(help_, false); }
+void Viewer::advance_path(double seconds) {
+    path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), 1e-9));
+    const scene::FlyKey key = path_.at(path_.begin() + path_time_);
+    scene::Camera next = camera();
+    next.eye = key.eye;
+    next.look = key.look;
+    next.up = {0.0, 0.0, 1.0};
+    flight_.set_camera(next);
+    next = flight_.camera();
+    if (next.eye != camera().eye || next.look != camera().look) {
+        show_camera(next);
+    }
+}
+
+bool Viewer::take_redraw() {
+    return std::exchange(redraw_, false);
+}
+
+bool Viewer::take_screenshot_request() {
+    return std::exchange(screenshot_, false);
+}
+
+bool Viewer::take_help_request() {
+    return std::exchange(help_, false);
+}
 
 void Viewer::show_camera(const scene::Camera& camera) {
-    this->camera() = camera;
+    *scene_.camera->get<scene::Camera>() = camera;
     redraw_ = true;
 }
 
 void Viewer::toggle_path() {
-    if (is_map()) {
+    if (map_) {
         toggle_map();
     }
     playing_ = !playing_;
 }
 
+void Viewer::go_to_start() {
+    playing_ = false;
+    map_.reset();
+    flight_.set_camera(start_);
+    show_camera(flight_.camera());
+}
+
 void Viewer::toggle_map() {
-    if (is_map()) {
-        show_camera(*std::exchange(before_map_, std::nullopt));
+    if (map_) {
+        map_.reset();
+        show_camera(flight_.camera());
         return;
     }
     playing_ = false;
-    before_map_ = camera();
-    show_camera(scene::pose_camera(scene::Pose::map, scene_.bounds,
-                                   [&](double x, double y) { return scene_.ground(x, y); }));
+    if (mouse_look_) {
+        toggle_mouse_look();
+    }
+    flight_.let_go();
+    scene::Camera from_above = whole_map(scene_.bounds, size_);
+    from_above.vertical_fov = camera().vertical_fov;
+    from_above.near = camera().near;
+    map_.emplace(from_above, scene_.bounds, size_);
+    show_camera(map_->camera());
 }
 
 void Viewer::toggle_wireframe() {
-    auto& material = scene_.terrain->get<scene::TerrainNode>()->material;
-    material.wireframe = !material.wireframe;
+    material().wireframe = !material().wireframe;
     redraw_ = true;
 }
 
 void Viewer::toggle_mouse_look() {
-    mouse_look_ = !mouse_look_;
+    mouse_look_ = !mouse_look_ && !map_;
     flight_.set_mouse_look(mouse_look_);
 }
 
+void Viewer::toggle_follow_ground() {
+    flight_.set_follow_ground(!flight_.follows_ground());
+}
+
 void Viewer::next_technique() {
-    const auto& technique = scene_.terrain->get<scene::TerrainNode>()->material.technique;
-    choose_technique((index_of(technique.id) + 1) % scene::technique_catalogue().size());
+    const auto found =
+        std::find_if(techniques_.begin(), techniques_.end(), [&](const auto& technique) {
+            return technique.id == material().technique.id;
+        });
+    const auto index = static_cast<std::size_t>(found - techniques_.begin());
+    choose_technique((index + 1) % techniques_.size());
 }
 
 void Viewer::choose_technique(std::size_t index) {
-    const auto catalogue = scene::technique_catalogue();
-    if (index < catalogue.size()) {
-        scene_.terrain->get<scene::TerrainNode>()->material.technique =
-            scene::make_technique(catalogue[index].id);
+    if (index < techniques_.size() && techniques_[index].id != material().technique.id) {
+        material().technique = techniques_[index];
         redraw_ = true;
     }
 }
-
-void Viewer::ask_for_screenshot() { screenshot_ = true; }
-void Viewer::ask_for_help() { help_ = true; }
 
 void Viewer::leave() {
     if (mouse_look_) {
@@ -175,44 +308,38 @@ void Viewer::leave() {
     }
 }
 
-std::string Viewer::title(const render::FrameStats& stats, double frame_ms) const {
-    const auto& node = *scene_.terrain->get<scene::TerrainNode>();
-    const scene::Camera& eye = *scene_.camera->get<scene::Camera>();
-    std::string title =
-        fmt::format("reljef - {} - {} - {:.1f} fps ({:.1f} ms) - {} triangles",
-                    node.surface->terrain().name, scene::to_string(node.material.technique),
-                    frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0, frame_ms, stats.triangles);
-    if (const auto ground = scene_.scene.height_at(eye.eye.x, eye.eye.y)) {
-        title += fmt::format(" - {:.0f} m above ground", eye.eye.z - *ground);
-    }
-    if (const auto place = node.surface->placement().geodetic_from_world(eye.eye)) {
-        title += fmt::format(" - {:.5f}, {:.5f}", place->latitude, place->longitude);
-    }
-    return title;
+std::string Viewer::title(const render::FrameStats& stats, const FrameTiming& timing) const {
+    const auto& surface = *scene_.terrain->get<scene::TerrainNode>()->surface;
+    const std::string rate = timing.frames_per_second
+                                 ? fmt::format("{:.1f} fps", *timing.frames_per_second)
+                                 : std::string("still");
+    return fmt::format("reljef - {} - {} - {} ({:.1f} ms) - {} triangles - {}",
+                       surface.terrain().name, scene::to_string(material().technique), rate,
+                       timing.last_ms, stats.triangles, place());
 }
 
-std::string viewer_keys() {
-    std::string text = "  W A S D, arrows  move (shift: faster; wheel: speed)\n"
-                       "  Q E              down, up (never under the ground)\n"
-                       "  drag             turn\n";
-    for (const auto& [name, meaning] :
-         {std::pair{"P", "fly along the path, or stop"},
-          std::pair{"T, 1 2 ...", "next technique, or a certain one"},
-          std::pair{"F", "the triangles' edges only, or filled"},
-          std::pair{"O", "map from straight above, and back"},
-          std::pair{"M", "turn with every move of the mouse, or only with its button held"},
-          std::pair{"C, F12", "save a picture here, reljef-0001.png and on"},
-          std::pair{"H", "these lines"}, std::pair{"Esc", "let go of the mouse, or end"}}) {
-        text += fmt::format("  {:<15}  {}\n", name, meaning);
+std::string Viewer::place() const {
+    const auto& surface = *scene_.terrain->get<scene::TerrainNode>()->surface;
+    const glm::dvec3 eye = camera().eye;
+    std::string text;
+    if (map_) {
+        text = "map, " + length_text(camera().view_height) + " high";
+    } else if (const auto ground = scene_.scene.height_at(eye.x, eye.y)) {
+        text = length_text(eye.z - *ground) + " above ground";
+    } else {
+        text = "beside the terrain";
     }
-    return text;
+    if (const auto place = surface.placement().geodetic_from_world(eye)) {
+        text += fmt::format(" - {:.5f}, {:.5f}", place->latitude, place->longitude);
+    }
+    return text + fmt::format(" - speed {}/s", length_text(flight_.speed()));
 }
 
 std::filesystem::path next_screenshot(const std::filesystem::path& folder) {
     std::error_code ignored;
     for (int number = 1;; ++number) {
         auto file = folder / fmt::format("reljef-{:04}.png", number);
-        if (!std::filesystem::exists(file, ignored)) {
+        if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
             return file;
         }
     }

@@ -8,7 +8,7 @@
 #include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "bench/measure.h"
-#include "engine/render/device.h"
+#include "app/device.h"
 
 namespace reljef::bench {
 namespace {
@@ -68,17 +68,17 @@ Result<std::vector<Stage>> open_stages(const TablesOptions& options, const std::
     return stages;
 }
 
-Result<render::Device> make_device(const TablesOptions& options) {
+Result<app::Device> make_device(const TablesOptions& options) {
     if (options.threads > 0) {
         // llvmpipe reads it when the context is made.
         ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     }
-    render::DeviceOptions device;
+    app::DeviceOptions device;
     device.context = options.context;
     device.context_options.size = options.size;
     device.context_options.visible = false;
     device.driver.size = options.size;
-    return render::Device::create(device);
+    return app::Device::create(device);
 }
 
 // Texture first: the others are told in terms of it. Texture again last: the null row.

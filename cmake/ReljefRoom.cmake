@@ -43,6 +43,7 @@ function(reljef_test ROOM)
   if("address" IN_LIST RELJEF_SANITIZE)
     list(APPEND properties ENVIRONMENT
          "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
+    target_link_libraries(${target} PRIVATE reljef_keep_loaded)
   endif()
   # Skipped tests show as skipped: gtest_discover_tests() itself looks for gtest's word for it.
   gtest_discover_tests(${target} TEST_PREFIX "${ROOM}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60

@@ -63,7 +63,8 @@ struct ScrollEvent {
     glm::dvec2 offset{0.0, 0.0};
 };
 
-/// The new size in pixels; 0 by 0 while the window is minimized.
+/// The new size in pixels, 0 by 0 while the window is minimized; or the old one, where the picture
+/// must be shown again because the window was covered.
 struct ResizeEvent {
     glm::ivec2 framebuffer{0, 0};
 };

@@ -62,6 +62,11 @@ void on_resize(GLFWwindow* window, int width, int height) {
     queue(window).emplace_back(ResizeEvent{{width, height}});
 }
 
+// What was shown is lost where the window was covered or hidden.
+void on_refresh(GLFWwindow* window) {
+    queue(window).emplace_back(ResizeEvent{size_in_pixels(window)});
+}
+
 void on_close(GLFWwindow* window) {
     queue(window).emplace_back(CloseEvent{});
 }
@@ -81,6 +86,7 @@ public:
         glfwSetMouseButtonCallback(window_, on_mouse_button);
         glfwSetScrollCallback(window_, on_scroll);
         glfwSetFramebufferSizeCallback(window_, on_resize);
+        glfwSetWindowRefreshCallback(window_, on_refresh);
         glfwSetWindowCloseCallback(window_, on_close);
         glfwSetWindowFocusCallback(window_, on_focus);
         glfwSwapInterval(1);

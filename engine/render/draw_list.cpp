@@ -19,7 +19,8 @@ int count_nodes(const scene::Node& node) {
 }
 
 // As it would be drawn.
-std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Tile& tile, bool flat) {
+std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Tile& tile,
+                           bool flat) {
     const int quads = flat_quads(terrain.surface->placement().kind());
     return 2U * static_cast<std::size_t>(flat ? quads : tile.cols) *
            static_cast<std::size_t>(flat ? quads : tile.rows);
@@ -106,9 +107,8 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size) {
         ++visited;
         selector.add(node, transform);
     });
-    std::stable_sort(list.tiles.begin(), list.tiles.end(), [](const TileDraw& a, const TileDraw& b) {
-        return a.distance < b.distance;
-    });
+    std::stable_sort(list.tiles.begin(), list.tiles.end(),
+                     [](const TileDraw& a, const TileDraw& b) { return a.distance < b.distance; });
     list.stats.nodes = count_nodes(scene.root());
     list.stats.skipped.invisible_nodes = list.stats.nodes - visited;
     list.stats.skipped.sky = list.sky ? 0 : 1;

@@ -28,16 +28,16 @@ struct MeshDraw {
 /// What to draw this frame: pure data, decided on the CPU. Valid as long as the scene is unchanged.
 struct DrawList {
     scene::Camera camera;
-    glm::ivec2 size{0};          ///< of the picture, pixels
+    glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
     std::vector<TileDraw> tiles; ///< front to back
     std::vector<MeshDraw> meshes;
-    FrameStats stats;            ///< nodes and what was skipped, so far
+    FrameStats stats; ///< nodes and what was skipped, so far
 };
 
-/// Looks at the scene through its camera: leaves out what is hidden or outside the frustum and orders
-/// the rest. An orthographic camera's depth range is fitted to the scene.
+/// Looks at the scene through its camera: leaves out what is hidden or outside the frustum and
+/// orders the rest. An orthographic camera's depth range is fitted to the scene.
 DrawList select(const scene::Scene& scene, glm::ivec2 size);
 
 } // namespace reljef::render

@@ -127,7 +127,8 @@ public:
         program_->set_uniform("ray_corner", glm::vec4(glm::vec3(corner.direction), 0.0F));
         program_->set_uniform("ray_right",
                               glm::vec4(glm::vec3(right.direction - corner.direction), 0.0F));
-        program_->set_uniform("ray_up", glm::vec4(glm::vec3(up.direction - corner.direction), 0.0F));
+        program_->set_uniform("ray_up",
+                              glm::vec4(glm::vec3(up.direction - corner.direction), 0.0F));
         no_vertices.bind();
         gl::draw_arrays(gl::Primitive::triangles, 0, 3);
         gl::set_depth_writing(true);
@@ -182,9 +183,9 @@ private:
         set_wireframe(draw.terrain->material.wireframe);
         program_->set_uniform("relative_from_tile",
                               relative_from(list_.camera, draw.world_from_local, mesh.origin));
-        program_->set_uniform("tile_samples",
-                              glm::vec4(tile.col, tile.row, mesh.samples_per_vertex.x,
-                                        mesh.samples_per_vertex.y));
+        program_->set_uniform(
+            "tile_samples",
+            glm::vec4(tile.col, tile.row, mesh.samples_per_vertex.x, mesh.samples_per_vertex.y));
         program_->set_uniform("vertices_per_row", mesh.vertices_per_row);
         draw_resident(mesh, gl::IndexType::uint16);
         ++stats_.tiles;
@@ -218,7 +219,9 @@ private:
     bool wireframe_ = false;
 };
 
-glm::vec4 channels_of(const Hit& hit) { return {hit.col, hit.row, hit.height, hit.depth}; }
+glm::vec4 channels_of(const Hit& hit) {
+    return {hit.col, hit.row, hit.height, hit.depth};
+}
 
 } // namespace
 
@@ -334,7 +337,9 @@ Result<void> Driver::draw_content(const DrawList& list, bool hits, FrameStats& s
     return done;
 }
 
-Image Driver::read_color() const { return gl::read_color(color_target_); }
+Image Driver::read_color() const {
+    return gl::read_color(color_target_);
+}
 
 void Driver::show_in_window(glm::ivec2 window_size) const {
     color_target_.blit_to_window(window_size);

@@ -20,9 +20,9 @@ static_assert(sizeof(GridVertex) == 16);
 
 /// A tile as a regular grid of vertices, row after row.
 struct GridMesh {
-    glm::dvec3 origin{0.0}; ///< local metres; positions are relative to it
-    int cols = 0;           ///< quads
-    int rows = 0;           ///< quads
+    glm::dvec3 origin{0.0};           ///< local metres; positions are relative to it
+    int cols = 0;                     ///< quads
+    int rows = 0;                     ///< quads
     std::vector<GridVertex> vertices; ///< (cols + 1) × (rows + 1)
 };
 
@@ -30,7 +30,8 @@ struct GridMesh {
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile);
 
-/// Quads along a side of a tile of the flat reference surface: one on a plane, a few on an ellipsoid.
+/// Quads along a side of a tile of the flat reference surface: one on a plane, a few on an
+/// ellipsoid.
 int flat_quads(terrain::PlacementKind kind);
 
 /// The tile's part of the flat reference surface at `height` metres, of flat_quads() quads a side.

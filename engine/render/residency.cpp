@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <glm/matrix.hpp>
+
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
 #include "engine/render/terrain_maps.h"
@@ -20,14 +22,15 @@ void count_upload(FrameStats& stats, std::size_t bytes) {
     stats.upload_bytes += bytes;
 }
 
-// Sample coordinates of the heightfield onto texels whose outermost centres are the outermost samples.
+// Sample coordinates of the heightfield onto texels whose outermost centres are the outermost
+// samples.
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
     const glm::vec2 scale = glm::vec2(texels - 1) / (glm::vec2(samples - 1) * glm::vec2(texels));
     return {scale, 0.5F / glm::vec2(texels)};
 }
 
-Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format, std::span<const std::byte> texels,
-                                FrameStats& stats) {
+Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
+                                std::span<const std::byte> texels, FrameStats& stats) {
     auto texture = gl::Texture2D::create({.size = size,
                                           .format = format,
                                           .levels = gl::full_chain,
@@ -66,6 +69,14 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
     maps.gradient = std::move(*gradient_texture);
     maps.gradient_from_sample = texture_from_sample(samples, maps.gradient.size());
     return maps;
+}
+
+// Towards the sun in the terrain's own frame: its node may be turned or scaled.
+std::optional<glm::dvec3> to_sun_local(const DrawList& list, const TileDraw& draw) {
+    if (!list.sun) {
+        return std::nullopt;
+    }
+    return glm::inverse(glm::dmat3(draw.world_from_local)) * scene::to_light(*list.sun);
 }
 
 struct MeshVertex {
@@ -129,7 +140,8 @@ Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
             missing.push_back(&draw);
         }
     }
-    // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the driver's.
+    // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the
+    // driver's.
     constexpr std::size_t batch = 32;
     for (std::size_t first = 0; first < missing.size(); first += batch) {
         const std::size_t count = std::min(batch, missing.size() - first);
@@ -139,10 +151,10 @@ Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
             const scene::TerrainSurface& surface = *draw.terrain->surface;
             const auto index = static_cast<std::size_t>(draw.tile);
             grids[static_cast<std::size_t>(i)] =
-                draw.flat ? flat_mesh(surface.placement(), surface.flat_tiles()[index],
-                                      terrain::reference_height(surface.heightfield()))
-                          : full_mesh(surface.heightfield(), surface.placement(),
-                                      surface.tiles()[index]);
+                draw.flat
+                    ? flat_mesh(surface.placement(), surface.flat_tiles()[index],
+                                terrain::reference_height(surface.heightfield()))
+                    : full_mesh(surface.heightfield(), surface.placement(), surface.tiles()[index]);
         });
         for (std::size_t i = 0; i < count; ++i) {
             if (auto done = upload_tile(*missing[first + i], grids[i], stats); !done) {
@@ -166,12 +178,14 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const auto index = static_cast<std::size_t>(draw.tile);
     const terrain::Tile& tile = draw.flat ? surface.flat_tiles()[index] : surface.tiles()[index];
-    ResidentMesh mesh{std::move(*vertices), gl::VertexArray::create(), grid.origin,
-                      6 * grid.cols * grid.rows, grid.cols + 1,
-                      glm::vec2(tile.cols, tile.rows) / glm::vec2(grid.cols, grid.rows)};
-    const std::array attributes{
-        gl::VertexAttribute{.location = 0, .components = 3},
-        gl::VertexAttribute{.location = 1, .components = 1, .offset = offsetof(GridVertex, height)}};
+    ResidentMesh mesh{
+        std::move(*vertices), gl::VertexArray::create(),
+        grid.origin,          6 * grid.cols * grid.rows,
+        grid.cols + 1,        glm::vec2(tile.cols, tile.rows) / glm::vec2(grid.cols, grid.rows)};
+    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
+                                gl::VertexAttribute{.location = 1,
+                                                    .components = 1,
+                                                    .offset = offsetof(GridVertex, height)}};
     mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
     mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(draw);
@@ -181,48 +195,40 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
 }
 
 Result<void> Residency::prepare_maps(const DrawList& list, FrameStats& stats) {
-    const auto to_sun = list.sun ? std::optional(scene::to_light(*list.sun)) : std::nullopt;
     maps_.clear();
-    std::map<const scene::TerrainSurface*, std::vector<SunMaps>> kept;
     for (const TileDraw& draw : list.tiles) {
         if (maps_.contains(draw.terrain)) {
             continue;
         }
-        // In the terrain's own frame: its node may be turned or scaled.
-        const auto to_sun_local =
-            to_sun ? std::optional(glm::inverse(glm::dmat3(draw.world_from_local)) * *to_sun)
-                   : std::nullopt;
-        auto maps = maps_for(draw, to_sun_local, stats);
+        auto maps = maps_for(draw, to_sun_local(list, draw), stats);
         if (!maps) {
             return maps.error();
         }
-        maps_.emplace(draw.terrain, *maps);
-        kept[draw.terrain->surface.get()].push_back({to_sun_local, *maps});
-        surface_of(draw).maps.push_back({to_sun_local, *maps});
+        maps_.emplace(draw.terrain, std::move(*maps));
     }
-    for (auto& [surface, maps] : kept) {
-        surfaces_.at(surface).maps = std::move(maps);
+    for (const TileDraw& draw : list.tiles) {
+        std::erase_if(surface_of(draw).maps,
+                      [](const SunMaps& entry) { return entry.maps.use_count() == 1; });
     }
     return {};
 }
 
 Result<std::shared_ptr<const ResidentMaps>>
-Residency::maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun_local,
+Residency::maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun,
                     FrameStats& stats) {
-    const std::vector<SunMaps>& there = surface_of(draw).maps;
-    const auto found = std::find_if(there.begin(), there.end(), [&](const SunMaps& entry) {
-        return entry.to_sun == to_sun_local;
-    });
+    std::vector<SunMaps>& there = surface_of(draw).maps;
+    const auto found = std::find_if(there.begin(), there.end(),
+                                    [&](const SunMaps& entry) { return entry.to_sun == to_sun; });
     if (found != there.end()) {
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
-    auto maps = make_maps(*draw.terrain->surface, to_sun_local, stats);
+    auto maps = make_maps(*draw.terrain->surface, to_sun, stats);
     if (!maps) {
         return maps.error();
     }
-    return std::shared_ptr<const ResidentMaps>(
-        std::make_shared<const ResidentMaps>(std::move(*maps)));
+    there.push_back({to_sun, std::make_shared<const ResidentMaps>(std::move(*maps))});
+    return there.back().maps;
 }
 
 Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
@@ -248,9 +254,10 @@ Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
     entry.resident.vertices = std::move(*vertices);
     entry.resident.vertex_array = gl::VertexArray::create();
     entry.resident.index_count = static_cast<int>(mesh.indices.size());
-    const std::array attributes{
-        gl::VertexAttribute{.location = 0, .components = 3},
-        gl::VertexAttribute{.location = 1, .components = 3, .offset = offsetof(MeshVertex, normal)}};
+    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
+                                gl::VertexAttribute{.location = 1,
+                                                    .components = 3,
+                                                    .offset = offsetof(MeshVertex, normal)}};
     entry.resident.vertex_array.set_vertices(0, entry.resident.vertices,
                                              {.stride = sizeof(MeshVertex)}, attributes);
     entry.resident.vertex_array.set_indices(entry.indices);
@@ -279,7 +286,9 @@ const ResidentMesh& Residency::tile(const TileDraw& draw) const {
     return *slot;
 }
 
-const ResidentMaps& Residency::maps(const TileDraw& draw) const { return *maps_.at(draw.terrain); }
+const ResidentMaps& Residency::maps(const TileDraw& draw) const {
+    return *maps_.at(draw.terrain);
+}
 
 const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {
     return meshes_.at(draw.mesh->mesh.get()).resident;

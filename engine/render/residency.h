@@ -69,7 +69,7 @@ private:
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
     Result<void> prepare_maps(const DrawList& list, FrameStats& stats);
     Result<std::shared_ptr<const ResidentMaps>>
-    maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun_local, FrameStats& stats);
+    maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun, FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 

@@ -100,7 +100,8 @@ void FreeFlight::set_camera(const Camera& camera) {
     const bool is_steep = std::abs(rise) > 1.0 - 1e-12;
     const glm::dvec3 level = is_steep ? -std::copysign(1.0, rise) * axes.up : axes.forward;
     const ViewAxes north = view_axes(camera_from_angles(camera.eye, 0.0, 0.0, upward));
-    heading_ = glm::degrees(std::atan2(glm::dot(level, north.right), glm::dot(level, north.forward)));
+    heading_ =
+        glm::degrees(std::atan2(glm::dot(level, north.right), glm::dot(level, north.forward)));
     height_.reset();
     turned_ = false;
     keep_above_ground();
@@ -130,6 +131,7 @@ bool FreeFlight::is_steered() const {
 void FreeFlight::let_go() {
     keys_.release_all();
     button_held_ = false;
+    pointer_.reset();
 }
 
 bool FreeFlight::receive(const Event& event) {
@@ -142,7 +144,7 @@ bool FreeFlight::receive(const Event& event) {
     if (const auto* button = std::get_if<MouseButtonEvent>(&event);
         button != nullptr && button->button == MouseButton::left) {
         button_held_ = button->pressed;
-        pointer_ = button->position;
+        pointer_ = pointer_.value_or(button->position);
         return true;
     }
     if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {

@@ -12,11 +12,13 @@
 
 namespace reljef::scene {
 
-/// The keys that steer: W S or up and down, A D or left and right, Q E or page down and page up, and
-/// shift. A key that was tapped counts as held until forget_taps(), so that none is lost in a slow frame.
+/// The keys that steer: W S or up and down, A D or left and right, Q E or page down and page up,
+/// and shift. A key that was tapped counts as held until forget_taps(), so that none is lost in a
+/// slow frame.
 class SteeringKeys {
 public:
-    /// Says whether the key is one of them. With control, alt or super it is not, but for its release.
+    /// Says whether the key is one of them. With control, alt or super it is not, but for its
+    /// release.
     bool receive(const KeyEvent& event);
     void release_all();
     void forget_taps() { tapped_.clear(); }
@@ -26,7 +28,9 @@ public:
     [[nodiscard]] bool is_fast() const { return is_down(Key::shift); }
 
 private:
-    [[nodiscard]] bool is_down(Key key) const { return held_.contains(key) || tapped_.contains(key); }
+    [[nodiscard]] bool is_down(Key key) const {
+        return held_.contains(key) || tapped_.contains(key);
+    }
 
     std::set<Key> held_;
     std::set<Key> tapped_; // since forget_taps()
@@ -48,8 +52,9 @@ struct FreeFlightOptions {
 };
 
 /// A camera flown by hand: the mouse (left button held) turns, the steering keys move, the wheel
-/// changes the speed, shift is four times as fast. The eye keeps its height above the ground until it
-/// is told to rise or sink; without follow_ground it flies where it looks. It is never under the ground.
+/// changes the speed, shift is four times as fast. The eye keeps its height above the ground until
+/// it is told to rise or sink; without follow_ground it flies where it looks. It is never under the
+/// ground.
 class FreeFlight {
 public:
     FreeFlight(const Camera& start, FreeFlightOptions options);

@@ -85,6 +85,7 @@ TEST_F(ShaderLibraryGlTest, AnErrorNamesTheFileAndTheLine) {
     const auto failed = shaders.program({ShaderKind::sky, 0});
     ASSERT_FALSE(failed);
     EXPECT_THAT(failed.error().message, AllOf(HasSubstr("sky.frag:3"), HasSubstr("nonsense")));
+    EXPECT_FALSE(take_problems().empty());
 }
 
 TEST_F(ShaderLibraryGlTest, AnErrorInAnIncludedFileNamesThatOne) {
@@ -95,6 +96,7 @@ TEST_F(ShaderLibraryGlTest, AnErrorInAnIncludedFileNamesThatOne) {
     const auto failed = shaders.program({ShaderKind::mesh, 0});
     ASSERT_FALSE(failed);
     EXPECT_THAT(failed.error().message, HasSubstr("air.glsl:3"));
+    EXPECT_FALSE(take_problems().empty());
 }
 
 TEST_F(ShaderLibraryGlTest, AnErrorAfterAnIncludeStillCountsTheLinesOfItsOwnFile) {
@@ -107,6 +109,7 @@ TEST_F(ShaderLibraryGlTest, AnErrorAfterAnIncludeStillCountsTheLinesOfItsOwnFile
     const auto failed = shaders.program({ShaderKind::sky, 0});
     ASSERT_FALSE(failed);
     EXPECT_THAT(failed.error().message, HasSubstr("sky.frag:4"));
+    EXPECT_FALSE(take_problems().empty());
 }
 
 TEST_F(ShaderLibraryGlTest, AMissingIncludeAndACircleAreErrors) {

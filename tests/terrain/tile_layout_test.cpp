@@ -89,6 +89,19 @@ TEST(TileLayout, BoundsOnAPlaneAreTight) {
     EXPECT_DOUBLE_EQ(all.size().y, 139 * 3.0);
 }
 
+// Neighbours share the samples on their border: both must hold them.
+TEST(TileLayout, BoundsHoldASpikeOnTheBorderOfTiles) {
+    for (const glm::ivec2 spike :
+         {glm::ivec2(128, 50), glm::ivec2(50, 128), glm::ivec2(128, 128), glm::ivec2(0, 0),
+          glm::ivec2(199, 30), glm::ivec2(30, 179), glm::ivec2(199, 179)}) {
+        for (const float height : {100.0F, -100.0F}) {
+            Grid<float> heights(200, 180, 0.0F);
+            heights(spike.x, spike.y) = height;
+            expect_bounds_hold(test::plane_heightfield(heights), 1.0);
+        }
+    }
+}
+
 TEST(TileLayout, BoundsOnAnEllipsoidHoldEverySample) {
     for (const double latitude : {0.6, 46.0, -33.0, 84.0}) {
         expect_bounds_hold(

@@ -1,6 +1,6 @@
-#include "engine/render/device.h"
+#include "app/device.h"
 
-namespace reljef::render {
+namespace reljef::app {
 
 Result<Device> Device::create(const DeviceOptions& options) {
     auto context = options.context ? platform::make_context(*options.context, options.context_options)
@@ -8,16 +8,16 @@ Result<Device> Device::create(const DeviceOptions& options) {
     if (!context) {
         return context.error();
     }
-    DriverOptions driver_options = options.driver;
+    render::DriverOptions driver_options = options.driver;
     driver_options.software = (*context)->is_software();
-    auto driver = Driver::create(driver_options);
+    auto driver = render::Driver::create(driver_options);
     if (!driver) {
         return driver.error();
     }
     Device device;
     device.context_ = std::move(*context);
-    device.driver_ = std::make_unique<Driver>(std::move(*driver));
+    device.driver_ = std::make_unique<render::Driver>(std::move(*driver));
     return device;
 }
 
-} // namespace reljef::render
+} // namespace reljef::app

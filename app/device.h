@@ -6,13 +6,13 @@
 #include "engine/platform/context.h"
 #include "engine/render/driver.h"
 
-namespace reljef::render {
+namespace reljef::app {
 
 struct DeviceOptions {
     /// Absent: EGL where it finds a hardware GPU, else OSMesa.
     std::optional<platform::ContextKind> context;
     platform::ContextOptions context_options;
-    DriverOptions driver;
+    render::DriverOptions driver;
 };
 
 /// A context and the driver that draws with it.
@@ -21,13 +21,13 @@ public:
     static Result<Device> create(const DeviceOptions& options = {});
 
     [[nodiscard]] platform::Context& context() { return *context_; }
-    [[nodiscard]] Driver& driver() { return *driver_; }
+    [[nodiscard]] render::Driver& driver() { return *driver_; }
 
 private:
     Device() = default;
 
     std::unique_ptr<platform::Context> context_; // outlives the driver's GL objects
-    std::unique_ptr<Driver> driver_;
+    std::unique_ptr<render::Driver> driver_;
 };
 
-} // namespace reljef::render
+} // namespace reljef::app
