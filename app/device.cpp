@@ -3,8 +3,9 @@
 namespace reljef::app {
 
 Result<Device> Device::create(const DeviceOptions& options) {
-    auto context = options.context ? platform::make_context(*options.context, options.context_options)
-                                   : platform::make_headless_context(options.context_options);
+    auto context = options.context
+                       ? platform::make_context(*options.context, options.context_options)
+                       : platform::make_headless_context(options.context_options);
     if (!context) {
         return context.error();
     }

@@ -1,8 +1,8 @@
 #include "app/frame_sink.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -51,7 +51,9 @@ private:
     VideoEncoder encoder_;
 };
 
-bool has_number(const fs::path& path) { return path.string().find('%') != std::string::npos; }
+bool has_number(const fs::path& path) {
+    return path.string().find('%') != std::string::npos;
+}
 
 // Makes the folder of the pattern, and writes its first file once to see that it can be written.
 Result<void> make_folder(const fs::path& pattern) {
@@ -89,12 +91,14 @@ Result<fs::path> numbered(const fs::path& pattern, int index) {
     }
     int width = 0;
     if (end > begin + 1) {
-        const auto [last, code] = std::from_chars(text.data() + begin + 1, text.data() + end, width);
+        const auto [last, code] =
+            std::from_chars(text.data() + begin + 1, text.data() + end, width);
         if (code != std::errc{} || last != text.data() + end || width < 0 || width > 12) {
             return wrong;
         }
     }
-    return fs::path(fmt::format("{}{:0{}}{}", text.substr(0, begin), index, width, text.substr(end + 1)));
+    return fs::path(
+        fmt::format("{}{:0{}}{}", text.substr(0, begin), index, width, text.substr(end + 1)));
 }
 
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
@@ -109,9 +113,10 @@ Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
         return made ? Result<Sink>(Sink(new SequenceSink(output))) : made.error();
     }
     if (options.frames > 1) {
-        return Error{fmt::format("-o: '{}' found, a numbered name like %04d.png or a video was expected "
-                                 "for {} frames",
-                                 output.string(), options.frames)};
+        return Error{
+            fmt::format("-o: '{}' found, a numbered name like %04d.png or a video was expected "
+                        "for {} frames",
+                        output.string(), options.frames)};
     }
     return Sink(new PictureSink(output));
 }

@@ -22,8 +22,8 @@ public:
 /// Whether the file is a video by its extension (.mp4, .mkv, .webm, .mov).
 bool is_video(const std::filesystem::path& path);
 
-/// The file of a numbered picture: the pattern's %d or %0Nd replaced. Fails when the pattern has not
-/// exactly one of them.
+/// The file of a numbered picture: the pattern's %d or %0Nd replaced. Fails when the pattern has
+/// not exactly one of them.
 Result<std::filesystem::path> numbered(const std::filesystem::path& pattern, int index);
 
 struct FrameSinkOptions {
@@ -32,9 +32,9 @@ struct FrameSinkOptions {
     double frames_per_second = 25.0;
 };
 
-/// One picture, a numbered sequence ("frames/%04d.png"; missing folders are made) or a video (through
-/// ffmpeg), by what `output` looks like. Fails where it cannot be written, where many frames would go
-/// to one picture, and where ffmpeg is needed and missing.
+/// One picture, a numbered sequence ("frames/%04d.png"; missing folders are made) or a video
+/// (through ffmpeg), by what `output` looks like. Fails where it cannot be written, where many
+/// frames would go to one picture, and where ffmpeg is needed and missing.
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const std::filesystem::path& output,
                                                    const FrameSinkOptions& options);
 

@@ -25,8 +25,8 @@ Result<double> height_at(const terrain::Terrain& terrain, double latitude, doubl
     const glm::dvec2 last{heightfield.heights.cols() - 1, heightfield.heights.rows() - 1};
     if (!sample || sample->x < -border || sample->y < -border || sample->x > last.x + border ||
         sample->y > last.y + border) {
-        return Error{fmt::format("--at: {},{} found, a place on {} was expected", latitude, longitude,
-                                 terrain.name)};
+        return Error{fmt::format("--at: {},{} found, a place on {} was expected", latitude,
+                                 longitude, terrain.name)};
     }
     return terrain::touches_void(heightfield, *sample)
                ? std::numeric_limits<double>::quiet_NaN()
@@ -62,7 +62,8 @@ Command add_height_command(CLI::App& program, Interrupt& interrupt) {
     auto choice = std::make_shared<HeightChoice>();
     add_terrain_options(*arguments, choice->terrain);
     arguments
-        ->add_option("--at", choice->places, "latitude and longitude, degrees; again for more places")
+        ->add_option("--at", choice->places,
+                     "latitude and longitude, degrees; again for more places")
         ->type_name("LAT,LON")
         ->required()
         ->expected(1)
@@ -71,9 +72,10 @@ Command add_height_command(CLI::App& program, Interrupt& interrupt) {
             const auto numbers = parse_numbers<2>("--at", text, "LAT,LON in degrees");
             return numbers ? std::string() : numbers.error().message;
         });
-    arguments->footer("Prints LAT,LON,HEIGHT, one line a place; the height is in metres above the DEM's "
-                      "own zero, nan on a void.\n"
-                      "Example:\n  reljef height N45E006.hgt --at 45.8326,6.8652");
+    arguments->footer(
+        "Prints LAT,LON,HEIGHT, one line a place; the height is in metres above the DEM's "
+        "own zero, nan on a void.\n"
+        "Example:\n  reljef height N45E006.hgt --at 45.8326,6.8652");
     return {arguments, [choice, &interrupt] { return print_heights(*choice, interrupt); }};
 }
 

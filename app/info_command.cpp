@@ -23,7 +23,8 @@ struct InfoChoice {
 Json extent_of(const terrain::Heightfield& heightfield) {
     const double cols = heightfield.heights.cols() - 1;
     const double rows = heightfield.heights.rows() - 1;
-    Json extent{{"width_m", cols * heightfield.spacing.x}, {"height_m", rows * heightfield.spacing.y}};
+    Json extent{{"width_m", cols * heightfield.spacing.x},
+                {"height_m", rows * heightfield.spacing.y}};
     if (!heightfield.georeference) {
         return extent;
     }
@@ -56,7 +57,8 @@ Json file_info(const io::SceneDescription& description) {
     if (!info) {
         return {};
     }
-    return {{"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
+    return {
+        {"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
 }
 
 Json describe(const TerrainSource& source) {
@@ -99,7 +101,8 @@ void print_text(const Json& info) {
         fmt::print("  CRS      {}{}\n", info["crs"]["name"].get<std::string>(),
                    code.empty() ? "" : " (" + code + ")");
     }
-    fmt::print("  spacing  {:.4f} x {:.4f} m\n", number("spacing", "x_m"), number("spacing", "y_m"));
+    fmt::print("  spacing  {:.4f} x {:.4f} m\n", number("spacing", "x_m"),
+               number("spacing", "y_m"));
     fmt::print("  extent   {:.1f} x {:.1f} m\n", number("extent", "width_m"),
                number("extent", "height_m"));
     if (info["extent"].contains("south")) {

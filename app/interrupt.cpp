@@ -19,7 +19,7 @@ sigset_t stop_signals() {
 // Signals closer together than this are one: `timeout` and some shells deliver the same one twice.
 constexpr std::chrono::milliseconds one_signal{500};
 
-void watch(const std::stop_token& end, std::stop_source source) {
+void watch(const std::stop_token& end, std::stop_source& source) {
     const sigset_t signals = stop_signals();
     const timespec pause{0, 50'000'000}; // how late the watcher notices the program's end
     std::chrono::steady_clock::time_point first;
@@ -43,7 +43,8 @@ void watch(const std::stop_token& end, std::stop_source source) {
 Interrupt::Interrupt() {
     const sigset_t signals = stop_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    watcher_ = std::jthread([source = source_](const std::stop_token& end) { watch(end, source); });
+    watcher_ = std::jthread(
+        [source = source_](const std::stop_token& end) mutable { watch(end, source); });
 }
 
 } // namespace reljef::app

@@ -5,8 +5,8 @@
 
 namespace reljef::app {
 
-/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; a second one ends the program at once. Make
-/// it first thing in main(), before other threads begin.
+/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; a second one ends the program at once.
+/// Make it first thing in main(), before other threads begin.
 class Interrupt {
 public:
     Interrupt();

@@ -35,11 +35,10 @@ int run(int argc, char** argv) {
                    "  reljef info N45E006.hgt --json\n"
                    "  reljef height N45E006.hgt --at 45.8326,6.8652\n"
                    "'reljef VERB --help' says more.");
-    const std::array commands{add_view_command(program, interrupt),
-                              add_render_command(program, interrupt),
-                              add_info_command(program, interrupt),
-                              add_height_command(program, interrupt),
-                              add_techniques_command(program, interrupt)};
+    const std::array commands{
+        add_view_command(program, interrupt), add_render_command(program, interrupt),
+        add_info_command(program, interrupt), add_height_command(program, interrupt),
+        add_techniques_command(program, interrupt)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

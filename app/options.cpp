@@ -75,8 +75,8 @@ Result<glm::dvec2> parse_sun(const std::string& text) {
 Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
     const auto kind = platform::context_kind_from_string(text);
     if (!kind && text != "auto") {
-        return Error{fmt::format("--context: '{}' found, one of auto, glfw, egl, osmesa was expected",
-                                 text)};
+        return Error{fmt::format(
+            "--context: '{}' found, one of auto, glfw, egl, osmesa was expected", text)};
     }
     return kind;
 }
@@ -84,8 +84,8 @@ Result<std::optional<platform::ContextKind>> parse_context(const std::string& te
 Result<scene::Pose> parse_pose(const std::string& text) {
     const auto pose = scene::pose_from_string(text);
     if (!pose) {
-        return Error{fmt::format("--pose: '{}' found, one of overview, low, grazing, map was expected",
-                                 text)};
+        return Error{fmt::format(
+            "--pose: '{}' found, one of overview, low, grazing, map was expected", text)};
     }
     return *pose;
 }
@@ -95,8 +95,8 @@ auto number_in(std::string option, double low, double high, bool above = false) 
     return [=](const std::string& text) -> Result<double> {
         const auto value = number_from<double>(text);
         if (!value || !(above ? *value > low : *value >= low) || !(*value <= high)) {
-            return Error{fmt::format("{}: '{}' found, a number {} {} to {} was expected", option, text,
-                                     above ? "over" : "from", low, high)};
+            return Error{fmt::format("{}: '{}' found, a number {} {} to {} was expected", option,
+                                     text, above ? "over" : "from", low, high)};
         }
         return *value;
     };
@@ -106,16 +106,15 @@ auto whole_number_in(std::string option, int low, int high) {
     return [=](const std::string& text) -> Result<int> {
         const auto value = number_from<int>(text);
         if (!value || *value < low || *value > high) {
-            return Error{fmt::format("{}: '{}' found, a whole number from {} to {} was expected", option,
-                                     text, low, high)};
+            return Error{fmt::format("{}: '{}' found, a whole number from {} to {} was expected",
+                                     option, text, low, high)};
         }
         return *value;
     };
 }
 
 // Looks a word up in a list of (word, value).
-template <class T>
-auto word_of(std::string option, std::vector<std::pair<std::string, T>> words) {
+template <class T> auto word_of(std::string option, std::vector<std::pair<std::string, T>> words) {
     return [=](const std::string& text) -> Result<T> {
         std::string expected;
         for (const auto& [word, value] : words) {
@@ -131,13 +130,14 @@ auto word_of(std::string option, std::vector<std::pair<std::string, T>> words) {
 void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--context", choice.context, parse_context,
                "auto, glfw (window), egl (GPU without a window) or osmesa (CPU)", "KIND");
-    add_parsed(command, "--size", choice.size,
-               [](const std::string& text) { return parse_size(text); },
-               "of the picture, pixels (1024x768)", "WxH");
-    add_parsed(command, "--technique", choice.technique,
-               [](const std::string& text) { return scene::parse_technique(text); },
-               "how the surface is drawn; 'reljef techniques' lists them (polygons)",
-               "ID[:key=value,...]");
+    add_parsed(
+        command, "--size", choice.size, [](const std::string& text) { return parse_size(text); },
+        "of the picture, pixels (1024x768)", "WxH");
+    add_parsed(
+        command, "--technique", choice.technique,
+        [](const std::string& text) { return scene::parse_technique(text); },
+        "how the surface is drawn; 'reljef techniques' lists them (polygons)",
+        "ID[:key=value,...]");
     command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
@@ -147,28 +147,31 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--sun", choice.sun, parse_sun,
                "where the light comes from: clockwise from north, above the horizon (300,40)",
                "AZIMUTH,ALTITUDE");
-    command.add_option("--shader-dir", choice.shader_dir,
-                       "shader files here come before the built-in ones")
+    command
+        .add_option("--shader-dir", choice.shader_dir,
+                    "shader files here come before the built-in ones")
         ->type_name("FOLDER");
 }
 
 void add_camera_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--fov", choice.vertical_fov, number_in("--fov", 1e-3, 179.0),
                "vertical field of view, degrees (57.3)", "DEG");
-    auto* eye = add_parsed(command, "--eye", choice.eye,
-                           [](const std::string& text) { return parse_point("--eye", text); },
-                           "where the camera stands, scene metres", "x,y,z");
-    auto* look = add_parsed(command, "--look", choice.look,
-                            [](const std::string& text) { return parse_point("--look", text); },
-                            "what it looks at, scene metres", "x,y,z");
+    auto* eye = add_parsed(
+        command, "--eye", choice.eye,
+        [](const std::string& text) { return parse_point("--eye", text); },
+        "where the camera stands, scene metres", "x,y,z");
+    auto* look = add_parsed(
+        command, "--look", choice.look,
+        [](const std::string& text) { return parse_point("--look", text); },
+        "what it looks at, scene metres", "x,y,z");
     look->needs(eye);
     eye->needs(look);
     add_parsed(command, "--camera", choice.geodetic, parse_geodetic_view,
                "where on Earth it stands and looks, degrees and metres",
                "LAT,LON,HEIGHT,HEADING,PITCH")
         ->excludes(eye);
-    add_parsed(command, "--pose", choice.pose, parse_pose, "overview, low, grazing or map (overview)",
-               "NAME")
+    add_parsed(command, "--pose", choice.pose, parse_pose,
+               "overview, low, grazing or map (overview)", "NAME")
         ->excludes(eye);
     command
         .add_option("--path", choice.path,
@@ -185,14 +188,14 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
 Result<glm::ivec2> parse_size(std::string_view text) {
     const auto cross = text.find('x');
     const auto width = number_from<int>(text.substr(0, cross));
-    const auto height = cross == std::string_view::npos ? std::nullopt
-                                                        : number_from<int>(text.substr(cross + 1));
+    const auto height =
+        cross == std::string_view::npos ? std::nullopt : number_from<int>(text.substr(cross + 1));
     const auto fits = [](std::optional<int> side) {
         return side && *side >= 1 && *side <= largest_picture_side;
     };
     if (!fits(width) || !fits(height)) {
-        return Error{fmt::format("--size: '{}' found, WxH with each from 1 to {} was expected", text,
-                                 largest_picture_side)};
+        return Error{fmt::format("--size: '{}' found, WxH with each from 1 to {} was expected",
+                                 text, largest_picture_side)};
     }
     return glm::ivec2(*width, *height);
 }
@@ -232,8 +235,8 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");
     add_parsed(command, "--exaggeration", choice.exaggeration,
-               number_in("--exaggeration", 0.0, 1e6, true), "of the heights, in the picture only (1)",
-               "X");
+               number_in("--exaggeration", 0.0, 1e6, true),
+               "of the heights, in the picture only (1)", "X");
     add_parsed(command, "--placement", choice.placement,
                word_of<terrain::PlacementKind>("--placement",
                                                {{"plane", terrain::PlacementKind::plane},

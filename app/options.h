@@ -56,7 +56,7 @@ struct ViewChoice {
     std::optional<GeodeticView> geodetic;
     std::optional<scene::Pose> pose;
     std::optional<glm::dvec2> sun; ///< azimuth, altitude, degrees; absent: the scene file's
-    std::string path;              ///< a built-in path ("orbit", "flyover") or a path file; empty: none
+    std::string path; ///< a built-in path ("orbit", "flyover") or a path file; empty: none
     int frames = 1;
     double frames_per_second = 25.0;
     std::filesystem::path shader_dir;

@@ -53,7 +53,8 @@ void ProgressLine::update(double fraction) {
             return;
         }
         shown_quarter_ = quarter;
-        fmt::print(stderr, "{} {:.0f} %{}\n", label_, 100.0 * fraction, time_left(elapsed, fraction));
+        fmt::print(stderr, "{} {:.0f} %{}\n", label_, 100.0 * fraction,
+                   time_left(elapsed, fraction));
     }
     shown_ = true;
     shown_at_ = now;

@@ -8,7 +8,8 @@
 namespace reljef::app {
 
 /// Shows how far a long operation has come, on stderr: one line that is drawn anew on a terminal, a
-/// line a quarter elsewhere. Says nothing in the first half second, so that short work stays silent.
+/// line a quarter elsewhere. Says nothing in the first half second, so that short work stays
+/// silent.
 class ProgressLine {
 public:
     explicit ProgressLine(std::string label, bool quiet = false);

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "app/command.h"
+#include "app/device.h"
 #include "app/frame_sink.h"
 #include "app/options.h"
 #include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "engine/io/image.h"
-#include "app/device.h"
 
 namespace reljef::app {
 namespace {
@@ -51,26 +51,28 @@ void move_camera(TerrainScene& scene, const scene::FlyPath& path, int index, int
 }
 
 void print_stats(const render::FrameStats& stats, const platform::Context& context) {
-    fmt::print("renderer: {}\n"
-               "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
-               "uploads: {} ({:.1f} MB)\n"
-               "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the frustum, {} "
-               "uploads that were there\n"
-               "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
-               context.renderer(), stats.nodes, stats.tiles, stats.triangles, stats.draws,
-               stats.state_changes, stats.uploads, static_cast<double>(stats.upload_bytes) * 1e-6,
-               stats.skipped.invisible_nodes, stats.skipped.nodes_outside_frustum,
-               stats.skipped.tiles_outside_frustum, stats.skipped.triangles_outside_frustum,
-               stats.skipped.uploads_unchanged, stats.cpu_ms, stats.gpu_ms);
+    fmt::print(
+        "renderer: {}\n"
+        "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
+        "uploads: {} ({:.1f} MB)\n"
+        "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the frustum, {} "
+        "uploads that were there\n"
+        "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
+        context.renderer(), stats.nodes, stats.tiles, stats.triangles, stats.draws,
+        stats.state_changes, stats.uploads, static_cast<double>(stats.upload_bytes) * 1e-6,
+        stats.skipped.invisible_nodes, stats.skipped.nodes_outside_frustum,
+        stats.skipped.tiles_outside_frustum, stats.skipped.triangles_outside_frustum,
+        stats.skipped.uploads_unchanged, stats.cpu_ms, stats.gpu_ms);
 }
 
 // Draws the frames one after the other and hands them on.
 Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device& device,
                          const std::optional<scene::FlyPath>& path, const Interrupt& interrupt) {
     const int frames = choice.view.frames;
-    auto sink = make_frame_sink(choice.output, {.size = choice.view.size,
-                                                .frames = frames,
-                                                .frames_per_second = choice.view.frames_per_second});
+    auto sink =
+        make_frame_sink(choice.output, {.size = choice.view.size,
+                                        .frames = frames,
+                                        .frames_per_second = choice.view.frames_per_second});
     if (!sink) {
         return sink.error();
     }
@@ -103,9 +105,10 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device
     if (auto finished = (*sink)->finish(); !finished) {
         return finished;
     }
-    return sheet.empty() ? Result<void>()
-                         : io::write_image(choice.contact_sheet,
-                                           io::contact_sheet(sheet, sheet_columns, sheet_picture_width));
+    return sheet.empty()
+               ? Result<void>()
+               : io::write_image(choice.contact_sheet,
+                                 io::contact_sheet(sheet, sheet_columns, sheet_picture_width));
 }
 
 Result<void> check_choice(const RenderChoice& choice) {
@@ -165,8 +168,9 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
     add_terrain_options(*arguments, choice->terrain);
     add_view_options(*arguments, choice->view);
     arguments
-        ->add_option("-o,--output", choice->output,
-                     "picture (out.png), numbered pictures ('frames/%04d.png') or video (flight.mp4)")
+        ->add_option(
+            "-o,--output", choice->output,
+            "picture (out.png), numbered pictures ('frames/%04d.png') or video (flight.mp4)")
         ->type_name("FILE");
     arguments
         ->add_option("--hit", choice->hits,
@@ -181,7 +185,8 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         "Examples:\n"
         "  reljef render N45E006.hgt -o alps.png\n"
         "  reljef render N45E006.hgt --camera 45.7,6.8,4000,20,-15 -o mont-blanc.png\n"
-        "  reljef render urban --path orbit --frames 48 -o 'frames/%04d.png' --contact-sheet sheet.png\n"
+        "  reljef render urban --path orbit --frames 48 -o 'frames/%04d.png' --contact-sheet "
+        "sheet.png\n"
         "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
         "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
         "  reljef render dem.tif --technique texture --hit hit.exr");

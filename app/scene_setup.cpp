@@ -27,17 +27,20 @@ scene::TerrainOptions terrain_options(const TerrainChoice& choice,
     return options;
 }
 
-Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface, const GeodeticView& view) {
+Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
+                                      const GeodeticView& view) {
     const terrain::Placement& placement = surface.placement();
     const auto eye = placement.world_from_geodetic({view.latitude, view.longitude, view.height});
     if (!eye) {
-        return Error{fmt::format("--camera: {} is not georeferenced, --eye and --look were expected",
-                                 surface.terrain().name)};
+        return Error{
+            fmt::format("--camera: {} is not georeferenced, --eye and --look were expected",
+                        surface.terrain().name)};
     }
     return scene::camera_from_angles(*eye, view.heading, view.pitch, placement.up(*eye));
 }
 
-Result<scene::Camera> choose_camera(const TerrainScene& scene, const io::SceneDescription& description,
+Result<scene::Camera> choose_camera(const TerrainScene& scene,
+                                    const io::SceneDescription& description,
                                     const ViewChoice& view) {
     scene::Camera camera;
     if (view.geodetic) {
@@ -122,8 +125,8 @@ Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const
         return Path(scene::orbit_path(scene.bounds));
     }
     if (view.path == "flyover") {
-        return Path(scene::flyover_path(
-            scene.bounds, [&](double x, double y) { return scene.ground(x, y); }));
+        return Path(scene::flyover_path(scene.bounds,
+                                        [&](double x, double y) { return scene.ground(x, y); }));
     }
     std::error_code ignored;
     if (!std::filesystem::exists(view.path, ignored)) {

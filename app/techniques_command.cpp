@@ -33,10 +33,11 @@ Json catalogue_json() {
 
 void print_text() {
     for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
-        fmt::print("{:<12} {}\n{:<12} {}\n", technique.name, technique.meaning, "", technique.source);
+        fmt::print("{:<12} {}\n{:<12} {}\n", technique.name, technique.meaning, "",
+                   technique.source);
         for (const scene::ParameterInfo& parameter : technique.parameters) {
-            fmt::print("{:<12}   {}={} ({} to {}): {}\n", "", parameter.name, parameter.default_value,
-                       parameter.low, parameter.high, parameter.meaning);
+            fmt::print("{:<12}   {}={} ({} to {}): {}\n", "", parameter.name,
+                       parameter.default_value, parameter.low, parameter.high, parameter.meaning);
         }
     }
 }

@@ -30,8 +30,9 @@ Result<io::SceneDescription> describe(const std::string& terrain) {
         for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
             names += std::string(scene.name) + ", ";
         }
-        return Error{fmt::format("{}: no such terrain; one of {}a scene file or a DEM file was expected",
-                                 terrain, names)};
+        return Error{
+            fmt::format("{}: no such terrain; one of {}a scene file or a DEM file was expected",
+                        terrain, names)};
     }
     io::SceneDescription description;
     description.name = path.filename().string();

@@ -14,8 +14,8 @@ struct TerrainSource {
     io::SceneDescription description;
 };
 
-/// Opens what TERRAIN names, with progress on stderr. Errors name the terrain, what was found and what
-/// was expected.
+/// Opens what TERRAIN names, with progress on stderr. Errors name the terrain, what was found and
+/// what was expected.
 Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop);
 
 } // namespace reljef::app

@@ -2,6 +2,8 @@
 
 namespace reljef::app {
 
-std::string version_text() { return "reljef " RELJEF_VERSION; }
+std::string version_text() {
+    return "reljef " RELJEF_VERSION;
+}
 
 } // namespace reljef::app

@@ -18,14 +18,11 @@ namespace {
 
 std::vector<std::string> arguments_for(const std::filesystem::path& file, glm::ivec2 size,
                                        double frames_per_second) {
-    return {"ffmpeg", "-loglevel", "error", "-y",
-            "-f", "rawvideo", "-pixel_format", "rgba",
-            "-video_size", fmt::format("{}x{}", size.x, size.y),
-            "-framerate", fmt::format("{}", frames_per_second),
-            "-i", "-",
+    return {"ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba",
+            "-video_size", fmt::format("{}x{}", size.x, size.y), "-framerate",
+            fmt::format("{}", frames_per_second), "-i", "-",
             // Most players want even sides and 4:2:0.
-            "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,format=yuv420p",
-            file.string()};
+            "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,format=yuv420p", file.string()};
 }
 
 Result<pid_t> start(const std::vector<std::string>& arguments, int input) {
@@ -41,8 +38,9 @@ Result<pid_t> start(const std::vector<std::string>& arguments, int input) {
     const int code = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (code != 0) {
-        return Error{"ffmpeg was not found, which videos need; install it (apt-get install ffmpeg) or "
-                     "write numbered pictures (-o 'frames/%04d.png')"};
+        return Error{
+            "ffmpeg was not found, which videos need; install it (apt-get install ffmpeg) or "
+            "write numbered pictures (-o 'frames/%04d.png')"};
     }
     return process;
 }

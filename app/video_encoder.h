@@ -11,8 +11,8 @@
 
 namespace reljef::app {
 
-/// Pictures piped to ffmpeg, which must be installed. The file appears with finish(); before that the
-/// encoder is ended and nothing is left.
+/// Pictures piped to ffmpeg, which must be installed. The file appears with finish(); before that
+/// the encoder is ended and nothing is left.
 class VideoEncoder {
 public:
     static Result<VideoEncoder> create(const std::filesystem::path& file, glm::ivec2 size,

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "app/device.h"
 #include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "bench/measure.h"
-#include "app/device.h"
 
 namespace reljef::bench {
 namespace {

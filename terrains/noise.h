@@ -6,8 +6,8 @@
 
 namespace reljef::terrains {
 
-/// 32 well-mixed bits of three integers (the finalizer of MurmurHash3 over a chain of products): the
-/// same on every machine.
+/// 32 well-mixed bits of three integers (the finalizer of MurmurHash3 over a chain of products):
+/// the same on every machine.
 std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y);
 
 /// The hash as a number in [0, 1).
@@ -19,8 +19,8 @@ float gradient_noise(std::uint32_t seed, glm::vec2 point, std::int32_t period = 
 
 struct FractalOptions {
     int octaves = 6;
-    float gain = 0.5F;         ///< amplitude of an octave over the one before
-    std::int32_t period = 0;   ///< of the first octave, see gradient_noise
+    float gain = 0.5F;       ///< amplitude of an octave over the one before
+    std::int32_t period = 0; ///< of the first octave, see gradient_noise
 };
 /// Octaves of gradient noise at doubled frequencies, divided by the sum of their amplitudes.
 float fractal_noise(std::uint32_t seed, glm::vec2 point, const FractalOptions& options = {});

@@ -6,21 +6,21 @@ namespace reljef::render {
 
 /// What one frame took and what it did not need.
 struct FrameStats {
-    int nodes = 0;           ///< in the scene, visible or not
-    int tiles = 0;           ///< terrain tiles drawn
+    int nodes = 0; ///< in the scene, visible or not
+    int tiles = 0; ///< terrain tiles drawn
     std::size_t triangles = 0;
-    int draws = 0;           ///< draw calls, the sky's included
-    int state_changes = 0;   ///< programs, vertex arrays, textures and modes set
-    int uploads = 0;         ///< buffers and textures filled
+    int draws = 0;         ///< draw calls, the sky's included
+    int state_changes = 0; ///< programs, vertex arrays, textures and modes set
+    int uploads = 0;       ///< buffers and textures filled
     std::size_t upload_bytes = 0;
 
     struct Skipped {
-        int invisible_nodes = 0;        ///< hidden, or below a hidden one
+        int invisible_nodes = 0; ///< hidden, or below a hidden one
         int nodes_outside_frustum = 0;
         int tiles_outside_frustum = 0;
         std::size_t triangles_outside_frustum = 0;
-        int uploads_unchanged = 0;      ///< tiles and maps already where they are drawn from
-        int sky = 0;                    ///< 1: the scene has none
+        int uploads_unchanged = 0; ///< tiles and maps already where they are drawn from
+        int sky = 0;               ///< 1: the scene has none
     };
     Skipped skipped;
 

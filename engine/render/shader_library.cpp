@@ -27,8 +27,9 @@ std::string_view name_of(ShaderKind kind) {
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
-    for (const auto& [feature, name] : {std::pair{feature_lit, "LIT"}, std::pair{feature_fog, "FOG"},
-                                        std::pair{feature_hit, "HIT"}}) {
+    for (const auto& [feature, name] :
+         {std::pair{feature_lit, "LIT"}, std::pair{feature_fog, "FOG"},
+          std::pair{feature_hit, "HIT"}}) {
         if ((features & feature) != 0) {
             header += fmt::format("#define {}\n", name);
         }
@@ -68,7 +69,8 @@ private:
 
     Result<void> append(const std::string& name, std::size_t number, int depth) {
         if (depth > deepest_include) {
-            return Error{fmt::format("shader {}: included more than {} deep", name, deepest_include)};
+            return Error{
+                fmt::format("shader {}: included more than {} deep", name, deepest_include)};
         }
         const auto text = text_of(name);
         if (!text) {

@@ -37,8 +37,8 @@ struct ShaderVariant {
     friend auto operator<=>(const ShaderVariant&, const ShaderVariant&) = default;
 };
 
-/// The variant without the features that mean nothing to it: a hit has neither light nor fog, the sky
-/// is not seen through air and is never hit.
+/// The variant without the features that mean nothing to it: a hit has neither light nor fog, the
+/// sky is not seen through air and is never hit.
 ShaderVariant without_meaningless(ShaderVariant variant);
 
 /// Every variant that means something, each once.

@@ -21,7 +21,8 @@ template <class T> Grid<T> thinned(Grid<T> grid, int largest) {
         return grid;
     }
     const auto place = [](int index, int from, int to) {
-        return from > 1 ? static_cast<int>(std::lround(static_cast<double>(index) * (to - 1) / (from - 1)))
+        return from > 1 ? static_cast<int>(
+                              std::lround(static_cast<double>(index) * (to - 1) / (from - 1)))
                         : 0;
     };
     Grid<T> thin(cols, rows);
@@ -51,13 +52,14 @@ Image color_map(const scene::TerrainSurface& surface, const std::optional<glm::d
     const bool opaque = !terrain.color.empty() &&
                         std::all_of(terrain.color.samples().begin(), terrain.color.samples().end(),
                                     [](Rgba8 pixel) { return pixel.a == 255; });
-    Image image = thinned(opaque ? terrain.color
-                                 : terrain::composite(terrain.color,
-                                                      terrain::hypsometric_tint(heightfield)),
-                          largest_side);
+    Image image =
+        thinned(opaque ? terrain.color
+                       : terrain::composite(terrain.color, terrain::hypsometric_tint(heightfield)),
+                largest_side);
     if (to_sun) {
-        put_into_alpha(image, terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,
-                                                      surface.placement().exaggeration(), *to_sun));
+        put_into_alpha(image,
+                       terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,
+                                               surface.placement().exaggeration(), *to_sun));
     }
     return image;
 }
@@ -65,7 +67,8 @@ Image color_map(const scene::TerrainSurface& surface, const std::optional<glm::d
 Grid<std::uint32_t> gradient_map(const scene::TerrainSurface& surface, int largest_side) {
     const Grid<glm::vec2> gradients =
         terrain::scene_gradients(surface.heightfield(), surface.placement());
-    // The largest half float: cliffs steeper than that are upright to within a thousandth of a degree.
+    // The largest half float: cliffs steeper than that are upright to within a thousandth of a
+    // degree.
     constexpr float steepest = 65504.0F;
     Grid<std::uint32_t> packed(gradients.cols(), gradients.rows());
     std::transform(gradients.samples().begin(), gradients.samples().end(), packed.samples().begin(),

@@ -10,7 +10,8 @@
 namespace reljef::render {
 
 /// Albedo of a terrain (its imagery over the hypsometric tint) with the share of the sun that each
-/// place sees in the alpha channel; without a sun alpha is 255. No side is longer than `largest_side`.
+/// place sees in the alpha channel; without a sun alpha is 255. No side is longer than
+/// `largest_side`.
 Image color_map(const scene::TerrainSurface& surface, const std::optional<glm::dvec3>& to_sun,
                 int largest_side);
 

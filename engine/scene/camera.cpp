@@ -14,8 +14,8 @@ glm::dvec3 direction_or(glm::dvec3 vector, glm::dvec3 otherwise) {
     return std::isfinite(length) && length > 0.0 ? vector / length : otherwise;
 }
 
-// Sine of the angle below which a view counts as looking along its up vector: there the cross product
-// keeps fewer than half of a double's 53 bits.
+// Sine of the angle below which a view counts as looking along its up vector: there the cross
+// product keeps fewer than half of a double's 53 bits.
 constexpr double parallel_sine = 0x1p-26;
 
 } // namespace
@@ -37,7 +37,8 @@ ViewAxes view_axes(const Camera& camera) {
 glm::dmat4 view_from_world_rotation(const Camera& camera) {
     const ViewAxes axes = view_axes(camera);
     return glm::transpose(glm::dmat4(glm::dvec4(axes.right, 0.0), glm::dvec4(axes.up, 0.0),
-                                     glm::dvec4(-axes.forward, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0)));
+                                     glm::dvec4(-axes.forward, 0.0),
+                                     glm::dvec4(0.0, 0.0, 0.0, 1.0)));
 }
 
 glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size) {

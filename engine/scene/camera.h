@@ -24,8 +24,8 @@ struct Camera {
     double orthographic_far = 1e7;
 };
 
-/// Unit vectors of the view. Looking along `up`, or at the eye itself, still gives a right frame: north
-/// (or east) then is up in the picture.
+/// Unit vectors of the view. Looking along `up`, or at the eye itself, still gives a right frame:
+/// north (or east) then is up in the picture.
 struct ViewAxes {
     glm::dvec3 right;
     glm::dvec3 up;
@@ -36,8 +36,8 @@ ViewAxes view_axes(const Camera& camera);
 /// View space (x right, y up, z towards the viewer) from world directions; no translation.
 glm::dmat4 view_from_world_rotation(const Camera& camera);
 
-/// Clip from view space, depth reversed to 1 at the near plane: towards 0 at infinity (perspective), 0
-/// at the far plane (orthographic). `size` is the picture's, pixels.
+/// Clip from view space, depth reversed to 1 at the near plane: towards 0 at infinity
+/// (perspective), 0 at the far plane (orthographic). `size` is the picture's, pixels.
 glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size);
 
 /// The whole way; for selection and for oracles. Drawing goes camera-relative instead.
@@ -47,8 +47,8 @@ glm::dmat4 clip_from_world(const Camera& camera, glm::ivec2 size);
 /// its direction has length 1 along the view axis, so t is the depth.
 Ray view_ray(const Camera& camera, glm::ivec2 size, glm::dvec2 pixel);
 
-/// Where a world point falls on the picture (pixels, as in view_ray) and its depth along the view axis.
-/// Meaningless behind the eye (depth <= 0) in perspective.
+/// Where a world point falls on the picture (pixels, as in view_ray) and its depth along the view
+/// axis. Meaningless behind the eye (depth <= 0) in perspective.
 struct Projected {
     glm::dvec2 pixel;
     double depth;
@@ -56,6 +56,7 @@ struct Projected {
 Projected project(const Camera& camera, glm::ivec2 size, glm::dvec3 world);
 
 /// Heading clockwise from north and pitch above the horizon, degrees; roll is none.
-Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, glm::dvec3 up = {0.0, 0.0, 1.0});
+Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch,
+                          glm::dvec3 up = {0.0, 0.0, 1.0});
 
 } // namespace reljef::scene

@@ -17,14 +17,14 @@ struct FlyKey {
     glm::dvec3 look{0.0};
 };
 
-/// A camera flight through keys: cubic Hermite pieces with tangents limited per coordinate so that no
-/// piece leaves the range of its two keys (Fritsch & Carlson 1980): it never overshoots, and stays
-/// finite with coincident keys. Before the first key and after the last it stands still; a time that is
-/// not a number counts as the beginning.
+/// A camera flight through keys: cubic Hermite pieces with tangents limited per coordinate so that
+/// no piece leaves the range of its two keys (Fritsch & Carlson 1980): it never overshoots, and
+/// stays finite with coincident keys. Before the first key and after the last it stands still; a
+/// time that is not a number counts as the beginning.
 class FlyPath {
 public:
-    /// Keys in any order; of keys at one time the last counts. Fails without a key, or with one that
-    /// is not finite.
+    /// Keys in any order; of keys at one time the last counts. Fails without a key, or with one
+    /// that is not finite.
     static Result<FlyPath> create(std::vector<FlyKey> keys);
 
     [[nodiscard]] FlyKey at(double time) const;

@@ -25,6 +25,24 @@ void add_quad(Mesh& mesh, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     }
 }
 
+// Two triangles for each of cols × rows quads over a grid of (cols + 1) × (rows + 1) vertices.
+std::vector<std::uint32_t> quad_grid_indices(int cols, int rows) {
+    const auto vertex = [&](int col, int row) {
+        return static_cast<std::uint32_t>(row * (cols + 1) + col);
+    };
+    std::vector<std::uint32_t> indices;
+    for (int row = 0; row < rows; ++row) {
+        for (int col = 0; col < cols; ++col) {
+            for (const std::uint32_t index :
+                 {vertex(col, row), vertex(col, row + 1), vertex(col + 1, row + 1),
+                  vertex(col, row), vertex(col + 1, row + 1), vertex(col + 1, row)}) {
+                indices.push_back(index);
+            }
+        }
+    }
+    return indices;
+}
+
 } // namespace
 
 Box bounds_of(const Mesh& mesh) {
@@ -69,18 +87,7 @@ Mesh sphere_mesh(float radius, int segments) {
             mesh.texture_coordinates.emplace_back(u, v);
         }
     }
-    const auto vertex = [&](int col, int row) {
-        return static_cast<std::uint32_t>(row * (around + 1) + col);
-    };
-    for (int row = 0; row < down; ++row) {
-        for (int col = 0; col < around; ++col) {
-            for (const std::uint32_t index :
-                 {vertex(col, row), vertex(col, row + 1), vertex(col + 1, row + 1),
-                  vertex(col, row), vertex(col + 1, row + 1), vertex(col + 1, row)}) {
-                mesh.indices.push_back(index);
-            }
-        }
-    }
+    mesh.indices = quad_grid_indices(around, down);
     return mesh;
 }
 

@@ -25,7 +25,8 @@ Box bounds_of(const Mesh& mesh);
 /// A box centred at the origin; `size` in metres along x, y, z.
 Mesh box_mesh(glm::vec3 size);
 
-/// A sphere centred at the origin, `segments` around and half as many from pole to pole (at least 3).
+/// A sphere centred at the origin, `segments` around and half as many from pole to pole (at least
+/// 3).
 Mesh sphere_mesh(float radius, int segments = 48);
 
 } // namespace reljef::scene

@@ -25,9 +25,9 @@ Camera map_camera(const Box& bounds) {
 } // namespace
 
 std::string_view to_string(Pose pose) {
-    return std::find_if(names.begin(), names.end(), [&](const auto& entry) {
-               return entry.first == pose;
-           })->second;
+    return std::find_if(names.begin(), names.end(),
+                        [&](const auto& entry) { return entry.first == pose; })
+        ->second;
 }
 
 std::optional<Pose> pose_from_string(std::string_view text) {

@@ -9,8 +9,8 @@
 
 namespace reljef::scene {
 
-/// The standard viewpoints of the benchmarks; w = width (x) of the bounds centred at the origin, h0/h1
-/// their lowest and highest z, vertical field of view 57.3°.
+/// The standard viewpoints of the benchmarks; w = width (x) of the bounds centred at the origin,
+/// h0/h1 their lowest and highest z, vertical field of view 57.3°.
 enum class Pose {
     overview, ///< eye (0, −0.65w, h1 + 0.35w), look (0, −0.05w, h0)
     low,      ///< eye (0, −0.3w, ground + 0.15(h1 − h0)), look (0.05w, 0.4w, h0)

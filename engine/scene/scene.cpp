@@ -27,6 +27,20 @@ Ray transformed(const glm::dmat4& to_from_from, const Ray& ray) {
             glm::dvec3(to_from_from * glm::dvec4(ray.direction, 0.0))};
 }
 
+// z of a terrain straight below `above`, world metres. A turned terrain has no height at x, y of
+// its own: the ray down finds it.
+std::optional<double> height_of(const TerrainNode& terrain, const glm::dmat4& world_from_local,
+                                glm::dvec3 above) {
+    const glm::dvec3 origin(world_from_local[3]);
+    if (glm::dmat3(world_from_local) == glm::dmat3(1.0)) {
+        const auto z = terrain.surface->height_at(above.x - origin.x, above.y - origin.y);
+        return z ? std::optional(*z + origin.z) : std::nullopt;
+    }
+    const auto hit = terrain.surface->pick(
+        transformed(glm::inverse(world_from_local), {above, {0.0, 0.0, -1.0}}));
+    return hit ? std::optional(above.z - hit->t) : std::nullopt;
+}
+
 } // namespace
 
 glm::dvec3 to_light(const Light& light) {
@@ -36,7 +50,8 @@ glm::dvec3 to_light(const Light& light) {
             std::sin(altitude)};
 }
 
-Node::Node(std::string name, Content content) : name_(std::move(name)), content_(std::move(content)) {}
+Node::Node(std::string name, Content content)
+    : name_(std::move(name)), content_(std::move(content)) {}
 
 Node& Node::add(std::unique_ptr<Node> child) {
     check(child != nullptr, "a node was expected");
@@ -62,7 +77,8 @@ std::unique_ptr<Node> Node::remove(const Node& child) {
 }
 
 glm::dmat4 Node::world_from_local() const {
-    return parent_ != nullptr ? parent_->world_from_local() * parent_from_local_ : parent_from_local_;
+    return parent_ != nullptr ? parent_->world_from_local() * parent_from_local_
+                              : parent_from_local_;
 }
 
 Box Node::local_bounds() const {
@@ -79,9 +95,10 @@ Box Node::world_bounds() const {
     Box bounds;
     const glm::dmat4 world_from_parent =
         parent_ != nullptr ? parent_->world_from_local() : glm::dmat4(1.0);
-    visit_below(*this, world_from_parent, [&](const Node& node, const glm::dmat4& world_from_local) {
-        bounds.add(reljef::transformed(world_from_local, node.local_bounds()));
-    });
+    visit_below(*this, world_from_parent,
+                [&](const Node& node, const glm::dmat4& world_from_local) {
+                    bounds.add(reljef::transformed(world_from_local, node.local_bounds()));
+                });
     return bounds;
 }
 
@@ -103,15 +120,18 @@ Result<Node*> Scene::add_terrain(terrain::Terrain terrain, const TerrainOptions&
     if (!surface) {
         return surface.error();
     }
-    return &root_->add(std::move(name),
-                       TerrainNode{std::make_shared<const TerrainSurface>(std::move(*surface)), {}});
+    return &root_->add(
+        std::move(name),
+        TerrainNode{std::make_shared<const TerrainSurface>(std::move(*surface)), {}});
 }
 
 Node& Scene::add_mesh(Mesh mesh, const Material& material) {
     return root_->add("mesh", MeshNode{std::make_shared<const Mesh>(std::move(mesh)), material});
 }
 
-Node& Scene::add_light(const Light& light) { return root_->add("light", light); }
+Node& Scene::add_light(const Light& light) {
+    return root_->add("light", light);
+}
 
 Node& Scene::add_camera(const Camera& camera) {
     Node& node = root_->add("camera", camera);
@@ -132,7 +152,9 @@ Camera Scene::camera() const {
     }
     Camera camera = *active_camera_->get<Camera>();
     const glm::dmat4 world_from_local = active_camera_->world_from_local();
-    const auto place = [&](glm::dvec3 p) { return glm::dvec3(world_from_local * glm::dvec4(p, 1.0)); };
+    const auto place = [&](glm::dvec3 p) {
+        return glm::dvec3(world_from_local * glm::dvec4(p, 1.0));
+    };
     camera.up = glm::dvec3(world_from_local * glm::dvec4(camera.up, 0.0));
     camera.eye = place(camera.eye);
     camera.look = place(camera.look);
@@ -140,30 +162,15 @@ Camera Scene::camera() const {
 }
 
 std::optional<double> Scene::height_at(double x, double y) const {
-    // Straight down through everything; a rotated terrain has no "height at x, y" but this.
     const Box bounds = root_->world_bounds();
     if (bounds.empty()) {
         return std::nullopt;
     }
     std::optional<double> highest;
     visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_local) {
-        const auto* terrain = node.get<TerrainNode>();
-        if (terrain == nullptr) {
-            return;
-        }
-        const glm::dmat4 turn = glm::dmat4(glm::dmat3(world_from_local));
-        std::optional<double> z;
-        if (turn == glm::dmat4(1.0)) {
-            z = terrain->surface->height_at(x - world_from_local[3].x, y - world_from_local[3].y);
-            z = z ? std::optional(*z + world_from_local[3].z) : z;
-        } else {
-            const double top = bounds.high.z + 1.0;
-            const auto hit = terrain->surface->pick(transformed(
-                glm::inverse(world_from_local), {{x, y, top}, {0.0, 0.0, -1.0}}));
-            z = hit ? std::optional(top - hit->t) : z;
-        }
-        if (z && (!highest || *z > *highest)) {
-            highest = z;
+        if (const auto* terrain = node.get<TerrainNode>()) {
+            const auto z = height_of(*terrain, world_from_local, {x, y, bounds.high.z + 1.0});
+            highest = z ? std::max(*z, highest.value_or(*z)) : highest;
         }
     });
     return highest;
@@ -188,9 +195,11 @@ bool Scene::dispatch(const Event& event) const {
                        [&](const EventReceiver& receiver) { return receiver(event); });
 }
 
-void visit_visible(const Node& root,
-                   const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit) {
-    visit_below(root, root.parent() != nullptr ? root.parent()->world_from_local() : glm::dmat4(1.0),
+void visit_visible(
+    const Node& root,
+    const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit) {
+    visit_below(root,
+                root.parent() != nullptr ? root.parent()->world_from_local() : glm::dmat4(1.0),
                 visit);
 }
 

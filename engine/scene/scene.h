@@ -21,8 +21,10 @@ namespace reljef::scene {
 struct Light {
     double azimuth = 300.0; ///< degrees clockwise from north, where it comes from
     double altitude = 40.0; ///< degrees above the horizon
-    glm::vec3 color{1.70F, 1.60F, 1.43F};  ///< linear, what a surface that faces it reflects at albedo 1
-    glm::vec3 ambient{0.30F, 0.35F, 0.44F}; ///< linear, what a level surface reflects from the sky at albedo 1
+    glm::vec3 color{1.70F, 1.60F,
+                    1.43F}; ///< linear, what a surface that faces it reflects at albedo 1
+    glm::vec3 ambient{0.30F, 0.35F,
+                      0.44F}; ///< linear, what a level surface reflects from the sky at albedo 1
 };
 
 /// Unit vector towards the light.
@@ -49,8 +51,8 @@ using Animator = std::function<void(Node& node, double time)>;
 /// Looks at an event and says whether it took it; the next receiver is asked only if not.
 using EventReceiver = std::function<bool(const Event& event)>;
 
-/// A place in the scene: a transform, perhaps something to draw, and children that move along. Owned
-/// by its parent.
+/// A place in the scene: a transform, perhaps something to draw, and children that move along.
+/// Owned by its parent.
 class Node {
 public:
     using Content = std::variant<std::monostate, TerrainNode, MeshNode, Light, Camera>;
@@ -149,7 +151,8 @@ private:
 };
 
 /// Calls `visit(node, world_from_local)` for every node of the tree that is visible, parents first.
-void visit_visible(const Node& root,
-                   const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit);
+void visit_visible(
+    const Node& root,
+    const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit);
 
 } // namespace reljef::scene

@@ -19,8 +19,8 @@ enum class TechniqueId {
 struct ParameterInfo {
     std::string_view name;
     double default_value = 0.0;
-    double low = 0.0;  ///< least value allowed
-    double high = 0.0; ///< greatest value allowed
+    double low = 0.0;   ///< least value allowed
+    double high = 0.0;  ///< greatest value allowed
     bool whole = false; ///< whole numbers only
     std::string_view meaning;
 };

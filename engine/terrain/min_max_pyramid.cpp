@@ -18,7 +18,9 @@ Grid<MinMax> cell_bounds(GridView<const float> heights) {
     return bounds;
 }
 
-MinMax merged(MinMax a, MinMax b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
+MinMax merged(MinMax a, MinMax b) {
+    return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
 
 Grid<MinMax> halved(const Grid<MinMax>& fine) {
     Grid<MinMax> coarse((fine.cols() + 1) / 2, (fine.rows() + 1) / 2);

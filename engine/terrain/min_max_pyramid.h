@@ -12,9 +12,9 @@ struct MinMax {
     float high = 0.0F;
 };
 
-/// Bounds of a bilinear height surface over blocks of 2^level × 2^level cells, a cell being the square
-/// between four neighbouring samples. Level 0 has (cols−1)×(rows−1) blocks, the last level one. The
-/// bounds are exact: a bilinear patch lies between its corners' lowest and highest.
+/// Bounds of a bilinear height surface over blocks of 2^level × 2^level cells, a cell being the
+/// square between four neighbouring samples. Level 0 has (cols−1)×(rows−1) blocks, the last level
+/// one. The bounds are exact: a bilinear patch lies between its corners' lowest and highest.
 class MinMaxPyramid {
 public:
     MinMaxPyramid() = default;

@@ -21,7 +21,8 @@ struct Tile {
 /// Cells along a tile's side: 129² vertices, so that 16-bit indices reach them all.
 inline constexpr int tile_cells = 128;
 
-/// Cuts a heightfield into tiles of at most `tile_cells` cells a side, row after row, with true bounds.
+/// Cuts a heightfield into tiles of at most `tile_cells` cells a side, row after row, with true
+/// bounds.
 std::vector<Tile> tile_layout(const Heightfield& heightfield, const Placement& placement);
 
 /// The same tiles with the bounds of the flat reference surface at `height` metres.

@@ -11,7 +11,7 @@ namespace reljef::terrain {
 namespace {
 
 struct Stop {
-    float at;       // share of the height range
+    float at;        // share of the height range
     glm::vec3 color; // sRGB, 0..255
 };
 
@@ -79,15 +79,19 @@ bool is_level_sea(const Heightfield& heightfield, int col, int row) {
     return true;
 }
 
-glm::vec3 vector_from(Rgba8 color) { return {color.r, color.g, color.b}; }
+glm::vec3 vector_from(Rgba8 color) {
+    return {color.r, color.g, color.b};
+}
 
 // Beneath's color at the place of a pixel of a picture that covers the same ground.
 Rgba8 nearest(const Image& beneath, const Image& over, int col, int row) {
     const auto scaled = [](int index, int from, int to) {
-        return from > 1 ? static_cast<int>(std::lround(static_cast<double>(index) * (to - 1) / (from - 1)))
+        return from > 1 ? static_cast<int>(
+                              std::lround(static_cast<double>(index) * (to - 1) / (from - 1)))
                         : 0;
     };
-    return beneath(scaled(col, over.cols(), beneath.cols()), scaled(row, over.rows(), beneath.rows()));
+    return beneath(scaled(col, over.cols(), beneath.cols()),
+                   scaled(row, over.rows(), beneath.rows()));
 }
 
 } // namespace
@@ -122,7 +126,8 @@ Image composite(const Image& color, const Image& beneath) {
             Rgba8& pixel = result(col, row);
             if (pixel.a < 255) {
                 const glm::vec3 under = vector_from(nearest(beneath, color, col, row));
-                pixel = rgba8(glm::mix(under, vector_from(pixel), static_cast<float>(pixel.a) / 255.0F));
+                pixel = rgba8(
+                    glm::mix(under, vector_from(pixel), static_cast<float>(pixel.a) / 255.0F));
             }
         }
     }

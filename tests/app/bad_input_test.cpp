@@ -18,7 +18,7 @@ class BadInput : public testing::Test {
 protected:
     // Renders a file with osmesa; the output must not appear.
     test::ProgramResult render(const std::string& terrain, std::vector<std::string> more = {}) {
-        std::vector<std::string> arguments{"render", terrain,          "-o", picture(),
+        std::vector<std::string> arguments{"render", terrain, "-o",        picture(),
                                            "--size", "64x48", "--context", "osmesa"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         auto result = test::reljef(arguments);
@@ -41,7 +41,9 @@ TEST_F(BadInput, unknown_name) {
     expect_refusal(render("atlantis"), 1, {"atlantis", "natural, urban"});
 }
 
-TEST_F(BadInput, empty_file) { expect_refusal(render(write("empty.tif", "")), 1, {"empty.tif"}); }
+TEST_F(BadInput, empty_file) {
+    expect_refusal(render(write("empty.tif", "")), 1, {"empty.tif"});
+}
 
 TEST_F(BadInput, not_a_raster) {
     expect_refusal(render(write("text.tif", "this is no raster, whatever its name says")), 1,
@@ -49,7 +51,8 @@ TEST_F(BadInput, not_a_raster) {
 }
 
 TEST_F(BadInput, truncated_height_file) {
-    expect_refusal(render(write("N45E006.hgt", std::string(1201 * 1201, '\1'))), 1, {"N45E006.hgt"});
+    expect_refusal(render(write("N45E006.hgt", std::string(1201 * 1201, '\1'))), 1,
+                   {"N45E006.hgt"});
 }
 
 TEST_F(BadInput, truncated_ascii_grid) {
@@ -57,8 +60,9 @@ TEST_F(BadInput, truncated_ascii_grid) {
 }
 
 TEST_F(BadInput, one_sample) {
-    expect_refusal(render(write("one.asc", "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n5\n")),
-                   1, {"one.asc", "1"});
+    expect_refusal(
+        render(write("one.asc", "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n5\n")), 1,
+        {"one.asc", "1"});
 }
 
 TEST_F(BadInput, one_column) {
@@ -69,9 +73,10 @@ TEST_F(BadInput, one_column) {
 }
 
 TEST_F(BadInput, all_void) {
-    expect_refusal(render(write("void.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
-                                            "NODATA_value -1\n-1 -1\n-1 -1\n")),
-                   1, {"void.asc"});
+    expect_refusal(
+        render(write("void.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
+                                 "NODATA_value -1\n-1 -1\n-1 -1\n")),
+        1, {"void.asc"});
 }
 
 TEST_F(BadInput, header_that_claims_a_hundred_thousand_squared_is_no_allocation) {
@@ -85,8 +90,8 @@ TEST_F(BadInput, folder_without_tiles) {
 
 TEST_F(BadInput, output_folder_that_is_not_there) {
     const auto dem = write("dem.asc", small_dem);
-    const auto result = test::reljef({"render", dem, "-o", "/nonexistent/picture.png", "--size", "64x48",
-                                      "--context", "osmesa", "--quiet"});
+    const auto result = test::reljef({"render", dem, "-o", "/nonexistent/picture.png", "--size",
+                                      "64x48", "--context", "osmesa", "--quiet"});
     expect_refusal(result, 1, {"/nonexistent"});
 }
 
@@ -116,8 +121,8 @@ TEST_F(BadInput, path_that_is_not_there) {
 TEST_F(BadInput, shader_that_does_not_compile) {
     const auto dem = write("dem.asc", small_dem);
     folder_.write("shaders/terrain.frag", "void main() { nonsense }\n");
-    expect_refusal(render(dem, {"--shader-dir", (folder_.path() / "shaders").string(), "--quiet"}), 1,
-                   {"terrain.frag", "1"});
+    expect_refusal(render(dem, {"--shader-dir", (folder_.path() / "shaders").string(), "--quiet"}),
+                   1, {"terrain.frag", "1"});
 }
 
 TEST_F(BadInput, scene_file_with_an_unknown_key) {
@@ -149,7 +154,9 @@ struct Misuse {
     std::string part;
 };
 
-void PrintTo(const Misuse& misuse, std::ostream* stream) { *stream << misuse.part; }
+void PrintTo(const Misuse& misuse, std::ostream* stream) {
+    *stream << misuse.part;
+}
 
 class Misused : public testing::TestWithParam<Misuse> {};
 
@@ -180,8 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"render", "natural", "--projection", "fisheye", "-o", "a.png"}, "fisheye"},
         Misuse{{"render", "natural", "--placement", "moon", "-o", "a.png"}, "moon"},
         Misuse{{"render", "natural", "--sun", "300,0", "-o", "a.png"}, "altitude 0"},
-        Misuse{{"height", "natural"}, "--at"},
-        Misuse{{"height", "natural", "--at", "45"}, "45"}));
+        Misuse{{"height", "natural"}, "--at"}, Misuse{{"height", "natural", "--at", "45"}, "45"}));
 
 } // namespace
 } // namespace reljef

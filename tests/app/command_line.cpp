@@ -12,7 +12,8 @@ ProgramResult reljef(const std::vector<std::string>& arguments, const ProgramOpt
     return run_program(RELJEF_BINARY, arguments, options);
 }
 
-void expect_refusal(const ProgramResult& result, int exit_code, const std::vector<std::string>& parts) {
+void expect_refusal(const ProgramResult& result, int exit_code,
+                    const std::vector<std::string>& parts) {
     EXPECT_EQ(result.exit_code, exit_code) << result.err;
     EXPECT_FALSE(result.timed_out);
     EXPECT_EQ(result.err.rfind("reljef: ", 0), 0U) << result.err;

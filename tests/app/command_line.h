@@ -10,9 +10,10 @@ namespace reljef::test {
 /// Runs the program `reljef`.
 ProgramResult reljef(const std::vector<std::string>& arguments, const ProgramOptions& options = {});
 
-/// Expects that the run failed with `exit_code` and one line on stderr that begins with "reljef: " and
-/// holds each of `parts`.
-void expect_refusal(const ProgramResult& result, int exit_code, const std::vector<std::string>& parts);
+/// Expects that the run failed with `exit_code` and one line on stderr that begins with "reljef: "
+/// and holds each of `parts`.
+void expect_refusal(const ProgramResult& result, int exit_code,
+                    const std::vector<std::string>& parts);
 
 /// Whether a window can be opened.
 bool has_display();

@@ -13,8 +13,8 @@ TEST(Numbered, replaces_the_number) {
 }
 
 TEST(Numbered, refuses_any_other_pattern) {
-    for (const char* pattern : {"a.png", "%s.png", "%04d-%d.png", "%n%d.png", "%.png", "%99999d.png",
-                                "%-4d.png", "100%.png"}) {
+    for (const char* pattern : {"a.png", "%s.png", "%04d-%d.png", "%n%d.png", "%.png",
+                                "%99999d.png", "%-4d.png", "100%.png"}) {
         EXPECT_FALSE(numbered(pattern, 1)) << pattern;
     }
 }

@@ -50,8 +50,9 @@ TEST_F(HeightCommand, terrain_without_a_place_is_an_error) {
 
 TEST(HeightCommandOnRealData, mont_blanc_stands_where_it_should) {
     RELJEF_NEED_DATA("natural/srtm3/N45E006.hgt");
-    const auto result = test::reljef({"height", test::data_path("natural/srtm3/N45E006.hgt").string(),
-                                      "--at", "45.8326,6.8652"});
+    const auto result =
+        test::reljef({"height", test::data_path("natural/srtm3/N45E006.hgt").string(), "--at",
+                      "45.8326,6.8652"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     double height = 0.0;
     ASSERT_EQ(std::sscanf(result.out.c_str(), "45.8326,6.8652,%lf", &height), 1) << result.out;

@@ -12,7 +12,8 @@
 namespace reljef {
 namespace {
 
-// Everything below is written out here on its own: no placement, camera or interpolation of the engine.
+// Everything below is written out here on its own: no placement, camera or interpolation of the
+// engine.
 class HitFile : public testing::Test {
 protected:
     static constexpr int width = 640;
@@ -40,8 +41,8 @@ TEST_F(HitFile, agrees_with_the_heightfield_at_the_shown_points) {
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "hit.exr").string();
     const auto run = test::reljef({"render", dem.string(), "--placement", "plane", "--eye",
-                                   "2000,-60000,14000", "--look", "0,-20000,1000", "--size", "640x480",
-                                   "--context", "osmesa", "--hit", file});
+                                   "2000,-60000,14000", "--look", "0,-20000,1000", "--size",
+                                   "640x480", "--context", "osmesa", "--hit", file});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto hits = io::read_hits(file);
     ASSERT_TRUE(hits) << hits.error().message;
@@ -63,10 +64,11 @@ TEST_F(HitFile, agrees_with_the_heightfield_at_the_shown_points) {
             const double u = static_cast<double>(hit.col) - c;
             const double v = static_cast<double>(hit.row) - r;
             const double twist = z(c, r) - z(c + 1, r) - z(c, r + 1) + z(c + 1, r + 1);
-            const double bilinear = z(c, r) + (z(c + 1, r) - z(c, r)) * u + (z(c, r + 1) - z(c, r)) * v +
-                                    twist * u * v;
-            // Two triangles leave the bilinear patch by a quarter of its twist; a rasterizer that snaps
-            // vertices to 1/256 pixel shows a place up to that far beyond the triangle, under 0.01 px.
+            const double bilinear =
+                z(c, r) + (z(c + 1, r) - z(c, r)) * u + (z(c, r + 1) - z(c, r)) * v + twist * u * v;
+            // Two triangles leave the bilinear patch by a quarter of its twist; a rasterizer that
+            // snaps vertices to 1/256 pixel shows a place up to that far beyond the triangle, under
+            // 0.01 px.
             const double pixel_metres = hit.depth * 2.0 * std::tan(fov * M_PI / 360.0) / height;
             ASSERT_NEAR(hit.height, bilinear, 0.25 * std::abs(twist) + 0.01 * pixel_metres)
                 << x << ',' << y;
@@ -85,8 +87,8 @@ TEST_F(HitFile, texture_shows_the_flat_reference_surface) {
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "hit.exr").string();
     const auto run = test::reljef({"render", "natural", "--technique", "texture", "--eye",
-                                   "0,-9000,9000", "--look", "0,0,1000", "--size", "640x480", "--context",
-                                   "osmesa", "--hit", file});
+                                   "0,-9000,9000", "--look", "0,0,1000", "--size", "640x480",
+                                   "--context", "osmesa", "--hit", file});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto hits = io::read_hits(file);
     ASSERT_TRUE(hits);

@@ -7,7 +7,8 @@ namespace reljef {
 namespace {
 
 // `timeout` ends the program as Ctrl-C does.
-test::ProgramResult interrupted_after(const std::string& seconds, std::vector<std::string> arguments) {
+test::ProgramResult interrupted_after(const std::string& seconds,
+                                      std::vector<std::string> arguments) {
     std::vector<std::string> all{"--preserve-status", "-s", "INT", seconds, RELJEF_BINARY};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return test::run_program("/usr/bin/timeout", all);
@@ -17,8 +18,8 @@ TEST(CtrlC, ends_a_long_flight_and_leaves_no_rubbish) {
     const test::TemporaryFolder folder;
     const auto video = (folder.path() / "flight.mp4").string();
     const auto result =
-        interrupted_after("4", {"render", "natural", "--path", "orbit", "--frames", "100000", "--size",
-                                "64x48", "--context", "osmesa", "--quiet", "-o", video});
+        interrupted_after("4", {"render", "natural", "--path", "orbit", "--frames", "100000",
+                                "--size", "64x48", "--context", "osmesa", "--quiet", "-o", video});
     if (result.err.find("ffmpeg was not found") != std::string::npos) {
         GTEST_SKIP() << "no ffmpeg here";
     }

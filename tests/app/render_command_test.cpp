@@ -28,8 +28,8 @@ TEST_P(EveryRaster, gives_a_picture) {
     RELJEF_NEED_DATA(GetParam());
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "picture.png").string();
-    const auto result = test::reljef({"render", test::data_path(GetParam()).string(), "--size", "320x240",
-                                      "--context", "osmesa", "-o", file});
+    const auto result = test::reljef({"render", test::data_path(GetParam()).string(), "--size",
+                                      "320x240", "--context", "osmesa", "-o", file});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto image = io::read_image(file);
     ASSERT_TRUE(image) << image.error().message;
@@ -39,19 +39,19 @@ TEST_P(EveryRaster, gives_a_picture) {
 
 INSTANTIATE_TEST_SUITE_P(
     Data, EveryRaster,
-    testing::Values("natural/SainteHelens.dem", "natural/craterlake-elev-16bit-30m.tif",
-                    "natural/derived/mt_rainier_90m_cog.tif", "natural/derived/n45e006_513_metres.pgm",
-                    "natural/derived/n45e006_513_png16_0-4672m.png", "natural/derived/sthelens.hf2",
-                    "natural/derived/sthelens.ter", "natural/derived/sthelens_ftUS_compound_crs.tif",
-                    "natural/irrlicht_terrain-heightmap.bmp", "natural/luxembourg_elev.tif",
-                    "natural/mt_rainier_90m.tif", "natural/n00_e006_3arc_v2.dt1",
-                    "natural/png16_height_1024.png", "natural/sba_elev32_wgs84_512x512.tif",
-                    "natural/springcreek_30m.asc", "natural/srtm3/N22W160v2.3a.hgt.zip",
-                    "natural/srtm3/N44E006.hgt", "natural/srtm3/N44E007.hgt",
-                    "natural/srtm3/N45E006.hgt", "natural/srtm3/N45E007.hgt",
-                    "natural/srtm3/N49E001.hgt", "urban/annarbor/test_building.tif",
-                    "urban/annarbor/test_dsm.tif", "urban/annarbor/test_dtm.tif",
-                    "urban/delft/tud-dsm-5m.tif", "urban/delft/tud-dtm-5m.tif"));
+    testing::Values(
+        "natural/SainteHelens.dem", "natural/craterlake-elev-16bit-30m.tif",
+        "natural/derived/mt_rainier_90m_cog.tif", "natural/derived/n45e006_513_metres.pgm",
+        "natural/derived/n45e006_513_png16_0-4672m.png", "natural/derived/sthelens.hf2",
+        "natural/derived/sthelens.ter", "natural/derived/sthelens_ftUS_compound_crs.tif",
+        "natural/irrlicht_terrain-heightmap.bmp", "natural/luxembourg_elev.tif",
+        "natural/mt_rainier_90m.tif", "natural/n00_e006_3arc_v2.dt1",
+        "natural/png16_height_1024.png", "natural/sba_elev32_wgs84_512x512.tif",
+        "natural/springcreek_30m.asc", "natural/srtm3/N22W160v2.3a.hgt.zip",
+        "natural/srtm3/N44E006.hgt", "natural/srtm3/N44E007.hgt", "natural/srtm3/N45E006.hgt",
+        "natural/srtm3/N45E007.hgt", "natural/srtm3/N49E001.hgt",
+        "urban/annarbor/test_building.tif", "urban/annarbor/test_dsm.tif",
+        "urban/annarbor/test_dtm.tif", "urban/delft/tud-dsm-5m.tif", "urban/delft/tud-dtm-5m.tif"));
 
 TEST(RenderCommand, drapes_imagery) {
     RELJEF_NEED_DATA("natural/craterlake-imagery-30m.tif");
@@ -59,7 +59,8 @@ TEST(RenderCommand, drapes_imagery) {
     const auto plain = (folder.path() / "plain.png").string();
     const auto draped = (folder.path() / "draped.png").string();
     const auto dem = test::data_path("natural/craterlake-elev-16bit-30m.tif").string();
-    const std::vector<std::string> common{"render", dem, "--size", "320x240", "--context", "osmesa"};
+    const std::vector<std::string> common{"render",  dem,         "--size",
+                                          "320x240", "--context", "osmesa"};
     auto arguments = common;
     arguments.insert(arguments.end(), {"-o", plain});
     ASSERT_EQ(test::reljef(arguments).exit_code, 0);
@@ -74,10 +75,10 @@ TEST(RenderCommand, drapes_imagery) {
 
 TEST(RenderCommand, sequence_and_contact_sheet) {
     const test::TemporaryFolder folder;
-    const auto result = test::reljef({"render", "urban", "--path", "orbit", "--frames", "3", "--size",
-                                      "160x120", "--context", "osmesa", "--technique", "texture", "-o",
-                                      (folder.path() / "f" / "%03d.png").string(), "--contact-sheet",
-                                      (folder.path() / "sheet.png").string()});
+    const auto result = test::reljef({"render", "urban", "--path", "orbit", "--frames", "3",
+                                      "--size", "160x120", "--context", "osmesa", "--technique",
+                                      "texture", "-o", (folder.path() / "f" / "%03d.png").string(),
+                                      "--contact-sheet", (folder.path() / "sheet.png").string()});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "f" / "002.png"));
     EXPECT_NE(*io::read_image(folder.path() / "f" / "000.png"),
@@ -88,8 +89,8 @@ TEST(RenderCommand, sequence_and_contact_sheet) {
 TEST(RenderCommand, same_command_same_bits) {
     const test::TemporaryFolder folder;
     for (const char* name : {"a.png", "b.png"}) {
-        ASSERT_EQ(test::reljef({"render", "natural", "--size", "200x150", "--context", "osmesa", "-o",
-                                (folder.path() / name).string()})
+        ASSERT_EQ(test::reljef({"render", "natural", "--size", "200x150", "--context", "osmesa",
+                                "-o", (folder.path() / name).string()})
                       .exit_code,
                   0);
     }

@@ -53,7 +53,8 @@ TEST(Urban, streets_are_level_and_buildings_stand_up) {
         return static_cast<double>(std::count_if(heights.begin(), heights.end(), holds)) /
                static_cast<double>(heights.size());
     };
-    EXPECT_TRUE(std::all_of(heights.begin(), heights.end(), [](float h) { return std::isfinite(h); }));
+    EXPECT_TRUE(
+        std::all_of(heights.begin(), heights.end(), [](float h) { return std::isfinite(h); }));
     EXPECT_GT(share([](float h) { return h < 0.3F; }), 0.2);
     EXPECT_GT(share([](float h) { return h > 6.0F; }), 0.15);
     EXPECT_LT(city.heightfield.range.high, 150.0);
