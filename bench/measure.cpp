@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "engine/core/check.h"
 
@@ -18,7 +19,7 @@ class Rounds {
 public:
     Rounds(std::span<const DrawFrame> frames, const MeasureOptions& options)
         : frames_(frames), options_(options),
-          now_ms_(options.now_ms ? options.now_ms : steady_now_ms) {
+          now_ms_(options.now_ms ? options.now_ms : steady_now_ms), begin_ms_(now_ms_()) {
         result_.ms.resize(frames.size());
     }
 
@@ -28,13 +29,14 @@ public:
                 if (auto drawn = frames_[i](); !drawn) {
                     return drawn;
                 }
+                tell_progress(now_ms_());
             }
         }
+        warm_up_seconds_ = seconds_until(now_ms_());
         return {};
     }
 
     Result<void> time_all() {
-        begin_ms_ = now_ms_();
         for (int round = 0; !enough(round); ++round) {
             for (std::size_t i = 0; i < frames_.size() && !stopped(); ++i) {
                 if (auto drawn = time_one(i); !drawn) {
@@ -58,37 +60,49 @@ private:
         auto drawn = frames_[index]();
         const double end = now_ms_();
         result_.ms[index].push_back(end - begin);
-        ++frames_drawn_;
-        if (options_.progress) {
-            options_.progress(fraction_done(end));
-        }
+        tell_progress(end);
         return drawn;
     }
 
     bool enough(int rounds) {
-        return stopped() || rounds >= options_.most_rounds ||
-               (rounds >= options_.least_rounds &&
-                seconds_since_begin(now_ms_()) >= options_.seconds);
+        if (rounds == 0 || stopped()) {
+            return stopped();
+        }
+        const double elapsed = seconds_until(now_ms_());
+        const double timed = elapsed - *warm_up_seconds_;
+        return rounds >= options_.most_rounds ||
+               (rounds >= options_.least_rounds && timed >= options_.seconds) ||
+               elapsed + timed / rounds > options_.most_seconds;
     }
 
-    // Both the least rounds and the time have to be reached, or else the most rounds.
-    [[nodiscard]] double fraction_done(double now) const {
-        const double rounds =
-            static_cast<double>(frames_drawn_) / static_cast<double>(frames_.size());
-        const double of_time =
-            options_.seconds > 0.0 ? seconds_since_begin(now) / options_.seconds : 1.0;
-        const double of_least = std::min(rounds / options_.least_rounds, of_time);
-        return std::min(std::max(of_least, rounds / options_.most_rounds), 1.0);
+    void tell_progress(double now) {
+        ++frames_drawn_;
+        if (options_.progress) {
+            const double elapsed = seconds_until(now);
+            fraction_ = std::clamp(elapsed / expected_seconds(elapsed), fraction_, 1.0);
+            options_.progress(fraction_);
+        }
     }
 
-    [[nodiscard]] double seconds_since_begin(double now) const { return 1e-3 * (now - begin_ms_); }
+    // Of all of it, if frames go on taking what they took so far.
+    [[nodiscard]] double expected_seconds(double elapsed) const {
+        const double round = elapsed * static_cast<double>(frames_.size()) / frames_drawn_;
+        const double warm_up = warm_up_seconds_.value_or(options_.warm_up_rounds * round);
+        const double least = (options_.warm_up_rounds + options_.least_rounds) * round;
+        const double most = (options_.warm_up_rounds + options_.most_rounds) * round;
+        return std::min({std::max(least, warm_up + options_.seconds), most, options_.most_seconds});
+    }
+
+    [[nodiscard]] double seconds_until(double now) const { return 1e-3 * (now - begin_ms_); }
 
     std::span<const DrawFrame> frames_;
     const MeasureOptions& options_;
     std::function<double()> now_ms_;
     Measurement result_;
-    double begin_ms_ = 0.0;
-    std::size_t frames_drawn_ = 0;
+    double begin_ms_;
+    std::optional<double> warm_up_seconds_; // once it is over
+    int frames_drawn_ = 0;
+    double fraction_ = 0.0;
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -17,9 +18,12 @@ struct MeasureOptions {
     int warm_up_rounds = 2; ///< drawn and not timed: programs, uploads, caches
     int least_rounds = 5;
     int most_rounds = 1000;
-    double seconds = 10.0; ///< no new round begins later than this, once the least are done
-    std::stop_token stop;  ///< no new frame begins once a stop is asked for
-    Progress progress;     ///< of the timed rounds
+    double seconds = 10.0; ///< no new timed round begins later than this, once the least are done
+    /// No new timed round begins that would not end by then, the warm-up included, even if the
+    /// least are not done; there is one at any rate.
+    double most_seconds = std::numeric_limits<double>::infinity();
+    std::stop_token stop; ///< no new frame begins once a stop is asked for
+    Progress progress;
     std::function<double()> now_ms; ///< a steady clock, milliseconds; empty: the system's
 };
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t columns = 9;
 constexpr std::size_t left_aligned_columns = 2;
+constexpr std::size_t reliable_frames = 5;
 using Cells = std::array<std::string, columns>;
 
 std::size_t code_points(const std::string& text) {
@@ -89,6 +90,15 @@ std::string heading_of(const Row& row, const Environment& environment) {
                        environment.commit);
 }
 
+std::string warning_of(const std::vector<Row>& rows) {
+    const bool too_few = std::any_of(rows.begin(), rows.end(),
+                                     [](const Row& row) { return row.frames < reliable_frames; });
+    return too_few
+               ? fmt::format("Caution: under {} frames of a technique are too few to rely on.\n",
+                             reliable_frames)
+               : "";
+}
+
 } // namespace
 
 std::string terminal_report(const Results& results) {
@@ -99,7 +109,8 @@ std::string terminal_report(const Results& results) {
            "noise floor: how far two measurements of texture in one run lie apart; a difference "
            "below it\nis none.\n"
            "error: not told; a column for it comes with the truth, the exact picture to compare "
-           "with.\n";
+           "with.\n" +
+           warning_of(results.rows);
 }
 
 } // namespace reljef::bench

@@ -72,7 +72,7 @@ void add_options(CLI::App& command, TablesChoice& choice) {
             "beside texture; may be given again (all of them)")
         ->type_name("ID[:key=value,...]")
         ->allow_extra_args(false);
-    command.add_flag("--quick", options.quick, "measure for ten seconds in all");
+    command.add_flag("--quick", options.quick, "done in half a minute, with fewer frames");
     command
         .add_option("--rounds", options.rounds,
                     "frames of each technique (as many as fit in 20 s a terrain, at least 5)")

@@ -1,7 +1,9 @@
 #include "bench/tables_suite.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,11 +15,13 @@
 namespace reljef::bench {
 namespace {
 
-constexpr int least_rounds = 5;
-constexpr int most_quick_rounds = 200;
-constexpr int most_rounds = 2000;
-constexpr double quick_seconds = 10.0; // all terrains together
+using Clock = std::chrono::steady_clock;
+
 constexpr double seconds_a_terrain = 20.0;
+constexpr int most_rounds = 2000;
+constexpr double quick_seconds = 10.0; // of measuring, all terrains together
+constexpr int most_quick_rounds = 200;
+constexpr double quick_limit = 24.0; // seconds for all of it, opening the terrains included
 
 struct Stage {
     std::string name;
@@ -117,17 +121,24 @@ DrawFrame frame_of(Entry& entry, Stage& stage, render::Driver& driver) {
     };
 }
 
-MeasureOptions measure_options(const TablesOptions& options, const std::stop_token& stop) {
+// For one of `stages_left` terrains, when `seconds_gone` since the run began.
+MeasureOptions measure_options(const TablesOptions& options, std::size_t stages_left,
+                               double seconds_gone) {
     MeasureOptions measure;
-    measure.least_rounds = options.rounds > 0 ? options.rounds : least_rounds;
-    measure.most_rounds = options.quick ? most_quick_rounds : most_rounds;
-    measure.seconds = options.quick ? quick_seconds / static_cast<double>(options.terrains.size())
-                                    : seconds_a_terrain;
+    measure.most_rounds = most_rounds;
+    measure.seconds = seconds_a_terrain;
+    if (options.quick) {
+        measure.warm_up_rounds = 1;
+        measure.most_rounds = most_quick_rounds;
+        measure.seconds = quick_seconds / static_cast<double>(options.terrains.size());
+        measure.most_seconds = (quick_limit - seconds_gone) / static_cast<double>(stages_left);
+    }
     if (options.rounds > 0) {
+        measure.least_rounds = options.rounds;
         measure.most_rounds = options.rounds;
         measure.seconds = 0.0;
+        measure.most_seconds = std::numeric_limits<double>::infinity();
     }
-    measure.stop = stop;
     return measure;
 }
 
@@ -172,8 +183,29 @@ Result<std::vector<Row>> measure_stage(Stage& stage, render::Driver& driver,
     return rows_of(entries, *measurement, stage, options);
 }
 
+Result<void> measure_stages(std::vector<Stage>& stages, render::Driver& driver,
+                            const TablesOptions& options, Clock::time_point begin,
+                            const std::stop_token& stop, std::vector<Row>& rows) {
+    app::ProgressLine line("measuring", options.quiet);
+    for (std::size_t i = 0; i < stages.size() && !stop.stop_requested(); ++i) {
+        const double seconds_gone = std::chrono::duration<double>(Clock::now() - begin).count();
+        MeasureOptions measuring = measure_options(options, stages.size() - i, seconds_gone);
+        measuring.stop = stop;
+        measuring.progress = [&, i](double fraction) {
+            line.update((static_cast<double>(i) + fraction) / static_cast<double>(stages.size()));
+        };
+        auto found = measure_stage(stages[i], driver, options, measuring);
+        if (!found) {
+            return found.error();
+        }
+        std::move(found->begin(), found->end(), std::back_inserter(rows));
+    }
+    return {};
+}
+
 Result<void> run_stages(const TablesOptions& options, const std::stop_token& stop,
                         Results& results) {
+    const auto begin = Clock::now();
     auto device = make_device(options);
     if (!device) {
         return device.error();
@@ -183,22 +215,7 @@ Result<void> run_stages(const TablesOptions& options, const std::stop_token& sto
     if (!stages) {
         return stages.error();
     }
-    app::ProgressLine line("measuring", options.quiet);
-    MeasureOptions measuring = measure_options(options, stop);
-    for (std::size_t i = 0; i < stages->size(); ++i) {
-        measuring.progress = [&, i](double fraction) {
-            line.update((static_cast<double>(i) + fraction) / static_cast<double>(stages->size()));
-        };
-        auto rows = measure_stage((*stages)[i], device->driver(), options, measuring);
-        if (!rows) {
-            return rows.error();
-        }
-        std::move(rows->begin(), rows->end(), std::back_inserter(results.rows));
-        if (stop.stop_requested()) {
-            return Error{"stopped"};
-        }
-    }
-    return {};
+    return measure_stages(*stages, device->driver(), options, begin, stop, results.rows);
 }
 
 } // namespace

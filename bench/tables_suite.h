@@ -19,7 +19,9 @@ struct TablesOptions {
     std::optional<platform::ContextKind> context; ///< absent: EGL on a hardware GPU, else OSMesa
     int threads = 0;                              ///< 0: as many as the machine has
     int rounds = 0;                               ///< 0: as many as fit in the time, at least 5
-    bool quick = false; ///< about ten seconds of measuring in all, instead of twenty a terrain
+    /// Ten seconds of measuring in all instead of twenty a terrain; fewer rounds than 5 where they
+    /// would take beyond half a minute.
+    bool quick = false;
     bool quiet = false; ///< no progress and no notes on stderr
 };
 

@@ -1,5 +1,6 @@
 #include "bench/measure.h"
 
+#include <chrono>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -90,6 +91,41 @@ TEST_F(Measuring, fast_frames_end_at_the_most_rounds) {
     const auto measured = measure(things, options);
     ASSERT_TRUE(measured);
     EXPECT_THAT(measured->ms, Each(SizeIs(70)));
+}
+
+TEST_F(Measuring, last_limit_holds_even_for_slow_frames) {
+    const std::vector<DrawFrame> things{thing('A', 3000.0), thing('B', 1000.0)};
+    auto options = rounds(5);
+    options.warm_up_rounds = 1;
+    options.most_seconds = 15.0; // the warm-up and two rounds take 12, one more would end at 16
+    const auto measured = measure(things, options);
+    ASSERT_TRUE(measured);
+    EXPECT_THAT(measured->ms, Each(SizeIs(2)));
+}
+
+TEST_F(Measuring, there_is_one_round_even_beyond_the_last_limit) {
+    const std::vector<DrawFrame> things{thing('A', 3000.0), thing('B', 1000.0)};
+    for (const double limit : {0.1, -1.0}) {
+        auto options = rounds(5);
+        options.warm_up_rounds = 1;
+        options.most_seconds = limit;
+        const auto measured = measure(things, options);
+        ASSERT_TRUE(measured);
+        EXPECT_THAT(measured->ms, Each(SizeIs(1)));
+    }
+}
+
+TEST_F(Measuring, progress_tells_the_time_left_from_the_first_frame_on) {
+    const std::vector<DrawFrame> things{thing('A', 100.0), thing('B', 100.0)};
+    auto options = rounds(8);
+    options.warm_up_rounds = 2;
+    std::vector<double> told;
+    options.progress = [&](double fraction) { told.push_back(fraction); };
+    ASSERT_TRUE(measure(things, options));
+    ASSERT_THAT(told, SizeIs(20));
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        EXPECT_NEAR(told[i], static_cast<double>(i + 1) / 20.0, 1e-9);
+    }
 }
 
 TEST_F(Measuring, progress_rises_to_one) {

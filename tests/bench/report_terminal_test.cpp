@@ -82,5 +82,12 @@ TEST(TerminalReport, floor_that_was_not_measured_is_a_question_mark) {
     EXPECT_THAT(row, Not(HasSubstr("%")));
 }
 
+TEST(TerminalReport, cautions_about_too_few_frames) {
+    Results results = test::made_results();
+    EXPECT_THAT(terminal_report(results), Not(HasSubstr("Caution")));
+    results.rows[1].frames = 4;
+    EXPECT_THAT(terminal_report(results), HasSubstr("Caution: under 5 frames"));
+}
+
 } // namespace
 } // namespace reljef::bench
