@@ -65,6 +65,28 @@ void print_stats(const render::FrameStats& stats, const platform::Context& conte
         stats.skipped.uploads_unchanged, stats.cpu_ms, stats.gpu_ms);
 }
 
+// The pictures on a contact sheet: as many of the frames as fit, evenly spread.
+class SheetPictures {
+public:
+    SheetPictures(bool wanted, int frames)
+        : step_(wanted ? (frames + most_sheet_pictures - 1) / most_sheet_pictures : 0) {}
+
+    void add(Image picture, int index) {
+        if (step_ > 0 && index % step_ == 0) {
+            pictures_.push_back(std::move(picture));
+        }
+    }
+    [[nodiscard]] Result<void> write(const std::filesystem::path& file) const {
+        return pictures_.empty() ? Result<void>()
+                                 : io::write_image(file, io::contact_sheet(pictures_, sheet_columns,
+                                                                           sheet_picture_width));
+    }
+
+private:
+    int step_;
+    std::vector<Image> pictures_;
+};
+
 // Draws the frames one after the other and hands them on.
 Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device& device,
                          const std::optional<scene::FlyPath>& path, const Interrupt& interrupt) {
@@ -76,8 +98,7 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device
     if (!sink) {
         return sink.error();
     }
-    const int sheet_step = (frames + most_sheet_pictures - 1) / most_sheet_pictures;
-    std::vector<Image> sheet;
+    SheetPictures sheet(!choice.contact_sheet.empty(), frames);
     ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (interrupt.requested()) {
@@ -97,18 +118,13 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device
         if (choice.stats && index == frames - 1) {
             print_stats(*stats, device.context());
         }
-        if (!choice.contact_sheet.empty() && index % sheet_step == 0) {
-            sheet.push_back(std::move(picture));
-        }
+        sheet.add(std::move(picture), index);
         line.update(static_cast<double>(index + 1) / frames);
     }
     if (auto finished = (*sink)->finish(); !finished) {
         return finished;
     }
-    return sheet.empty()
-               ? Result<void>()
-               : io::write_image(choice.contact_sheet,
-                                 io::contact_sheet(sheet, sheet_columns, sheet_picture_width));
+    return sheet.write(choice.contact_sheet);
 }
 
 Result<void> check_choice(const RenderChoice& choice) {

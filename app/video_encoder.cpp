@@ -27,6 +27,7 @@ std::vector<std::string> arguments_for(const std::filesystem::path& file, glm::i
 
 Result<pid_t> start(const std::vector<std::string>& arguments, int input) {
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) {
         argv.push_back(const_cast<char*>(argument.c_str()));
     }

@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
     const std::array commands{reljef::bench::add_tables_command(program, interrupt)};
     try {
         std::vector<const CLI::App*> suites;
+        suites.reserve(commands.size());
         for (const auto& command : commands) {
             suites.push_back(command.arguments);
         }

@@ -42,7 +42,7 @@ Summary summarize(std::span<const double> samples) {
 
 double relative_distance(double a, double b) {
     check(a > 0.0 && b > 0.0, "a distance between figures that are not positive");
-    return std::max(a, b) / std::min(a, b) - 1.0;
+    return std::abs(a - b) / std::min(a, b);
 }
 
 } // namespace reljef::bench

@@ -173,6 +173,7 @@ Result<std::vector<Row>> measure_stage(Stage& stage, render::Driver& driver,
                                        const MeasureOptions& measuring) {
     std::vector<Entry> entries = entries_of(options);
     std::vector<DrawFrame> frames;
+    frames.reserve(entries.size());
     for (Entry& entry : entries) {
         frames.push_back(frame_of(entry, stage, driver));
     }

@@ -1,7 +1,8 @@
 # A room is a static library of one folder. Files are listed, never globbed.
 #
 #   reljef_room(NAME [HEADERS a.h ...] [SOURCES a.cpp ...] [LINK target ...] [PRIVATE_LINK target ...])
-#   reljef_test(ROOM SOURCES a_test.cpp ... [LINK target ...] [GL])
+#   reljef_test(ROOM SOURCES a_test.cpp ... [LINK target ...] [ALONE FILTER])
+#               ALONE: tests that need a window, or all of the machine, to themselves
 
 add_library(reljef_warnings INTERFACE)
 target_compile_options(reljef_warnings INTERFACE
@@ -21,6 +22,16 @@ if(RELJEF_SANITIZE)
   target_link_options(reljef_options INTERFACE -fsanitize=${reljef_sanitizers})
 endif()
 
+# Compiled once for all rooms: a clean build takes a third less time.
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "")
+add_library(reljef_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+target_link_libraries(reljef_precompiled PRIVATE reljef_options reljef_warnings fmt::fmt)
+target_precompile_headers(reljef_precompiled PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled.h)
+
+# Programs and tests only call the engine, where the time goes: they need not be optimised as it is.
+add_library(reljef_quick_build INTERFACE)
+target_compile_options(reljef_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
+
 function(reljef_room NAME)
   cmake_parse_arguments(ROOM "" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   set(target reljef_${NAME})
@@ -29,13 +40,14 @@ function(reljef_room NAME)
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX VERIFY_INTERFACE_HEADER_SETS ON)
   target_link_libraries(${target} PUBLIC reljef_options ${ROOM_LINK}
                                   PRIVATE reljef_warnings ${ROOM_PRIVATE_LINK})
+  target_precompile_headers(${target} REUSE_FROM reljef_precompiled)
 endfunction()
 
 function(reljef_test ROOM)
-  cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(TEST "" "ALONE" "SOURCES;LINK" ${ARGN})
   set(target reljef_${ROOM}_test)
   add_executable(${target} ${TEST_SOURCES})
-  target_link_libraries(${target} PRIVATE reljef_test_support ${TEST_LINK} reljef_warnings
+  target_link_libraries(${target} PRIVATE reljef_test_support ${TEST_LINK} reljef_warnings reljef_quick_build
                                           GTest::gtest GTest::gmock GTest::gtest_main)
   if(TARGET reljef_test_precompiled)
     target_precompile_headers(${target} REUSE_FROM reljef_test_precompiled)
@@ -47,6 +59,11 @@ function(reljef_test ROOM)
     target_link_libraries(${target} PRIVATE reljef_keep_loaded)
   endif()
   # Skipped tests show as skipped: gtest_discover_tests() itself looks for gtest's word for it.
-  gtest_discover_tests(${target} TEST_PREFIX "${ROOM}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES ${properties})
+  set(discovery TEST_PREFIX "${ROOM}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
+  if(TEST_ALONE)
+    gtest_discover_tests(${target} ${discovery} TEST_FILTER "${TEST_ALONE}" TEST_LIST ${target}_alone
+                         PROPERTIES ${properties} RUN_SERIAL ON)
+    set(TEST_ALONE "-${TEST_ALONE}")
+  endif()
+  gtest_discover_tests(${target} ${discovery} TEST_FILTER "${TEST_ALONE}" PROPERTIES ${properties})
 endfunction()

@@ -196,30 +196,32 @@ void BlockBuilder::furnish(const Convex& roof, float top) {
     if (roof.empty() || area(roof) < 40.0F) {
         return;
     }
-    const Frame frame = frame_of(roof);
     if (area(roof) > 120.0F && random.chance(0.13F)) {
         solar_panels(inset(roof, 1.0F), top);
         return;
     }
     const int count = 1 + static_cast<int>(area(roof) / random.range(45.0F, 150.0F));
     for (int i = 0; i < std::min(count, 26); ++i) {
-        const bool stairs = i == 0 && area(roof) > 110.0F;
-        const glm::vec2 half = stairs
-                                   ? glm::vec2{random.range(1.8F, 3.2F), random.range(1.4F, 2.2F)}
-                                   : glm::vec2{random.range(0.4F, 1.5F), random.range(0.4F, 1.1F)};
-        const glm::vec2 place = frame.at(frame.half.x * random.range(-0.9F, 0.9F),
-                                         frame.half.y * random.range(-0.9F, 0.9F));
-        if (inner_distance(roof, place) < half.x + 0.3F) {
-            continue;
-        }
-        const bool glass = !stairs && random.chance(0.2F);
-        const Color metal = varied({0.66F, 0.66F, 0.65F}, random, 0.16F);
-        box({place, frame.axis, half},
-            top + (stairs  ? random.range(2.4F, 3.2F)
-                   : glass ? 0.4F
-                           : random.range(0.7F, 1.8F)),
-            glass ? Color{0.38F, 0.44F, 0.49F} : metal, glass ? PrismKind::glass : PrismKind::box);
+        roof_box(roof, top, i == 0 && area(roof) > 110.0F);
     }
+}
+
+void BlockBuilder::roof_box(const Convex& roof, float top, bool stairs) {
+    const Frame frame = frame_of(roof);
+    const glm::vec2 half = stairs ? glm::vec2{random.range(1.8F, 3.2F), random.range(1.4F, 2.2F)}
+                                  : glm::vec2{random.range(0.4F, 1.5F), random.range(0.4F, 1.1F)};
+    const glm::vec2 place = frame.at(frame.half.x * random.range(-0.9F, 0.9F),
+                                     frame.half.y * random.range(-0.9F, 0.9F));
+    if (inner_distance(roof, place) < half.x + 0.3F) {
+        return;
+    }
+    const Frame footprint{place, frame.axis, half};
+    if (!stairs && random.chance(0.2F)) {
+        box(footprint, top + 0.4F, {0.38F, 0.44F, 0.49F}, PrismKind::glass);
+        return;
+    }
+    const float rise = stairs ? random.range(2.4F, 3.2F) : random.range(0.7F, 1.8F);
+    box(footprint, top + rise, varied({0.66F, 0.66F, 0.65F}, random, 0.16F), PrismKind::box);
 }
 
 void BlockBuilder::solar_panels(const Convex& roof, float top) {

@@ -112,7 +112,7 @@ Use use_of(const Block& block, int index, int count, float period, std::uint32_t
     if (pick > 0.965F && size > 3500.0F && size < 9000.0F) {
         return Use::square;
     }
-    const auto cells = std::max(1, static_cast<std::int32_t>(period / 420.0F + 0.5F));
+    const auto cells = std::max(1, static_cast<std::int32_t>(std::lround(period / 420.0F)));
     const glm::vec2 place = centroid(block.lot) * (static_cast<float>(cells) / period);
     const float dense =
         0.52F + 0.62F * gradient_noise(seed + 5U, place, cells) + 0.16F * random.bell();

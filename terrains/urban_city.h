@@ -108,6 +108,7 @@ public:
 
 private:
     void furnish(const Convex& roof, float top);
+    void roof_box(const Convex& roof, float top, bool stairs);
     void solar_panels(const Convex& roof, float top);
     void chimneys(const Convex& shape, const Building& roof);
 

@@ -40,6 +40,13 @@ struct Arm {
     float tone = 1.0F;
 };
 
+// A place on a street, metres: along it, across from its middle, and before the next junction.
+struct RoadPlace {
+    float along = 0.0F;
+    float across = 0.0F;
+    float clear = 0.0F;
+};
+
 struct GroundPainter {
     Tile& tile;
     const Block& block;
@@ -50,7 +57,9 @@ struct GroundPainter {
 private:
     void street_sample(std::size_t i, glm::vec2 place);
     void roadway(std::size_t i, glm::vec2 place, int arms_here, const Arm& arm, float across);
+    void sidewalk(std::size_t i, glm::vec2 place, const Arm& arm, float curb);
     void markings(std::size_t i, const Arm& arm, float along, float across);
+    void lanes(std::size_t i, const Street& street, const RoadPlace& place);
     void river(std::size_t i, const Arm& arm, float across);
     [[nodiscard]] bool on_bridge(const Arm& river, glm::vec2 place) const;
     void line(std::size_t i, float across, float half, float strength);
@@ -103,46 +112,59 @@ void GroundPainter::line(std::size_t i, float across, float half, float strength
     blend(tile.color[i], paint_white, worn * cover);
 }
 
-void GroundPainter::markings(std::size_t i, const Arm& arm, float along, float across) {
-    const Street& street = *arm.street;
-    const float road = street.roadway();
-    float clear = 1e9F;
+struct NextJunction {
+    float clear = 1e9F; // metres before it
     bool crossing = false;
+};
+
+NextJunction next_junction(const Street& street, float along) {
+    NextJunction next;
     for (const Junction& junction : street.junctions) {
         const float distance = std::abs(along - junction.at) - junction.half;
-        crossing = distance < clear ? junction.crossing : crossing;
-        clear = std::min(clear, distance);
+        if (distance < next.clear) {
+            next = {distance, junction.crossing};
+        }
     }
+    return next;
+}
+
+void GroundPainter::markings(std::size_t i, const Arm& arm, float along, float across) {
+    const Street& street = *arm.street;
+    const auto [clear, crossing] = next_junction(street, along);
     if (clear < 0.5F) {
         return;
     }
     if (clear < 4.5F) {
-        if (crossing && clear > 0.8F && clear < 3.9F && across < road - 0.4F) {
+        if (crossing && clear > 0.8F && clear < 3.9F && across < street.roadway() - 0.4F) {
             line(i, fraction(across / 1.25F) * 1.25F - 0.62F, 0.31F, 0.8F);
         }
         return;
     }
-    const bool dash = fraction(along / 9.0F) < 0.45F;
-    const bool near = clear < 22.0F;
-    if (street.kind == StreetKind::boulevard) {
-        if (across < 1.3F && clear > 6.0F) {
-            tile.color[i] = surface_color(Surface::lawn, tile, i);
-            tile.height[i] = sidewalk_height;
-            return;
-        }
-        line(i, across - 1.7F, 0.09F, 0.6F);
-        line(i, across - 5.1F, 0.08F, dash || near ? 0.6F : 0.0F);
-    } else if (street.kind != StreetKind::lane && street.water <= 0.0F) {
-        line(i, across, 0.09F, dash || near ? 0.65F : 0.0F);
-        if (road > 6.2F) {
-            line(i, across - 3.4F, 0.08F, near ? 0.6F : 0.0F);
-        }
+    if (street.kind == StreetKind::boulevard && across < 1.3F && clear > 6.0F) {
+        tile.color[i] = surface_color(Surface::lawn, tile, i);
+        tile.height[i] = sidewalk_height;
+        return;
     }
-    if (near && street.kind != StreetKind::lane && clear < 5.6F && across < 3.3F) {
+    lanes(i, street, {along, across, clear});
+    if (street.kind != StreetKind::lane && clear < 5.6F && across < 3.3F) {
         line(i, clear - 5.1F, 0.22F, 0.6F);
     }
     if (street.roadway() > 5.0F && street.water <= 0.0F && clear > 6.0F) {
-        line(i, across - (road - 2.25F), 0.06F, 0.22F);
+        line(i, across - (street.roadway() - 2.25F), 0.06F, 0.22F);
+    }
+}
+
+void GroundPainter::lanes(std::size_t i, const Street& street, const RoadPlace& place) {
+    const bool near = place.clear < 22.0F;
+    const bool dash = near || fraction(place.along / 9.0F) < 0.45F;
+    if (street.kind == StreetKind::boulevard) {
+        line(i, place.across - 1.7F, 0.09F, 0.6F);
+        line(i, place.across - 5.1F, 0.08F, dash ? 0.6F : 0.0F);
+    } else if (street.kind != StreetKind::lane && street.water <= 0.0F) {
+        line(i, place.across, 0.09F, dash ? 0.65F : 0.0F);
+        if (street.roadway() > 6.2F) {
+            line(i, place.across - 3.4F, 0.08F, near ? 0.6F : 0.0F);
+        }
     }
 }
 
@@ -187,18 +209,29 @@ void GroundPainter::roadway(std::size_t i, glm::vec2 place, int arms_here, const
     }
 }
 
+// Between two streets the one that is nearer counts more.
+float sidewalk_width(const Outside& out, const std::vector<Arm>& arms) {
+    const float first = arms[static_cast<std::size_t>(out.first)].street->sidewalk;
+    if (out.second < 0) {
+        return first;
+    }
+    const float second = arms[static_cast<std::size_t>(out.second)].street->sidewalk;
+    const float a = out.first_depth * out.first_depth;
+    const float b = out.second_depth * out.second_depth;
+    return (a * first + b * second) / (a + b);
+}
+
+void GroundPainter::sidewalk(std::size_t i, glm::vec2 place, const Arm& arm, float curb) {
+    const bool joint = fraction(dot(place, arm.street->tangent) / 3.0F) < 0.12F;
+    const float light = 0.97F + 0.06F * arm.tone - (joint ? 0.03F : 0.0F);
+    tile.color[i] = surface_color(Surface::paving, tile, i) * light;
+    blend(tile.color[i], {0.63F, 0.62F, 0.59F}, 0.6F * coverage(tile, 0.2F - std::abs(curb)));
+    tile.height[i] = sidewalk_height;
+}
+
 void GroundPainter::street_sample(std::size_t i, glm::vec2 place) {
     const Outside out = outside(arms, place);
-    const Arm& arm = arms[static_cast<std::size_t>(out.first)];
-    float sidewalk = arm.street->sidewalk;
-    if (out.second >= 0) {
-        const float a = out.first_depth * out.first_depth;
-        const float b = out.second_depth * out.second_depth;
-        sidewalk =
-            (a * sidewalk + b * arms[static_cast<std::size_t>(out.second)].street->sidewalk) /
-            (a + b);
-    }
-    const float curb = block_distance(out, arms) - sidewalk;
+    const float curb = block_distance(out, arms) - sidewalk_width(out, arms);
     int here = 0;
     const Arm* road = nullptr;
     const Arm* water = nullptr;
@@ -215,12 +248,7 @@ void GroundPainter::street_sample(std::size_t i, glm::vec2 place) {
         return;
     }
     if (curb < 0.25F || road == nullptr) {
-        const float light =
-            0.97F + 0.06F * arm.tone -
-            (fraction(dot(place, arm.street->tangent) / 3.0F) < 0.12F ? 0.03F : 0.0F);
-        tile.color[i] = surface_color(Surface::paving, tile, i) * light;
-        blend(tile.color[i], {0.63F, 0.62F, 0.59F}, 0.6F * coverage(tile, 0.2F - std::abs(curb)));
-        tile.height[i] = sidewalk_height;
+        sidewalk(i, place, arms[static_cast<std::size_t>(out.first)], curb);
         return;
     }
     roadway(i, place, here, *road, road->middle.distance(place));

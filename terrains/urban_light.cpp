@@ -141,7 +141,7 @@ float Hollows::light(int col, int row) const {
 
 Rgba8 encoded(const Color& color) {
     const auto channel = [](float value) {
-        return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+        return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
     };
     return {channel(color.x), channel(color.y), channel(color.z), 255};
 }
@@ -153,7 +153,8 @@ void darken_hollows(terrain::Terrain& terrain, const HollowOptions& options) {
     const Grid<float> small = reduced(heights, reduction, options.threads);
     const float step = static_cast<float>(reduction) * options.spacing;
     const auto radius = [&](float metres) {
-        return std::clamp(static_cast<int>(metres / step + 0.5F), 1, std::max(1, small.cols() / 2));
+        return std::clamp(static_cast<int>(std::lround(metres / step)), 1,
+                          std::max(1, small.cols() / 2));
     };
     const Hollows hollows{heights, options, reduction, blurred(small, radius(5.0F), options),
                           blurred(small, radius(16.0F), options)};

@@ -153,7 +153,7 @@ void subdivide(Planner& planner, Cell domain) {
 std::vector<Cell> columns(Planner& planner) {
     const float period = planner.plan.period;
     const bool large = period > 420.0F;
-    const int count = std::max(1, static_cast<int>(period / 560.0F + 0.5F));
+    const int count = std::max(1, static_cast<int>(std::lround(period / 560.0F)));
     Street border = street_of(large ? StreetKind::river : StreetKind::avenue, planner);
     if (large) {
         border.water = period > 900.0F ? 21.0F : 7.5F;

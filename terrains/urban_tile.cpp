@@ -17,7 +17,7 @@ struct NoiseScale {
 // Noise on every step-th sample of the raster, and straight lines between.
 std::vector<float> noise_of(const Raster& raster, const Tile& tile, const NoiseScale& scale) {
     const float extent = static_cast<float>(raster.size) * raster.spacing;
-    const auto period = std::max(1, static_cast<std::int32_t>(extent / scale.cell + 0.5F));
+    const auto period = std::max(1, static_cast<std::int32_t>(std::lround(extent / scale.cell)));
     const float per_sample = static_cast<float>(period) / static_cast<float>(raster.size);
     const int nodes_x = (tile.cols - 1) / scale.step + 2;
     const int nodes_y = (tile.rows - 1) / scale.step + 2;

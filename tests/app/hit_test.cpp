@@ -32,6 +32,33 @@ protected:
     static glm::dvec3 cross(glm::dvec3 a, glm::dvec3 b) {
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     }
+    /// How much ground one pixel covers, in metres: the furthest hit of its four neighbours.
+    static double footprint(const HitBuffer& hits, glm::ivec2 pixel, glm::dvec2 spacing) {
+        const Hit& here = hits(pixel.x, pixel.y);
+        double furthest = 0.0;
+        for (const glm::ivec2 step :
+             {glm::ivec2(-1, 0), glm::ivec2(1, 0), glm::ivec2(0, -1), glm::ivec2(0, 1)}) {
+            const glm::ivec2 next =
+                glm::clamp(pixel + step, glm::ivec2(0), glm::ivec2(width - 1, height - 1));
+            const Hit& there = hits(next.x, next.y);
+            if (!there.is_sky()) {
+                furthest = std::max(furthest, std::hypot((there.col - here.col) * spacing.x,
+                                                         (there.row - here.row) * spacing.y));
+            }
+        }
+        return furthest;
+    }
+    /// The steepest edge of a cell and its eight neighbours.
+    static double steepest(const Grid<float>& z, glm::ivec2 cell, glm::dvec2 spacing) {
+        double slope = 0.0;
+        for (int r = std::max(cell.y - 1, 0); r <= std::min(cell.y + 2, z.rows() - 2); ++r) {
+            for (int c = std::max(cell.x - 1, 0); c <= std::min(cell.x + 2, z.cols() - 2); ++c) {
+                slope = std::max({slope, std::abs(z(c + 1, r) - z(c, r)) / spacing.x,
+                                  std::abs(z(c, r + 1) - z(c, r)) / spacing.y});
+            }
+        }
+        return slope;
+    }
     static glm::dvec3 unit(glm::dvec3 a) { return a / std::sqrt(dot(a, a)); }
 };
 
@@ -66,11 +93,14 @@ TEST_F(HitFile, agrees_with_the_heightfield_at_the_shown_points) {
             const double twist = z(c, r) - z(c + 1, r) - z(c, r + 1) + z(c + 1, r + 1);
             const double bilinear =
                 z(c, r) + (z(c + 1, r) - z(c, r)) * u + (z(c, r + 1) - z(c, r)) * v + twist * u * v;
-            // Two triangles leave the bilinear patch by a quarter of its twist; a rasterizer that
-            // snaps vertices to 1/256 pixel shows a place up to that far beyond the triangle, under
-            // 0.01 px.
-            const double pixel_metres = hit.depth * 2.0 * std::tan(fov * M_PI / 360.0) / height;
-            ASSERT_NEAR(hit.height, bilinear, 0.25 * std::abs(twist) + 0.01 * pixel_metres)
+            // Two triangles leave the bilinear patch by a quarter of its twist. A rasterizer that
+            // snaps vertices to 1/256 pixel shows a place up to that far (under 0.01 px) beyond the
+            // triangle, on its plane, which parts from the next one by twice the steepest slope.
+            // Places relative to the camera are rounded to float a few times.
+            const double beyond = 0.01 * footprint(*hits, {x, y}, spacing);
+            ASSERT_NEAR(hit.height, bilinear,
+                        0.25 * std::abs(twist) + 2.0 * beyond * steepest(z, {c, r}, spacing) +
+                            4.0 * 6e-8 * hit.depth)
                 << x << ',' << y;
             const glm::dvec3 place{(hit.col - 600.0) * spacing.x, (600.0 - hit.row) * spacing.y,
                                    hit.height};

@@ -57,7 +57,8 @@ test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string
         "pressed() { xdotool key --window $window $1; }\n"
         "ended() { ! kill -0 $viewer 2>/dev/null; }\n"
         "'" RELJEF_BINARY "' view natural --technique texture --size 320x240 & viewer=$!\n"
-        "find_window() { window=$(xdotool search --onlyvisible --pid $viewer --name '^reljef - "
+        "find_window() { window=$(xdotool search --all --onlyvisible --pid $viewer --name '^reljef "
+        "- "
         "natural' "
         "2>/dev/null | head -n 1); [ -n \"$window\" ]; }\n"
         "until_true find_window\n" +
