@@ -230,11 +230,12 @@ Place placed_nowhere(const std::optional<OGRSpatialReference>& local,
     } else if (local) {
         notes.push_back(fmt::format("its coordinate system \"{}\" names no place on Earth",
                                     words_of(*local).name));
+    } else if (has_own) {
+        notes.push_back(fmt::format("no coordinate system: its coordinates are taken for metres, "
+                                    "{:.6g} m spacing",
+                                    place.spacing.x));
     } else {
-        notes.push_back(has_own ? fmt::format("no coordinate system: its coordinates are taken for "
-                                              "metres, {:.6g} m spacing",
-                                              place.spacing.x)
-                                : "no coordinate system: 1 m spacing assumed");
+        place.spacing_assumed = true;
     }
     return place;
 }

@@ -36,7 +36,8 @@ struct Place {
     SampleGrid grid; ///< col grows east and row south
     bool flipped_cols = false;
     bool flipped_rows = false;
-    glm::dvec2 spacing{1.0}; ///< metres
+    glm::dvec2 spacing{1.0};      ///< metres
+    bool spacing_assumed = false; ///< neither the file nor the options tell it
     std::optional<geo::Georeference> georeference;
 };
 

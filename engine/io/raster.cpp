@@ -49,6 +49,26 @@ template <class T> void flip(Grid<T>& grid, const Place& place) {
     }
 }
 
+// Samples that nobody says how far apart they are: 1 m, or where the relief would then be higher
+// than half the width, what makes it a tenth, to two digits.
+double assumed_spacing(const terrain::Heightfield& heightfield, glm::dvec2 step,
+                       std::vector<std::string>& notes) {
+    const double relief = heightfield.range.high - heightfield.range.low;
+    const double width = std::max((heightfield.heights.cols() - 1) * std::abs(step.x),
+                                  (heightfield.heights.rows() - 1) * std::abs(step.y));
+    if (relief <= 0.5 * width) {
+        notes.emplace_back("no coordinate system: 1 m spacing assumed");
+        return 1.0;
+    }
+    const double exact = 10.0 * relief / width;
+    const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
+    const double spacing = digit * std::round(exact / digit);
+    notes.push_back(fmt::format("no coordinate system: {:.6g} m spacing assumed, which makes the "
+                                "relief of {:.6g} m a tenth of the width",
+                                spacing, relief));
+    return spacing;
+}
+
 terrain::Heightfield heightfield_of(Samples samples, Place& place) {
     flip(samples.heights, place);
     flip(samples.void_mask, place);
@@ -114,6 +134,10 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
         return samples.error();
     }
     terrain.heightfield = heightfield_of(std::move(*samples), *place);
+    if (place->spacing_assumed) {
+        terrain.heightfield.spacing *=
+            assumed_spacing(terrain.heightfield, place->grid.step, terrain.notes);
+    }
     if (!options.imagery.empty()) {
         reading.progress = part(options.progress, 0.5, 1.0);
         auto color = read_imagery(**dataset, place->grid, reading, terrain.notes);

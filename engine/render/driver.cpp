@@ -164,15 +164,9 @@ private:
         }
         maps_of_ = draw.terrain;
         const ResidentMaps& maps = residency_.maps(draw);
-        maps.color.bind(0);
-        program_->set_uniform("color_from_sample", maps.color_from_sample);
+        maps.lit.bind(0);
+        program_->set_uniform("lit_from_sample", maps.lit_from_sample);
         ++stats_.state_changes;
-        if (maps.gradient.id() != 0U) {
-            maps.gradient.bind(1);
-            program_->set_uniform("gradient_from_sample", maps.gradient_from_sample);
-            ++stats_.state_changes;
-        }
-        program_->set_uniform("world_from_terrain", world_from_normal(draw.world_from_local));
     }
 
     void draw_tile(const TileDraw& draw) {
@@ -186,7 +180,9 @@ private:
         program_->set_uniform(
             "tile_samples",
             glm::vec4(tile.col, tile.row, mesh.samples_per_vertex.x, mesh.samples_per_vertex.y));
-        program_->set_uniform("vertices_per_row", mesh.vertices_per_row);
+        const auto vertices_per_row = static_cast<float>(mesh.vertices_per_row);
+        program_->set_uniform("vertices_per_row", vertices_per_row);
+        program_->set_uniform("rows_per_vertex", 1.0F / vertices_per_row);
         draw_resident(mesh, gl::IndexType::uint16);
         ++stats_.tiles;
     }

@@ -44,39 +44,24 @@ Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
 }
 
 Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
-                               const std::optional<glm::dvec3>& to_sun, FrameStats& stats) {
-    const int largest = gl::query_limits().max_texture_size;
+                               const std::optional<TerrainLight>& light, FrameStats& stats) {
+    const Image lit = lit_map(surface, light, gl::query_limits().max_texture_size);
+    auto texture = mipmapped({lit.cols(), lit.rows()}, gl::Format::rgba8_srgb,
+                             std::as_bytes(lit.samples()), stats);
+    if (!texture) {
+        return texture.error();
+    }
     const Grid<float>& heights = surface.heightfield().heights;
-    const glm::ivec2 samples{heights.cols(), heights.rows()};
-    ResidentMaps maps;
-    const Image color = color_map(surface, to_sun, largest);
-    auto color_texture = mipmapped({color.cols(), color.rows()}, gl::Format::rgba8_srgb,
-                                   std::as_bytes(color.samples()), stats);
-    if (!color_texture) {
-        return color_texture.error();
-    }
-    maps.color = std::move(*color_texture);
-    maps.color_from_sample = texture_from_sample(samples, maps.color.size());
-    if (!to_sun) {
-        return maps;
-    }
-    const Grid<std::uint32_t> gradient = gradient_map(surface, largest);
-    auto gradient_texture = mipmapped({gradient.cols(), gradient.rows()}, gl::Format::rg16f,
-                                      std::as_bytes(gradient.samples()), stats);
-    if (!gradient_texture) {
-        return gradient_texture.error();
-    }
-    maps.gradient = std::move(*gradient_texture);
-    maps.gradient_from_sample = texture_from_sample(samples, maps.gradient.size());
-    return maps;
+    const glm::vec4 lit_from_sample =
+        texture_from_sample({heights.cols(), heights.rows()}, texture->size());
+    return ResidentMaps{std::move(*texture), lit_from_sample};
 }
 
-// Towards the sun in the terrain's own frame: its node may be turned or scaled.
-std::optional<glm::dvec3> to_sun_local(const DrawList& list, const TileDraw& draw) {
+std::optional<TerrainLight> light_on(const DrawList& list, const TileDraw& draw) {
     if (!list.sun) {
         return std::nullopt;
     }
-    return glm::inverse(glm::dmat3(draw.world_from_local)) * scene::to_light(*list.sun);
+    return TerrainLight{*list.sun, glm::dmat3(draw.world_from_local)};
 }
 
 struct MeshVertex {
@@ -200,7 +185,7 @@ Result<void> Residency::prepare_maps(const DrawList& list, FrameStats& stats) {
         if (maps_.contains(draw.terrain)) {
             continue;
         }
-        auto maps = maps_for(draw, to_sun_local(list, draw), stats);
+        auto maps = maps_for(draw, light_on(list, draw), stats);
         if (!maps) {
             return maps.error();
         }
@@ -208,26 +193,26 @@ Result<void> Residency::prepare_maps(const DrawList& list, FrameStats& stats) {
     }
     for (const TileDraw& draw : list.tiles) {
         std::erase_if(surface_of(draw).maps,
-                      [](const SunMaps& entry) { return entry.maps.use_count() == 1; });
+                      [](const LitMaps& entry) { return entry.maps.use_count() == 1; });
     }
     return {};
 }
 
 Result<std::shared_ptr<const ResidentMaps>>
-Residency::maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun,
+Residency::maps_for(const TileDraw& draw, const std::optional<TerrainLight>& light,
                     FrameStats& stats) {
-    std::vector<SunMaps>& there = surface_of(draw).maps;
+    std::vector<LitMaps>& there = surface_of(draw).maps;
     const auto found = std::find_if(there.begin(), there.end(),
-                                    [&](const SunMaps& entry) { return entry.to_sun == to_sun; });
+                                    [&](const LitMaps& entry) { return entry.light == light; });
     if (found != there.end()) {
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
-    auto maps = make_maps(*draw.terrain->surface, to_sun, stats);
+    auto maps = make_maps(*draw.terrain->surface, light, stats);
     if (!maps) {
         return maps.error();
     }
-    there.push_back({to_sun, std::make_shared<const ResidentMaps>(std::move(*maps))});
+    there.push_back({light, std::make_shared<const ResidentMaps>(std::move(*maps))});
     return there.back().maps;
 }
 

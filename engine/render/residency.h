@@ -11,6 +11,7 @@
 #include "engine/gl/vertex_array.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
 
@@ -24,13 +25,10 @@ struct ResidentMesh {
     glm::vec2 samples_per_vertex{1.0F};
 };
 
-/// Colour and gradient of a terrain, and how sample coordinates become texture coordinates:
-/// sample · xy + zw.
+/// A terrain's lit_map, and how sample coordinates become texture coordinates: sample · xy + zw.
 struct ResidentMaps {
-    gl::Texture2D color;    ///< rgb: albedo, a: share of the sun that is seen
-    gl::Texture2D gradient; ///< rise over run, east and north; empty without a sun
-    glm::vec4 color_from_sample{0.0F};
-    glm::vec4 gradient_from_sample{0.0F};
+    gl::Texture2D lit;
+    glm::vec4 lit_from_sample{0.0F};
 };
 
 /// What of the scene is in the driver's memory. Only what is drawn gets there, and stays while the
@@ -47,15 +45,15 @@ public:
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
 
 private:
-    struct SunMaps {
-        std::optional<glm::dvec3> to_sun; // in the surface's own frame
+    struct LitMaps {
+        std::optional<TerrainLight> light;
         std::shared_ptr<const ResidentMaps> maps;
     };
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
         std::vector<std::optional<ResidentMesh>> tiles;
         std::vector<std::optional<ResidentMesh>> flat_tiles;
-        std::vector<SunMaps> maps; // one for each way that the last frame's sun shone on it
+        std::vector<LitMaps> maps; // one for each light that the last frame had for it
     };
     struct Mesh {
         std::weak_ptr<const scene::Mesh> owner;
@@ -69,7 +67,7 @@ private:
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
     Result<void> prepare_maps(const DrawList& list, FrameStats& stats);
     Result<std::shared_ptr<const ResidentMaps>>
-    maps_for(const TileDraw& draw, const std::optional<glm::dvec3>& to_sun, FrameStats& stats);
+    maps_for(const TileDraw& draw, const std::optional<TerrainLight>& light, FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 

@@ -132,6 +132,8 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
         variant.features &= feature_lit;
     } else if ((variant.features & feature_hit) != 0) {
         variant.features = feature_hit;
+    } else if (variant.kind == ShaderKind::terrain) {
+        variant.features &= ~feature_lit; // its light is in its map
     }
     return variant;
 }

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include <glm/packing.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
 
 #include "engine/core/worker_pool.h"
 #include "engine/terrain/gradient.h"
@@ -34,49 +37,88 @@ template <class T> Grid<T> thinned(Grid<T> grid, int largest) {
     return thin;
 }
 
-void put_into_alpha(Image& image, const Grid<std::uint8_t>& visibility) {
-    parallel_for(image.rows(), [&](int row) {
-        for (int col = 0; col < image.cols(); ++col) {
-            image(col, row).a =
-                terrain::resampled(visibility, col, row, {image.cols(), image.rows()});
-        }
-    });
+// Where a texel lies on a grid that covers the same ground, corner on corner.
+glm::vec2 place_on(glm::ivec2 texel, glm::ivec2 texels, glm::ivec2 grid) {
+    const glm::vec2 steps(glm::max(texels - 1, glm::ivec2(1)));
+    return glm::vec2(texel) * glm::vec2(grid - 1) / steps;
 }
 
-} // namespace
+template <class T> glm::ivec2 size_of(const Grid<T>& grid) {
+    return {grid.cols(), grid.rows()};
+}
 
-Image color_map(const scene::TerrainSurface& surface, const std::optional<glm::dvec3>& to_sun,
-                int largest_side) {
+// Bilinear; `value` makes something that can be mixed out of a sample.
+template <class T, class Value> auto sampled(const Grid<T>& grid, glm::vec2 place, Value value) {
+    const glm::ivec2 first = glm::min(glm::ivec2(place), size_of(grid) - 1);
+    const glm::ivec2 last = glm::min(first + 1, size_of(grid) - 1);
+    const glm::vec2 part = place - glm::vec2(first);
+    const auto north =
+        glm::mix(value(grid(first.x, first.y)), value(grid(last.x, first.y)), part.x);
+    const auto south = glm::mix(value(grid(first.x, last.y)), value(grid(last.x, last.y)), part.x);
+    return glm::mix(north, south, part.y);
+}
+
+Image albedo_map(const scene::TerrainSurface& surface, int largest_side) {
     const terrain::Terrain& terrain = surface.terrain();
-    const terrain::Heightfield& heightfield = terrain.heightfield;
     const bool opaque = !terrain.color.empty() &&
                         std::all_of(terrain.color.samples().begin(), terrain.color.samples().end(),
                                     [](Rgba8 pixel) { return pixel.a == 255; });
-    Image image =
-        thinned(opaque ? terrain.color
-                       : terrain::composite(terrain.color, terrain::hypsometric_tint(heightfield)),
-                largest_side);
-    if (to_sun) {
-        put_into_alpha(image,
-                       terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,
-                                               surface.placement().exaggeration(), *to_sun));
-    }
-    return image;
+    return thinned(
+        opaque ? terrain.color
+               : terrain::composite(terrain.color, terrain::hypsometric_tint(terrain.heightfield)),
+        largest_side);
 }
 
-Grid<std::uint32_t> gradient_map(const scene::TerrainSurface& surface, int largest_side) {
-    const Grid<glm::vec2> gradients =
-        terrain::scene_gradients(surface.heightfield(), surface.placement());
-    // The largest half float: cliffs steeper than that are upright to within a thousandth of a
-    // degree.
-    constexpr float steepest = 65504.0F;
-    Grid<std::uint32_t> packed(gradients.cols(), gradients.rows());
-    std::transform(gradients.samples().begin(), gradients.samples().end(), packed.samples().begin(),
-                   [](glm::vec2 gradient) {
-                       return glm::packHalf2x16(
-                           glm::clamp(gradient, glm::vec2(-steepest), glm::vec2(steepest)));
-                   });
-    return thinned(std::move(packed), largest_side);
+// The light's part of lit_map: what a place reflects at albedo 1, by its slope.
+class Shading {
+public:
+    explicit Shading(const TerrainLight& light)
+        : world_from_normal_(glm::inverseTranspose(light.world_from_local)),
+          to_sun_(scene::to_light(light.sun)), sun_(light.sun.color), sky_(light.sun.ambient) {}
+
+    [[nodiscard]] glm::vec3 at(glm::vec2 gradient, float visibility) const {
+        const glm::vec3 normal =
+            glm::normalize(world_from_normal_ * glm::vec3(-gradient.x, -gradient.y, 1.0F));
+        const float sun = std::max(glm::dot(normal, to_sun_), 0.0F) * visibility;
+        return sun_ * sun + sky_ * (0.5F + 0.5F * normal.z);
+    }
+
+private:
+    glm::mat3 world_from_normal_;
+    glm::vec3 to_sun_;
+    glm::vec3 sun_;
+    glm::vec3 sky_;
+};
+
+} // namespace
+
+Image lit_map(const scene::TerrainSurface& surface, const std::optional<TerrainLight>& light,
+              int largest_side) {
+    Image albedo = albedo_map(surface, largest_side);
+    if (!light) {
+        return albedo;
+    }
+    const terrain::Heightfield& heightfield = surface.heightfield();
+    const Grid<glm::vec2> gradients = terrain::scene_gradients(heightfield, surface.placement());
+    const Grid<std::uint8_t> visibility = terrain::sun_visibility(
+        heightfield.heights.view(), heightfield.spacing, surface.placement().exaggeration(),
+        glm::inverse(light->world_from_local) * scene::to_light(light->sun));
+    const Shading shading(*light);
+    const glm::ivec2 samples = size_of(gradients);
+    const glm::ivec2 size = glm::min(glm::max(size_of(albedo), samples), glm::ivec2(largest_side));
+    Image lit(size.x, size.y);
+    parallel_for(size.y, [&](int row) {
+        for (int col = 0; col < size.x; ++col) {
+            const glm::vec2 sample = place_on({col, row}, size, samples);
+            const glm::vec2 gradient = sampled(gradients, sample, std::identity());
+            const float seen =
+                sampled(visibility, sample, [](std::uint8_t share) { return share / 255.0F; });
+            const glm::vec3 reflected =
+                sampled(albedo, place_on({col, row}, size, size_of(albedo)), linear_from_rgba8);
+            lit(col, row) = rgba8_from_linear(reflected * shading.at(gradient, seen));
+        }
+    });
+    return lit;
 }
 
 } // namespace reljef::render

@@ -25,6 +25,8 @@ struct Light {
                     1.43F}; ///< linear, what a surface that faces it reflects at albedo 1
     glm::vec3 ambient{0.30F, 0.35F,
                       0.44F}; ///< linear, what a level surface reflects from the sky at albedo 1
+
+    friend bool operator==(const Light&, const Light&) = default;
 };
 
 /// Unit vector towards the light.

@@ -143,19 +143,4 @@ Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spac
     return visible;
 }
 
-std::uint8_t resampled(const Grid<std::uint8_t>& mask, int col, int row, glm::ivec2 size) {
-    const auto place = [](int index, int from, int to) {
-        return from > 1 ? static_cast<double>(index) * (to - 1) / (from - 1) : 0.0;
-    };
-    const double x = place(col, size.x, mask.cols());
-    const double y = place(row, size.y, mask.rows());
-    const int left = static_cast<int>(x);
-    const int top = static_cast<int>(y);
-    const double u = x - left;
-    const double v = y - top;
-    const double north = std::lerp(mask.clamped(left, top), mask.clamped(left + 1, top), u);
-    const double south = std::lerp(mask.clamped(left, top + 1), mask.clamped(left + 1, top + 1), u);
-    return static_cast<std::uint8_t>(std::lround(std::lerp(north, south, v)));
-}
-
 } // namespace reljef::terrain

@@ -17,7 +17,4 @@ namespace reljef::terrain {
 Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spacing,
                                   double exaggeration, glm::dvec3 to_sun);
 
-/// Value of `mask` at a place of another grid that covers the same ground, bilinear.
-std::uint8_t resampled(const Grid<std::uint8_t>& mask, int col, int row, glm::ivec2 size);
-
 } // namespace reljef::terrain

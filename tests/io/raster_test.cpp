@@ -121,10 +121,23 @@ TEST_F(Raster, HeightScaleAndOffsetAreApplied) {
 }
 
 TEST_F(Raster, WithoutAPlaceSpacingIsAMetreAndTold) {
-    const terrain::Terrain terrain = read(made_raster(4, 4, wave));
+    const terrain::Terrain terrain =
+        read(made_raster(21, 9, [](int col, int) { return 0.5 * col; }));
     EXPECT_EQ(terrain.heightfield.spacing, glm::dvec2(1.0));
     EXPECT_FALSE(terrain.heightfield.georeference);
     EXPECT_THAT(joined(terrain.notes), HasSubstr("no coordinate system: 1 m spacing assumed"));
+}
+
+TEST_F(Raster, WithoutAPlaceReliefIsNoSpike) {
+    const MadeRaster steep = made_raster(21, 9, [](int col, int) { return 123.4 * col; });
+    const terrain::Terrain terrain = read(steep);
+    EXPECT_DOUBLE_EQ(terrain.heightfield.spacing.x, 1200.0);
+    EXPECT_DOUBLE_EQ(terrain.heightfield.spacing.y, 1200.0);
+    EXPECT_THAT(joined(terrain.notes), HasSubstr("1200 m spacing assumed, which makes the relief "
+                                                 "of 2468 m a tenth of the width"));
+    RasterOptions told;
+    told.spacing = 1.0;
+    EXPECT_EQ(read(steep, told).heightfield.spacing, glm::dvec2(1.0));
 }
 
 TEST_F(Raster, DeclaredVoidsAreMaskedFilledAndCountedWithoutAWord) {
@@ -265,6 +278,7 @@ TEST_F(Raster, AWindowOutsideIsAnError) {
 TEST_F(Raster, OverBudgetItIsTheAverageAtTheFinestReductionThatFits) {
     RasterOptions options;
     options.memory_budget = 21 * 14 * bytes_per_sample; // 64×43 samples: 1/3 is 21×14
+    options.spacing = 1.0;
     const terrain::Terrain terrain = read(made_raster(64, 43, wave), options);
     ASSERT_EQ(terrain.heightfield.heights.cols(), 21);
     ASSERT_EQ(terrain.heightfield.heights.rows(), 14);

@@ -33,8 +33,8 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         EXPECT_FALSE(hit && variant.features != feature_hit);
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
     }
-    // terrain and mesh: lit or not, fog or not, or a hit; sky: lit or not.
-    EXPECT_EQ(all_variants().size(), 5U + 5U + 2U);
+    // terrain: fog or not, or a hit; mesh: lit or not too; sky: lit or not.
+    EXPECT_EQ(all_variants().size(), 3U + 5U + 2U);
 }
 
 TEST(EmbeddedShaders, HaveNamesAndTexts) {

@@ -1,8 +1,11 @@
 #include "engine/render/terrain_maps.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
-#include <glm/packing.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/render/made_scene.h"
@@ -18,56 +21,97 @@ std::shared_ptr<const scene::TerrainSurface> surface(terrain::Heightfield height
         scene::TerrainSurface::create(std::move(terrain)).value());
 }
 
-TEST(ColorMap, WithoutASunItIsTheImageryItself) {
+TerrainLight light_from(double azimuth, double altitude) {
+    TerrainLight light;
+    light.sun.azimuth = azimuth;
+    light.sun.altitude = altitude;
+    light.sun.color = glm::vec3(0.8F);
+    light.sun.ambient = glm::vec3(0.1F);
+    return light;
+}
+
+TEST(LitMap, WithoutASunItIsTheImageryItself) {
     Image color(7, 5, Rgba8{10, 20, 30, 255});
     color(6, 0) = {200, 0, 0, 255};
     const auto made = surface(test::plane_heightfield(Grid<float>(33, 9, 1.0F)), color);
-    EXPECT_EQ(color_map(*made, std::nullopt, 4096), color);
+    EXPECT_EQ(lit_map(*made, std::nullopt, 4096), color);
 }
 
-TEST(ColorMap, HasTheSunsShareInAlphaAtAnyResolution) {
+TEST(LitMap, OfAPlaneIsLambertsLaw) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> slopes(-2.0, 2.0);
+    std::uniform_real_distribution<double> azimuths(0.0, 360.0);
+    const glm::vec3 albedo = linear_from_rgba8({120, 60, 200, 255});
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec2 slope(slopes(random), slopes(random));
+        const auto made =
+            surface(test::plane_heightfield(test::made_heights(
+                        9, 9, [&](int col, int row) { return slope.x * col - slope.y * row; })),
+                    Image(9, 9, Rgba8{120, 60, 200, 255}));
+        TerrainLight light = light_from(azimuths(random), 80.0);
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope, 1.0));
+        const double sun = std::max(0.0, glm::dot(normal, scene::to_light(light.sun)));
+        const auto light_there = static_cast<float>(0.8 * sun + 0.1 * (0.5 + 0.5 * normal.z));
+        const Rgba8 lit = lit_map(*made, light, 4096)(4, 4);
+        const Rgba8 right = rgba8_from_linear(light_there * albedo);
+        if (sun > 0.05) { // a plane that the sun only grazes lies in its own penumbra
+            ASSERT_NEAR(lit.r, right.r, 1) << slope.x << ' ' << slope.y;
+            ASSERT_NEAR(lit.b, right.b, 1) << slope.x << ' ' << slope.y;
+        }
+    }
+}
+
+TEST(LitMap, HidesTheSunAtAnyResolutionOfTheImagery) {
     const auto heights =
         test::made_heights(65, 65, [](int, int row) { return row == 20 ? 10.0 : 0.0; });
     for (const int side : {65, 17, 129}) {
         const auto made =
-            surface(test::plane_heightfield(heights), Image(side, side, Rgba8{1, 2, 3, 255}));
-        const Image map = color_map(*made, glm::dvec3(0.0, 1.0, 1.0), 4096);
-        const auto alpha = [&](int row) { return map(side / 2, row * (side - 1) / 64).a; };
-        EXPECT_EQ(alpha(8), 255) << "north of the wall, sun in the north";
-        EXPECT_LT(alpha(24), 30) << "in its shadow";
-        EXPECT_EQ(alpha(48), 255);
-        EXPECT_EQ(map(3, 3).g, 2);
+            surface(test::plane_heightfield(heights), Image(side, side, Rgba8{255, 255, 255, 255}));
+        const Image map = lit_map(*made, light_from(0.0, 45.0), 4096);
+        ASSERT_EQ(map.cols(), std::max(side, 65)) << "as fine as the finer one";
+        const auto brightness = [&](int row) {
+            return linear_from_rgba8(map(map.cols() / 2, row * (map.rows() - 1) / 64)).x;
+        };
+        const auto level = static_cast<float>(0.8 * std::sqrt(0.5) + 0.1);
+        EXPECT_NEAR(brightness(8), level, 0.01F) << "north of the wall, sun in the north";
+        EXPECT_NEAR(brightness(25), 0.1F, 0.02F) << "in its shadow";
+        EXPECT_NEAR(brightness(48), level, 0.01F);
     }
 }
 
-TEST(ColorMap, NoSideIsLongerThanAsked) {
+TEST(LitMap, TurnsWithItsNode) {
+    const auto made = surface(
+        test::plane_heightfield(test::made_heights(17, 17, [](int col, int) { return 0.5 * col; })),
+        Image(17, 17, Rgba8{200, 200, 200, 255}));
+    TerrainLight turned = light_from(90.0, 60.0);
+    turned.world_from_local =
+        glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 0.0, 1.0)));
+    // Turned by 90 degrees from east to north, the slope faces south: the same as sun from there.
+    const Image map = lit_map(*made, turned, 4096);
+    const Image unturned = lit_map(*made, light_from(180.0, 60.0), 4096);
+    EXPECT_NEAR(map(8, 8).g, unturned(8, 8).g, 1);
+    EXPECT_NE(map(8, 8), lit_map(*made, light_from(90.0, 60.0), 4096)(8, 8));
+}
+
+TEST(LitMap, NoSideIsLongerThanAsked) {
     Image color(300, 40, Rgba8{0, 0, 0, 255});
     color(299, 39) = {255, 255, 255, 255};
     const auto made = surface(test::plane_heightfield(Grid<float>(20, 20, 1.0F)), color);
-    const Image map = color_map(*made, std::nullopt, 64);
+    const Image map = lit_map(*made, std::nullopt, 64);
     EXPECT_EQ(map.cols(), 64);
     EXPECT_EQ(map.rows(), 40);
     EXPECT_EQ(map(63, 39), color(299, 39)) << "corners stay where they are";
-    EXPECT_EQ(gradient_map(*made, 8).cols(), 8);
+    const Image lit = lit_map(*made, light_from(90.0, 45.0), 8);
+    EXPECT_EQ(glm::ivec2(lit.cols(), lit.rows()), glm::ivec2(8, 8));
 }
 
-TEST(GradientMap, PacksEastAndNorthAsHalves) {
-    const auto made = surface(test::plane_heightfield(
-        test::made_heights(9, 9, [](int col, int row) { return 0.5 * col - 2.0 * row; })));
-    const Grid<std::uint32_t> map = gradient_map(*made, 4096);
-    for (const std::uint32_t texel : map.samples()) {
-        EXPECT_EQ(glm::unpackHalf2x16(texel), glm::vec2(0.5F, 2.0F));
-    }
-}
-
-TEST(GradientMap, StaysFiniteOnCliffs) {
+TEST(LitMap, CliffsAreNoNumbersOutOfRange) {
     const auto made = surface(test::plane_heightfield(
         test::made_heights(9, 9, [](int col, int) { return col % 2 == 0 ? 1e30 : -1e30; }),
         {1e-3, 1e-3}));
-    const Grid<std::uint32_t> map = gradient_map(*made, 4096);
-    for (const std::uint32_t texel : map.samples()) {
-        const glm::vec2 gradient = glm::unpackHalf2x16(texel);
-        EXPECT_TRUE(std::isfinite(gradient.x) && std::isfinite(gradient.y));
+    const Image map = lit_map(*made, light_from(45.0, 45.0), 4096);
+    for (const Rgba8 texel : map.samples()) {
+        EXPECT_EQ(texel.a, 255);
     }
 }
 

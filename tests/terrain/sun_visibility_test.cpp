@@ -158,16 +158,5 @@ TEST(SunVisibility, WorksOnTheLeastGrids) {
     }
 }
 
-TEST(Resampled, KeepsTheCornersAndInterpolatesBetween) {
-    Grid<std::uint8_t> mask(2, 2, 0);
-    mask(1, 0) = 200;
-    mask(1, 1) = 200;
-    EXPECT_EQ(resampled(mask, 0, 0, {5, 5}), 0);
-    EXPECT_EQ(resampled(mask, 4, 4, {5, 5}), 200);
-    EXPECT_EQ(resampled(mask, 2, 3, {5, 5}), 100);
-    EXPECT_EQ(resampled(mask, 0, 0, {1, 1}), 0);
-    EXPECT_EQ(resampled(Grid<std::uint8_t>(1, 1, 7), 3, 2, {9, 9}), 7);
-}
-
 } // namespace
 } // namespace reljef::terrain
