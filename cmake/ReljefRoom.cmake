@@ -8,7 +8,9 @@ add_library(reljef_warnings INTERFACE)
 target_compile_options(reljef_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror
   # clang-tidy does not know the next one, and g++ not its name for that.
-  -Wno-unknown-warning-option -Wno-restrict) # g++ 12 sees overlaps in std::string that are none (GCC bug 105651)
+  -Wno-unknown-warning-option -Wno-restrict # g++ 12 sees overlaps in std::string that are none (GCC bug 105651)
+  # A room compiled as one file: a local name may be that of another file's.
+  $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow>)
 
 add_library(reljef_options INTERFACE)
 target_include_directories(reljef_options INTERFACE ${CMAKE_SOURCE_DIR})

@@ -11,11 +11,6 @@ namespace reljef::terrains {
 namespace {
 
 constexpr float diagonal = 1.41421356F;
-constexpr std::int32_t nobody = -1;
-
-std::size_t at(std::int32_t cell) {
-    return static_cast<std::size_t>(cell);
-}
 
 /// How far a cell stands higher over its lowest neighbour than is stable, `stable` over straight
 /// ones.
@@ -48,7 +43,7 @@ FlowRouter::FlowRouter(int cols, int rows, std::uint32_t seed, float disorder)
             neighbour.nearness[chance] = 1.0F / neighbour.distance[chance];
         }
     }
-    const std::size_t cells = at(cols) * at(rows);
+    const std::size_t cells = cell_index(cols) * cell_index(rows);
     cut_.resize(cells);
     seen_by_.resize(cells);
     came_from_.resize(cells);
@@ -77,8 +72,9 @@ bool FlowRouter::is_inside(std::int32_t cell, const Neighbour& neighbour) const 
 
 // Equal heights are told apart by their place, so that no water runs in a circle.
 bool FlowRouter::is_lower(std::int32_t cell, std::int32_t than) const {
-    const float height = heights_[at(cell)];
-    return height < heights_[at(than)] || (height == heights_[at(than)] && cell < than);
+    const float height = heights_[cell_index(cell)];
+    return height < heights_[cell_index(than)] ||
+           (height == heights_[cell_index(than)] && cell < than);
 }
 
 void FlowRouter::find_steepest(int row) {
@@ -87,20 +83,21 @@ void FlowRouter::find_steepest(int row) {
         const bool inner = col > 0 && row > 0 && col < cols_ - 1 && row < rows_ - 1;
         std::uint32_t luck = hash(seed_, cell, 0);
         float steepest = 0.0F;
-        drainage_.receiver[at(cell)] = cell;
-        drainage_.distance[at(cell)] = 0.0F;
+        drainage_.receiver[cell_index(cell)] = cell;
+        drainage_.distance[cell_index(cell)] = 0.0F;
         for (const Neighbour& neighbour : neighbours_) {
             const std::uint32_t chance = luck & 15U;
             luck >>= 4U;
             if (!inner && !is_inside(cell, neighbour)) {
                 continue;
             }
-            const float drop = heights_[at(cell)] - heights_[at(cell + neighbour.offset)];
+            const float drop =
+                heights_[cell_index(cell)] - heights_[cell_index(cell + neighbour.offset)];
             const float slope = drop * neighbour.nearness[chance];
-            if (slope > steepest && outlets_[at(cell)] == 0) {
+            if (slope > steepest && outlets_[cell_index(cell)] == 0) {
                 steepest = slope;
-                drainage_.receiver[at(cell)] = cell + neighbour.offset;
-                drainage_.distance[at(cell)] = neighbour.distance[chance];
+                drainage_.receiver[cell_index(cell)] = cell + neighbour.offset;
+                drainage_.distance[cell_index(cell)] = neighbour.distance[chance];
             }
         }
     }
@@ -110,14 +107,14 @@ void FlowRouter::find_steepest(int row) {
 void FlowRouter::drain_pits() {
     std::vector<std::int32_t> pits;
     for (std::int32_t cell = 0; cell < cols_ * rows_; ++cell) {
-        if (drainage_.receiver[at(cell)] == cell && outlets_[at(cell)] == 0) {
+        if (drainage_.receiver[cell_index(cell)] == cell && outlets_[cell_index(cell)] == 0) {
             pits.push_back(cell);
         }
     }
     std::sort(pits.begin(), pits.end(),
               [&](std::int32_t one, std::int32_t other) { return is_lower(one, other); });
     std::fill(cut_.begin(), cut_.end(), std::uint8_t{0});
-    std::fill(seen_by_.begin(), seen_by_.end(), nobody);
+    std::fill(seen_by_.begin(), seen_by_.end(), no_cell);
     for (const std::int32_t pit : pits) {
         drain(pit);
     }
@@ -129,20 +126,20 @@ void FlowRouter::drain(std::int32_t pit) {
     };
     std::priority_queue<std::int32_t, std::vector<std::int32_t>, decltype(is_higher)> shore(
         is_higher);
-    seen_by_[at(pit)] = pit;
+    seen_by_[cell_index(pit)] = pit;
     shore.push(pit);
     while (!shore.empty()) {
         const std::int32_t cell = shore.top();
         shore.pop();
-        if (is_lower(cell, pit) || cut_[at(cell)] != 0 || outlets_[at(cell)] != 0) {
+        if (is_lower(cell, pit) || cut_[cell_index(cell)] != 0 || outlets_[cell_index(cell)] != 0) {
             cut(pit, cell);
             return;
         }
         for (const Neighbour& neighbour : neighbours_) {
             const std::int32_t other = cell + neighbour.offset;
-            if (is_inside(cell, neighbour) && seen_by_[at(other)] != pit) {
-                seen_by_[at(other)] = pit;
-                came_from_[at(other)] = cell;
+            if (is_inside(cell, neighbour) && seen_by_[cell_index(other)] != pit) {
+                seen_by_[cell_index(other)] = pit;
+                came_from_[cell_index(other)] = cell;
                 shore.push(other);
             }
         }
@@ -152,11 +149,11 @@ void FlowRouter::drain(std::int32_t pit) {
 /// Lets the cells of the way that a search has gone drain along it.
 void FlowRouter::cut(std::int32_t pit, std::int32_t end) {
     for (std::int32_t cell = end; cell != pit;) {
-        const std::int32_t before = came_from_[at(cell)];
+        const std::int32_t before = came_from_[cell_index(cell)];
         const bool is_straight = cell % cols_ == before % cols_ || cell / cols_ == before / cols_;
-        drainage_.receiver[at(before)] = cell;
-        drainage_.distance[at(before)] = is_straight ? 1.0F : diagonal;
-        cut_[at(before)] = 1;
+        drainage_.receiver[cell_index(before)] = cell;
+        drainage_.distance[cell_index(before)] = is_straight ? 1.0F : diagonal;
+        cut_[cell_index(before)] = 1;
         cell = before;
     }
 }
@@ -166,7 +163,7 @@ void FlowRouter::accumulate() {
     std::fill(donors_.begin(), donors_.end(), std::uint8_t{0});
     std::fill(drainage_.area.begin(), drainage_.area.end(), 1.0F);
     for (std::size_t cell = 0; cell < donors_.size(); ++cell) {
-        const std::size_t receiver = at(drainage_.receiver[cell]);
+        const std::size_t receiver = cell_index(drainage_.receiver[cell]);
         if (receiver != cell) {
             ++donors_[receiver];
         }
@@ -175,7 +172,7 @@ void FlowRouter::accumulate() {
     std::size_t place = drainage_.order.size();
     for (std::size_t spring = 0; spring < springs.size(); ++spring) {
         for (std::size_t cell = spring; springs[spring] == 0;) {
-            const std::size_t receiver = at(drainage_.receiver[cell]);
+            const std::size_t receiver = cell_index(drainage_.receiver[cell]);
             drainage_.order[--place] = static_cast<std::int32_t>(cell);
             if (receiver == cell) {
                 break;
@@ -192,13 +189,13 @@ void FlowRouter::accumulate() {
 void erode(std::span<float> heights, const Drainage& drainage, const ErosionStep& step) {
     constexpr float least_slope = 0.0005F;
     for (const std::int32_t index : drainage.order) {
-        const std::size_t cell = at(index);
+        const std::size_t cell = cell_index(index);
         const std::int32_t receiver = drainage.receiver[cell];
         if (receiver == index) {
             continue;
         }
         const float distance = step.spacing * drainage.distance[cell];
-        const float below = heights[at(receiver)];
+        const float below = heights[cell_index(receiver)];
         const float lifted = heights[cell] + step.uplift[cell];
         const float power =
             step.erodibility[cell] * std::sqrt(drainage.area[cell]) / drainage.distance[cell];
@@ -211,12 +208,12 @@ void erode(std::span<float> heights, const Drainage& drainage, const ErosionStep
 void slide(Grid<float>& heights, std::span<const float> talus, float spacing, int passes,
            unsigned threads) {
     Grid<float> before;
-    const std::size_t cols = at(heights.cols());
+    const std::size_t cols = cell_index(heights.cols());
     for (int pass = 0; pass < passes; ++pass) {
         before = heights;
         const auto slide_row = [&](int row) {
             for (int col = 0; col < heights.cols(); ++col) {
-                const float stable = spacing * talus[at(row) * cols + at(col)];
+                const float stable = spacing * talus[cell_index(row) * cols + cell_index(col)];
                 heights(col, row) -= 0.5F * excess_over(before, col, row, stable);
             }
         };

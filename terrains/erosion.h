@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -8,6 +9,13 @@
 #include "engine/core/grid.h"
 
 namespace reljef::terrains {
+
+/// The number of a cell that is not there.
+inline constexpr std::int32_t no_cell = -1;
+
+inline std::size_t cell_index(std::int32_t cell) {
+    return static_cast<std::size_t>(cell);
+}
 
 /// Where the water of every cell goes. Cells are numbered row * cols + col.
 struct Drainage {

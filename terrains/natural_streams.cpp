@@ -11,19 +11,14 @@ namespace reljef::terrains::natural {
 namespace {
 
 constexpr float least_catchment = 0.7F; // km² above which a stream is drawn
-constexpr std::int32_t nobody = -1;
-
-std::size_t at(std::int32_t cell) {
-    return static_cast<std::size_t>(cell);
-}
 
 /// A stream's points, each after the one it flows to.
 struct Point {
-    glm::vec2 place{0.0F};      // col, row
-    std::int32_t next = nobody; // downstream
-    std::int32_t back = nobody; // upstream, along the largest donor
-    float half_width = 0.0F;    // cells
-    float level = 0.0F;         // of the water, metres
+    glm::vec2 place{0.0F};       // col, row
+    std::int32_t next = no_cell; // downstream
+    std::int32_t back = no_cell; // upstream, along the largest donor
+    float half_width = 0.0F;     // cells
+    float level = 0.0F;          // of the water, metres
 };
 
 float width_of(float square_kilometres) {
@@ -32,27 +27,28 @@ float width_of(float square_kilometres) {
 
 std::vector<Point> points_of(const Land& land) {
     const Drainage& drainage = land.drainage;
-    std::vector<std::int32_t> point_of_cell(drainage.receiver.size(), nobody);
+    std::vector<std::int32_t> point_of_cell(drainage.receiver.size(), no_cell);
     std::vector<Point> points;
     const int cols = land.heights.cols();
     for (const std::int32_t cell : drainage.order) {
-        const float upstream = catchment(drainage, at(cell));
+        const float upstream = catchment(drainage, cell_index(cell));
         if (upstream < least_catchment) {
             continue;
         }
-        const std::int32_t receiver = drainage.receiver[at(cell)];
+        const std::int32_t receiver = drainage.receiver[cell_index(cell)];
         Point point;
         point.place = glm::vec2(place_of(cell, cols));
         point.half_width = width_of(upstream);
-        point.next = receiver == cell ? nobody : point_of_cell[at(receiver)];
+        point.next = receiver == cell ? no_cell : point_of_cell[cell_index(receiver)];
         const auto index = static_cast<std::int32_t>(points.size());
-        if (point.next != nobody) {
-            Point& next = points[at(point.next)];
-            if (next.back == nobody || points[at(next.back)].half_width < point.half_width) {
+        if (point.next != no_cell) {
+            Point& next = points[cell_index(point.next)];
+            if (next.back == no_cell ||
+                points[cell_index(next.back)].half_width < point.half_width) {
                 next.back = index;
             }
         }
-        point_of_cell[at(cell)] = index;
+        point_of_cell[cell_index(cell)] = index;
         points.push_back(point);
     }
     return points;
@@ -63,9 +59,9 @@ void smooth(std::vector<Point>& points, int passes) {
     for (int pass = 0; pass < passes; ++pass) {
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Point& point = points[i];
-            const bool inner = point.next != nobody && point.back != nobody;
-            places[i] = inner ? 0.5F * point.place + 0.25F * (points[at(point.next)].place +
-                                                              points[at(point.back)].place)
+            const bool inner = point.next != no_cell && point.back != no_cell;
+            places[i] = inner ? 0.5F * point.place + 0.25F * (points[cell_index(point.next)].place +
+                                                              points[cell_index(point.back)].place)
                               : point.place;
         }
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -94,8 +90,9 @@ void find_levels(std::vector<Point>& points, const Land& land) {
         const int col = static_cast<int>(std::lround(point.place.x));
         const int row = static_cast<int>(std::lround(point.place.y));
         const float bed = land.heights(col, row) - 1.0F - 1.5F * std::min(point.half_width, 1.5F);
-        point.level =
-            point.next == nobody ? bed : std::max(bed, points[at(point.next)].level + least_fall);
+        point.level = point.next == no_cell
+                          ? bed
+                          : std::max(bed, points[cell_index(point.next)].level + least_fall);
     }
 }
 
@@ -154,8 +151,8 @@ void draw_streams(Land& land, const LandOptions& options) {
     smooth(points, 5);
     find_levels(points, land);
     for (const Point& point : points) {
-        if (point.next != nobody) {
-            draw(land, {point, points[at(point.next)], options.seed + 63});
+        if (point.next != no_cell) {
+            draw(land, {point, points[cell_index(point.next)], options.seed + 63});
         }
     }
     for (std::size_t cell = 0; cell < land.lake.size(); ++cell) {

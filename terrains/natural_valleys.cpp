@@ -13,22 +13,18 @@
 namespace reljef::terrains::natural {
 namespace {
 
-constexpr std::int32_t nobody = -1;
 constexpr float stream_catchment = 1.5F; // km² above which a stream has a floor
 constexpr float lake_spacing = 6000.0F;  // metres between lakes, at least
 constexpr float lake_depth = 7.0F;       // metres over the level at which the shore is drawn
 
-std::size_t at(std::int32_t cell) {
-    return static_cast<std::size_t>(cell);
-}
-
-/// The donor with the largest catchment, or nobody.
+/// The donor with the largest catchment, or no_cell.
 std::vector<std::int32_t> main_donors(const Drainage& drainage) {
-    std::vector<std::int32_t> donors(drainage.receiver.size(), nobody);
+    std::vector<std::int32_t> donors(drainage.receiver.size(), no_cell);
     for (const std::int32_t cell : drainage.order) {
-        std::int32_t& best = donors[at(drainage.receiver[at(cell)])];
-        const bool better = best == nobody || drainage.area[at(cell)] > drainage.area[at(best)];
-        if (drainage.receiver[at(cell)] != cell && better) {
+        std::int32_t& best = donors[cell_index(drainage.receiver[cell_index(cell)])];
+        const bool better =
+            best == no_cell || drainage.area[cell_index(cell)] > drainage.area[cell_index(best)];
+        if (drainage.receiver[cell_index(cell)] != cell && better) {
             best = cell;
         }
     }
@@ -46,19 +42,21 @@ Reach reach_from(std::int32_t outlet, float length, const Land& land,
                  const std::vector<std::int32_t>& donors) {
     Reach reach;
     float distance = 0.0F;
-    for (std::int32_t cell = outlet; cell != nobody && distance < length; cell = donors[at(cell)]) {
+    for (std::int32_t cell = outlet; cell != no_cell && distance < length;
+         cell = donors[cell_index(cell)]) {
         reach.cells.push_back(cell);
         reach.distance.push_back(distance);
-        distance += design_spacing * land.drainage.distance[at(cell)];
+        distance += design_spacing * land.drainage.distance[cell_index(cell)];
     }
     const auto heights = land.heights.samples();
-    reach.rise = distance < length ? std::numeric_limits<float>::max()
-                                   : heights[at(reach.cells.back())] - heights[at(outlet)];
+    reach.rise = distance < length
+                     ? std::numeric_limits<float>::max()
+                     : heights[cell_index(reach.cells.back())] - heights[cell_index(outlet)];
     return reach;
 }
 
 bool may_hold_lake(const Land& land, std::int32_t cell) {
-    const float upstream = catchment(land.drainage, at(cell));
+    const float upstream = catchment(land.drainage, cell_index(cell));
     const int cols = land.heights.cols();
     const int margin = cols / 6;
     const int col = cell % cols;
@@ -105,20 +103,21 @@ void lower_to_lakes(Land& land, const std::vector<Reach>& reaches) {
     std::vector<float> river(cells, 0.0F);    // its height before
     const auto heights = land.heights.samples();
     for (const Reach& reach : reaches) {
-        const float level = heights[at(reach.cells.front())];
+        const float level = heights[cell_index(reach.cells.front())];
         for (std::size_t i = 0; i < reach.cells.size(); ++i) {
             const float part = reach.distance[i] / reach.distance.back();
             const float wanted = level + reach.rise * std::max(0.0F, 2.0F * part - 1.0F);
-            lowering[at(reach.cells[i])] = std::max(1.0e-3F, heights[at(reach.cells[i])] - wanted);
+            lowering[cell_index(reach.cells[i])] =
+                std::max(1.0e-3F, heights[cell_index(reach.cells[i])] - wanted);
         }
     }
     for (const std::int32_t cell : land.drainage.order) {
-        const std::int32_t receiver = land.drainage.receiver[at(cell)];
-        if (lowering[at(cell)] > 0.0F) {
-            river[at(cell)] = heights[at(cell)];
+        const std::int32_t receiver = land.drainage.receiver[cell_index(cell)];
+        if (lowering[cell_index(cell)] > 0.0F) {
+            river[cell_index(cell)] = heights[cell_index(cell)];
         } else {
-            lowering[at(cell)] = lowering[at(receiver)];
-            river[at(cell)] = river[at(receiver)];
+            lowering[cell_index(cell)] = lowering[cell_index(receiver)];
+            river[cell_index(cell)] = river[cell_index(receiver)];
         }
     }
     for (std::size_t cell = 0; cell < cells; ++cell) {
@@ -131,9 +130,10 @@ void lower_to_lakes(Land& land, const std::vector<Reach>& reaches) {
 std::vector<std::int32_t> streams_of(const Drainage& drainage) {
     std::vector<std::int32_t> stream(drainage.receiver.size());
     for (const std::int32_t cell : drainage.order) {
-        const std::int32_t receiver = drainage.receiver[at(cell)];
-        const bool is_stream = catchment(drainage, at(cell)) > stream_catchment;
-        stream[at(cell)] = is_stream || receiver == cell ? cell : stream[at(receiver)];
+        const std::int32_t receiver = drainage.receiver[cell_index(cell)];
+        const bool is_stream = catchment(drainage, cell_index(cell)) > stream_catchment;
+        stream[cell_index(cell)] =
+            is_stream || receiver == cell ? cell : stream[cell_index(receiver)];
     }
     return stream;
 }
@@ -150,12 +150,12 @@ std::vector<float> floor_levels(const Land& land, const std::vector<std::int32_t
     const auto heights = land.heights.samples();
     std::vector<float> level(heights.begin(), heights.end());
     for (const std::int32_t cell : land.drainage.order) {
-        const std::int32_t receiver = land.drainage.receiver[at(cell)];
-        if (stream[at(cell)] == cell && receiver != cell) {
-            const float run = design_spacing * land.drainage.distance[at(cell)];
-            level[at(cell)] =
-                std::max(heights[at(cell)] + alluvium(catchment(land.drainage, at(cell))),
-                         level[at(receiver)] + slope * run);
+        const std::int32_t receiver = land.drainage.receiver[cell_index(cell)];
+        if (stream[cell_index(cell)] == cell && receiver != cell) {
+            const float run = design_spacing * land.drainage.distance[cell_index(cell)];
+            level[cell_index(cell)] = std::max(
+                heights[cell_index(cell)] + alluvium(catchment(land.drainage, cell_index(cell))),
+                level[cell_index(receiver)] + slope * run);
         }
     }
     return level;
@@ -168,8 +168,8 @@ void fill_floors(Land& land, const std::vector<std::int32_t>& stream, unsigned t
     const std::vector<float> rock(heights.begin(), heights.end());
     Grid<float> floor(land.heights.cols(), land.heights.rows()); // 1 on it, 0 on the walls
     for (std::size_t cell = 0; cell < heights.size(); ++cell) {
-        const float bed = level[at(stream[cell])];
-        const float depth = std::max(bed - rock[at(stream[cell])], 0.0F);
+        const float bed = level[cell_index(stream[cell])];
+        const float depth = std::max(bed - rock[cell_index(stream[cell])], 0.0F);
         const float over = rock[cell] - bed;
         const float soft = 0.25F * depth;
         const float filled = 0.5F * (over + std::sqrt(over * over + soft * soft));
@@ -188,7 +188,7 @@ void measure_height_above(Land& land, const std::vector<std::int32_t>& stream) {
     const auto heights = land.heights.samples();
     for (std::size_t cell = 0; cell < heights.size(); ++cell) {
         land.above_water.samples()[cell] =
-            std::max(0.0F, heights[cell] - heights[at(stream[cell])]);
+            std::max(0.0F, heights[cell] - heights[cell_index(stream[cell])]);
     }
 }
 
@@ -213,7 +213,7 @@ void drown(Land& land, glm::ivec2 river, float level, float reach) {
 
 void fill_lakes(Land& land, const std::vector<Reach>& reaches) {
     for (const Reach& reach : reaches) {
-        const float level = land.heights.samples()[at(reach.cells.front())];
+        const float level = land.heights.samples()[cell_index(reach.cells.front())];
         for (std::size_t i = 0; i < reach.cells.size(); ++i) {
             const float part = reach.distance[i] / reach.distance.back();
             const float ends =

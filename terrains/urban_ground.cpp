@@ -29,10 +29,6 @@ constexpr std::array<SurfaceLook, 11> looks{{{{0.405F, 0.400F, 0.395F}, 0.030F, 
                                              {{0.520F, 0.350F, 0.270F}, 0.020F, 0.02F, 0.05F},
                                              {{0.425F, 0.420F, 0.410F}, 0.030F, 0.03F, 0.07F}}};
 
-float fraction(float value) {
-    return value - std::floor(value);
-}
-
 /// A street as one cell sees it.
 struct Arm {
     HalfPlane middle; ///< distance from the middle of the street, into the cell

@@ -6,10 +6,6 @@
 namespace reljef::terrains::urban {
 namespace {
 
-float fraction(float value) {
-    return value - std::floor(value);
-}
-
 /// Where a sample lies on a pitched roof.
 struct Slope {
     float run = 0.0F;   ///< metres from the eaves

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -30,6 +31,10 @@ private:
     std::int32_t count_ = 0;
 };
 
+/// What is over the next lower whole number, in [0, 1).
+inline float fraction(float value) {
+    return value - std::floor(value);
+}
 float dot(glm::vec2 a, glm::vec2 b);
 float length(glm::vec2 v);
 glm::vec2 normalized(glm::vec2 v);

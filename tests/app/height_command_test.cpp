@@ -10,7 +10,7 @@ namespace reljef {
 namespace {
 
 // A 3″ raster around (0.5, 0.5) degrees, one sample void.
-constexpr const char* small_dem =
+constexpr const char* dem_in_degrees =
     "ncols 3\nnrows 3\nxllcenter 10\nyllcenter 40\ncellsize 0.25\nNODATA_value -9999\n"
     "1 2 3\n4 5 6\n7 8 -9999\n";
 constexpr const char* wgs84 =
@@ -21,7 +21,7 @@ class HeightCommand : public testing::Test {
 protected:
     HeightCommand() {
         folder_.write("dem.prj", wgs84);
-        dem_ = folder_.write("dem.asc", small_dem).string();
+        dem_ = folder_.write("dem.asc", dem_in_degrees).string();
     }
     test::TemporaryFolder folder_;
     std::string dem_;

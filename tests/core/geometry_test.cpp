@@ -11,7 +11,7 @@
 namespace reljef {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 class Random {
 public:
@@ -81,7 +81,7 @@ std::array<double, 6> margins(glm::dvec4 clip) {
 // The largest margin of a box's corners, at the side where that is smallest.
 double margin_by_corners(const glm::dmat4& clip_from_world, const Box& box) {
     std::array<double, 6> best{};
-    best.fill(-infinity);
+    best.fill(-endless);
     for (const glm::dvec3& corner : corners(box)) {
         const auto of_corner = margins(clip_from_world * glm::dvec4(corner, 1.0));
         for (std::size_t side = 0; side < 6; ++side) {
@@ -106,8 +106,8 @@ TEST(Box, HoldsAllThatWasAddedAndNoMore) {
     Random random;
     Box box;
     Box of_boxes;
-    glm::dvec3 low(infinity);
-    glm::dvec3 high(-infinity);
+    glm::dvec3 low(endless);
+    glm::dvec3 high(-endless);
     for (int i = 0; i < 1000; ++i) {
         const Box added = random.box(10.0, 3.0);
         box.add(added.low);

@@ -16,20 +16,13 @@
 namespace reljef::io {
 namespace {
 
+using test::joined;
 using test::made_raster;
 using test::MadeRaster;
 using ::testing::HasSubstr;
 
 double distance(glm::dvec2 a, glm::dvec2 b) {
     return geo::geodesic_distance({a.x, a.y, 0.0}, {b.x, b.y, 0.0});
-}
-
-std::string joined(const std::vector<std::string>& notes) {
-    std::string text;
-    for (const std::string& note : notes) {
-        text += note + "\n";
-    }
-    return text;
 }
 
 class Georeferencing : public ::testing::Test {

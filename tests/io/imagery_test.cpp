@@ -15,6 +15,7 @@
 namespace reljef::io {
 namespace {
 
+using test::joined;
 using test::made_raster;
 using test::MadeRaster;
 using ::testing::HasSubstr;
@@ -45,14 +46,6 @@ MadeRaster picture(int cols, int rows) {
 
 MadeRaster flat(int cols, int rows) {
     return made_raster(cols, rows, [](int col, int) { return 100.0 + col; });
-}
-
-std::string joined(const std::vector<std::string>& notes) {
-    std::string text;
-    for (const std::string& note : notes) {
-        text += note + "\n";
-    }
-    return text;
 }
 
 class Imagery : public ::testing::Test {

@@ -31,6 +31,15 @@ struct MadeRaster {
 };
 
 /// A raster with value(col, row) at every sample.
+/// One note a line.
+inline std::string joined(const std::vector<std::string>& notes) {
+    std::string text;
+    for (const std::string& note : notes) {
+        text += note + "\n";
+    }
+    return text;
+}
+
 template <class Value> MadeRaster made_raster(int cols, int rows, const Value& value) {
     MadeRaster raster;
     raster.cols = cols;

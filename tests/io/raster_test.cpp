@@ -15,6 +15,7 @@
 namespace reljef::io {
 namespace {
 
+using test::joined;
 using test::made_raster;
 using test::MadeRaster;
 using test::TemporaryFolder;
@@ -22,14 +23,6 @@ using ::testing::HasSubstr;
 
 double wave(int col, int row) {
     return 100.0 + 3.0 * col - 7.0 * row + ((col * 31 + row * 17) % 11);
-}
-
-std::string joined(const std::vector<std::string>& notes) {
-    std::string text;
-    for (const std::string& note : notes) {
-        text += note + "\n";
-    }
-    return text;
 }
 
 class Raster : public ::testing::Test {

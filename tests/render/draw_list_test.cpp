@@ -12,7 +12,7 @@
 namespace reljef::render {
 namespace {
 
-constexpr glm::ivec2 size{320, 240};
+constexpr glm::ivec2 picture_size{320, 240};
 
 class Chance {
 public:
@@ -38,10 +38,10 @@ private:
 };
 
 bool shows(const scene::Camera& camera, glm::dvec3 world) {
-    const auto at = scene::project(camera, size, world);
+    const auto at = scene::project(camera, picture_size, world);
     const bool perspective = camera.projection == scene::ProjectionKind::perspective;
     return (!perspective || at.depth > camera.near) && at.pixel.x >= 0.0 && at.pixel.y >= 0.0 &&
-           at.pixel.x <= size.x && at.pixel.y <= size.y;
+           at.pixel.x <= picture_size.x && at.pixel.y <= picture_size.y;
 }
 
 bool shows_a_sample(const scene::Camera& camera, const scene::Node& node, const terrain::Tile& tile,
@@ -68,7 +68,7 @@ std::size_t triangles_of(const scene::Node& node) {
 }
 
 void expect_right_selection(scene::Scene& scene, const scene::Node& node, bool flat) {
-    const DrawList list = select(scene, size);
+    const DrawList list = select(scene, picture_size);
     const auto& surface = test::surface_of(node);
     std::set<int> drawn;
     std::size_t triangles = 0;
@@ -159,28 +159,28 @@ TEST(DrawList, CountsWhatIsHidden) {
     group.add("one");
     group.add("two");
     scene.add_camera();
-    const DrawList all = select(scene, size);
+    const DrawList all = select(scene, picture_size);
     EXPECT_EQ(all.stats.nodes, 5);
     EXPECT_EQ(all.stats.skipped.invisible_nodes, 0);
     group.set_visible(false);
-    const DrawList some = select(scene, size);
+    const DrawList some = select(scene, picture_size);
     EXPECT_EQ(some.stats.nodes, 5);
     EXPECT_EQ(some.stats.skipped.invisible_nodes, 3);
 }
 
 TEST(DrawList, HoldsTheFirstVisibleLightAndTheSky) {
     scene::Scene scene;
-    EXPECT_FALSE(select(scene, size).sun);
-    EXPECT_FALSE(select(scene, size).sky);
-    EXPECT_EQ(select(scene, size).stats.skipped.sky, 1);
+    EXPECT_FALSE(select(scene, picture_size).sun);
+    EXPECT_FALSE(select(scene, picture_size).sky);
+    EXPECT_EQ(select(scene, picture_size).stats.skipped.sky, 1);
     scene::Node& first = scene.add_light({.azimuth = 1.0});
     scene.add_light({.azimuth = 2.0});
     scene.set_sky({});
-    EXPECT_EQ(select(scene, size).sun->azimuth, 1.0);
+    EXPECT_EQ(select(scene, picture_size).sun->azimuth, 1.0);
     first.set_visible(false);
-    EXPECT_EQ(select(scene, size).sun->azimuth, 2.0);
-    EXPECT_TRUE(select(scene, size).sky);
-    EXPECT_EQ(select(scene, size).stats.skipped.sky, 0);
+    EXPECT_EQ(select(scene, picture_size).sun->azimuth, 2.0);
+    EXPECT_TRUE(select(scene, picture_size).sky);
+    EXPECT_EQ(select(scene, picture_size).stats.skipped.sky, 0);
 }
 
 TEST(DrawList, LeavesOutMeshesOutsideTheFrustum) {
@@ -188,11 +188,11 @@ TEST(DrawList, LeavesOutMeshesOutsideTheFrustum) {
     scene.add_camera(test::camera_at({0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}));
     scene::Node& box = scene.add_mesh(scene::box_mesh(glm::vec3(1.0F)));
     box.set_position({0.0, 5.0, 0.0});
-    EXPECT_EQ(select(scene, size).meshes.size(), 1U);
+    EXPECT_EQ(select(scene, picture_size).meshes.size(), 1U);
     box.set_position({0.0, -5.0, 0.0});
-    EXPECT_TRUE(select(scene, size).meshes.empty());
-    EXPECT_EQ(select(scene, size).stats.skipped.nodes_outside_frustum, 1);
-    EXPECT_EQ(select(scene, size).stats.skipped.triangles_outside_frustum, 12U);
+    EXPECT_TRUE(select(scene, picture_size).meshes.empty());
+    EXPECT_EQ(select(scene, picture_size).stats.skipped.nodes_outside_frustum, 1);
+    EXPECT_EQ(select(scene, picture_size).stats.skipped.triangles_outside_frustum, 12U);
 }
 
 TEST(DrawList, FitsTheDepthOfAnOrthographicCameraToTheScene) {
@@ -206,13 +206,13 @@ TEST(DrawList, FitsTheDepthOfAnOrthographicCameraToTheScene) {
         scene::Camera camera = chance.camera(5e3);
         camera.projection = scene::ProjectionKind::orthographic;
         *node.get<scene::Camera>() = camera;
-        const DrawList list = select(scene, size);
+        const DrawList list = select(scene, picture_size);
         const Box bounds = scene.root().world_bounds();
         for (int corner = 0; corner < 8; ++corner) {
             const glm::dvec3 at{(corner & 1) != 0 ? bounds.low.x : bounds.high.x,
                                 (corner & 2) != 0 ? bounds.low.y : bounds.high.y,
                                 (corner & 4) != 0 ? bounds.low.z : bounds.high.z};
-            const double depth = scene::project(list.camera, size, at).depth;
+            const double depth = scene::project(list.camera, picture_size, at).depth;
             ASSERT_GT(depth, list.camera.orthographic_near);
             ASSERT_LT(depth, list.camera.orthographic_far);
         }

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/terrain/heightfield.h"
+#include "engine/terrain/placement.h"
 
 namespace reljef::test {
 
@@ -57,6 +58,14 @@ inline terrain::Heightfield geographic_heightfield(Grid<float> heights, double l
     heightfield.georeference.emplace();
     heightfield.georeference->geodetic = geo::GeodeticMap(control, glm::dvec2(0.0), control_step);
     return heightfield;
+}
+
+/// On the ellipsoid where it has a place there, else on a plane.
+inline terrain::Placement placed(const terrain::Heightfield& heightfield,
+                                 double exaggeration = 1.0) {
+    const auto kind = heightfield.georeference ? terrain::PlacementKind::ellipsoid
+                                               : terrain::PlacementKind::plane;
+    return terrain::Placement::create(heightfield, kind, exaggeration).value();
 }
 
 } // namespace reljef::test

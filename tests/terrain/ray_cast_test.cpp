@@ -373,18 +373,11 @@ TEST(RayCast, NeitherHangsNorHitsWithRaysThatAreNoNumbers) {
     EXPECT_FALSE(cast(heights, {{1.0, 1.0, 5.0}, {infinity, 1.0, -1.0}}));
 }
 
-Placement placed(const Heightfield& heightfield, double exaggeration = 1.0) {
-    const auto kind = heightfield.georeference ? PlacementKind::ellipsoid : PlacementKind::plane;
-    auto placement = Placement::create(heightfield, kind, exaggeration);
-    EXPECT_TRUE(placement);
-    return std::move(placement).value();
-}
-
 TEST(Pick, OnAPlaneIsTheRayInSampleCoordinates) {
     Chance chance(9);
     const Heightfield heightfield =
         test::plane_heightfield(test::random_heights(31, 41, -20.0F, 20.0F, 18), {3.0, 5.0});
-    const Placement placement = placed(heightfield, 2.0);
+    const Placement placement = test::placed(heightfield, 2.0);
     const MinMaxPyramid pyramid(heightfield.heights.view());
     int hits = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -430,7 +423,7 @@ TEST(Pick, OnAnEllipsoidAgreesWithFineSteps) {
                                                                    std::sin(0.2 * row + 0.1 * col);
                                                         }),
                                      46.0, 7.0, 0.01);
-    const Placement placement = placed(heightfield);
+    const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
     int hits = 0;
     for (int i = 0; i < 120; ++i) {
@@ -468,7 +461,7 @@ TEST(Pick, IsWatertightOnAnEllipsoid) {
     Chance chance(11);
     const Heightfield heightfield = test::geographic_heightfield(
         test::random_heights(65, 65, 0.0F, 500.0F, 19), 60.0, 20.0, 0.01);
-    const Placement placement = placed(heightfield);
+    const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
     for (int i = 0; i < 3000; ++i) {
         const glm::dvec3 from = placement.world_from_sample(
@@ -483,7 +476,7 @@ TEST(Pick, IsWatertightOnAnEllipsoid) {
 TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
     const Heightfield heightfield =
         test::geographic_heightfield(Grid<float>(129, 129, 100.0F), 46.5, 7.0, 0.01);
-    const Placement placement = placed(heightfield);
+    const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
     Chance chance(12);
     for (int i = 0; i < 3000; ++i) {
@@ -507,7 +500,7 @@ TEST(Pick, EndsSoonWhereverTheRayComesFrom) {
     fields.push_back(test::geographic_heightfield(Grid<float>(41, 41, 0.0F), 89.5, 0.0, 0.5));
     const auto start = std::chrono::steady_clock::now();
     for (const Heightfield& heightfield : fields) {
-        const Placement placement = placed(heightfield);
+        const Placement placement = test::placed(heightfield);
         const MinMaxPyramid pyramid(heightfield.heights.view());
         for (int i = 0; i < 30; ++i) {
             const glm::dvec3 from(chance.between(-1e7, 1e7), chance.between(-1e7, 1e7),

@@ -10,13 +10,6 @@
 namespace reljef::terrain {
 namespace {
 
-Placement placed(const Heightfield& heightfield, double exaggeration = 1.0) {
-    const auto kind = heightfield.georeference ? PlacementKind::ellipsoid : PlacementKind::plane;
-    auto placement = Placement::create(heightfield, kind, exaggeration);
-    EXPECT_TRUE(placement);
-    return std::move(placement).value();
-}
-
 TEST(TileLayout, CoversEveryCellOnceWhateverTheSize) {
     for (const auto& [cols, rows] : {std::pair{2, 2},
                                      {3, 1000},
@@ -31,7 +24,7 @@ TEST(TileLayout, CoversEveryCellOnceWhateverTheSize) {
         const Heightfield heightfield =
             test::plane_heightfield(test::random_heights(cols, rows, 0.0F, 9.0F, 1));
         Grid<int> covered(cols - 1, rows - 1, 0);
-        for (const Tile& tile : tile_layout(heightfield, placed(heightfield))) {
+        for (const Tile& tile : tile_layout(heightfield, test::placed(heightfield))) {
             ASSERT_GE(std::min(tile.cols, tile.rows), 1);
             ASSERT_LE(std::max(tile.cols, tile.rows), tile_cells);
             for (int row = tile.row; row < tile.row + tile.rows; ++row) {
@@ -64,7 +57,7 @@ void expect_inside(const Heightfield& heightfield, const Placement& placement, c
 }
 
 void expect_bounds_hold(const Heightfield& heightfield, double exaggeration) {
-    const Placement placement = placed(heightfield, exaggeration);
+    const Placement placement = test::placed(heightfield, exaggeration);
     for (const Tile& tile : tile_layout(heightfield, placement)) {
         expect_inside(heightfield, placement, tile, std::nullopt);
     }
@@ -77,7 +70,7 @@ void expect_bounds_hold(const Heightfield& heightfield, double exaggeration) {
 TEST(TileLayout, BoundsOnAPlaneAreTight) {
     const Heightfield heightfield =
         test::plane_heightfield(test::random_heights(150, 140, -7.0F, 9.0F, 2), {2.0, 3.0});
-    const Placement placement = placed(heightfield, 4.0);
+    const Placement placement = test::placed(heightfield, 4.0);
     expect_bounds_hold(heightfield, 4.0);
     Box all;
     for (const Tile& tile : tile_layout(heightfield, placement)) {
@@ -125,8 +118,8 @@ TEST(TileLayout, BoundsHoldTheTopOfTheBulgeWhereverItLies) {
 TEST(TileLayout, FlatTilesHaveTheSameIndices) {
     const Heightfield heightfield =
         test::plane_heightfield(test::random_heights(300, 200, 0.0F, 9.0F, 4));
-    const auto tiles = tile_layout(heightfield, placed(heightfield));
-    const auto flat = flat_tile_layout(heightfield, placed(heightfield), 3.0);
+    const auto tiles = tile_layout(heightfield, test::placed(heightfield));
+    const auto flat = flat_tile_layout(heightfield, test::placed(heightfield), 3.0);
     ASSERT_EQ(tiles.size(), flat.size());
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         EXPECT_EQ(tiles[i].col, flat[i].col);
