@@ -1,8 +1,18 @@
 #include "app/device.h"
 
+#include <cstdlib>
+#include <string>
+
 namespace reljef::app {
 
+void limit_software_threads(int threads) {
+    if (threads > 0) {
+        ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    }
+}
+
 Result<Device> Device::create(const DeviceOptions& options) {
+    limit_software_threads(options.threads);
     auto context = options.context
                        ? platform::make_context(*options.context, options.context_options)
                        : platform::make_headless_context(options.context_options);

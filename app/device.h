@@ -13,7 +13,11 @@ struct DeviceOptions {
     std::optional<platform::ContextKind> context;
     platform::ContextOptions context_options;
     render::DriverOptions driver;
+    int threads = 0; ///< of a software renderer; 0: its own choice
 };
+
+/// How many threads software contexts made from now on draw with (llvmpipe); 0 changes nothing.
+void limit_software_threads(int threads);
 
 /// A context and the driver that draws with it.
 class Device {

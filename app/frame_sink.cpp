@@ -55,7 +55,7 @@ bool has_number(const fs::path& path) {
     return path.string().find('%') != std::string::npos;
 }
 
-// Makes the folder of the pattern, and writes its first file once to see that it can be written.
+// Makes the folder of the pattern.
 Result<void> make_folder(const fs::path& pattern) {
     const auto first = numbered(pattern, 0);
     if (!first) {

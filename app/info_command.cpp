@@ -61,13 +61,17 @@ Json file_info(const io::SceneDescription& description) {
         {"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
 }
 
+int reduction_of(const terrain::Heightfield& heightfield, const Json& cols) {
+    return std::max(1, cols.get<int>() / heightfield.heights.cols());
+}
+
 Json describe(const TerrainSource& source) {
     const terrain::Heightfield& heightfield = source.terrain.heightfield;
     const Json file = source.description.generator.empty() ? file_info(source.description) : Json();
     Json info;
     info["name"] = source.terrain.name;
-    info["cols"] = heightfield.heights.cols();
-    info["rows"] = heightfield.heights.rows();
+    info["cols"] = file.is_null() ? Json(heightfield.heights.cols()) : file["cols"];
+    info["rows"] = file.is_null() ? Json(heightfield.heights.rows()) : file["rows"];
     info["type"] = file.is_null() ? Json("Float32") : file["type"];
     info["format"] = file.is_null() ? Json("generated") : file["format"];
     if (const auto& georeference = heightfield.georeference) {
@@ -78,7 +82,12 @@ Json describe(const TerrainSource& source) {
     } else {
         info["crs"] = nullptr;
     }
-    info["spacing"] = {{"x_m", heightfield.spacing.x}, {"y_m", heightfield.spacing.y}};
+    // What was read within the memory is all or a whole-number part of the file.
+    info["read"] = {{"cols", heightfield.heights.cols()},
+                    {"rows", heightfield.heights.rows()},
+                    {"reduction", reduction_of(heightfield, info["cols"])}};
+    const glm::dvec2 spacing = heightfield.spacing / info["read"]["reduction"].get<double>();
+    info["spacing"] = {{"x_m", spacing.x}, {"y_m", spacing.y}};
     info["extent"] = extent_of(heightfield);
     info["height_range"] = {{"low_m", heightfield.range.low}, {"high_m", heightfield.range.high}};
     info["voids"] = heightfield.void_count;
@@ -110,6 +119,12 @@ void print_text(const Json& info) {
                    number("extent", "south"), number("extent", "north"), number("extent", "west"),
                    number("extent", "east"));
     }
+    if (info["read"]["reduction"] != 1) {
+        fmt::print("  read     {} x {} samples, each the average of {} x {}: so are the heights "
+                   "below\n",
+                   info["read"]["cols"].get<int>(), info["read"]["rows"].get<int>(),
+                   info["read"]["reduction"].get<int>(), info["read"]["reduction"].get<int>());
+    }
     fmt::print("  heights  {:.2f} to {:.2f} m\n", number("height_range", "low_m"),
                number("height_range", "high_m"));
     fmt::print("  voids    {}\n", info["voids"].get<std::size_t>());
@@ -128,7 +143,7 @@ Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
     }
     const Json info = describe(*source);
     if (choice.json) {
-        fmt::print("{}\n", info.dump(2));
+        fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));
     } else {
         print_text(info);
     }

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -127,6 +129,16 @@ template <class T> auto word_of(std::string option, std::vector<std::pair<std::s
     };
 }
 
+CLI::Validator existing_folder() {
+    return {[](const std::string& text) {
+                std::error_code code;
+                return std::filesystem::is_directory(text, code)
+                           ? std::string()
+                           : fmt::format("--shader-dir: '{}' found, a folder was expected", text);
+            },
+            ""};
+}
+
 void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--context", choice.context, parse_context,
                "auto, glfw (window), egl (GPU without a window) or osmesa (CPU)", "KIND");
@@ -150,7 +162,8 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     command
         .add_option("--shader-dir", choice.shader_dir,
                     "shader files here come before the built-in ones")
-        ->type_name("FOLDER");
+        ->type_name("FOLDER")
+        ->check(existing_folder());
 }
 
 void add_camera_options(CLI::App& command, ViewChoice& choice) {

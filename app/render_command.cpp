@@ -1,5 +1,4 @@
 #include <chrono>
-#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "engine/io/image.h"
+#include "engine/scene/animators.h"
 
 namespace reljef::app {
 namespace {
@@ -29,11 +29,8 @@ constexpr int sheet_picture_width = 320;
 constexpr int most_sheet_pictures = 24;
 
 Result<Device> make_device(const RenderChoice& choice) {
-    if (choice.terrain.threads > 0) {
-        // llvmpipe reads it when the context is made.
-        ::setenv("LP_NUM_THREADS", std::to_string(choice.terrain.threads).c_str(), 1);
-    }
     DeviceOptions options;
+    options.threads = choice.terrain.threads;
     options.context = choice.view.context;
     options.context_options.size = choice.view.size;
     options.context_options.visible = false;
@@ -44,10 +41,8 @@ Result<Device> make_device(const RenderChoice& choice) {
 
 void move_camera(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
     const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
-    const scene::FlyKey key = path.at(path.begin() + share * path.duration());
     auto& camera = *scene.camera->get<scene::Camera>();
-    camera.eye = key.eye;
-    camera.look = key.look;
+    camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
 }
 
 void print_stats(const render::FrameStats& stats, const platform::Context& context) {
@@ -133,6 +128,10 @@ Result<void> check_choice(const RenderChoice& choice) {
     }
     if (!choice.hits.empty() && choice.view.frames > 1) {
         return Error{"render: --hit found with many frames, one frame was expected"};
+    }
+    if (choice.view.pose == scene::Pose::map && !choice.view.path.empty()) {
+        return Error{"render: --pose map found beside --path, which flies in perspective; "
+                     "another pose or none was expected"};
     }
     if (choice.view.frames > 1 && choice.view.path.empty()) {
         return Error{"render: --frames found without a --path to fly along"};

@@ -41,12 +41,16 @@ Result<io::SceneDescription> describe(const std::string& terrain) {
 }
 
 Result<terrain::Terrain> generate(const TerrainChoice& choice,
-                                  const io::SceneDescription& description) {
+                                  const io::SceneDescription& description,
+                                  const std::stop_token& stop) {
+    ProgressLine line("generating " + description.name, choice.quiet);
     const terrains::GeneratorOptions options{.size = description.size,
                                              .seed = description.seed,
                                              .spacing = description.spacing.value_or(0.0),
                                              .tileable = description.tileable,
-                                             .threads = static_cast<unsigned>(choice.threads)};
+                                             .threads = static_cast<unsigned>(choice.threads),
+                                             .progress = line.callback(),
+                                             .stop = stop};
     if (!choice.imagery.empty()) {
         return Error{fmt::format("--imagery: {} found, but {} brings its own colours",
                                  choice.imagery.string(), description.name)};
@@ -77,7 +81,7 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
         return description.error();
     }
     auto terrain = description->generator.empty() ? read(choice, *description, stop)
-                                                  : generate(choice, *description);
+                                                  : generate(choice, *description, stop);
     if (!terrain) {
         return terrain.error();
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/command.h"
+#include "app/device.h"
 #include "app/options.h"
 #include "app/scene_setup.h"
 #include "app/viewer.h"
@@ -173,6 +174,7 @@ Result<scene::FlyPath> path_or_flyover(const TerrainScene& scene, ViewChoice vie
 }
 
 Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice) {
+    limit_software_threads(choice.terrain.threads);
     platform::ContextOptions options;
     options.size = choice.view.size;
     options.title = "reljef - opening " + choice.terrain.terrain;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/scene/animators.h"
 #include "engine/scene/poses.h"
 #include "engine/terrain/heightfield.h"
 
@@ -209,13 +210,8 @@ void Viewer::advance(double seconds) {
 
 void Viewer::advance_path(double seconds) {
     path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), 1e-9));
-    const scene::FlyKey key = path_.at(path_.begin() + path_time_);
-    scene::Camera next = camera();
-    next.eye = key.eye;
-    next.look = key.look;
-    next.up = {0.0, 0.0, 1.0};
-    flight_.set_camera(next);
-    next = flight_.camera();
+    flight_.set_camera(scene::at_key(camera(), path_.at(path_.begin() + path_time_)));
+    const scene::Camera next = flight_.camera();
     if (next.eye != camera().eye || next.look != camera().look) {
         show_camera(next);
     }

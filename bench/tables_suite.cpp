@@ -73,11 +73,8 @@ Result<std::vector<Stage>> open_stages(const TablesOptions& options, const std::
 }
 
 Result<app::Device> make_device(const TablesOptions& options) {
-    if (options.threads > 0) {
-        // llvmpipe reads it when the context is made.
-        ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
-    }
     app::DeviceOptions device;
+    device.threads = options.threads;
     device.context = options.context;
     device.context_options.size = options.size;
     device.context_options.visible = false;

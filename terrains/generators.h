@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string_view>
 
 #include "engine/core/result.h"
+#include "engine/core/worker_pool.h"
 #include "engine/terrain/heightfield.h"
 
 namespace reljef::terrains {
@@ -16,6 +18,8 @@ struct GeneratorOptions {
         0.0; ///< metres between samples; 0: the generator's own (natural 20 m, urban 0.5 m)
     bool tileable = false; ///< urban: column `size` would equal column 0, likewise rows
     unsigned threads = 0;  ///< 0: as many as the machine has
+    Progress progress = {};
+    std::stop_token stop = {}; ///< stopped, a generator fails
 };
 
 /// Eroded ridges and valleys with rivers; colour from snow, rock, scree, grass and forest by

@@ -45,14 +45,30 @@ Result<terrain::Terrain> generate_natural(const GeneratorOptions& options) {
         return *std::move(error);
     }
     const natural::LandOptions land_options{options.size + 2 * margin, options.seed,
-                                            options.threads};
+                                            options.threads, options.progress, options.stop};
+    const auto done = [&](double part) {
+        if (options.progress) {
+            options.progress(part);
+        }
+        return !options.stop.stop_requested();
+    };
+    const Error stopped{"natural: generating was stopped"};
     natural::Land land = natural::make_relief(land_options);
+    if (!done(0.6)) {
+        return stopped;
+    }
     natural::shape_valleys(land, land_options);
+    if (!done(0.8)) {
+        return stopped;
+    }
     natural::draw_streams(land, land_options);
-
+    if (!done(0.85)) {
+        return stopped;
+    }
     terrain::Terrain terrain;
     terrain.name = "natural";
     terrain.color = without_margin(natural::paint_cover(land, land_options), options.size);
+    done(1.0);
     terrain::Heightfield& field = terrain.heightfield;
     field.heights = without_margin(land.heights, options.size);
     const double spacing =

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include <glm/ext/vector_int2.hpp>
 
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
+#include "engine/core/worker_pool.h"
 #include "terrains/erosion.h"
 
 /// The steps of generate_natural. All grids of a land have the same size; lengths are in metres of
@@ -20,6 +22,8 @@ struct LandOptions {
     int size = 0; ///< cells a side, >= 16
     std::uint32_t seed = 1;
     unsigned threads = 0;
+    Progress progress = {};
+    std::stop_token stop = {}; ///< stopped, what comes out is of no use
 };
 
 struct Land {

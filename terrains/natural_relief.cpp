@@ -202,7 +202,7 @@ Drainage wear(Level& level, const Grid<std::uint8_t>& outlets, int halvings,
     }
     FlowRouter router(level.heights.cols(), level.heights.rows(), options.seed + 41,
                       halvings > 0 ? 0.45F : 0.2F);
-    for (int step = 0; step < plan.steps; ++step) {
+    for (int step = 0; step < plan.steps && !options.stop.stop_requested(); ++step) {
         router.route(level.heights.samples(), outlets.samples(), options.threads);
         for (int repeat = 0; repeat < 2; ++repeat) { // valleys move little in one step
             erode(level.heights.samples(), router.drainage(),
@@ -223,7 +223,10 @@ Land make_relief(const LandOptions& options) {
     Land land;
     for (int halvings = coarsest; halvings >= 0; --halvings) {
         land.drainage = wear(level, outlets, halvings, options);
-        if (halvings == 0) {
+        if (options.progress) {
+            options.progress(0.6 * std::pow(0.25, halvings)); // a level costs four times the last
+        }
+        if (halvings == 0 || options.stop.stop_requested()) {
             break;
         }
         if (halvings == 2) {

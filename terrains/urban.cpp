@@ -99,20 +99,21 @@ void store(const Tile& tile, terrain::Terrain& terrain) {
     }
 }
 
-void paint_all(terrain::Terrain& terrain, const City& city, const Raster& raster,
-               unsigned threads) {
+bool paint_all(terrain::Terrain& terrain, const City& city, const Raster& raster,
+               const ParallelOptions& options) {
     const int across = (raster.size + tile_size - 1) / tile_size;
-    parallel_for(across * across,
-                 [&](int index) {
-                     const int col = index % across * tile_size;
-                     const int row = index / across * tile_size;
-                     Tile tile = make_tile(raster, city.plan.warp, col, row,
-                                           std::min(tile_size, raster.size - col),
-                                           std::min(tile_size, raster.size - row));
-                     paint(tile, city);
-                     store(tile, terrain);
-                 },
-                 {threads, {}, {}});
+    return parallel_for(
+        across * across,
+        [&](int index) {
+            const int col = index % across * tile_size;
+            const int row = index / across * tile_size;
+            Tile tile =
+                make_tile(raster, city.plan.warp, col, row, std::min(tile_size, raster.size - col),
+                          std::min(tile_size, raster.size - row));
+            paint(tile, city);
+            store(tile, terrain);
+        },
+        options);
 }
 
 } // namespace
@@ -132,7 +133,9 @@ Result<terrain::Terrain> generate_urban(const GeneratorOptions& options) {
     terrain.heightfield.spacing = {spacing, spacing};
     terrain.color = Image(options.size, options.size);
     const Raster raster = raster_of(options, static_cast<float>(spacing), period);
-    paint_all(terrain, city, raster, options.threads);
+    if (!paint_all(terrain, city, raster, {options.threads, options.stop, options.progress})) {
+        return Error{"urban: generating was stopped"};
+    }
     darken_hollows(terrain, {static_cast<float>(spacing), options.tileable, options.threads});
     terrain.heightfield.range = terrain::height_range(terrain.heightfield.heights, {});
     return terrain;

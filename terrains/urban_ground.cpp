@@ -261,7 +261,7 @@ void GroundPainter::sample(std::size_t i, glm::vec2 place) {
     if (inside < -0.05F) {
         return;
     }
-    if (lot > 0.0F) {
+    if (lot >= 0.0F) {
         tile.color[i] = surface_color(block.ground, tile, i);
         tile.height[i] = sidewalk_height;
     } else {

@@ -27,7 +27,8 @@ Result<AtomicFile> AtomicFile::create(fs::path target) {
     }
     if (fs::exists(target, code) && !fs::is_regular_file(target, code)) { // not over /dev/null
         return Error{fmt::format("{}: cannot be written: it is a {}, a file was expected",
-                                 target.string(), fs::is_directory(target) ? "folder" : "device")};
+                                 target.string(),
+                                 fs::is_directory(target, code) ? "folder" : "device")};
     }
     fs::path temporary = folder / fmt::format(".{}.{}.{}.part{}", target.stem().string(),
                                               ::getpid(), counter++, target.extension().string());

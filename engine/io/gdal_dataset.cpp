@@ -18,6 +18,7 @@ constexpr GIntBig most_cached_bytes = GIntBig{1} << 28;
 constexpr std::size_t most_messages = 10;
 constexpr std::size_t longest_message = 200;
 constexpr int most_archive_entries = 1000;
+constexpr std::size_t largest_block = std::size_t{1} << 28; // bytes
 
 std::string one_line(std::string text) {
     std::replace_if(
@@ -81,6 +82,25 @@ Result<void> check_file(const fs::path& path) {
     return {};
 }
 
+// A block is read as a whole, whatever part of it is wanted.
+Result<void> check_blocks(GDALDataset& dataset, const fs::path& path) {
+    for (int index = 1; index <= dataset.GetRasterCount(); ++index) {
+        GDALRasterBand& band = *dataset.GetRasterBand(index);
+        int cols = 0;
+        int rows = 0;
+        band.GetBlockSize(&cols, &rows);
+        const double bytes =
+            static_cast<double>(cols) * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
+        if (bytes > static_cast<double>(largest_block)) {
+            return Error{fmt::format("{}: is stored in blocks of {}×{} samples, which take {} "
+                                     "each, blocks of at most {} were expected",
+                                     path.string(), cols, rows, size_text(bytes),
+                                     size_text(static_cast<double>(largest_block)))};
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 void register_drivers() {
@@ -123,6 +143,11 @@ void GdalMessages::clear() {
     last_error_.clear();
 }
 
+std::string size_text(double bytes) {
+    return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
+                        : fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
 Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {
     register_drivers();
     if (auto file = check_file(path); !file) {
@@ -139,6 +164,9 @@ Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) 
     if (dataset->GetRasterCount() == 0) {
         return Error{fmt::format(
             "{}: holds no raster of its own, a file with one raster was expected", path.string())};
+    }
+    if (auto blocks = check_blocks(*dataset, path); !blocks) {
+        return blocks.error();
     }
     return dataset;
 }

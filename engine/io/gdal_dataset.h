@@ -41,7 +41,11 @@ struct DatasetCloser {
 };
 using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 
-/// A file's raster, read-only; inside a .zip the first that GDAL opens. At least one band.
+/// "1.5 GB", for sentences.
+std::string size_text(double bytes);
+
+/// A file's raster, read-only; inside a .zip the first that GDAL opens. At least one band; no band
+/// is stored in blocks so large that reading one would take more than 256 MB.
 Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);
 
 /// The drivers are registered once, however many threads ask, and GDAL's cache of blocks, which all

@@ -13,15 +13,9 @@ namespace {
 
 constexpr int largest_reduction = 1024;
 constexpr double coarser_for_overview = 4.0 / 3.0 + 1e-9;
-constexpr std::size_t largest_block = std::size_t{1} << 28; // bytes
 constexpr double near_whole = 1e-6;
 
 using Window = RasterOptions::Window;
-
-std::string size_text(double bytes) {
-    return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
-                        : fmt::format("{:.1f} MB", bytes / 1e6);
-}
 
 Result<Window> window_of(GDALDataset& dataset, const std::string& name,
                          const RasterOptions& options) {
@@ -42,21 +36,6 @@ Result<Window> window_of(GDALDataset& dataset, const std::string& name,
                         name, window.cols, window.rows, window.col, window.row, cols, rows)};
     }
     return window;
-}
-
-Result<void> check_blocks(GDALRasterBand& band, const std::string& name) {
-    int cols = 0;
-    int rows = 0;
-    band.GetBlockSize(&cols, &rows);
-    const double bytes =
-        static_cast<double>(cols) * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
-    if (bytes > static_cast<double>(largest_block)) {
-        return Error{fmt::format(
-            "{}: is stored in blocks of {}×{} samples, which take {} each, blocks "
-            "of at most {} were expected",
-            name, cols, rows, size_text(bytes), size_text(static_cast<double>(largest_block)))};
-    }
-    return {};
 }
 
 /// A window in one of the raster's resolutions; `scale` full samples lie in one of its samples.
@@ -146,9 +125,6 @@ Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
         return window.error();
     }
     GDALRasterBand& band = *dataset.GetRasterBand(1);
-    if (auto blocks = check_blocks(band, name); !blocks) {
-        return blocks.error();
-    }
     const double bytes = static_cast<double>(window->cols) * window->rows * bytes_per_sample;
     const auto reduction = smallest_reduction(*window, options.memory_budget);
     if (!reduction) {

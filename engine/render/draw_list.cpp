@@ -49,7 +49,7 @@ public:
 
     void add(const scene::Node& node, const glm::dmat4& world_from_local) {
         if (const auto* light = node.get<scene::Light>(); light != nullptr && !list_.sun) {
-            list_.sun = *light;
+            list_.sun = scene::turned(*light, world_from_local);
         } else if (const auto* mesh = node.get<scene::MeshNode>()) {
             add_mesh(*mesh, world_from_local, node.local_bounds());
         } else if (const auto* terrain = node.get<scene::TerrainNode>()) {

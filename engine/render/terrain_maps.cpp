@@ -100,9 +100,13 @@ Image lit_map(const scene::TerrainSurface& surface, const std::optional<TerrainL
     }
     const terrain::Heightfield& heightfield = surface.heightfield();
     const Grid<glm::vec2> gradients = terrain::scene_gradients(heightfield, surface.placement());
-    const Grid<std::uint8_t> visibility = terrain::sun_visibility(
-        heightfield.heights.view(), heightfield.spacing, surface.placement().exaggeration(),
-        glm::inverse(light->world_from_local) * scene::to_light(light->sun));
+    const glm::dvec2 middle = 0.5 * glm::dvec2(size_of(gradients) - 1);
+    // How far the sun lies along each axis of the grid (a vector times a matrix: its columns).
+    const glm::dvec3 to_sun = glm::inverse(light->world_from_local) * scene::to_light(light->sun) *
+                              terrain::grid_axes(heightfield, surface.placement(), middle);
+    const Grid<std::uint8_t> visibility =
+        terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,
+                                surface.placement().exaggeration(), to_sun);
     const Shading shading(*light);
     const glm::ivec2 samples = size_of(gradients);
     const glm::ivec2 size = glm::min(glm::max(size_of(albedo), samples), glm::ivec2(largest_side));

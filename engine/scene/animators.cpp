@@ -8,14 +8,19 @@
 
 namespace reljef::scene {
 
+Camera at_key(Camera camera, const FlyKey& key) {
+    camera.eye = key.eye;
+    camera.look = key.look;
+    camera.up = {0.0, 0.0, 1.0};
+    return camera;
+}
+
 Animator fly_path_animator(FlyPath path) {
     return [path = std::move(path)](Node& node, double time) {
         if (auto* camera = node.get<Camera>()) {
             const double lap = path.duration();
             const double rest = lap > 0.0 && std::isfinite(time) ? std::fmod(time, lap) : 0.0;
-            const FlyKey key = path.at(path.begin() + (rest < 0.0 ? rest + lap : rest));
-            camera->eye = key.eye;
-            camera->look = key.look;
+            *camera = at_key(*camera, path.at(path.begin() + (rest < 0.0 ? rest + lap : rest)));
         }
     };
 }

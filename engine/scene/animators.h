@@ -5,6 +5,9 @@
 
 namespace reljef::scene {
 
+/// The camera where a path has it: upright, whatever it was before.
+Camera at_key(Camera camera, const FlyKey& key);
+
 /// Moves a camera node along a path, again from its beginning where it ends.
 Animator fly_path_animator(FlyPath path);
 

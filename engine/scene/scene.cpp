@@ -50,6 +50,16 @@ glm::dvec3 to_light(const Light& light) {
             std::sin(altitude)};
 }
 
+Light turned(Light light, const glm::dmat4& world_from_local) {
+    const glm::dmat3 axes(world_from_local);
+    if (axes != glm::dmat3(1.0)) {
+        const glm::dvec3 direction = glm::normalize(axes * to_light(light));
+        light.azimuth = glm::degrees(std::atan2(direction.x, direction.y));
+        light.altitude = glm::degrees(std::asin(std::clamp(direction.z, -1.0, 1.0)));
+    }
+    return light;
+}
+
 Node::Node(std::string name, Content content)
     : name_(std::move(name)), content_(std::move(content)) {}
 
@@ -129,6 +139,12 @@ Node& Scene::add_mesh(Mesh mesh, const Material& material) {
     return root_->add("mesh", MeshNode{std::make_shared<const Mesh>(std::move(mesh)), material});
 }
 
+// A node may have been taken out of the tree and be gone.
+bool holds(const Node& node, const Node* sought) {
+    return &node == sought || std::any_of(node.children().begin(), node.children().end(),
+                                          [&](const auto& child) { return holds(*child, sought); });
+}
+
 Node& Scene::add_light(const Light& light) {
     return root_->add("light", light);
 }
@@ -147,7 +163,7 @@ void Scene::set_active_camera(Node& node) {
 }
 
 Camera Scene::camera() const {
-    if (active_camera_ == nullptr) {
+    if (active_camera_ == nullptr || !holds(*root_, active_camera_)) {
         return {};
     }
     Camera camera = *active_camera_->get<Camera>();

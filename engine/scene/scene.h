@@ -32,6 +32,9 @@ struct Light {
 /// Unit vector towards the light.
 glm::dvec3 to_light(const Light& light);
 
+/// The light as its node's transform turns it.
+Light turned(Light light, const glm::dmat4& world_from_local);
+
 /// What is behind everything, and the air in between.
 struct Sky {
     glm::vec3 zenith{0.13F, 0.30F, 0.62F};  ///< linear

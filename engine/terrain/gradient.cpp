@@ -110,4 +110,11 @@ Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement&
     return gradients;
 }
 
+glm::dmat3 grid_axes(const Heightfield& heightfield, const Placement& placement,
+                     glm::dvec2 sample) {
+    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    const Axes axes = axes_at(placement, sample, last);
+    return {glm::normalize(axes.east), glm::normalize(axes.north), glm::normalize(axes.up)};
+}
+
 } // namespace reljef::terrain

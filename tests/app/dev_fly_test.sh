@@ -2,6 +2,7 @@
 # ./dev fly without a display: frames and contact sheets of both terrains, and the frame-rate table.
 set -euo pipefail
 root=$1
+rm -rf "$root/out"
 output=$("$root/dev" fly 2>&1) || { echo "$output"; exit 1; }
 for terrain in natural urban; do
     [[ -s $root/out/$terrain.png && -s $root/out/$terrain/0023.png ]] || {

@@ -139,6 +139,16 @@ TEST_F(BadRaster, AllVoid) {
                 HasSubstr("voids"));
 }
 
+TEST_F(BadRaster, ImageryThatClaimsGiantBlocksIsRefusedToo) {
+    RasterOptions options;
+    options.imagery = write("image.tif", lying_tiff(60000, 60000, 60000));
+    const auto terrain =
+        read_terrain(made(made_raster(9, 9, [](int col, int) { return col; }), "a.tif"), options);
+    ASSERT_FALSE(terrain);
+    EXPECT_THAT(terrain.error().message,
+                testing::AllOf(HasSubstr("image.tif"), HasSubstr("blocks of at most")));
+}
+
 TEST_F(BadRaster, HeadersThatClaimAHundredThousandSquared) {
     EXPECT_THAT(refused(write("a.tif", lying_tiff(100000, 100000, 100000))),
                 AnyOf(HasSubstr("blocks"), HasSubstr("cannot be")));

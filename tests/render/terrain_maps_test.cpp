@@ -93,6 +93,18 @@ TEST(LitMap, TurnsWithItsNode) {
     EXPECT_NE(map(8, 8), lit_map(*made, light_from(90.0, 60.0), 4096)(8, 8));
 }
 
+TEST(LitMap, ShadowsFallAwayFromTheSunWhereTheRowsDoNotRunEast) {
+    // A grid on the Earth whose columns run north-east: what it calls east is 45 degrees off.
+    const auto heights = test::made_heights(
+        65, 65, [](int col, int row) { return col == 32 && row == 32 ? 60.0 : 0.0; });
+    const auto made = surface(test::geographic_heightfield(heights, 0.0, 10.0, 1e-4, 45.0),
+                              Image(65, 65, Rgba8{255, 255, 255, 255}));
+    const Image map = lit_map(*made, light_from(270.0, 45.0), 4096);
+    // The sun is in the west, so the shadow falls east: by columns and rows alike.
+    EXPECT_LT(map(35, 35).g, map(35, 32).g);
+    EXPECT_LT(map(35, 35).g, map(29, 29).g);
+}
+
 TEST(LitMap, NoSideIsLongerThanAsked) {
     Image color(300, 40, Rgba8{0, 0, 0, 255});
     color(299, 39) = {255, 255, 255, 255};

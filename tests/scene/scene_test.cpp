@@ -309,5 +309,27 @@ TEST(Scene, AnEmptyOneHasNoHeightAndNothingToPick) {
     EXPECT_FALSE(scene.pick({}));
 }
 
+TEST(Scene, ARemovedCameraIsNoLongerLookedThrough) {
+    Scene scene;
+    Camera camera;
+    camera.eye = {1.0, 2.0, 3.0};
+    Node& node = scene.add_camera(camera);
+    EXPECT_EQ(scene.camera().eye, camera.eye);
+    scene.root().remove(node);
+    EXPECT_EQ(scene.camera().eye, Camera().eye);
+}
+
+TEST(Light, TurnsWithItsNode) {
+    Light light;
+    light.azimuth = 90.0;
+    light.altitude = 30.0;
+    const auto quarter =
+        glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 0.0, 1.0));
+    const Light turned_light = turned(light, quarter); // from the east to the north
+    EXPECT_NEAR(turned_light.azimuth, 0.0, 1e-9);
+    EXPECT_NEAR(turned_light.altitude, 30.0, 1e-9);
+    EXPECT_EQ(turned(light, glm::dmat4(1.0)), light);
+}
+
 } // namespace
 } // namespace reljef::scene

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <utility>
 
+#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "engine/terrain/heightfield.h"
@@ -39,17 +41,23 @@ inline terrain::Heightfield plane_heightfield(Grid<float> heights,
     return heightfield;
 }
 
-/// A geographic raster: (0,0) at a latitude and longitude, `step` degrees from sample to sample.
+/// A geographic raster: (0,0) at a latitude and longitude, `step` degrees from sample to sample;
+/// its columns run `turn` degrees north of east.
 inline terrain::Heightfield geographic_heightfield(Grid<float> heights, double latitude,
-                                                   double longitude, double step) {
+                                                   double longitude, double step,
+                                                   double turn = 0.0) {
     constexpr int controls = 9;
     const glm::dvec2 control_step{std::max(heights.cols() - 1, 1) / (controls - 1.0),
                                   std::max(heights.rows() - 1, 1) / (controls - 1.0)};
+    const double sine = std::sin(glm::radians(turn));
+    const double cosine = std::cos(glm::radians(turn));
     Grid<glm::dvec2> control(controls, controls);
     for (int j = 0; j < controls; ++j) {
         for (int i = 0; i < controls; ++i) {
-            control(i, j) = {latitude - j * control_step.y * step,
-                             longitude + i * control_step.x * step};
+            const double col = i * control_step.x * step;
+            const double row = j * control_step.y * step;
+            control(i, j) = {latitude + col * sine - row * cosine,
+                             longitude + col * cosine + row * sine};
         }
     }
     const double middle = latitude - 0.5 * (heights.rows() - 1) * step;

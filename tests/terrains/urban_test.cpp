@@ -92,5 +92,37 @@ TEST(Urban, size_outside_the_range_is_refused) {
     EXPECT_FALSE(generate_urban({.size = 64, .spacing = std::nan("")}));
 }
 
+TEST(Urban, SamplesOnTheEdgeOfALotAreNoHazard) {
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        EXPECT_TRUE(generate_urban({.size = 1024, .seed = seed})) << seed;
+    }
+    EXPECT_TRUE(generate_urban({.size = 2048, .seed = 7}));
+}
+
+TEST(Urban, StopsWhenAsked) {
+    std::stop_source source;
+    GeneratorOptions options{.size = 1024};
+    options.stop = source.get_token();
+    options.progress = [&](double) { source.request_stop(); };
+    const auto city = generate_urban(options);
+    ASSERT_FALSE(city);
+    EXPECT_EQ(city.error().message, "urban: generating was stopped");
+}
+
+TEST(Natural, StopsWhenAskedAndTellsItsProgress) {
+    std::vector<double> parts;
+    GeneratorOptions options{.size = 128};
+    options.progress = [&](double part) { parts.push_back(part); };
+    ASSERT_TRUE(generate_natural(options));
+    EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+    EXPECT_EQ(parts.back(), 1.0);
+    std::stop_source source;
+    options.stop = source.get_token();
+    options.progress = [&](double) { source.request_stop(); };
+    const auto land = generate_natural(options);
+    ASSERT_FALSE(land);
+    EXPECT_EQ(land.error().message, "natural: generating was stopped");
+}
+
 } // namespace
 } // namespace reljef::terrains
