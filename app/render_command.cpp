@@ -139,9 +139,29 @@ Result<void> check_choice(const RenderChoice& choice) {
     return {};
 }
 
+// Before anything is drawn: all outputs appear, or none.
+Result<void> check_targets(const RenderChoice& choice) {
+    if (!choice.hits.empty()) {
+        if (auto good = io::check_hits_target(choice.hits); !good) {
+            return good;
+        }
+    }
+    if (!choice.contact_sheet.empty()) {
+        if (auto good = io::check_image_target(choice.contact_sheet); !good) {
+            return good;
+        }
+    }
+    const bool one_picture = !choice.output.empty() && !is_video(choice.output) &&
+                             choice.output.string().find('%') == std::string::npos;
+    return one_picture ? io::check_image_target(choice.output) : Result<void>();
+}
+
 Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (auto checked = check_choice(choice); !checked) {
         return checked;
+    }
+    if (auto good = check_targets(choice); !good) {
+        return good;
     }
     auto device = make_device(choice);
     if (!device) {

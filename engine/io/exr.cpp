@@ -67,18 +67,32 @@ Result<HitBuffer> read_channels(OIIO::ImageInput& input, const fs::path& path) {
     return hits;
 }
 
+Result<void> check_extension(const fs::path& path) {
+    if (path.extension() == ".exr") {
+        return {};
+    }
+    return Error{fmt::format("{}: cannot be written: hits go to an OpenEXR file, the extension "
+                             ".exr was expected",
+                             path.string())};
+}
+
 } // namespace
+
+Result<void> check_hits_target(const fs::path& path) {
+    if (auto named = check_extension(path); !named) {
+        return named;
+    }
+    const auto file = AtomicFile::create(path);
+    return file ? Result<void>() : file.error();
+}
 
 Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
     if (hits.empty()) {
         return Error{fmt::format(
             "{}: cannot be written: no hits were given, at least 1×1 was expected", path.string())};
     }
-    if (path.extension() != ".exr") {
-        return Error{
-            fmt::format("{}: cannot be written: hits go to an OpenEXR file, the extension .exr "
-                        "was expected",
-                        path.string())};
+    if (auto named = check_extension(path); !named) {
+        return named;
     }
     auto file = AtomicFile::create(path);
     if (!file) {

@@ -72,14 +72,22 @@ Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
     return image;
 }
 
-Result<void> write_pixels(const fs::path& temporary, const Image& image, const std::string& name) {
-    const auto output = OIIO::ImageOutput::create(temporary.string());
-    if (output == nullptr) {
-        static_cast<void>(OIIO::geterror());
-        return Error{
-            fmt::format("{}: cannot be written: {:?} names no format of pictures, .png or .jpg "
+std::unique_ptr<OIIO::ImageOutput> output_for(const fs::path& path) {
+    auto output = OIIO::ImageOutput::create(path.string());
+    static_cast<void>(OIIO::geterror());
+    return output;
+}
+
+Error unknown_format(const fs::path& path) {
+    return {fmt::format("{}: cannot be written: {:?} names no format of pictures, .png or .jpg "
                         "was expected",
-                        name, temporary.extension().string())};
+                        path.string(), path.extension().string())};
+}
+
+Result<void> write_pixels(const fs::path& temporary, const Image& image, const fs::path& path) {
+    const auto output = output_for(temporary);
+    if (output == nullptr) {
+        return unknown_format(path);
     }
     OIIO::ImageSpec spec(image.cols(), image.rows(), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
@@ -89,7 +97,7 @@ Result<void> write_pixels(const fs::path& temporary, const Image& image, const s
         output->write_image(OIIO::TypeDesc::UINT8, image.samples().data(), sizeof(Rgba8)) &&
         output->close();
     if (!done) {
-        return Error{fmt::format("{}: cannot be written: {}", name, output->geterror())};
+        return Error{fmt::format("{}: cannot be written: {}", path.string(), output->geterror())};
     }
     return {};
 }
@@ -134,6 +142,13 @@ Result<Image> read_image(const fs::path& path) {
     }
 }
 
+Result<void> check_image_target(const fs::path& path) {
+    if (const auto file = AtomicFile::create(path); !file) {
+        return file.error();
+    }
+    return output_for(path) != nullptr ? Result<void>() : unknown_format(path);
+}
+
 Result<void> write_image(const fs::path& path, const Image& image) {
     if (image.empty()) {
         return Error{
@@ -146,7 +161,7 @@ Result<void> write_image(const fs::path& path, const Image& image) {
         return file.error();
     }
     try {
-        if (auto written = write_pixels(file->temporary(), image, path.string()); !written) {
+        if (auto written = write_pixels(file->temporary(), image, path); !written) {
             return written;
         }
     } catch (const std::exception& problem) {

@@ -15,6 +15,11 @@ Result<Image> read_image(const std::filesystem::path& path);
 /// Writes a picture, opaque, whole or not at all; the extension chooses the format (.png, .jpg, …).
 Result<void> write_image(const std::filesystem::path& path, const Image& image);
 
+/// Whether a picture, or the hits, can be put there: the format is known, the folder takes files.
+/// Asked before long work. Leaves nothing behind.
+Result<void> check_image_target(const std::filesystem::path& path);
+Result<void> check_hits_target(const std::filesystem::path& path);
+
 /// Writes float32 channels col, row, height, depth to an OpenEXR file, whole or not at all.
 Result<void> write_hits(const std::filesystem::path& path, const HitBuffer& hits);
 Result<HitBuffer> read_hits(const std::filesystem::path& path);

@@ -189,5 +189,32 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"render", "natural", "--sun", "300,0", "-o", "a.png"}, "altitude 0"},
         Misuse{{"height", "natural"}, "--at"}, Misuse{{"height", "natural", "--at", "45"}, "45"}));
 
+TEST_F(BadInput, NoOutputAppearsWhereAnotherCannot) {
+    const auto hits = (folder_.path() / "hit.exr").string();
+    const auto sheet = (folder_.path() / "sheet.xyz").string();
+    const auto picture = (folder_.path() / "picture.png").string();
+    for (const std::vector<std::string>& outputs :
+         {std::vector<std::string>{"--hit", hits, "-o", "/no/such/folder/a.png"},
+          std::vector<std::string>{"-o", picture, "--contact-sheet", sheet},
+          std::vector<std::string>{"-o", picture, "--hit", sheet}}) {
+        std::vector<std::string> arguments{"render", "natural", "--size", "64x48"};
+        arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+        EXPECT_EQ(test::reljef(arguments).exit_code, 1);
+        EXPECT_TRUE(folder_.names().empty());
+    }
+}
+
+TEST_F(BadInput, ShaderFolderThatIsNot) {
+    test::expect_refusal(
+        test::reljef({"render", "natural", "-o", picture(), "--shader-dir", "/no/such/folder"}), 2,
+        {"--shader-dir", "/no/such/folder", "a folder was expected"});
+}
+
+TEST_F(BadInput, MapPoseBesideAPath) {
+    test::expect_refusal(
+        test::reljef({"render", "natural", "-o", picture(), "--pose", "map", "--path", "orbit"}), 1,
+        {"--pose map", "--path"});
+}
+
 } // namespace
 } // namespace reljef
