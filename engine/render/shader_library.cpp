@@ -11,25 +11,22 @@
 namespace reljef::render {
 namespace {
 
-constexpr std::uint32_t feature_combinations = 1U << 3U;
+constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terrain")},
+                           std::pair{ShaderKind::mesh, std::string_view("mesh")},
+                           std::pair{ShaderKind::sky, std::string_view("sky")}};
+constexpr std::array features_by_name{std::pair{feature_lit, std::string_view("LIT")},
+                                      std::pair{feature_fog, std::string_view("FOG")},
+                                      std::pair{feature_hit, std::string_view("HIT")}};
 
 std::string_view name_of(ShaderKind kind) {
-    switch (kind) {
-    case ShaderKind::terrain:
-        return "terrain";
-    case ShaderKind::mesh:
-        return "mesh";
-    case ShaderKind::sky:
-        return "sky";
-    }
-    return {};
+    const auto* const found = std::find_if(kinds.begin(), kinds.end(),
+                                           [&](const auto& entry) { return entry.first == kind; });
+    return found->second;
 }
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
-    for (const auto& [feature, name] :
-         {std::pair{feature_lit, "LIT"}, std::pair{feature_fog, "FOG"},
-          std::pair{feature_hit, "HIT"}}) {
+    for (const auto& [feature, name] : features_by_name) {
         if ((features & feature) != 0) {
             header += fmt::format("#define {}\n", name);
         }
@@ -140,8 +137,8 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
 
 std::vector<ShaderVariant> all_variants() {
     std::set<ShaderVariant> variants;
-    for (const ShaderKind kind : {ShaderKind::terrain, ShaderKind::mesh, ShaderKind::sky}) {
-        for (std::uint32_t features = 0; features < feature_combinations; ++features) {
+    for (const auto& [kind, name] : kinds) {
+        for (std::uint32_t features = 0; features < 1U << features_by_name.size(); ++features) {
             variants.insert(without_meaningless({kind, features}));
         }
     }

@@ -38,7 +38,7 @@ struct ShaderVariant {
 };
 
 /// The variant without the features that mean nothing to it: a hit has neither light nor fog, the
-/// sky is not seen through air and is never hit.
+/// sky is not seen through air and is never hit, a terrain's light is in its map.
 ShaderVariant without_meaningless(ShaderVariant variant);
 
 /// Every variant that means something, each once.
