@@ -13,6 +13,7 @@ sigset_t stop_signals() {
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGHUP);
     return signals;
 }
 
@@ -43,6 +44,7 @@ void watch(const std::stop_token& end, std::stop_source& source) {
 Interrupt::Interrupt() {
     const sigset_t signals = stop_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN); // a file too large is an error of writing, told like others
     watcher_ = std::jthread(
         [source = source_](const std::stop_token& end) mutable { watch(end, source); });
 }

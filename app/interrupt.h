@@ -5,7 +5,7 @@
 
 namespace reljef::app {
 
-/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; a second one, half
+/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP into a stop request; a second one, half
 /// a second later or more, ends the program at once, without tidying up.
 /// Make it first thing in main(), before other threads begin.
 class Interrupt {

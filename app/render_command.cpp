@@ -107,6 +107,9 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device
             return stats.error();
         }
         Image picture = device.driver().read_color();
+        if (interrupt.requested()) { // while it was drawn
+            return Error{"interrupted"};
+        }
         if (auto written = (*sink)->write(picture, index); !written) {
             return written;
         }

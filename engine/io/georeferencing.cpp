@@ -316,10 +316,15 @@ CrsWords words_of(const OGRSpatialReference& given) {
 
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes) {
-    if (options.spacing && !(std::isfinite(*options.spacing) && *options.spacing > 0.0)) {
+    // From less than any scanner's pixel to a planet in a hundred samples.
+    constexpr double least_spacing = 1e-6;
+    constexpr double most_spacing = 1e6;
+    if (options.spacing &&
+        !(*options.spacing >= least_spacing && *options.spacing <= most_spacing)) {
         return Error{
-            fmt::format("{}: spacing {} was asked for, a number of metres above 0 was expected",
-                        name, *options.spacing)};
+            fmt::format("{}: spacing {} was asked for, a number of metres from {} to {} was "
+                        "expected",
+                        name, *options.spacing, least_spacing, most_spacing)};
     }
     const auto affine = affine_of(dataset);
     const auto crs = affine ? horizontal_crs(dataset, notes) : std::nullopt;

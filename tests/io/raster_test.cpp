@@ -121,6 +121,15 @@ TEST_F(Raster, WithoutAPlaceSpacingIsAMetreAndTold) {
     EXPECT_THAT(joined(terrain.notes), HasSubstr("no coordinate system: 1 m spacing assumed"));
 }
 
+TEST_F(Raster, SpacingThatIsNoneIsRefused) {
+    for (const double spacing : {1e-300, 0.0, -1.0, 1e300, std::nan("")}) {
+        RasterOptions options;
+        options.spacing = spacing;
+        ASSERT_TRUE(test::write(made_raster(4, 4, wave), folder_.path() / "a.tif"));
+        EXPECT_FALSE(read_terrain(folder_.path() / "a.tif", options)) << spacing;
+    }
+}
+
 TEST_F(Raster, WithoutAPlaceReliefIsNoSpike) {
     const MadeRaster steep = made_raster(21, 9, [](int col, int) { return 123.4 * col; });
     const terrain::Terrain terrain = read(steep);
