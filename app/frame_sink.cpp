@@ -51,10 +51,6 @@ private:
     VideoEncoder encoder_;
 };
 
-bool has_number(const fs::path& path) {
-    return path.string().find('%') != std::string::npos;
-}
-
 // Makes the folder of the pattern.
 Result<void> make_folder(const fs::path& pattern) {
     const auto first = numbered(pattern, 0);
@@ -74,6 +70,31 @@ Result<void> make_folder(const fs::path& pattern) {
 }
 
 } // namespace
+
+bool is_numbered(const fs::path& output) {
+    return output.string().find('%') != std::string::npos;
+}
+
+Result<void> check_output_name(const fs::path& output, int frames) {
+    const auto refuse = [&](std::string_view expected) {
+        return Error{fmt::format("-o: '{}' found, {} was expected", output.string(), expected)};
+    };
+    if (is_numbered(output)) {
+        if (const auto first = numbered(output, 0); !first) {
+            return first.error();
+        }
+        if (is_video(output)) {
+            return refuse("a video's name without a number");
+        }
+        if (!is_numbered(output.filename())) {
+            return refuse("a number in the file's name, not in the folder's");
+        }
+    } else if (frames > 1 && !is_video(output)) {
+        return refuse(
+            fmt::format("a numbered name like %04d.png or a video for {} frames", frames));
+    }
+    return {};
+}
 
 bool is_video(const fs::path& path) {
     constexpr std::array extensions{".mp4", ".mkv", ".webm", ".mov"};
@@ -104,19 +125,16 @@ Result<fs::path> numbered(const fs::path& pattern, int index) {
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
                                                    const FrameSinkOptions& options) {
     using Sink = std::unique_ptr<FrameSink>;
+    if (auto named = check_output_name(output, options.frames); !named) {
+        return named.error();
+    }
     if (is_video(output)) {
         auto encoder = VideoEncoder::create(output, options.size, options.frames_per_second);
         return encoder ? Result<Sink>(Sink(new VideoSink(std::move(*encoder)))) : encoder.error();
     }
-    if (has_number(output)) {
+    if (is_numbered(output)) {
         auto made = make_folder(output);
         return made ? Result<Sink>(Sink(new SequenceSink(output))) : made.error();
-    }
-    if (options.frames > 1) {
-        return Error{
-            fmt::format("-o: '{}' found, a numbered name like %04d.png or a video was expected "
-                        "for {} frames",
-                        output.string(), options.frames)};
     }
     return Sink(new PictureSink(output));
 }

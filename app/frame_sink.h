@@ -22,6 +22,13 @@ public:
 /// Whether the file is a video by its extension (.mp4, .mkv, .webm, .mov).
 bool is_video(const std::filesystem::path& path);
 
+/// Fails, naming -o, where the name can hold no output: a number that is none, one in a folder's
+/// name or in a video's, and one picture for many frames.
+Result<void> check_output_name(const std::filesystem::path& output, int frames);
+
+/// Whether the name stands for numbered pictures.
+bool is_numbered(const std::filesystem::path& output);
+
 /// The file of a numbered picture: the pattern's %d or %0Nd replaced. Fails when the pattern has
 /// not exactly one of them.
 Result<std::filesystem::path> numbered(const std::filesystem::path& pattern, int index);

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,8 +14,20 @@ namespace {
 
 struct HeightChoice {
     TerrainChoice terrain;
-    std::vector<std::string> places;
+    std::vector<std::array<double, 2>> places; // latitude, longitude, degrees
 };
+
+std::vector<std::array<double, 2>> places_of(const std::vector<std::string>& texts) {
+    std::vector<std::array<double, 2>> places;
+    for (const std::string& text : texts) {
+        const auto place = parse_numbers<2>("--at", text, "LAT,LON in degrees");
+        if (!place) {
+            throw CLI::ValidationError(place.error().message);
+        }
+        places.push_back(*place);
+    }
+    return places;
+}
 
 // The height at a latitude and longitude, metres; NaN on a void. Fails off the terrain.
 Result<double> height_at(const terrain::Terrain& terrain, double latitude, double longitude) {
@@ -42,14 +55,12 @@ Result<void> print_heights(const HeightChoice& choice, const Interrupt& interrup
         return Error{fmt::format("{}: has no coordinate system, one was expected for --at",
                                  source->terrain.name)};
     }
-    for (const std::string& place : choice.places) {
-        const auto numbers = parse_numbers<2>("--at", place, "LAT,LON in degrees");
-        const auto height = numbers ? height_at(source->terrain, (*numbers)[0], (*numbers)[1])
-                                    : Result<double>(numbers.error());
+    for (const auto& [latitude, longitude] : choice.places) {
+        const auto height = height_at(source->terrain, latitude, longitude);
         if (!height) {
             return height.error();
         }
-        fmt::print("{},{},{}\n", (*numbers)[0], (*numbers)[1],
+        fmt::print("{},{},{}\n", latitude, longitude,
                    std::isnan(*height) ? "nan" : fmt::format("{:.6f}", *height));
     }
     return {};
@@ -62,16 +73,14 @@ Command add_height_command(CLI::App& program, Interrupt& interrupt) {
     auto choice = std::make_shared<HeightChoice>();
     add_terrain_options(*arguments, choice->terrain);
     arguments
-        ->add_option("--at", choice->places,
-                     "latitude and longitude, degrees; again for more places")
+        ->add_option_function<std::vector<std::string>>(
+            "--at",
+            [choice](const std::vector<std::string>& texts) { choice->places = places_of(texts); },
+            "latitude and longitude, degrees; again for more places")
         ->type_name("LAT,LON")
         ->required()
         ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->check([](const std::string& text) {
-            const auto numbers = parse_numbers<2>("--at", text, "LAT,LON in degrees");
-            return numbers ? std::string() : numbers.error().message;
-        });
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     arguments->footer(
         "Prints LAT,LON,HEIGHT, one line a place; the height is in metres above the DEM's "
         "own zero, nan on a void.\n"

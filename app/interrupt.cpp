@@ -44,7 +44,9 @@ void watch(const std::stop_token& end, std::stop_source& source) {
 Interrupt::Interrupt() {
     const sigset_t signals = stop_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    std::signal(SIGXFSZ, SIG_IGN); // a file too large is an error of writing, told like others
+    // A file too large and a reader gone are errors of writing, told like others.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     watcher_ = std::jthread(
         [source = source_](const std::stop_token& end) mutable { watch(end, source); });
 }

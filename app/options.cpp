@@ -7,6 +7,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "engine/core/geometry.h"
 
 namespace reljef::app {
 namespace {
@@ -44,7 +48,12 @@ Result<glm::dvec3> parse_point(std::string_view option, std::string_view text) {
     if (!numbers) {
         return numbers.error();
     }
-    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    const glm::dvec3 point((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(world_reach)))) {
+        return Error{fmt::format("{}: '{}' found, at most {} metres from the middle were expected",
+                                 option, text, world_reach)};
+    }
+    return point;
 }
 
 Result<GeodeticView> parse_geodetic_view(const std::string& text) {
@@ -59,6 +68,10 @@ Result<GeodeticView> parse_geodetic_view(const std::string& text) {
                                  "expected",
                                  text)};
     }
+    if (std::abs(height) > world_reach) {
+        return Error{fmt::format("--camera: height {} found, at most {} metres were expected",
+                                 height, world_reach)};
+    }
     return GeodeticView{latitude, longitude, height, heading, pitch};
 }
 
@@ -68,6 +81,9 @@ Result<glm::dvec2> parse_sun(const std::string& text) {
         return numbers.error();
     }
     const auto [azimuth, altitude] = *numbers;
+    if (std::abs(azimuth) > 360.0) {
+        return Error{fmt::format("--sun: azimuth {} found, -360 to 360 was expected", azimuth)};
+    }
     if (!(altitude > 0.0 && altitude <= 90.0)) {
         return Error{fmt::format("--sun: altitude {} found, over 0 to 90 was expected", altitude)};
     }
@@ -134,7 +150,7 @@ CLI::Validator existing_folder() {
                 std::error_code code;
                 return std::filesystem::is_directory(text, code)
                            ? std::string()
-                           : fmt::format("--shader-dir: '{}' found, a folder was expected", text);
+                           : fmt::format("'{}' found, a folder was expected", text);
             },
             ""};
 }
@@ -179,20 +195,22 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         "what it looks at, scene metres", "x,y,z");
     look->needs(eye);
     eye->needs(look);
-    add_parsed(command, "--camera", choice.geodetic, parse_geodetic_view,
-               "where on Earth it stands and looks, degrees and metres",
-               "LAT,LON,HEIGHT,HEADING,PITCH")
-        ->excludes(eye);
-    add_parsed(command, "--pose", choice.pose, parse_pose,
-               "overview, low, grazing or map (overview)", "NAME")
-        ->excludes(eye);
+    auto* camera = add_parsed(command, "--camera", choice.geodetic, parse_geodetic_view,
+                              "where on Earth it stands and looks, degrees and metres",
+                              "LAT,LON,HEIGHT,HEADING,PITCH");
+    camera->excludes(eye);
+    auto* pose = add_parsed(command, "--pose", choice.pose, parse_pose,
+                            "overview, low, grazing or map (overview)", "NAME");
+    pose->excludes(eye)->excludes(camera);
     command
         .add_option("--path", choice.path,
                     "fly: orbit, flyover, or a path file (TOML, [[key]] time, eye, look)")
-        ->type_name("NAME|FILE");
+        ->type_name("NAME|FILE")
+        ->excludes(eye)
+        ->excludes(camera);
     add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
                "pictures along the path (1)", "N");
-    add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.0, 1000.0, true),
+    add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
                "pictures a second in a video (25)", "F");
 }
 
@@ -248,7 +266,7 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");
     add_parsed(command, "--exaggeration", choice.exaggeration,
-               number_in("--exaggeration", 0.0, 1e6, true),
+               number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
                "of the heights, in the picture only (1)", "X");
     add_parsed(command, "--placement", choice.placement,
                word_of<terrain::PlacementKind>("--placement",
@@ -261,6 +279,16 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
                "0: as many as the machine has (0)", "N");
     command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
+}
+
+void check_view_options(const ViewChoice& choice) {
+    if (choice.eye && choice.look && *choice.eye == *choice.look) {
+        throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
+    }
+    if (choice.pose == scene::Pose::map && !choice.path.empty()) {
+        throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "
+                                   "another pose or none was expected");
+    }
 }
 
 void add_view_options(CLI::App& command, ViewChoice& choice) {

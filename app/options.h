@@ -76,5 +76,7 @@ Result<std::array<double, N>> parse_numbers(std::string_view option, std::string
 /// Adds the options of a group to a command; they are checked as they are parsed (CLI::ParseError).
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
+/// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
+void check_view_options(const ViewChoice& choice);
 
 } // namespace reljef::app

@@ -1,10 +1,11 @@
 #include "app/progress_line.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include "app/message.h"
 
 namespace reljef::app {
 namespace {
@@ -30,7 +31,7 @@ ProgressLine::ProgressLine(std::string label, bool quiet)
 
 ProgressLine::~ProgressLine() {
     if (shown_ && terminal_) {
-        fmt::print(stderr, "\r\033[K");
+        tell("\r\033[K");
     }
 }
 
@@ -44,17 +45,16 @@ void ProgressLine::update(double fraction) {
         if (shown_ && now - shown_at_ < between_redraws) {
             return;
         }
-        fmt::print(stderr, "\r\033[K{} {:.0f} %{}", label_, 100.0 * fraction,
-                   time_left(elapsed, fraction));
-        std::fflush(stderr);
+        tell(fmt::format("\r\033[K{} {:.0f} %{}", label_, 100.0 * fraction,
+                         time_left(elapsed, fraction)));
     } else {
         const int quarter = static_cast<int>(std::floor(4.0 * fraction));
         if (shown_ && quarter <= shown_quarter_) {
             return;
         }
         shown_quarter_ = quarter;
-        fmt::print(stderr, "{} {:.0f} %{}\n", label_, 100.0 * fraction,
-                   time_left(elapsed, fraction));
+        tell(
+            fmt::format("{} {:.0f} %{}\n", label_, 100.0 * fraction, time_left(elapsed, fraction)));
     }
     shown_ = true;
     shown_at_ = now;

@@ -1,4 +1,5 @@
-#include <chrono>
+#include <set>
+#include <span>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "app/device.h"
 #include "app/frame_sink.h"
 #include "app/options.h"
+#include "app/output_files.h"
 #include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "engine/io/image.h"
@@ -82,7 +84,31 @@ private:
     std::vector<Image> pictures_;
 };
 
-// Draws the frames one after the other and hands them on.
+Result<void> check_interrupt(const Interrupt& interrupt) {
+    return interrupt.requested() ? Result<void>(Error{"interrupted"}) : Result<void>();
+}
+
+// Draws a frame into the sink and perhaps onto the sheet.
+Result<void> draw_frame(const RenderChoice& choice, TerrainScene& scene, Device& device, int index,
+                        FrameSink& sink, SheetPictures& sheet, const Interrupt& interrupt) {
+    const auto stats = device.driver().draw(scene.scene, choice.stats);
+    if (!stats) {
+        return stats.error();
+    }
+    Image picture = device.driver().read_color();
+    if (auto going_on = check_interrupt(interrupt); !going_on) { // while it was drawn
+        return going_on;
+    }
+    if (auto written = sink.write(picture, index); !written) {
+        return written;
+    }
+    if (choice.stats && index == choice.view.frames - 1) {
+        print_stats(*stats, device.context());
+    }
+    sheet.add(std::move(picture), index);
+    return {};
+}
+
 Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device& device,
                          const std::optional<scene::FlyPath>& path, const Interrupt& interrupt) {
     const int frames = choice.view.frames;
@@ -96,27 +122,13 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
     ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
-        if (interrupt.requested()) {
-            return Error{"interrupted"};
-        }
         if (path) {
             move_camera(scene, *path, index, frames);
         }
-        const auto stats = device.driver().draw(scene.scene, choice.stats);
-        if (!stats) {
-            return stats.error();
+        if (auto drawn = draw_frame(choice, scene, device, index, **sink, sheet, interrupt);
+            !drawn) {
+            return drawn;
         }
-        Image picture = device.driver().read_color();
-        if (interrupt.requested()) { // while it was drawn
-            return Error{"interrupted"};
-        }
-        if (auto written = (*sink)->write(picture, index); !written) {
-            return written;
-        }
-        if (choice.stats && index == frames - 1) {
-            print_stats(*stats, device.context());
-        }
-        sheet.add(std::move(picture), index);
         line.update(static_cast<double>(index + 1) / frames);
     }
     if (auto finished = (*sink)->finish(); !finished) {
@@ -125,21 +137,26 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device
     return sheet.write(choice.contact_sheet);
 }
 
-Result<void> check_choice(const RenderChoice& choice) {
+// What the arguments alone show to be wrong.
+void expect_outputs(const RenderChoice& choice) {
+    const auto refuse = [](const std::string& message) { throw CLI::ValidationError(message); };
     if (choice.output.empty() && choice.hits.empty()) {
-        return Error{"render: no output found, -o FILE or --hit FILE was expected"};
+        refuse("render: no output found, -o FILE or --hit FILE was expected");
+    }
+    if (choice.output.empty() && (choice.stats || !choice.contact_sheet.empty())) {
+        refuse("render: --stats or --contact-sheet found without -o FILE, whose frames they need");
     }
     if (!choice.hits.empty() && choice.view.frames > 1) {
-        return Error{"render: --hit found with many frames, one frame was expected"};
-    }
-    if (choice.view.pose == scene::Pose::map && !choice.view.path.empty()) {
-        return Error{"render: --pose map found beside --path, which flies in perspective; "
-                     "another pose or none was expected"};
+        refuse("render: --hit found with many frames, one frame was expected");
     }
     if (choice.view.frames > 1 && choice.view.path.empty()) {
-        return Error{"render: --frames found without a --path to fly along"};
+        refuse("render: --frames found without a --path to fly along");
     }
-    return {};
+    if (!choice.output.empty()) {
+        if (const auto named = check_output_name(choice.output, choice.view.frames); !named) {
+            refuse(named.error().message);
+        }
+    }
 }
 
 // Before anything is drawn: all outputs appear, or none.
@@ -154,15 +171,73 @@ Result<void> check_targets(const RenderChoice& choice) {
             return good;
         }
     }
-    const bool one_picture = !choice.output.empty() && !is_video(choice.output) &&
-                             choice.output.string().find('%') == std::string::npos;
-    return one_picture ? io::check_image_target(choice.output) : Result<void>();
+    const bool is_picture =
+        !choice.output.empty() && !is_video(choice.output) && !is_numbered(choice.output);
+    return is_picture ? io::check_image_target(choice.output) : Result<void>();
+}
+
+std::vector<NamedFile> inputs_of(const RenderChoice& choice,
+                                 const io::SceneDescription& description) {
+    return {{"TERRAIN", choice.terrain.terrain},
+            {"the terrain's heights", description.heights},
+            {"the terrain's imagery", description.imagery},
+            {"--imagery", choice.terrain.imagery},
+            {"--path", choice.view.path}};
+}
+
+// The files that will be written. Of numbered pictures those that could be another file.
+std::vector<NamedFile> outputs_of(const RenderChoice& choice, std::span<const NamedFile> inputs) {
+    std::vector<NamedFile> outputs{{"--hit", choice.hits},
+                                   {"--contact-sheet", choice.contact_sheet}};
+    if (!is_numbered(choice.output)) {
+        outputs.push_back({"-o", choice.output});
+        return outputs;
+    }
+    std::set<std::filesystem::path> names;
+    for (const NamedFile& file : inputs) {
+        names.insert(file.path.filename());
+    }
+    names.insert({choice.hits.filename(), choice.contact_sheet.filename()});
+    for (int index = 0; index < choice.view.frames; ++index) {
+        const auto file = numbered(choice.output, index);
+        if (file && names.contains(file->filename())) {
+            outputs.push_back({"-o", *file});
+        }
+    }
+    return outputs;
+}
+
+Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scene, Device& device,
+                            const Interrupt& interrupt) {
+    const auto hits = device.driver().draw_hits(scene.scene);
+    if (!hits) {
+        return hits.error();
+    }
+    if (auto going_on = check_interrupt(interrupt); !going_on) {
+        return going_on;
+    }
+    return io::write_hits(choice.hits, *hits);
+}
+
+Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, Device& device,
+                          const Interrupt& interrupt) {
+    const auto path = open_path(scene, choice.view);
+    if (!path) {
+        return path.error();
+    }
+    if (*path) {
+        move_camera(scene, **path, 0, 1);
+    }
+    if (!choice.hits.empty()) {
+        if (auto written = write_hit_file(choice, scene, device, interrupt); !written) {
+            return written;
+        }
+    }
+    return choice.output.empty() ? Result<void>()
+                                 : draw_frames(choice, scene, device, *path, interrupt);
 }
 
 Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
-    if (auto checked = check_choice(choice); !checked) {
-        return checked;
-    }
     if (auto good = check_targets(choice); !good) {
         return good;
     }
@@ -174,28 +249,15 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!source) {
         return source.error();
     }
+    const auto inputs = inputs_of(choice, source->description);
+    if (auto apart = check_apart(outputs_of(choice, inputs), inputs); !apart) {
+        return apart;
+    }
     auto scene = make_scene(std::move(*source), choice.terrain, choice.view);
     if (!scene) {
         return scene.error();
     }
-    const auto path = open_path(*scene, choice.view);
-    if (!path) {
-        return path.error();
-    }
-    if (*path) {
-        move_camera(*scene, **path, 0, 1);
-    }
-    if (!choice.hits.empty()) {
-        const auto hits = device->driver().draw_hits(scene->scene);
-        if (!hits) {
-            return hits.error();
-        }
-        if (auto written = io::write_hits(choice.hits, *hits); !written) {
-            return written;
-        }
-    }
-    return choice.output.empty() ? Result<void>()
-                                 : draw_frames(choice, *scene, *device, *path, interrupt);
+    return draw_outputs(choice, *scene, *device, interrupt);
 }
 
 } // namespace
@@ -219,6 +281,10 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
                      "picture with small copies of up to 24 frames")
         ->type_name("FILE");
     arguments->add_flag("--stats", choice->stats, "print what the last frame took and skipped");
+    arguments->callback([choice] {
+        check_view_options(choice->view);
+        expect_outputs(*choice);
+    });
     arguments->footer(
         "Examples:\n"
         "  reljef render N45E006.hgt -o alps.png\n"

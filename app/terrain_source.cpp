@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/message.h"
 #include "app/progress_line.h"
 #include "engine/io/raster.h"
 #include "terrains/built_in.h"
@@ -87,7 +88,7 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
     }
     if (!choice.quiet) {
         for (const std::string& note : terrain->notes) {
-            fmt::print(stderr, "reljef: note: {}\n", note);
+            tell(fmt::format("reljef: note: {}\n", note));
         }
     }
     return TerrainSource{std::move(*terrain), std::move(*description)};

@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fcntl.h>
@@ -25,7 +27,7 @@ std::vector<std::string> arguments_for(const std::filesystem::path& file, glm::i
             "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,format=yuv420p", file.string()};
 }
 
-Result<pid_t> start(const std::vector<std::string>& arguments, int input) {
+Result<pid_t> start(const std::vector<std::string>& arguments, int input, int messages) {
     std::vector<char*> argv;
     argv.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) {
@@ -35,6 +37,7 @@ Result<pid_t> start(const std::vector<std::string>& arguments, int input) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
     pid_t process = -1;
     const int code = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -46,17 +49,10 @@ Result<pid_t> start(const std::vector<std::string>& arguments, int input) {
     return process;
 }
 
-// A write to an encoder that has ended must be an error here, not the end of the program.
-class NoPipeSignal {
-public:
-    NoPipeSignal() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
-    NoPipeSignal(const NoPipeSignal&) = delete;
-    NoPipeSignal& operator=(const NoPipeSignal&) = delete;
-    ~NoPipeSignal() { std::signal(SIGPIPE, before_); }
-
-private:
-    void (*before_)(int);
-};
+std::string first_line(std::span<const std::byte> text) {
+    const std::string_view all(reinterpret_cast<const char*>(text.data()), text.size());
+    return std::string(all.substr(0, all.find('\n')));
+}
 
 } // namespace
 
@@ -66,22 +62,27 @@ Result<VideoEncoder> VideoEncoder::create(const std::filesystem::path& file, glm
     if (!output) {
         return output.error();
     }
+    auto messages = MemoryFile::create();
+    if (!messages) {
+        return Error{fmt::format("{}: {}", file.string(), messages.error().message)};
+    }
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
         return Error{fmt::format("{}: no pipe to ffmpeg: {}", file.string(), std::strerror(errno))};
     }
-    auto process = start(arguments_for(output->temporary(), size, frames_per_second), ends[0]);
+    auto process = start(arguments_for(output->temporary(), size, frames_per_second), ends[0],
+                         messages->descriptor());
     ::close(ends[0]);
     if (!process) {
         ::close(ends[1]);
         return Error{fmt::format("{}: {}", file.string(), process.error().message)};
     }
-    return VideoEncoder(std::move(*output), *process, ends[1]);
+    return VideoEncoder(std::move(*output), std::move(*messages), *process, ends[1]);
 }
 
 VideoEncoder::VideoEncoder(VideoEncoder&& other) noexcept
-    : file_(std::move(other.file_)), process_(std::exchange(other.process_, -1)),
-      pipe_(std::exchange(other.pipe_, -1)) {}
+    : file_(std::move(other.file_)), messages_(std::move(other.messages_)),
+      process_(std::exchange(other.process_, -1)), pipe_(std::exchange(other.pipe_, -1)) {}
 
 VideoEncoder::~VideoEncoder() {
     if (pipe_ >= 0) {
@@ -94,14 +95,12 @@ VideoEncoder::~VideoEncoder() {
 }
 
 Result<void> VideoEncoder::write(const Image& picture) {
-    const NoPipeSignal guard;
     const auto bytes = std::as_bytes(picture.samples());
     std::size_t done = 0;
     while (done < bytes.size()) {
         const ssize_t count = ::write(pipe_, bytes.data() + done, bytes.size() - done);
         if (count < 0 && errno != EINTR) {
-            return Error{fmt::format("{}: ffmpeg ended before the last frame: {}",
-                                     file_.target().string(), std::strerror(errno))};
+            return failed("ended before the last frame");
         }
         done += count > 0 ? static_cast<std::size_t>(count) : 0;
     }
@@ -112,10 +111,20 @@ Result<void> VideoEncoder::finish() {
     ::close(std::exchange(pipe_, -1));
     int status = 0;
     ::waitpid(std::exchange(process_, -1), &status, 0);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        return Error{fmt::format("{}: ffmpeg could not encode the video", file_.target().string())};
+    const bool ended_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    const auto said = messages_.bytes();
+    // It ends well on a full disk, too.
+    if (!ended_well || !said || !said->empty()) {
+        return failed("could not encode the video");
     }
     return file_.commit();
+}
+
+Error VideoEncoder::failed(std::string_view what) const {
+    const auto said = messages_.bytes();
+    const std::string line = said ? first_line(*said) : "";
+    return {fmt::format("{}: ffmpeg {}{}{}", file_.target().string(), what,
+                        line.empty() ? "" : ": ", line)};
 }
 
 } // namespace reljef::app

@@ -7,6 +7,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/color.h"
+#include "engine/core/memory_file.h"
 #include "engine/core/result.h"
 
 namespace reljef::app {
@@ -28,10 +29,12 @@ public:
     Result<void> finish();
 
 private:
-    VideoEncoder(AtomicFile file, pid_t process, int pipe)
-        : file_(std::move(file)), process_(process), pipe_(pipe) {}
+    VideoEncoder(AtomicFile file, MemoryFile messages, pid_t process, int pipe)
+        : file_(std::move(file)), messages_(std::move(messages)), process_(process), pipe_(pipe) {}
+    [[nodiscard]] Error failed(std::string_view what) const;
 
     AtomicFile file_;
+    MemoryFile messages_; // what ffmpeg says
     pid_t process_ = -1;
     int pipe_ = -1;
 };

@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "app/device.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/scene_setup.h"
 #include "app/viewer.h"
@@ -98,7 +99,7 @@ private:
     void save_picture() {
         const auto file = next_screenshot(".");
         if (const auto written = io::write_image(file, driver_.read_color()); !written) {
-            fmt::print(stderr, "reljef: {}\n", written.error().message);
+            tell(fmt::format("reljef: {}\n", written.error().message));
             return;
         }
         fmt::print("saved {}\n", file.filename().string());
@@ -231,7 +232,10 @@ Command add_view_command(CLI::App& program, Interrupt& interrupt) {
     auto choice = std::make_shared<ViewerChoice>();
     add_terrain_options(*arguments, choice->terrain);
     add_view_options(*arguments, choice->view);
-    arguments->callback([choice] { expect_window(choice->view); });
+    arguments->callback([choice] {
+        check_view_options(choice->view);
+        expect_window(choice->view);
+    });
     arguments->footer(
         "Keys:\n" + Viewer::keys() +
         "The flight along --path begins at once; without it, P flies over the terrain. "

@@ -1,5 +1,6 @@
 #include "bench/tables_command.h"
 
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "app/output_files.h"
 #include "bench/report_json.h"
 #include "bench/report_terminal.h"
 #include "bench/tables_suite.h"
@@ -97,11 +99,25 @@ void add_options(CLI::App& command, TablesChoice& choice) {
     command.add_flag("--quiet", options.quiet, "no progress and no notes on stderr");
 }
 
+Result<void> check_target(const TablesChoice& choice) {
+    if (choice.json.empty()) {
+        return {};
+    }
+    std::vector<app::NamedFile> terrains;
+    for (const std::string& terrain : choice.options.terrains) {
+        terrains.push_back({"--terrain", terrain});
+    }
+    const std::array outputs{app::NamedFile{"--json", choice.json}};
+    if (auto apart = app::check_apart(outputs, terrains); !apart) {
+        return apart;
+    }
+    const auto writable = AtomicFile::create(choice.json);
+    return writable ? Result<void>() : writable.error();
+}
+
 Result<void> run(const TablesChoice& choice, const app::Interrupt& interrupt) {
-    if (!choice.json.empty()) { // not only after all the measuring
-        if (const auto writable = AtomicFile::create(choice.json); !writable) {
-            return writable.error();
-        }
+    if (auto good = check_target(choice); !good) { // not only after all the measuring
+        return good;
     }
     const Results results = run_tables(choice.options, interrupt.token());
     if (results.rows.empty()) {

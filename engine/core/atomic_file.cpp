@@ -73,12 +73,17 @@ void AtomicFile::remove() noexcept {
 }
 
 Result<void> write_text_file(const fs::path& path, std::string_view text) {
+    return write_file(path, std::as_bytes(std::span(text)));
+}
+
+Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
     auto file = AtomicFile::create(path);
     if (!file) {
         return file.error();
     }
     std::ofstream stream(file->temporary(), std::ios::binary);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    stream.write(reinterpret_cast<const char*>(bytes.data()),
+                 static_cast<std::streamsize>(bytes.size()));
     stream.close();
     if (!stream) {
         return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno))};

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "engine/core/result.h"
 
@@ -35,7 +39,9 @@ private:
     std::filesystem::path temporary_;
 };
 
-/// Writes `text` to `path`, whole or not at all.
+/// Writes `bytes` to `path`, whole or not at all.
+Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// The same of a text.
 Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// The content of a file of at most `limit` bytes.

@@ -11,6 +11,10 @@
 
 namespace reljef {
 
+/// How far from the origin anything may be placed, metres: there doubles still tell a
+/// ten-thousandth of a millimetre apart, and the whole Earth is well inside.
+inline constexpr double world_reach = 1e9;
+
 /// An axis-aligned box; the default one is empty.
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};

@@ -11,6 +11,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/io/image.h"
+#include "engine/io/image_encoder.h"
 #include "engine/io/image_limits.h"
 
 namespace reljef::io {
@@ -21,23 +22,11 @@ constexpr std::array<const char*, 4> channel_names{"col", "row", "height", "dept
 constexpr std::array<std::size_t, 4> channel_offsets{offsetof(Hit, col), offsetof(Hit, row),
                                                      offsetof(Hit, height), offsetof(Hit, depth)};
 
-Result<void> write_channels(const fs::path& temporary, const HitBuffer& hits,
-                            const std::string& name) {
-    const auto output = OIIO::ImageOutput::create("openexr");
-    if (output == nullptr) {
-        return Error{fmt::format("{}: cannot be written: OpenImageIO has no OpenEXR", name)};
-    }
+OIIO::ImageSpec spec_of(const HitBuffer& hits) {
     OIIO::ImageSpec spec(hits.cols(), hits.rows(), 4, OIIO::TypeDesc::FLOAT);
     spec.channelnames.assign(channel_names.begin(), channel_names.end());
     spec.attribute("compression", "zip");
-    const bool done =
-        output->open(temporary.string(), spec) &&
-        output->write_image(OIIO::TypeDesc::FLOAT, hits.samples().data(), sizeof(Hit)) &&
-        output->close();
-    if (!done) {
-        return Error{fmt::format("{}: cannot be written: {}", name, output->geterror())};
-    }
-    return {};
+    return spec;
 }
 
 Result<HitBuffer> read_channels(OIIO::ImageInput& input, const fs::path& path) {
@@ -94,18 +83,13 @@ Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
     if (auto named = check_extension(path); !named) {
         return named;
     }
-    auto file = AtomicFile::create(path);
-    if (!file) {
-        return file.error();
+    auto output = OIIO::ImageOutput::create("openexr");
+    if (output == nullptr) {
+        return Error{
+            fmt::format("{}: cannot be written: OpenImageIO has no OpenEXR", path.string())};
     }
-    try {
-        if (auto written = write_channels(file->temporary(), hits, path.string()); !written) {
-            return written;
-        }
-    } catch (const std::exception& problem) {
-        return Error{fmt::format("{}: cannot be written: {}", path.string(), problem.what())};
-    }
-    return file->commit();
+    return write_encoded(std::move(output), spec_of(hits), hits.samples().data(), sizeof(Hit),
+                         path);
 }
 
 Result<HitBuffer> read_hits(const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -16,6 +17,7 @@
 namespace reljef::io {
 namespace {
 
+constexpr double farthest_crs_place = 1e12; // in any unit: the Earth is far smaller
 constexpr double wgs84_radius = 6378137.0;
 constexpr double near_pole = 85.0; // degrees; east and north are of no use beyond
 constexpr double tolerated_distortion = 0.01;
@@ -260,11 +262,24 @@ std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset) {
         return std::nullopt;
     }
     const geo::PixelAffine affine{t[0], t[1], t[2], t[3], t[4], t[5]};
-    const bool finite = std::all_of(t.begin(), t.end(), [](double v) { return std::isfinite(v); });
     const bool identity = t == std::array{0.0, 1.0, 0.0, 0.0, 0.0, 1.0} ||
                           t == std::array{0.0, 1.0, 0.0, 0.0, 0.0, -1.0};
-    const bool invertible = t[1] * t[5] - t[2] * t[4] != 0.0;
-    return finite && invertible && !identity ? std::optional(affine) : std::nullopt;
+    return identity ? std::nullopt : std::optional(affine);
+}
+
+Result<void> check_affine(GDALDataset& dataset, const std::string& name) {
+    std::array<double, 6> t{};
+    if (dataset.GetGeoTransform(t.data()) != CE_None) {
+        return {};
+    }
+    const bool within =
+        std::all_of(t.begin(), t.end(), [](double v) { return std::abs(v) <= farthest_crs_place; });
+    if (within && t[1] * t[5] - t[2] * t[4] != 0.0) {
+        return {};
+    }
+    return Error{fmt::format("{}: its geotransform is {}, numbers of at most {} and pixels with an "
+                             "area were expected",
+                             name, fmt::join(t, ", "), farthest_crs_place)};
 }
 
 std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
@@ -314,11 +329,26 @@ CrsWords words_of(const OGRSpatialReference& given) {
     return words;
 }
 
+namespace {
+
+Result<Place> with_good_spacing(Place place, const std::string& name) {
+    const glm::dvec2 spacing = place.spacing;
+    const auto fits = [](double side) {
+        return side >= terrain::least_spacing && side <= terrain::most_spacing;
+    };
+    if (fits(spacing.x) && fits(spacing.y)) {
+        return place;
+    }
+    return Error{fmt::format("{}: its samples are {} × {} m apart, {} to {} m were expected", name,
+                             spacing.x, spacing.y, terrain::least_spacing, terrain::most_spacing)};
+}
+
+} // namespace
+
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes) {
-    // From less than any scanner's pixel to a planet in a hundred samples.
-    constexpr double least_spacing = 1e-6;
-    constexpr double most_spacing = 1e6;
+    using terrain::least_spacing;
+    using terrain::most_spacing;
     if (options.spacing &&
         !(*options.spacing >= least_spacing && *options.spacing <= most_spacing)) {
         return Error{
@@ -326,13 +356,16 @@ Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::
                         "expected",
                         name, *options.spacing, least_spacing, most_spacing)};
     }
+    if (auto good = check_affine(dataset, name); !good) {
+        return good.error();
+    }
     const auto affine = affine_of(dataset);
     const auto crs = affine ? horizontal_crs(dataset, notes) : std::nullopt;
     if (!affine && dataset.GetGCPCount() > 0) {
         notes.emplace_back("is placed by ground control points, which are not used for heights");
     }
     if (!crs || crs->IsLocal() != 0) {
-        return placed_nowhere(crs, affine, grid, options, notes);
+        return with_good_spacing(placed_nowhere(crs, affine, grid, options, notes), name);
     }
     if (options.spacing) {
         return Error{
@@ -340,7 +373,7 @@ Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::
                         "was expected",
                         name, *options.spacing, words_of(*crs).name)};
     }
-    return placed_on_earth(dataset, *crs, *affine, grid, notes);
+    return with_good_spacing(placed_on_earth(dataset, *crs, *affine, grid, notes), name);
 }
 
 } // namespace reljef::io

@@ -14,9 +14,12 @@
 
 namespace reljef::io {
 
-/// GDAL's geotransform as an affine over its pixel coordinates, (0,0) at the outer corner of the
-/// first pixel; absent where the raster has none.
+/// Once check_affine() has passed: GDAL's geotransform as an affine over its pixel coordinates,
+/// (0,0) at the outer corner of the first pixel; absent where the raster has none.
 std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset);
+
+/// Fails where a raster has a geotransform that places nothing: not finite, or without area.
+Result<void> check_affine(GDALDataset& dataset, const std::string& name);
 
 /// The horizontal part of a raster's CRS with x east and y north; absent where it names none.
 /// Degrees without a CRS are taken for WGS 84, with a note.
@@ -41,7 +44,8 @@ struct Place {
     std::optional<geo::Georeference> georeference;
 };
 
-/// Fails only where RasterOptions::spacing contradicts the file; all else that is odd is noted.
+/// Fails where the file places its samples nowhere, absurdly close or far, and where
+/// RasterOptions::spacing contradicts it; all else that is odd is noted.
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes);
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/io/image_encoder.h"
 #include "engine/io/image_limits.h"
 
 namespace reljef::io {
@@ -75,6 +76,10 @@ Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
 std::unique_ptr<OIIO::ImageOutput> output_for(const fs::path& path) {
     auto output = OIIO::ImageOutput::create(path.string());
     static_cast<void>(OIIO::geterror());
+    // Its encoder goes by the extension of the file it writes to, and one in memory has none.
+    if (output != nullptr && std::string_view(output->format_name()) == "jpeg2000") {
+        output.reset();
+    }
     return output;
 }
 
@@ -84,22 +89,11 @@ Error unknown_format(const fs::path& path) {
                         path.string(), path.extension().string())};
 }
 
-Result<void> write_pixels(const fs::path& temporary, const Image& image, const fs::path& path) {
-    const auto output = output_for(temporary);
-    if (output == nullptr) {
-        return unknown_format(path);
-    }
+OIIO::ImageSpec spec_of(const Image& image) {
     OIIO::ImageSpec spec(image.cols(), image.rows(), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("Compression", fmt::format("jpeg:{}", jpeg_quality));
-    const bool done =
-        output->open(temporary.string(), spec) &&
-        output->write_image(OIIO::TypeDesc::UINT8, image.samples().data(), sizeof(Rgba8)) &&
-        output->close();
-    if (!done) {
-        return Error{fmt::format("{}: cannot be written: {}", path.string(), output->geterror())};
-    }
-    return {};
+    return spec;
 }
 
 Image resized(const Image& picture, int width) {
@@ -156,18 +150,12 @@ Result<void> write_image(const fs::path& path, const Image& image) {
                         "1×1 was expected",
                         path.string(), image.cols(), image.rows())};
     }
-    auto file = AtomicFile::create(path);
-    if (!file) {
-        return file.error();
+    auto output = output_for(path);
+    if (output == nullptr) {
+        return unknown_format(path);
     }
-    try {
-        if (auto written = write_pixels(file->temporary(), image, path); !written) {
-            return written;
-        }
-    } catch (const std::exception& problem) {
-        return Error{fmt::format("{}: cannot be written: {}", path.string(), problem.what())};
-    }
-    return file->commit();
+    return write_encoded(std::move(output), spec_of(image), image.samples().data(), sizeof(Rgba8),
+                         path);
 }
 
 Image contact_sheet(std::span<const Image> pictures, int columns, int width) {

@@ -112,10 +112,35 @@ void add(CPLStringList& list, std::initializer_list<std::string> words) {
     }
 }
 
+// Every how-manieth pixel is read of an image so large that reading all of it would take minutes.
+int thinning_of(GDALDataset& image) {
+    constexpr double most_pixels_read = 1U << 29U;
+    const double pixels = static_cast<double>(image.GetRasterXSize()) * image.GetRasterYSize();
+    return static_cast<int>(std::ceil(std::sqrt(pixels / most_pixels_read)));
+}
+
+// A file cut short is found by its last block, before all the others are read.
+bool has_last_block(GDALDataset& image) {
+    GDALRasterBand& band = *image.GetRasterBand(1);
+    int cols = 0;
+    int rows = 0;
+    band.GetBlockSize(&cols, &rows);
+    GDALRasterBlock* block =
+        band.GetLockedBlockRef((band.GetXSize() - 1) / cols, (band.GetYSize() - 1) / rows);
+    if (block != nullptr) {
+        block->DropLock();
+    }
+    return block != nullptr;
+}
+
 CPLStringList translation_of(GDALDataset& image) {
     const ColorBands bands = color_bands(image);
     CPLStringList words;
     add(words, {"-of", "VRT"});
+    if (const int thinning = thinning_of(image); thinning > 1) {
+        add(words, {"-outsize", std::to_string(image.GetRasterXSize() / thinning),
+                    std::to_string(image.GetRasterYSize() / thinning)});
+    }
     if (bands.palette) {
         add(words, {"-b", "1", "-expand", "rgba"});
         return words;
@@ -313,10 +338,18 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
                         "was expected",
                         name, messages.reason())};
     };
+    if (auto good = check_affine(**image, name); !good) {
+        return good.error();
+    }
     const Meeting meeting = meeting_of(heights, **image, notes);
-    const Dataset colors = as_rgb(**image);
+    const Dataset colors = has_last_block(**image) ? as_rgb(**image) : nullptr;
     if (colors == nullptr) {
         return unreadable();
+    }
+    if (const int thinning = thinning_of(**image); thinning > 1) {
+        notes.push_back(fmt::format("imagery: one of {} pixels a side is read of its {}×{}",
+                                    thinning, (*image)->GetRasterXSize(),
+                                    (*image)->GetRasterYSize()));
     }
     if (auto placed = place_image(heights, *colors, meeting, name); !placed) {
         return placed.error();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/io/height_unit.h"
 
@@ -30,6 +31,11 @@ std::array<double, 256> palette_values(const GDALColorTable& table) {
     }
     return values;
 }
+
+// Metres: nothing solid reaches further from its middle by far.
+constexpr double highest_height = 1e7;
+// What many programs write for voids; but the sea is as deep, too.
+constexpr double usual_void = -9999.0;
 
 bool is_grey_ramp(const GDALColorTable& table) {
     const std::array<double, 256> values = palette_values(table);
@@ -137,8 +143,16 @@ double SampleDecoder::metres(double value) {
         ++found_sentinels_;
         return void_value;
     }
-    const double height = scale_ * value + offset_;
-    return std::isfinite(static_cast<float>(height)) ? height : void_value;
+    return bounded(scale_ * value + offset_);
+}
+
+double SampleDecoder::bounded(double height) {
+    if (std::abs(height) > highest_height) {
+        ++found_absurd_;
+        return void_value;
+    }
+    found_usual_voids_ += height == usual_void ? 1U : 0U;
+    return height;
 }
 
 void SampleDecoder::decode(std::span<double> first, std::span<const double> others,
@@ -151,7 +165,7 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
             first[i] = metres(luminance(value, others[i], others[first.size() + i]));
         } else if (kind_ == ValueKind::palette) {
             const auto index = static_cast<std::size_t>(std::clamp(value, 0.0, 255.0));
-            first[i] = nodata_ == value ? void_value : scale_ * palette_[index] + offset_;
+            first[i] = nodata_ == value ? void_value : bounded(scale_ * palette_[index] + offset_);
         } else {
             first[i] = metres(value);
         }
@@ -159,18 +173,27 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
 }
 
 std::string SampleDecoder::undeclared_voids_note() const {
-    if (found_sentinels_ + found_not_finite_ == 0) {
-        return {};
-    }
-    std::string what;
+    std::vector<std::string> found;
     if (found_sentinels_ > 0) {
-        what = fmt::format("{} samples are -32768 or -32767", found_sentinels_);
+        found.push_back(fmt::format("{} samples are -32768 or -32767", found_sentinels_));
     }
     if (found_not_finite_ > 0) {
-        what += fmt::format("{}{} samples are NaN or infinite", what.empty() ? "" : " and ",
-                            found_not_finite_);
+        found.push_back(fmt::format("{} samples are NaN or infinite", found_not_finite_));
     }
-    return what + ", which the file does not declare: taken for voids";
+    if (found_absurd_ > 0) {
+        found.push_back(fmt::format("{} samples are beyond ±{} m", found_absurd_, highest_height));
+    }
+    return found.empty() ? ""
+                         : fmt::format("{}, which the file does not declare: taken for voids",
+                                       fmt::join(found, " and "));
+}
+
+std::string SampleDecoder::doubtful_heights_note() const {
+    return found_usual_voids_ == 0
+               ? ""
+               : fmt::format("{} samples are {}, which the file does not declare as void: taken "
+                             "for heights",
+                             found_usual_voids_, usual_void);
 }
 
 } // namespace reljef::io

@@ -40,9 +40,12 @@ public:
 
     /// What was found without being declared; empty when nothing.
     [[nodiscard]] std::string undeclared_voids_note() const;
+    /// What was taken for heights and may have been meant for voids; empty when nothing.
+    [[nodiscard]] std::string doubtful_heights_note() const;
 
 private:
     [[nodiscard]] double metres(double value);
+    [[nodiscard]] double bounded(double height);
 
     ValueKind kind_ = ValueKind::plain;
     std::array<double, 256> palette_{};
@@ -53,6 +56,8 @@ private:
     double offset_ = 0.0;
     std::size_t found_sentinels_ = 0;
     std::size_t found_not_finite_ = 0;
+    std::size_t found_absurd_ = 0;
+    std::size_t found_usual_voids_ = 0;
 };
 
 } // namespace reljef::io

@@ -164,8 +164,10 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
             options.progress(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
         }
     }
-    if (std::string note = decoder->undeclared_voids_note(); !note.empty()) {
-        notes.push_back(std::move(note));
+    for (std::string note : {decoder->undeclared_voids_note(), decoder->doubtful_heights_note()}) {
+        if (!note.empty()) {
+            notes.push_back(std::move(note));
+        }
     }
     if (samples.void_count == 0) {
         samples.void_mask = {};

@@ -7,6 +7,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/io/toml_reader.h"
+#include "engine/terrain/placement.h"
 
 namespace reljef::io {
 namespace {
@@ -14,9 +15,10 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr NumberRange positive{0.0, unlimited, true};
 constexpr NumberRange any_number{-unlimited, unlimited, false};
+constexpr NumberRange spacings{terrain::least_spacing, terrain::most_spacing, false};
 constexpr NumberRange sizes{16.0, 4096.0, false};
 constexpr NumberRange seeds{0.0, 4294967295.0, false};
-constexpr NumberRange exaggerations{0.0, 1000.0, true};
+constexpr NumberRange exaggerations{0.0, terrain::largest_exaggeration, true};
 constexpr NumberRange azimuths{-360.0, 360.0, false};
 constexpr NumberRange altitudes{0.0, 90.0, true};
 constexpr std::array<std::string_view, 2> generators{"natural", "urban"};
@@ -53,7 +55,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("size", scene.size, sizes);
     table.read("seed", scene.seed, seeds);
     table.read("tileable", scene.tileable);
-    table.read("spacing", scene.spacing, positive);
+    table.read("spacing", scene.spacing, spacings);
     table.read("height_scale", scene.height_scale, any_number);
     table.read("height_offset", scene.height_offset, any_number);
     table.read("imagery", scene.imagery, folder);

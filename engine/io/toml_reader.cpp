@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/core/geometry.h"
+
 namespace reljef::io {
 namespace {
 
@@ -55,9 +57,59 @@ bool within(double value, const NumberRange& range) {
            (range.above_low ? value > range.low : value >= range.low);
 }
 
+constexpr int most_name_parts = 64;
+
+// Where the string that begins at `begin` ends; the end of the text where it does not.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+    const char quote = text[begin];
+    const std::string three(3, quote);
+    const bool is_long = text.substr(begin, 3) == three;
+    const std::string_view closing = is_long ? std::string_view(three) : text.substr(begin, 1);
+    for (std::size_t i = begin + closing.size(); i < text.size(); ++i) {
+        if (text[i] == '\\' && quote == '"') {
+            ++i;
+        } else if (text.substr(i, closing.size()) == closing) {
+            return i + closing.size();
+        } else if (text[i] == '\n' && !is_long) {
+            return i;
+        }
+    }
+    return text.size();
+}
+
+// The line of the first dotted name of so many parts that the parser, which goes one call deeper
+// for each, would run out of stack.
+std::optional<std::ptrdiff_t> line_of_endless_name(std::string_view text) {
+    constexpr std::string_view between_names = "=,[]{}\n";
+    int parts = 1;
+    std::size_t i = 0;
+    while (i < text.size()) {
+        const char c = text[i];
+        if (c == '"' || c == '\'') {
+            i = end_of_string(text, i);
+            continue;
+        }
+        if (c == '#') {
+            i = std::min(text.find('\n', i), text.size());
+            continue;
+        }
+        parts = between_names.find(c) != std::string_view::npos ? 1 : parts + (c == '.' ? 1 : 0);
+        if (parts > most_name_parts) {
+            return 1 +
+                   std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
+        }
+        ++i;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 Result<toml::table> parse_toml(std::string_view text, const std::string& name) {
+    if (const auto line = line_of_endless_name(text)) {
+        return Error{fmt::format("{}:{}: has a name of over {} parts, fewer were expected", name,
+                                 *line, most_name_parts)};
+    }
     try {
         return toml::parse(text, name);
     } catch (const toml::parse_error& problem) {
@@ -191,12 +243,12 @@ void TomlTable::read(std::string_view key, std::optional<glm::dvec3>& value) {
     for (std::size_t i = 0; good && i < 3; ++i) {
         const toml::node& element = *array->get(i);
         const auto number = element.is_number() ? element.value<double>() : std::optional<double>();
-        good = number && std::isfinite(*number);
+        good = number && std::abs(*number) <= world_reach;
         found[static_cast<int>(i)] = number.value_or(0.0);
     }
     if (!good) {
-        fail(key,
-             fmt::format("is {}, three finite numbers [x, y, z] were expected", text_of(*node)));
+        fail(key, fmt::format("is {}, three numbers [x, y, z] of at most {} metres were expected",
+                              text_of(*node), world_reach));
         return;
     }
     value = found;

@@ -44,7 +44,7 @@ public:
     /// A file, relative to `folder`; not empty.
     void read(std::string_view key, std::filesystem::path& value,
               const std::filesystem::path& folder);
-    /// Three finite numbers.
+    /// Three numbers of at most world_reach metres.
     void read(std::string_view key, std::optional<glm::dvec3>& value);
 
     /// A table within; an empty one where there is none.

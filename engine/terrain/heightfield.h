@@ -20,6 +20,10 @@ struct HeightRange {
     double high = 0.0;
 };
 
+/// Between samples, metres: from less than any scanner's pixel to a planet in a hundred samples.
+inline constexpr double least_spacing = 1e-6;
+inline constexpr double most_spacing = 1e6;
+
 /// A grid of heights and where it lies. `col` grows east, `row` grows south; (0,0) is the centre of
 /// the north-west sample; between samples the surface is the bilinear interpolation of the four
 /// around (the surface a bilinear texture fetch sees).

@@ -11,6 +11,9 @@
 
 namespace reljef::terrain {
 
+/// Of the heights; more would leave nothing of a terrain's shape, and less precision than is shown.
+inline constexpr double largest_exaggeration = 1e6;
+
 enum class PlacementKind { plane, ellipsoid };
 
 /// Where the samples of a heightfield stand in the scene frame (metres, x east, y north, z up).

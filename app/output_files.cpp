@@ -1,0 +1,45 @@
+#include "app/output_files.h"
+
+#include <fmt/format.h>
+
+namespace reljef::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    if (a.empty() || b.empty()) {
+        return false;
+    }
+    std::error_code code;
+    if (fs::equivalent(a, b, code)) {
+        return true;
+    }
+    const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, code), code);
+    return whole_a == fs::weakly_canonical(fs::absolute(b, code), code);
+}
+
+} // namespace
+
+Result<void> check_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (const NamedFile& input : inputs) {
+            if (is_same_file(outputs[i].path, input.path)) {
+                return Error{fmt::format("{}: {} found, which is read as {}; another file was "
+                                         "expected",
+                                         outputs[i].option, outputs[i].path.string(),
+                                         input.option)};
+            }
+        }
+        for (const NamedFile& other : outputs.subspan(i + 1)) {
+            if (is_same_file(outputs[i].path, other.path)) {
+                return Error{fmt::format("{}: {} found, which {} writes too; another file was "
+                                         "expected",
+                                         other.option, other.path.string(), outputs[i].option)};
+            }
+        }
+    }
+    return {};
+}
+
+} // namespace reljef::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include <OpenImageIO/imageio.h>
+
+#include "engine/core/result.h"
+
+namespace reljef::io {
+
+/// Encodes pixels of `spec`'s type, `stride` bytes from one to the next, and writes them to `path`,
+/// whole or not at all. Encoded in memory: the encoders do not tell of a full disk, and some end
+/// the program.
+Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
+                           const void* pixels, std::size_t stride,
+                           const std::filesystem::path& path);
+
+} // namespace reljef::io
