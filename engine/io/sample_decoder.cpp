@@ -33,7 +33,7 @@ std::array<double, 256> palette_values(const GDALColorTable& table) {
 }
 
 // Metres: nothing solid reaches further from its middle by far.
-constexpr double highest_height = 1e7;
+constexpr double highest_height = 1e8;
 // What many programs write for voids; but the sea is as deep, too.
 constexpr double usual_void = -9999.0;
 

@@ -105,12 +105,12 @@ TEST_F(BadInput, output_of_no_known_format) {
 }
 
 TEST_F(BadInput, output_is_missing) {
-    expect_refusal(test::reljef({"render", "natural"}), 1, {"-o"});
+    expect_refusal(test::reljef({"render", "natural"}), 2, {"-o"});
 }
 
 TEST_F(BadInput, many_frames_into_one_picture) {
     const auto dem = write("dem.asc", small_dem);
-    expect_refusal(render(dem, {"--path", "orbit", "--frames", "3", "--quiet"}), 1, {"%04d"});
+    expect_refusal(render(dem, {"--path", "orbit", "--frames", "3", "--quiet"}), 2, {"%04d"});
 }
 
 TEST_F(BadInput, path_that_is_not_there) {
@@ -167,7 +167,8 @@ TEST_P(Misused, is_one_line_and_status_2) {
 INSTANTIATE_TEST_SUITE_P(
     Arguments, Misused,
     testing::Values(
-        Misuse{{}, "--help"}, Misuse{{"fly"}, "subcommand"}, Misuse{{"render"}, "TERRAIN"},
+        Misuse{{}, "--help"}, Misuse{{"fly"}, "verb 'fly'"}, Misuse{{"view", ""}, "after 'view'"},
+        Misuse{{"render"}, "TERRAIN"},
         Misuse{{"render", "natural", "--technique", "magic", "-o", "a.png"}, "magic"},
         Misuse{{"render", "natural", "--technique", "polygons:lods=9", "-o", "a.png"}, "lods=9"},
         Misuse{{"render", "natural", "--technique", "polygons:lods=x", "-o", "a.png"}, "lods=x"},
@@ -187,6 +188,26 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"render", "natural", "--projection", "fisheye", "-o", "a.png"}, "fisheye"},
         Misuse{{"render", "natural", "--placement", "moon", "-o", "a.png"}, "moon"},
         Misuse{{"render", "natural", "--sun", "300,0", "-o", "a.png"}, "altitude 0"},
+        Misuse{{"render", "natural", "--sun", "1e9,30", "-o", "a.png"}, "azimuth"},
+        Misuse{{"render", "natural", "--fov=", "-o", "a.png"}, "--fov="},
+        Misuse{{"render", "natural", "--imagery", "", "-o", "a.png"}, "--imagery"},
+        Misuse{{"render", "natural", "--fps", "1e-9", "-o", "a.png"}, "--fps"},
+        Misuse{{"render", "natural", "-o", "%04d/a.png"}, "folder"},
+        Misuse{{"render", "natural", "-o", "%d.mp4"}, "without a number"},
+        Misuse{{"render", "natural", "-o", "%s.png"}, "%04d"},
+        Misuse{{"render", "natural", "--frames", "3", "-o", "%d.png"}, "--path"},
+        Misuse{{"render", "natural", "--stats", "--hit", "a.exr"}, "--stats"},
+        Misuse{{"render", "natural", "--eye", "1,2,3", "--look", "1,2,3", "-o", "a.png"}, "--look"},
+        Misuse{{"render", "natural", "--eye", "1e30,2,3", "--look", "1,2,3", "-o", "a.png"},
+               "metres"},
+        Misuse{{"render", "natural", "--camera", "1,2,1e30,0,0", "-o", "a.png"}, "height"},
+        Misuse{{"render", "natural", "--camera", "1,2,3,4,5", "--pose", "low", "-o", "a.png"},
+               "--pose"},
+        Misuse{{"render", "natural", "--camera", "1,2,3,4,5", "--path", "orbit", "-o", "a.png"},
+               "--path"},
+        Misuse{{"render", "natural", "--eye", "1,2,3", "--look", "1,2,4", "--path", "orbit", "-o",
+                "a.png"},
+               "--path"},
         Misuse{{"height", "natural"}, "--at"}, Misuse{{"height", "natural", "--at", "45"}, "45"}));
 
 TEST_F(BadInput, NoOutputAppearsWhereAnotherCannot) {
@@ -212,8 +233,8 @@ TEST_F(BadInput, ShaderFolderThatIsNot) {
 
 TEST_F(BadInput, MapPoseBesideAPath) {
     test::expect_refusal(
-        test::reljef({"render", "natural", "-o", picture(), "--pose", "map", "--path", "orbit"}), 1,
-        {"--pose map", "--path"});
+        test::reljef({"render", "natural", "-o", picture(), "--pose", "map", "--path", "orbit"}), 2,
+        {"--pose: map", "--path"});
 }
 
 } // namespace

@@ -6,10 +6,11 @@
 namespace reljef {
 namespace {
 
-// `timeout` ends the program as Ctrl-C does.
+// `timeout` ends the program as Ctrl-C (INT), a closed terminal (HUP) or a shutdown (TERM) does.
 test::ProgramResult interrupted_after(const std::string& seconds,
-                                      std::vector<std::string> arguments) {
-    std::vector<std::string> all{"--preserve-status", "-s", "INT", seconds, RELJEF_BINARY};
+                                      std::vector<std::string> arguments,
+                                      const std::string& signal = "INT") {
+    std::vector<std::string> all{"--preserve-status", "-s", signal, seconds, RELJEF_BINARY};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return test::run_program("/usr/bin/timeout", all);
 }
@@ -26,6 +27,20 @@ TEST(CtrlC, ends_a_long_flight_and_leaves_no_rubbish) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.err, "reljef: interrupted\n");
     EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(CtrlC, EndsWhileOnePictureIsDrawn) {
+    const test::TemporaryFolder folder;
+    const auto picture = (folder.path() / "large.png").string();
+    for (const char* signal : {"INT", "HUP", "TERM"}) {
+        const auto result = interrupted_after("1",
+                                              {"render", "natural", "--size", "8192x8192",
+                                               "--context", "osmesa", "--quiet", "-o", picture},
+                                              signal);
+        EXPECT_EQ(result.exit_code, 1) << signal;
+        EXPECT_EQ(result.err, "reljef: interrupted\n") << signal;
+        EXPECT_TRUE(folder.names().empty()) << signal;
+    }
 }
 
 } // namespace

@@ -258,6 +258,21 @@ TEST_F(BadRaster, DamagedFilesDoNoHarm) {
     }
 }
 
+TEST_F(BadRaster, AGeotransformThatPlacesNothing) {
+    const double inf = std::numeric_limits<double>::infinity();
+    for (const std::array<double, 6> wrong :
+         {std::array{1e300, 1.0, 0.0, 0.0, 0.0, -1.0}, std::array{0.0, inf, 0.0, 0.0, 0.0, -1.0},
+          std::array{0.0, std::nan(""), 0.0, 0.0, 0.0, -1.0},
+          std::array{5.0, 1.0, 1.0, 5.0, 1.0, 1.0}, std::array{0.0, 1e-100, 0.0, 0.0, 0.0, -1e-100},
+          std::array{0.0, 1e9, 0.0, 0.0, 0.0, -1e9}}) {
+        MadeRaster raster = made_raster(4, 4, [](int col, int) { return col; });
+        raster.crs = "EPSG:32632";
+        raster.geotransform = wrong;
+        EXPECT_THAT(refused(made(raster, "lost.tif")),
+                    AnyOf(HasSubstr("geotransform"), HasSubstr("apart")));
+    }
+}
+
 TEST_F(BadRaster, OptionsThatMakeNoSense) {
     const auto path = made(made_raster(4, 4, [](int col, int) { return col; }), "a.tif");
     RasterOptions options;

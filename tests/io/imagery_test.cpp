@@ -275,6 +275,16 @@ TEST_F(Imagery, ACutFileIsAnErrorNotHalfAPicture) {
     EXPECT_THAT(terrain.error().message, HasSubstr("cut.tif"));
 }
 
+// Reading what is missing as zeros would take a minute.
+TEST_F(Imagery, AGiantThatIsOnlyAHeaderIsRefusedAtOnce) {
+    ASSERT_TRUE(test::write(flat(9, 9), folder_.path() / "heights.tif"));
+    RasterOptions options;
+    options.imagery = folder_.write("vast.pgm", "P5\n100000 100000\n65535\nxx");
+    const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_FALSE(terrain);
+    EXPECT_THAT(terrain.error().message, HasSubstr("vast.pgm"));
+}
+
 TEST_F(Imagery, ThePairsOfTheTestDataFit) {
     struct Pair {
         const char* heights;

@@ -20,6 +20,7 @@ using test::made_raster;
 using test::MadeRaster;
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 double wave(int col, int row) {
     return 100.0 + 3.0 * col - 7.0 * row + ((col * 31 + row * 17) % 11);
@@ -173,6 +174,25 @@ TEST_F(Raster, UndeclaredVoidsAreFoundAndTold) {
         ASSERT_TRUE(std::isfinite(height));
         ASSERT_GT(height, -500.0F);
     }
+}
+
+TEST_F(Raster, HeightsThatNothingHasAreVoids) {
+    MadeRaster raster = made_raster(20, 20, wave);
+    raster.values[3] = -3.4028234663852886e38;
+    raster.values[4] = 3.4e38;
+    raster.values[5] = 1e9;
+    const terrain::Terrain terrain = read(raster);
+    EXPECT_EQ(terrain.heightfield.void_count, 3U);
+    EXPECT_THAT(joined(terrain.notes), HasSubstr("3 samples are beyond"));
+    EXPECT_LT(terrain.heightfield.range.high, 1e4);
+}
+
+TEST_F(Raster, TheUsualVoidThatNobodyDeclaresIsTold) {
+    MadeRaster raster = made_raster(20, 20, wave);
+    raster.values[3] = -9999.0;
+    EXPECT_THAT(joined(read(raster).notes), HasSubstr("1 samples are -9999"));
+    raster.nodata = -9999.0;
+    EXPECT_THAT(joined(read(raster).notes), Not(HasSubstr("-9999")));
 }
 
 TEST_F(Raster, ScaledValuesHaveNoUndeclaredVoids) {

@@ -114,10 +114,11 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {urban + "seed = -1", "seed is -1"},
         {urban + "seed = 4294967296", "seed is 4294967296"},
         {urban + "tileable = 1", "tileable is 1, true or false was expected"},
-        {urban + "spacing = 0", "spacing is 0, a number above 0 was expected"},
+        {urban + "spacing = 0", "spacing is 0, a number from 1e-06 to 1000000 was expected"},
         {urban + "spacing = nan", "spacing is nan"},
         {urban + "exaggeration = inf", "exaggeration is inf"},
-        {urban + "exaggeration = -2.0", "exaggeration is -2.0, a number above 0 and at most 1000"},
+        {urban + "exaggeration = -2.0",
+         "exaggeration is -2.0, a number above 0 and at most 1000000"},
         {urban + "placement = \"sphere\"", "is \"sphere\", one of plane, ellipsoid was expected"},
         {"[terrain]\ngenerator = \"moon\"", "is \"moon\", one of natural, urban was expected"},
         {"[terrain]\nheights = \"\"", "heights is ''"},
@@ -132,6 +133,7 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {urban + "[camera]\neye = [1, 2, inf]\nlook = [1, 2, 3]", "three numbers"},
         {urban + "[camera]\neye = [1, 2, \"x\"]\nlook = [1, 2, 3]", "three numbers"},
         {urban + "[camera]\neye = [1, 2, 3]\nlook = [1, 2, 3]", "look is where eye is"},
+        {urban + "[camera]\neye = [1, 2, 2e9]\nlook = [1, 2, 3]", "three numbers"},
         {"terrain = 3", "terrain is 3, a table [terrain] was expected"},
         {"[[terrain]]\ngenerator = \"urban\"", "terrain is an array"}};
     for (const auto& [text, words] : cases) {
@@ -139,6 +141,32 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         EXPECT_THAT(message, HasSubstr("scene.toml:")) << text;
         EXPECT_THAT(message, HasSubstr(words)) << text;
     }
+}
+
+// The parser goes one call deeper for every part of a name and for every bracket.
+TEST(SceneFile, EndlessNamesAndNestingAreRefusedBeforeTheStackEnds) {
+    std::string parts = "a";
+    for (int i = 0; i < 200'000; ++i) {
+        parts += ".a";
+    }
+    const std::string open(50'000, '[');
+    const std::string close(50'000, ']');
+    for (const std::string& text :
+         {parts + " = 1", "[" + parts + "]\nb = 1", "[[" + parts + "]]\nb = 1",
+          "a = {" + parts + " = 1}", "\"#\"." + parts + " = 1",
+          "'=' . \"\\\"\" . " + parts + " = 1", "a = [\"\"\"\n# \"\"\", {" + parts + " = 1}]",
+          "a = " + open + close}) {
+        EXPECT_THAT(error_of(text), HasSubstr("scene.toml:")) << text.substr(0, 30);
+    }
+}
+
+TEST(SceneFile, DotsInTextsAndCommentsAreNoParts) {
+    const std::string dots = "# 1.2.3.4" + std::string(500, '.') + "\n";
+    const std::string text = dots + "name = \"" + std::string(500, '.') + "\"\n[terrain]\n" +
+                             "generator = 'urban' " + dots + dots + "\n";
+    const auto scene = parse_scene(text, "scene.toml", ".");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->name.size(), 500U);
 }
 
 TEST(SceneFile, PathsStartFromTheSceneFilesFolderAndTheNameIsItsOwn) {
