@@ -1,7 +1,9 @@
 #include "engine/truth/separable_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 #include "engine/core/worker_pool.h"
@@ -14,13 +16,42 @@ int radius_of(std::span<const double> kernel) {
     return static_cast<int>(kernel.size() / 2);
 }
 
+using Row = std::span<const double>;
+
 // A row with its first and last sample repeated `radius` times beyond it.
-std::vector<double> extended(std::span<const double> row, int radius) {
+std::vector<double> extended(Row row, int radius) {
     const auto margin = static_cast<std::size_t>(radius);
     std::vector<double> result(row.size() + 2 * margin, row.front());
     std::copy(row.begin(), row.end(), result.begin() + radius);
     std::fill(result.end() - radius, result.end(), row.back());
     return result;
+}
+
+// `count` samples from `begin` on; a fixed count lets the compiler keep the sums in registers.
+template <std::size_t count>
+void weighted_block(std::span<double> sum, std::span<const Row> rows,
+                    std::span<const double> weights, std::size_t begin) {
+    std::array<double, count> block{};
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const double* const samples = rows[k].data() + begin;
+        for (std::size_t i = 0; i < count; ++i) {
+            block[i] += weights[k] * samples[i];
+        }
+    }
+    std::copy(block.begin(), block.end(), sum.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
+// sum[i] = Σ weights[k]·rows[k][i].
+void weighted_sum(std::span<double> sum, std::span<const Row> rows,
+                  std::span<const double> weights) {
+    constexpr std::size_t block = 8;
+    std::size_t i = 0;
+    for (; i + block <= sum.size(); i += block) {
+        weighted_block<block>(sum, rows, weights, i);
+    }
+    for (; i < sum.size(); ++i) {
+        weighted_block<1>(sum, rows, weights, i);
+    }
 }
 
 } // namespace
@@ -54,9 +85,11 @@ Plane filtered_along_cols(const Plane& plane, std::span<const double> kernel, un
     Plane result(plane.cols(), plane.rows());
     const auto filter_row = [&](int row) {
         const std::vector<double> samples = extended(plane.row(row), radius);
+        std::vector<Row> shifted;
         for (std::size_t k = 0; k < kernel.size(); ++k) {
-            add_scaled(result.row(row), std::span(samples).subspan(k, width), kernel[k]);
+            shifted.push_back(Row(samples).subspan(k, width));
         }
+        weighted_sum(result.row(row), shifted, kernel);
     };
     parallel_for(plane.cols() > 0 ? plane.rows() : 0, filter_row, {threads, {}, {}});
     return result;
@@ -66,11 +99,11 @@ Plane filtered_along_rows(const Plane& plane, std::span<const double> kernel, un
     const int radius = radius_of(kernel);
     Plane result(plane.cols(), plane.rows());
     const auto filter_row = [&](int row) {
+        std::vector<Row> around;
         for (int k = -radius; k <= radius; ++k) {
-            const int source = std::clamp(row + k, 0, plane.rows() - 1);
-            add_scaled(result.row(row), plane.row(source),
-                       kernel[static_cast<std::size_t>(k + radius)]);
+            around.push_back(plane.row(std::clamp(row + k, 0, plane.rows() - 1)));
         }
+        weighted_sum(result.row(row), around, kernel);
     };
     parallel_for(plane.rows(), filter_row, {threads, {}, {}});
     return result;
