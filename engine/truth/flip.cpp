@@ -215,10 +215,10 @@ FeatureKernels feature_kernels(double pixels_per_degree) {
     const int radius = static_cast<int>(std::ceil(3.0 * deviation));
     FeatureKernels kernels;
     kernels.smooth = gaussian(deviation, radius);
-    for (int x = -radius; x <= radius; ++x) {
-        const double weight = kernels.smooth[static_cast<std::size_t>(x + radius)];
-        kernels.edge.push_back(-x * weight);
-        kernels.point.push_back((x * x / (deviation * deviation) - 1.0) * weight);
+    for (std::size_t k = 0; k < kernels.smooth.size(); ++k) {
+        const double x = static_cast<double>(k) - radius;
+        kernels.edge.push_back(-x * kernels.smooth[k]);
+        kernels.point.push_back((x * x / (deviation * deviation) - 1.0) * kernels.smooth[k]);
     }
     normalize(kernels.smooth);
     balance(kernels.edge);

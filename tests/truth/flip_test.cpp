@@ -263,20 +263,34 @@ TEST(Flip, IsSymmetricAndInTheUnitRange) {
     }
 }
 
-// Hard edges, lines and dots of black on white: the largest features there are.
+// Black on white: a hard edge, a line, a dot of one pixel, a disc.
+bool is_dark(int pattern, int col, int row) {
+    switch (pattern) {
+    case 0:
+        return col < 20;
+    case 1:
+        return col == 20;
+    case 2:
+        return col == 20 && row == 20;
+    default:
+        return std::hypot(col - 20, row - 20) < 4.0;
+    }
+}
+
+Image pattern_picture(int pattern) {
+    Image picture = plain_picture(41, 41, {255, 255, 255});
+    for (int row = 0; row < 41; ++row) {
+        for (int col = 0; col < 41; ++col) {
+            picture(col, row) = is_dark(pattern, col, row) ? Rgba8{0, 0, 0} : picture(col, row);
+        }
+    }
+    return picture;
+}
+
 TEST(Flip, StaysInTheUnitRangeWhereFeaturesAreLargest) {
     const Image white = plain_picture(41, 41, {255, 255, 255});
     for (int pattern = 0; pattern < 4; ++pattern) {
-        Image shown = white;
-        for (int row = 0; row < 41; ++row) {
-            for (int col = 0; col < 41; ++col) {
-                const bool dark = (pattern == 0 && col < 20) || (pattern == 1 && col == 20) ||
-                                  (pattern == 2 && col == 20 && row == 20) ||
-                                  (pattern == 3 && std::hypot(col - 20, row - 20) < 4.0);
-                shown(col, row) = dark ? Rgba8{0, 0, 0} : Rgba8{255, 255, 255};
-            }
-        }
-        const Flip result = flip(shown, white).value();
+        const Flip result = flip(pattern_picture(pattern), white).value();
         for (const float error : result.map.samples()) {
             ASSERT_GE(error, 0.0F);
             ASSERT_LE(error, 1.0F);

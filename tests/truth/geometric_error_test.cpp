@@ -305,7 +305,7 @@ TEST(WrongSurface, BeginsBeyondOneTexel) {
     HitBuffer truth(3, 1, hit_at(100.0, 100.0));
     HitBuffer shown(3, 1);
     shown(0, 0) = hit_at(101.0, 100.0);
-    shown(1, 0) = hit_at(101.001, 100.0);
+    shown(1, 0) = hit_at(std::nextafter(101.0F, 102.0F), 100.0);
     shown(2, 0) = hit_at(100.75, 100.75);
     const auto errors = geometric_errors(setting.view(), shown, truth);
     ASSERT_TRUE(errors);

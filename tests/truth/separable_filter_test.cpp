@@ -30,13 +30,13 @@ Plane random_plane(int cols, int rows, std::mt19937& random) {
 // The definition, weight by weight.
 double correlation_at(const Plane& plane, const std::vector<double>& along_cols,
                       const std::vector<double>& along_rows, int col, int row) {
-    const int r = static_cast<int>(along_cols.size()) / 2;
-    const int s = static_cast<int>(along_rows.size()) / 2;
+    const int left = col - static_cast<int>(along_cols.size()) / 2;
+    const int top = row - static_cast<int>(along_rows.size()) / 2;
     double sum = 0.0;
-    for (int j = -s; j <= s; ++j) {
-        for (int i = -r; i <= r; ++i) {
-            sum += along_cols[static_cast<std::size_t>(i + r)] *
-                   along_rows[static_cast<std::size_t>(j + s)] * plane.clamped(col + i, row + j);
+    for (std::size_t j = 0; j < along_rows.size(); ++j) {
+        for (std::size_t i = 0; i < along_cols.size(); ++i) {
+            sum += along_cols[i] * along_rows[j] *
+                   plane.clamped(left + static_cast<int>(i), top + static_cast<int>(j));
         }
     }
     return sum;
@@ -83,9 +83,10 @@ TEST(Gaussian, HasItsDeviation) {
         const int radius = static_cast<int>(kernel.size()) / 2;
         double variance = 0.0;
         double sum = 0.0;
-        for (int x = -radius; x <= radius; ++x) {
-            variance += x * x * kernel[static_cast<std::size_t>(x + radius)];
-            sum += kernel[static_cast<std::size_t>(x + radius)];
+        for (std::size_t k = 0; k < kernel.size(); ++k) {
+            const double x = static_cast<double>(k) - radius;
+            variance += x * x * kernel[k];
+            sum += kernel[k];
         }
         EXPECT_NEAR(sum, 1.0, 1e-14);
         EXPECT_NEAR(std::sqrt(variance), deviation, 1e-4 * deviation);
