@@ -8,8 +8,8 @@
 #include <glm/vec2.hpp>
 
 #include "bench/environment.h"
-#include "bench/statistics.h"
 #include "engine/core/result.h"
+#include "engine/core/statistics.h"
 #include "engine/render/frame_stats.h"
 #include "engine/scene/poses.h"
 #include "engine/scene/technique.h"

@@ -1,4 +1,4 @@
-#include "bench/statistics.h"
+#include "engine/core/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace reljef::bench {
+namespace reljef {
 namespace {
 
 std::vector<double> sorted(std::span<const double> samples) {
@@ -45,4 +45,4 @@ double relative_distance(double a, double b) {
     return std::abs(a - b) / std::min(a, b);
 }
 
-} // namespace reljef::bench
+} // namespace reljef

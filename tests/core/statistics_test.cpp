@@ -1,4 +1,4 @@
-#include "bench/statistics.h"
+#include "engine/core/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reljef::bench {
+namespace reljef {
 namespace {
 
 TEST(Median, of_odd_even_and_single_counts) {
@@ -91,4 +91,4 @@ TEST(StatisticsDeathTest, of_nothing_is_a_broken_precondition) {
 }
 
 } // namespace
-} // namespace reljef::bench
+} // namespace reljef

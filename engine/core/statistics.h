@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace reljef::bench {
+namespace reljef {
 
 /// The value that a share of the samples lies at or below, between ranks by straight lines (type 7
 /// of Hyndman and Fan 1996, "Sample Quantiles in Statistical Packages"). `share` in [0,1].
@@ -12,7 +12,7 @@ double quantile(std::span<const double> samples, double share);
 /// The middle sample, or the mean of the two in the middle. Precondition as quantile().
 double median(std::span<const double> samples);
 
-/// What is told of a sample of frame times, in their unit.
+/// What is told of samples, such as frame times or errors, in their unit.
 struct Summary {
     double median = 0.0;
     double p95 = 0.0;
@@ -25,4 +25,4 @@ Summary summarize(std::span<const double> samples);
 /// 0.1 for 10 and 11, whichever comes first.
 double relative_distance(double a, double b);
 
-} // namespace reljef::bench
+} // namespace reljef
