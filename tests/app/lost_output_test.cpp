@@ -9,8 +9,8 @@ namespace {
 
 using test::expect_refusal;
 
-constexpr const char* small_dem = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
-                                  "1 9 3\n4 2 6\n7 8 1\n";
+constexpr const char* tiny_dem = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
+                                 "1 9 3\n4 2 6\n7 8 1\n";
 
 // Runs reljef behind a shell's limits and redirections: `before` and `after` its words.
 test::ProgramResult in_shell(const std::string& before, const std::vector<std::string>& arguments,
@@ -41,7 +41,7 @@ test::ProgramResult on_a_full_disk(const std::vector<std::string>& arguments) {
 class FullDiskVideo : public testing::Test {
 protected:
     const test::TemporaryFolder folder_; // on a disk with room
-    const std::string dem_ = folder_.write("dem.asc", small_dem).string();
+    const std::string dem_ = folder_.write("dem.asc", tiny_dem).string();
 };
 class FullDisk : public FullDiskVideo, public testing::WithParamInterface<std::string> {};
 
@@ -88,7 +88,7 @@ TEST(ClosedStreams, MessagesThatNobodyReadsEndNothing) {
 class SameFile : public testing::Test {
 protected:
     void SetUp() override {
-        folder_.write("dem.asc", small_dem);
+        folder_.write("dem.asc", tiny_dem);
         folder_.write("photo.png", photo_);
     }
     // In the folder, whose files must be as before.
