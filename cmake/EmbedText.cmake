@@ -15,6 +15,8 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
               -P ${reljef_embed_script}
       DEPENDS ${paths} ${reljef_embed_script}
       COMMENT "Embedding ${EMBED_FOLDER}" VERBATIM)
+    # Not there yet where rooms are only read, not built.
+    set_source_files_properties(${EMBED_OUTPUT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endfunction()
   return()
 endif()

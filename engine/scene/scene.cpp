@@ -41,6 +41,12 @@ std::optional<double> height_of(const TerrainNode& terrain, const glm::dmat4& wo
     return hit ? std::optional(above.z - hit->t) : std::nullopt;
 }
 
+// A node may have been taken out of the tree and be gone.
+bool holds(const Node& node, const Node* sought) {
+    return &node == sought || std::any_of(node.children().begin(), node.children().end(),
+                                          [&](const auto& child) { return holds(*child, sought); });
+}
+
 } // namespace
 
 glm::dvec3 to_light(const Light& light) {
@@ -137,12 +143,6 @@ Result<Node*> Scene::add_terrain(terrain::Terrain terrain, const TerrainOptions&
 
 Node& Scene::add_mesh(Mesh mesh, const Material& material) {
     return root_->add("mesh", MeshNode{std::make_shared<const Mesh>(std::move(mesh)), material});
-}
-
-// A node may have been taken out of the tree and be gone.
-bool holds(const Node& node, const Node* sought) {
-    return &node == sought || std::any_of(node.children().begin(), node.children().end(),
-                                          [&](const auto& child) { return holds(*child, sought); });
 }
 
 Node& Scene::add_light(const Light& light) {
