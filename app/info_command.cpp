@@ -135,9 +135,7 @@ void print_text(const Json& info) {
 }
 
 Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
-    TerrainChoice terrain = choice.terrain;
-    terrain.quiet = true; // the notes are part of the answer
-    auto source = open_terrain(terrain, interrupt.token());
+    auto source = open_terrain(choice.terrain, interrupt.token(), Notes::kept);
     if (!source) {
         return source.error();
     }

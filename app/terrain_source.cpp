@@ -76,7 +76,8 @@ Result<terrain::Terrain> read(const TerrainChoice& choice, const io::SceneDescri
 
 } // namespace
 
-Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop) {
+Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop,
+                                   Notes notes) {
     auto description = describe(choice.terrain);
     if (!description) {
         return description.error();
@@ -86,7 +87,7 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
     if (!terrain) {
         return terrain.error();
     }
-    if (!choice.quiet) {
+    if (!choice.quiet && notes == Notes::told) {
         for (const std::string& note : terrain->notes) {
             tell(fmt::format("reljef: note: {}\n", note));
         }

@@ -14,8 +14,12 @@ struct TerrainSource {
     io::SceneDescription description;
 };
 
+/// What becomes of a terrain's notes: told on stderr, or only kept in terrain::Terrain::notes.
+enum class Notes { told, kept };
+
 /// Opens what TERRAIN names, with progress on stderr. Errors name the terrain, what was found and
 /// what was expected.
-Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop);
+Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop,
+                                   Notes notes = Notes::told);
 
 } // namespace reljef::app

@@ -44,23 +44,4 @@ GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& til
     return grid_mesh(placement, tile, {quads, quads}, [&](glm::dvec2) { return height; });
 }
 
-std::vector<std::uint16_t> grid_indices(int cols, int rows) {
-    check((cols + 1) * (rows + 1) <= 65536, "more vertices than 16-bit indices reach");
-    std::vector<std::uint16_t> indices;
-    indices.reserve(6U * static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
-    const auto vertex = [&](int col, int row) {
-        return static_cast<std::uint16_t>(row * (cols + 1) + col);
-    };
-    for (int row = 0; row < rows; ++row) {
-        for (int col = 0; col < cols; ++col) {
-            for (const std::uint16_t index :
-                 {vertex(col, row), vertex(col, row + 1), vertex(col + 1, row + 1),
-                  vertex(col, row), vertex(col + 1, row + 1), vertex(col + 1, row)}) {
-                indices.push_back(index);
-            }
-        }
-    }
-    return indices;
-}
-
 } // namespace reljef::render

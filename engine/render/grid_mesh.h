@@ -37,8 +37,4 @@ int flat_quads(terrain::PlacementKind kind);
 /// The tile's part of the flat reference surface at `height` metres, of flat_quads() quads a side.
 GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height);
 
-/// Two triangles a quad, counter-clockwise from above, split from the north-west to the south-east
-/// corner. Precondition: (cols + 1)·(rows + 1) <= 65,536.
-std::vector<std::uint16_t> grid_indices(int cols, int rows);
-
 } // namespace reljef::render

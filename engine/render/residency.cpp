@@ -6,6 +6,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "engine/core/grid_triangles.h"
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
 #include "engine/render/terrain_maps.h"
@@ -255,7 +256,7 @@ Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, FrameStats&
     if (found != grid_indices_.end()) {
         return &found->second;
     }
-    auto buffer = gl::Buffer::create(bytes_of(grid_indices(cols, rows)));
+    auto buffer = gl::Buffer::create(bytes_of(grid_triangles<std::uint16_t>(cols, rows)));
     if (!buffer) {
         return buffer.error();
     }

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/core/grid_triangles.h"
+
 namespace reljef::scene {
 namespace {
 
@@ -23,24 +25,6 @@ void add_quad(Mesh& mesh, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) {
         mesh.indices.push_back(first + i);
     }
-}
-
-// Two triangles for each of cols × rows quads over a grid of (cols + 1) × (rows + 1) vertices.
-std::vector<std::uint32_t> quad_grid_indices(int cols, int rows) {
-    const auto vertex = [&](int col, int row) {
-        return static_cast<std::uint32_t>(row * (cols + 1) + col);
-    };
-    std::vector<std::uint32_t> indices;
-    for (int row = 0; row < rows; ++row) {
-        for (int col = 0; col < cols; ++col) {
-            for (const std::uint32_t index :
-                 {vertex(col, row), vertex(col, row + 1), vertex(col + 1, row + 1),
-                  vertex(col, row), vertex(col + 1, row + 1), vertex(col + 1, row)}) {
-                indices.push_back(index);
-            }
-        }
-    }
-    return indices;
 }
 
 } // namespace
@@ -87,7 +71,7 @@ Mesh sphere_mesh(float radius, int segments) {
             mesh.texture_coordinates.emplace_back(u, v);
         }
     }
-    mesh.indices = quad_grid_indices(around, down);
+    mesh.indices = grid_triangles<std::uint32_t>(around, down);
     return mesh;
 }
 
