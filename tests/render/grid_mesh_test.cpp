@@ -1,6 +1,5 @@
 #include "engine/render/grid_mesh.h"
 
-
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
