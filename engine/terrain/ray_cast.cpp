@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace reljef::terrain {
 namespace {
@@ -249,7 +250,8 @@ bool is_finite(glm::dvec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-constexpr double bend_tolerance = 1e-3; // samples, and metres of height
+constexpr double bend_tolerance = 1e-3;    // samples, and metres of height
+constexpr double quartic_tolerance = 1e-5; // the same
 constexpr int most_halvings = 24;
 constexpr int most_halvings_unmapped = 8; // of a stretch without a place on the map
 
@@ -267,7 +269,7 @@ struct Bend {
 
 Bend bend_of(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
     const glm::dvec3 off = halfway - 0.5 * (from + to);
-    return {std::hypot(off.x, off.y), std::abs(off.z)};
+    return {glm::length(glm::dvec2(off)), std::abs(off.z)};
 }
 
 // A box around a stretch, with twice the room that its bend asks for; nothing where it is bent so
@@ -275,7 +277,7 @@ Bend bend_of(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
 std::optional<Box> box_around(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
     constexpr double most_bend = 0.25; // of the chord
     const Bend bend = bend_of(from, halfway, to);
-    if (bend.across > most_bend * std::hypot(to.x - from.x, to.y - from.y)) {
+    if (bend.across > most_bend * glm::distance(glm::dvec2(from), glm::dvec2(to))) {
         return std::nullopt;
     }
     Box box;
@@ -309,6 +311,47 @@ std::optional<MinMax> bounds_below(const MinMaxPyramid& pyramid, const Box& box)
     return bounds;
 }
 
+// Through five places of a ray, evenly apart in t (Newton's form): good for 100 km, at a hundredth
+// of the map's own cost.
+class Quartic {
+public:
+    Quartic(const RayPlace& first, const RayPlace& second, const RayPlace& third,
+            const RayPlace& fourth, const RayPlace& fifth)
+        : begin_(first.t),
+          step_(second.t - first.t), differences_{*first.sample, *second.sample, *third.sample,
+                                                  *fourth.sample, *fifth.sample} {
+        for (std::size_t order = 1; order < differences_.size(); ++order) {
+            for (std::size_t i = differences_.size() - 1; i >= order; --i) {
+                differences_[i] =
+                    (differences_[i] - differences_[i - 1]) / static_cast<double>(order);
+            }
+        }
+    }
+
+    [[nodiscard]] RayPlace at(double t) const {
+        const double u = (t - begin_) / step_;
+        glm::dvec3 sample = differences_[4];
+        for (int i = 3; i >= 0; --i) {
+            sample = sample * (u - i) + differences_[static_cast<std::size_t>(i)];
+        }
+        return {t, sample};
+    }
+
+    // Whether it meets another place of the ray too.
+    [[nodiscard]] bool meets(const RayPlace& place) const {
+        if (!place.sample) {
+            return false;
+        }
+        const glm::dvec3 miss = glm::abs(*at(place.t).sample - *place.sample);
+        return std::max({miss.x, miss.y, miss.z}) <= quartic_tolerance;
+    }
+
+private:
+    double begin_;
+    double step_;
+    std::array<glm::dvec3, 5> differences_; // divided, of order 0 to 4
+};
+
 // A world ray as seen in sample coordinates, followed front to back.
 class BentRay {
 public:
@@ -319,9 +362,10 @@ public:
     std::optional<SurfaceHit> first_hit(Interval range) {
         const RayPlace from = place_at(range.begin);
         const RayPlace to = place_at(range.end);
-        return placement_.kind() == PlacementKind::plane
-                   ? first_hit_on_chord(from, to)
-                   : first_hit_between(from, to, most_halvings);
+        if (placement_.kind() == PlacementKind::plane) {
+            return first_hit_on_chord(from, to);
+        }
+        return first_hit_between(from, place_at(middle_of(from, to)), to, most_halvings);
     }
 
 private:
@@ -329,25 +373,60 @@ private:
         return {t, placement_.sample_from_world(ray_.at(t))};
     }
 
-    std::optional<SurfaceHit> first_hit_between(const RayPlace& from, const RayPlace& to,
-                                                int halvings) {
-        const RayPlace halfway = place_at(0.5 * (from.t + to.t));
-        if (from.sample && halfway.sample && to.sample) {
-            if (clears_surface(*from.sample, *halfway.sample, *to.sample)) {
-                return std::nullopt;
-            }
-            const Bend bend = bend_of(*from.sample, *halfway.sample, *to.sample);
-            if (std::max(bend.across, bend.height) <= bend_tolerance) {
-                const auto hit = first_hit_on_chord(from, to);
-                return hit ? std::optional(moved_onto_surface(*hit, {from.t, to.t})) : hit;
-            }
+    [[nodiscard]] static double middle_of(const RayPlace& from, const RayPlace& to) {
+        return 0.5 * (from.t + to.t);
+    }
+
+    std::optional<SurfaceHit> first_hit_between(const RayPlace& from, const RayPlace& halfway,
+                                                const RayPlace& to, int halvings) {
+        const bool mapped = from.sample && halfway.sample && to.sample;
+        if (mapped && clears_surface(*from.sample, *halfway.sample, *to.sample)) {
+            return std::nullopt;
+        }
+        if (mapped && is_straight(from, halfway, to)) {
+            return first_hit_near_chord(from, to);
         }
         const bool unmapped = !from.sample && !halfway.sample && !to.sample;
-        if (halvings > (unmapped ? most_halvings - most_halvings_unmapped : 0)) {
-            const auto hit = first_hit_between(from, halfway, halvings - 1);
-            return hit ? hit : first_hit_between(halfway, to, halvings - 1);
+        if (halvings <= (unmapped ? most_halvings - most_halvings_unmapped : 0)) {
+            return first_hit_on_chord(from, to);
         }
-        return first_hit_on_chord(from, to);
+        const RayPlace before = place_at(middle_of(from, halfway));
+        const RayPlace after = place_at(middle_of(halfway, to));
+        if (mapped && before.sample && after.sample) {
+            const Quartic quartic(from, before, halfway, after, to);
+            // Where it is farthest off: next to the ends.
+            if (quartic.meets(place_at(middle_of(from, before))) &&
+                quartic.meets(place_at(middle_of(after, to)))) {
+                return first_hit_on(quartic, from, to, halvings);
+            }
+        }
+        const auto hit = first_hit_between(from, before, halfway, halvings - 1);
+        return hit ? hit : first_hit_between(halfway, after, to, halvings - 1);
+    }
+
+    // As first_hit_between, where the quartic is as good as the map.
+    std::optional<SurfaceHit> first_hit_on(const Quartic& quartic, const RayPlace& from,
+                                           const RayPlace& to, int halvings) {
+        const RayPlace halfway = quartic.at(middle_of(from, to));
+        if (clears_surface(*from.sample, *halfway.sample, *to.sample)) {
+            return std::nullopt;
+        }
+        if (halvings == 0 || is_straight(from, halfway, to)) {
+            return first_hit_near_chord(from, to);
+        }
+        const auto hit = first_hit_on(quartic, from, halfway, halvings - 1);
+        return hit ? hit : first_hit_on(quartic, halfway, to, halvings - 1);
+    }
+
+    [[nodiscard]] static bool is_straight(const RayPlace& from, const RayPlace& halfway,
+                                          const RayPlace& to) {
+        const Bend bend = bend_of(*from.sample, *halfway.sample, *to.sample);
+        return std::max(bend.across, bend.height) <= bend_tolerance;
+    }
+
+    std::optional<SurfaceHit> first_hit_near_chord(const RayPlace& from, const RayPlace& to) {
+        const auto hit = first_hit_on_chord(from, to);
+        return hit ? std::optional(moved_onto_surface(*hit, from, to)) : std::nullopt;
     }
 
     // Whether all of a stretch lies above, below or beside the surface.
@@ -387,28 +466,36 @@ private:
         return stretch.hit;
     }
 
-    // The surface as the ray itself meets it, near a hit of its chord: by secants; the hit as it is
-    // where they do not come closer.
-    [[nodiscard]] SurfaceHit moved_onto_surface(const SurfaceHit& hit, Interval range) const {
+    // The surface as the ray itself meets it, near a hit of its chord: the first step by the slope
+    // of the chord over the surface, the others by secants. The hit as it is where they come no
+    // closer.
+    [[nodiscard]] SurfaceHit moved_onto_surface(const SurfaceHit& hit, const RayPlace& from,
+                                                const RayPlace& to) const {
         constexpr int most_secants = 4;
-        constexpr double first_secant = 1e-3; // of the stretch
+        constexpr double close_enough = 1e-8; // metres of height
         RayPlace best = place_at(hit.t);
         double best_miss = clearance(best);
-        double other = hit.t + std::copysign(first_secant * (range.end - range.begin), best_miss);
-        double other_miss = clearance(place_at(other));
-        for (int i = 0; i < most_secants && best_miss != 0.0; ++i) {
-            const double t = best.t - best_miss * (other - best.t) / (other_miss - best_miss);
-            const RayPlace next = place_at(t);
+        double step = -best_miss / slope_over_surface(hit, from, to);
+        for (int i = 0; i < most_secants && std::abs(best_miss) > close_enough; ++i) {
+            const RayPlace next = place_at(best.t + step);
             const double miss = clearance(next);
             if (!(std::abs(miss) < std::abs(best_miss))) {
                 break;
             }
-            other = best.t;
-            other_miss = best_miss;
+            step *= -miss / (miss - best_miss);
             best = next;
             best_miss = miss;
         }
         return best.sample ? SurfaceHit{best.t, *best.sample} : hit;
+    }
+
+    // Change of the chord's height over the surface with t.
+    [[nodiscard]] double slope_over_surface(const SurfaceHit& hit, const RayPlace& from,
+                                            const RayPlace& to) const {
+        constexpr double part = 1e-3; // of the chord
+        const double step = part * (to.t - from.t);
+        const glm::dvec3 ahead = hit.sample + part * (*to.sample - *from.sample);
+        return (clearance({hit.t + step, ahead}) - clearance({hit.t, hit.sample})) / step;
     }
 
     // How far a place of the ray lies above the surface, metres of height; no number off the grid.
