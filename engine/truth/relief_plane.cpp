@@ -111,13 +111,11 @@ public:
     // The relief goes on beyond its outermost texels as they are: there a ray sees it as if it did
     // not move that way at all.
     std::optional<double> first_hit_clamped(Interval range) {
-        std::array<double, 6> breaks{range.begin, range.begin, range.begin,
-                                     range.begin, range.begin, range.end};
-        for (int axis = 0; axis < 2; ++axis) {
-            for (int side = 0; side < 2; ++side) {
-                breaks[static_cast<std::size_t>(1 + 2 * axis + side)] =
-                    std::clamp(time_at(axis, side * (texels_[axis] - 1.0)), range.begin, range.end);
-            }
+        const glm::dvec2 last = glm::dvec2(texels_) - 1.0;
+        std::array<double, 6> breaks{range.begin,     time_at(0, 0.0),    time_at(0, last.x),
+                                     time_at(1, 0.0), time_at(1, last.y), range.end};
+        for (double& t : breaks) {
+            t = std::clamp(t, range.begin, range.end);
         }
         std::sort(breaks.begin(), breaks.end());
         for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {

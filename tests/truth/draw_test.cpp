@@ -138,6 +138,40 @@ TEST(Draw, ASceneWithoutTerrainIsAllSky) {
     EXPECT_EQ(picture->image(0, 0), (Rgba8{0, 0, 0, 255})) << "black without a sky";
 }
 
+// Level ground of one colour, unlit: what a pixel shows is known from its depth alone.
+TEST(Draw, SeesThroughTheAirInPerspectiveOnly) {
+    scene::Scene scene;
+    test::add_terrain(scene, test::plane_heightfield(Grid<float>(9, 9, 0.0F), {100.0, 100.0}),
+                      Image(9, 9, Rgba8{200, 90, 10, 255}));
+    const scene::Sky sky{.visibility = 900.0};
+    scene.set_sky(sky);
+    scene::Camera camera = test::camera_at({0.0, -300.0, 100.0}, {0.0, 0.0, 0.0});
+    camera.view_height = 300.0;
+    auto& node = scene.add_camera(camera);
+    const glm::vec3 albedo = linear_from_rgba8({200, 90, 10, 255});
+    const glm::ivec2 size(16, 12);
+    for (const auto kind :
+         {scene::ProjectionKind::perspective, scene::ProjectionKind::orthographic}) {
+        node.get<scene::Camera>()->projection = kind;
+        const auto picture = draw(scene, size);
+        for (int i = 0; i < size.x * size.y; ++i) {
+            const glm::ivec2 pixel(i % size.x, i / size.x);
+            const Ray ray = scene::view_ray(scene.camera(), size, glm::dvec2(pixel) + 0.5);
+            const Hit& hit = picture->hits(pixel.x, pixel.y);
+            const double distance = glm::distance(ray.origin, ray.at(hit.depth));
+            const glm::vec3 ground = kind == scene::ProjectionKind::perspective
+                                         ? seen_through_air(sky, albedo, distance)
+                                         : albedo;
+            const Rgba8 expected =
+                rgba8_from_linear(hit.is_sky() ? sky_color(sky, {}, ray.direction) : ground);
+            ASSERT_NEAR(picture->image(pixel.x, pixel.y).r, expected.r, 1) << i;
+            ASSERT_NEAR(picture->image(pixel.x, pixel.y).b, expected.b, 1) << i;
+        }
+        EXPECT_FALSE(picture->hits(8, 6).is_sky());
+        EXPECT_TRUE(picture->hits(8, 0).is_sky());
+    }
+}
+
 TEST(Draw, TheTechniqueChangesNothing) {
     scene::Scene scene = hilly_scene();
     const auto polygons = draw(scene, {32, 24});

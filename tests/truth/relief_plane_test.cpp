@@ -197,18 +197,22 @@ TEST(ReliefPlane, WrappedIsTheSameACopyFarther) {
     }
 }
 
+// At the surface itself, on the lines where one copy, or the border drawn out, follows the other.
 TEST(ReliefPlane, NoRayFromAbovePassesThroughTheSeams) {
     test::Chance chance(46);
     const Grid<float> tile = test::random_heights(5, 7, 0.0F, 1.0F, 5);
-    const ReliefPlane plane = plane_of(tile, {1.0, 0.5, -1.0, Border::wrap});
-    for (int i = 0; i < 100000; ++i) {
-        // Through texel centres and the lines between the cells, the copies' own among them.
-        const glm::dvec2 texel(chance.whole(-12, 12), chance.whole(-12, 12));
-        const glm::dvec2 at = (texel + 0.5) / glm::dvec2(5.0, 7.0);
-        const glm::dvec3 through((at.x - 0.5), (0.5 - at.y), -0.25);
-        const glm::dvec3 way(chance.one_in(3) ? 0.0 : chance.between(-2.0, 2.0),
-                             chance.one_in(3) ? 0.0 : chance.between(-2.0, 2.0), -1.0);
-        ASSERT_TRUE(plane.first_hit({through - way, way})) << i;
+    for (const Border border : {Border::wrap, Border::clamp}) {
+        const ReliefOptions options{1.0, 0.5, -1.0, border};
+        const ReliefPlane plane = plane_of(tile, options);
+        for (int i = 0; i < 100000; ++i) {
+            glm::dvec2 texel(chance.whole(-2, 2) * 5, chance.whole(-2, 2) * 7);
+            texel[chance.whole(0, 1)] += chance.one_in(2) ? chance.between(-9.0, 9.0) : 0.0;
+            const glm::dvec2 at = (texel + 0.5) / glm::dvec2(5.0, 7.0);
+            const double height = gl_sample(tile, at, border == Border::wrap);
+            const glm::dvec3 way(chance.one_in(3) ? 0.0 : chance.between(-2.0, 2.0),
+                                 chance.one_in(3) ? 0.0 : chance.between(-2.0, 2.0), -1.0);
+            ASSERT_TRUE(plane.first_hit({place_of(options, at, height) - way, way})) << i;
+        }
     }
 }
 
