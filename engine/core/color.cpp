@@ -1,5 +1,6 @@
 #include "engine/core/color.h"
 
+#include <array>
 #include <cmath>
 
 namespace reljef {
@@ -7,6 +8,14 @@ namespace {
 
 std::uint8_t byte_from_unit(float unit) {
     return static_cast<std::uint8_t>(std::lround(unit * 255.0F));
+}
+
+std::array<float, 256> linear_values() {
+    std::array<float, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = linear_from_srgb(static_cast<float>(i) / 255.0F);
+    }
+    return values;
 }
 
 } // namespace
@@ -31,9 +40,8 @@ Rgba8 rgba8_from_linear(glm::vec3 linear, std::uint8_t alpha) {
 }
 
 glm::vec3 linear_from_rgba8(Rgba8 color) {
-    return {linear_from_srgb(static_cast<float>(color.r) / 255.0F),
-            linear_from_srgb(static_cast<float>(color.g) / 255.0F),
-            linear_from_srgb(static_cast<float>(color.b) / 255.0F)};
+    static const std::array<float, 256> linear = linear_values();
+    return {linear[color.r], linear[color.g], linear[color.b]};
 }
 
 } // namespace reljef

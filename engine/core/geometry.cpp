@@ -32,11 +32,10 @@ Box transformed(const glm::dmat4& to_from_local, const Box& box) {
     return result;
 }
 
-std::optional<Interval> intersect(const Ray& ray, const Box& box) {
+std::optional<Interval> intersect(const Ray& ray, const Box& box, Interval range) {
     if (box.empty()) {
         return std::nullopt;
     }
-    Interval range{0.0, std::numeric_limits<double>::infinity()};
     for (int axis = 0; axis < 3; ++axis) {
         if (ray.direction[axis] == 0.0) {
             if (ray.origin[axis] < box.low[axis] || ray.origin[axis] > box.high[axis]) {

@@ -40,13 +40,16 @@ struct Ray {
     [[nodiscard]] glm::dvec3 at(double t) const { return origin + t * direction; }
 };
 
-/// The range of t >= 0 in which a ray is inside a box, if any (slab method; a direction of 0 along
-/// an axis is allowed).
+/// A range of t.
 struct Interval {
     double begin = 0.0;
     double end = 0.0;
 };
-std::optional<Interval> intersect(const Ray& ray, const Box& box);
+
+/// The part of `range` (all t >= 0) in which a ray is inside a box, if any (slab method; a
+/// direction of 0 along an axis is allowed).
+std::optional<Interval> intersect(const Ray& ray, const Box& box,
+                                  Interval range = {0.0, std::numeric_limits<double>::infinity()});
 
 /// The half-spaces a camera sees, each dot(normal, p) + offset >= 0. With an infinite far plane one
 /// of them always holds.

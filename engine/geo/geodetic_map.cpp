@@ -70,6 +70,7 @@ GeodeticMap::GeodeticMap(Grid<glm::dvec3> control, glm::dvec2 first, glm::dvec2 
     for (glm::dvec3& value : control_.samples()) {
         value -= base_;
     }
+    middle_longitude_ = latitude_longitude(middle()).y;
 }
 
 GeodeticMap::Value GeodeticMap::evaluate(glm::dvec2 sample) const {
@@ -111,7 +112,7 @@ glm::dvec2 GeodeticMap::latitude_longitude(glm::dvec2 sample) const {
 
 GeodeticMap::Target GeodeticMap::target(double latitude, double longitude) const {
     if (kind_ == Kind::degrees) {
-        const double turns = std::round((longitude - latitude_longitude(middle()).y) / 360.0);
+        const double turns = std::round((longitude - middle_longitude_) / 360.0);
         const glm::dvec3 at(latitude - base_.x, longitude - 360.0 * turns - base_.y, 0.0);
         return {at, {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0)}};
     }

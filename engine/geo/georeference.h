@@ -76,8 +76,9 @@ private:
     [[nodiscard]] glm::dvec2 middle() const;
 
     Kind kind_ = Kind::degrees;
-    Grid<glm::dvec3> control_; // (latitude, longitude, 0) or normals, relative to base_
-    glm::dvec3 base_{0.0};     // kept apart: differences of neighbours keep their digits
+    Grid<glm::dvec3> control_;      // (latitude, longitude, 0) or normals, relative to base_
+    glm::dvec3 base_{0.0};          // kept apart: differences of neighbours keep their digits
+    double middle_longitude_ = 0.0; // degrees
     glm::dvec2 first_{0.0};
     glm::dvec2 step_{1.0};
 };

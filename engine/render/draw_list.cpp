@@ -30,27 +30,13 @@ double distance_to(glm::dvec3 point, const Box& box) {
     return glm::distance(point, glm::clamp(point, box.low, box.high));
 }
 
-// Depths along the view between which all of the scene lies.
-void fit_orthographic_depth(scene::Camera& camera, const Box& bounds) {
-    if (bounds.empty()) {
-        return;
-    }
-    const glm::dvec3 forward = scene::view_axes(camera).forward;
-    const double middle = glm::dot(bounds.center() - camera.eye, forward);
-    const double reach = 0.5 * glm::length(bounds.size()) + 1.0;
-    camera.orthographic_near = middle - reach;
-    camera.orthographic_far = middle + reach;
-}
-
 // Adds what one visible node shows.
 class Selector {
 public:
     Selector(DrawList& list, const Frustum& frustum) : list_(list), frustum_(frustum) {}
 
     void add(const scene::Node& node, const glm::dmat4& world_from_local) {
-        if (const auto* light = node.get<scene::Light>(); light != nullptr && !list_.sun) {
-            list_.sun = scene::turned(*light, world_from_local);
-        } else if (const auto* mesh = node.get<scene::MeshNode>()) {
+        if (const auto* mesh = node.get<scene::MeshNode>()) {
             add_mesh(*mesh, world_from_local, node.local_bounds());
         } else if (const auto* terrain = node.get<scene::TerrainNode>()) {
             add_tiles(*terrain, world_from_local);
@@ -96,9 +82,10 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size) {
     DrawList list;
     list.camera = scene.camera();
     list.size = size;
+    list.sun = scene.sun();
     list.sky = scene.sky();
     if (list.camera.projection == scene::ProjectionKind::orthographic) {
-        fit_orthographic_depth(list.camera, scene.root().world_bounds());
+        list.camera = scene::with_fitted_depth(list.camera, scene.root().world_bounds());
     }
     const Frustum frustum(scene::clip_from_world(list.camera, size));
     Selector selector(list, frustum);

@@ -36,11 +36,6 @@ glm::mat3 world_from_normal(const glm::dmat4& world_from_local) {
     return glm::mat3(glm::inverseTranspose(glm::dmat3(world_from_local)));
 }
 
-double extinction(const scene::Sky& sky) {
-    constexpr double contrast_left = 0.02;
-    return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
-}
-
 // The view ray at depth 1 of a place on the picture, from gl_FragCoord.
 glm::vec4 ray_from_pixel(const scene::Camera& camera, glm::dvec2 size) {
     const double half = std::tan(0.5 * glm::radians(camera.vertical_fov));
@@ -65,7 +60,8 @@ FrameBlock frame_block(const DrawList& list) {
     }
     if (list.sky) {
         block.sky_zenith = glm::vec4(list.sky->zenith, 0.0F);
-        block.sky_horizon = glm::vec4(list.sky->horizon, static_cast<float>(extinction(*list.sky)));
+        block.sky_horizon =
+            glm::vec4(list.sky->horizon, static_cast<float>(scene::extinction(*list.sky)));
     }
     return block;
 }

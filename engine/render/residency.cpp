@@ -45,7 +45,7 @@ Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
 }
 
 Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
-                               const std::optional<TerrainLight>& light, FrameStats& stats) {
+                               const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
     const Image lit = lit_map(surface, light, gl::query_limits().max_texture_size);
     auto texture = mipmapped({lit.cols(), lit.rows()}, gl::Format::rgba8_srgb,
                              std::as_bytes(lit.samples()), stats);
@@ -58,11 +58,11 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
     return ResidentMaps{std::move(*texture), lit_from_sample};
 }
 
-std::optional<TerrainLight> light_on(const DrawList& list, const TileDraw& draw) {
+std::optional<scene::TerrainLight> light_on(const DrawList& list, const TileDraw& draw) {
     if (!list.sun) {
         return std::nullopt;
     }
-    return TerrainLight{*list.sun, glm::dmat3(draw.world_from_local)};
+    return scene::TerrainLight{*list.sun, glm::dmat3(draw.world_from_local)};
 }
 
 struct MeshVertex {
@@ -200,7 +200,7 @@ Result<void> Residency::prepare_maps(const DrawList& list, FrameStats& stats) {
 }
 
 Result<std::shared_ptr<const ResidentMaps>>
-Residency::maps_for(const TileDraw& draw, const std::optional<TerrainLight>& light,
+Residency::maps_for(const TileDraw& draw, const std::optional<scene::TerrainLight>& light,
                     FrameStats& stats) {
     std::vector<LitMaps>& there = surface_of(draw).maps;
     const auto found = std::find_if(there.begin(), there.end(),

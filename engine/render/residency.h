@@ -46,7 +46,7 @@ public:
 
 private:
     struct LitMaps {
-        std::optional<TerrainLight> light;
+        std::optional<scene::TerrainLight> light;
         std::shared_ptr<const ResidentMaps> maps;
     };
     struct Surface {
@@ -67,7 +67,8 @@ private:
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
     Result<void> prepare_maps(const DrawList& list, FrameStats& stats);
     Result<std::shared_ptr<const ResidentMaps>>
-    maps_for(const TileDraw& draw, const std::optional<TerrainLight>& light, FrameStats& stats);
+    maps_for(const TileDraw& draw, const std::optional<scene::TerrainLight>& light,
+             FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 

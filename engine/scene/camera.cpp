@@ -61,6 +61,17 @@ glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size) {
     return clip;
 }
 
+Camera with_fitted_depth(Camera camera, const Box& bounds) {
+    if (!bounds.empty()) {
+        const glm::dvec3 forward = view_axes(camera).forward;
+        const double middle = glm::dot(bounds.center() - camera.eye, forward);
+        const double reach = 0.5 * glm::length(bounds.size()) + 1.0;
+        camera.orthographic_near = middle - reach;
+        camera.orthographic_far = middle + reach;
+    }
+    return camera;
+}
+
 glm::dmat4 clip_from_world(const Camera& camera, glm::ivec2 size) {
     glm::dmat4 relative_from_world(1.0);
     relative_from_world[3] = glm::dvec4(-camera.eye, 1.0);

@@ -40,6 +40,10 @@ glm::dmat4 view_from_world_rotation(const Camera& camera);
 /// (perspective), 0 at the far plane (orthographic). `size` is the picture's, pixels.
 glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size);
 
+/// The camera with orthographic depths between which all of `bounds` (world metres) lies; an empty
+/// box changes nothing.
+Camera with_fitted_depth(Camera camera, const Box& bounds);
+
 /// The whole way; for selection and for oracles. Drawing goes camera-relative instead.
 glm::dmat4 clip_from_world(const Camera& camera, glm::ivec2 size);
 

@@ -66,6 +66,11 @@ Light turned(Light light, const glm::dmat4& world_from_local) {
     return light;
 }
 
+double extinction(const Sky& sky) {
+    constexpr double contrast_left = 0.02;
+    return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
+}
+
 Node::Node(std::string name, Content content)
     : name_(std::move(name)), content_(std::move(content)) {}
 
@@ -175,6 +180,16 @@ Camera Scene::camera() const {
     camera.eye = place(camera.eye);
     camera.look = place(camera.look);
     return camera;
+}
+
+std::optional<Light> Scene::sun() const {
+    std::optional<Light> first;
+    visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_local) {
+        if (const auto* light = node.get<Light>(); light != nullptr && !first) {
+            first = turned(*light, world_from_local);
+        }
+    });
+    return first;
 }
 
 std::optional<double> Scene::height_at(double x, double y) const {

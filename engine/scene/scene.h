@@ -43,6 +43,9 @@ struct Sky {
     double visibility = 0.0;
 };
 
+/// Share of the light that a metre of the air takes, 1/metre; 0 without fog.
+double extinction(const Sky& sky);
+
 struct MeshNode {
     std::shared_ptr<const Mesh> mesh;
     Material material;
@@ -133,6 +136,9 @@ public:
     void set_active_camera(Node& node);
     /// The active camera in world metres; the default one when there is none.
     [[nodiscard]] Camera camera() const;
+
+    /// The first visible light, as its node turns it.
+    [[nodiscard]] std::optional<Light> sun() const;
 
     /// z of the highest terrain surface at world (x, y) below any of the visible terrain nodes.
     [[nodiscard]] std::optional<double> height_at(double x, double y) const;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace reljef::terrain {
@@ -32,19 +32,32 @@ Roots solve_quadratic(double a, double b, double c) {
     return {{low, high}, 2};
 }
 
-enum class Side { unknown, above, below };
-
-// Follows one ray through the pyramid, front to back, and remembers on which side of the surface it
-// is. Intervals of t meet exactly at the planes between cells, so no crossing falls between two.
+// Follows one ray front to back through the blocks of the pyramid and remembers on which side of
+// the surface it is. It goes down where a block may be touched, and up one level where it leaves a
+// parent. Neighbours share the t of the plane between them, so no crossing falls between two.
 class Traversal {
 public:
     // `side`: where the ray is known to be before its range begins.
     Traversal(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& ray,
-              Side side = Side::unknown)
-        : heights_(heights), pyramid_(pyramid), ray_(ray), side_(side) {}
+              Side side)
+        : heights_(heights), pyramid_(pyramid), ray_(ray), side_(side),
+          level_(pyramid.levels() - 1) {
+        for (int axis = 0; axis < 2; ++axis) {
+            inverse_[axis] = 1.0 / ray.direction[axis];
+            if (!std::isfinite(inverse_[axis])) {
+                inverse_[axis] = 0.0; // it stays where it is
+            }
+        }
+    }
 
     std::optional<double> run(Interval range) {
-        visit(pyramid_.levels() - 1, 0, 0, range);
+        range = clipped_to_top(clipped(clipped(range, 0), 1));
+        t_ = range.begin;
+        z_ = z_at(t_);
+        end_ = range.end;
+        while (t_ < end_ && !hit_ && is_inside() && !has_escaped()) {
+            step();
+        }
         return hit_;
     }
 
@@ -52,71 +65,138 @@ public:
     [[nodiscard]] Side side() const { return side_; }
 
 private:
-    // The part of `range` in which one coordinate of the ray lies in [low, high).
-    [[nodiscard]] Interval clipped(Interval range, int axis, double low, double high,
-                                   bool last) const {
-        const double origin = ray_.origin[axis];
-        const double direction = ray_.direction[axis];
-        if (direction == 0.0) {
-            const bool inside = origin >= low && (origin < high || (last && origin == high));
-            return inside ? range : Interval{1.0, 0.0};
-        }
-        const double t0 = (low - origin) / direction;
-        const double t1 = (high - origin) / direction;
-        return {std::max(range.begin, std::min(t0, t1)), std::min(range.end, std::max(t0, t1))};
+    [[nodiscard]] int last(int axis) const {
+        return (axis == 0 ? heights_.cols() : heights_.rows()) - 1;
     }
 
-    [[nodiscard]] Interval clipped_to_block(Interval range, int level, int col, int row) const {
-        const int last_col = heights_.cols() - 1;
-        const int last_row = heights_.rows() - 1;
-        const int east = std::min((col + 1) << level, last_col);
-        const int south = std::min((row + 1) << level, last_row);
-        range = clipped(range, 0, col << level, east, east == last_col);
-        return clipped(range, 1, row << level, south, south == last_row);
+    [[nodiscard]] double z_at(double t) const { return ray_.origin.z + t * ray_.direction.z; }
+
+    // When the ray passes the line between cells `line` − 1 and `line`.
+    [[nodiscard]] double time_at(int axis, int line) const {
+        return (line - ray_.origin[axis]) * inverse_[axis];
     }
 
-    void visit(int level, int col, int row, Interval range) {
-        range = clipped_to_block(range, level, col, row);
-        if (!(range.begin < range.end)) {
-            return;
+    // The part of `range` over the grid, by one coordinate.
+    [[nodiscard]] Interval clipped(Interval range, int axis) const {
+        if (inverse_[axis] == 0.0) {
+            const double place = ray_.origin[axis];
+            return place >= 0.0 && place <= last(axis) ? range : Interval{1.0, 0.0};
         }
-        const MinMax bounds = pyramid_.level(level)(col, row);
-        const auto [lowest, highest] = std::minmax({ray_.at(range.begin).z, ray_.at(range.end).z});
-        if (lowest > bounds.high) {
-            pass(lowest - bounds.high, range.begin);
-        } else if (highest < bounds.low) {
-            pass(highest - bounds.low, range.begin);
-        } else if (level == 0) {
-            visit_cell(col, row, range);
-        } else {
-            visit_children(level - 1, 2 * col, 2 * row, range);
-        }
+        const auto [in, out] = std::minmax({time_at(axis, 0), time_at(axis, last(axis))});
+        return {std::max(range.begin, in), std::min(range.end, out)};
     }
 
-    void visit_children(int level, int col, int row, Interval range) {
-        const Grid<MinMax>& blocks = pyramid_.level(level);
-        const int near_x = ray_.direction.x < 0.0 ? 1 : 0;
-        const int near_y = ray_.direction.y < 0.0 ? 1 : 0;
-        const std::array<std::pair<int, int>, 4> order{{{near_x, near_y},
-                                                        {1 - near_x, near_y},
-                                                        {near_x, 1 - near_y},
-                                                        {1 - near_x, 1 - near_y}}};
-        for (const auto& [x, y] : order) {
-            if (!hit_ && col + x < blocks.cols() && row + y < blocks.rows()) {
-                visit(level, col + x, row + y, range);
+    // Above the highest sample there is nothing to meet.
+    Interval clipped_to_top(Interval range) {
+        const double above = z_at(range.begin) - pyramid_.total().high;
+        if (range.begin < range.end && above > 0.0) {
+            side_ = Side::above;
+            range.begin = ray_.direction.z < 0.0
+                              ? std::max(range.begin, range.begin - above / ray_.direction.z)
+                              : range.end;
+        }
+        return range;
+    }
+
+    [[nodiscard]] bool is_inside() const {
+        const Grid<MinMax>& blocks = pyramid_.level(level_);
+        return block_.x >= 0 && block_.y >= 0 && block_.x < blocks.cols() &&
+               block_.y < blocks.rows();
+    }
+
+    // Nothing of the surface lies ahead.
+    [[nodiscard]] bool has_escaped() const {
+        return (side_ == Side::above && ray_.direction.z >= 0.0 && z_ > pyramid_.total().high) ||
+               (side_ == Side::below && ray_.direction.z <= 0.0 && z_ < pyramid_.total().low);
+    }
+
+    // When the ray leaves the block it is in.
+    [[nodiscard]] double leaving_time(int axis) const {
+        if (inverse_[axis] == 0.0) {
+            return std::numeric_limits<double>::infinity();
+        }
+        return time_at(axis, (block_[axis] + (inverse_[axis] > 0.0 ? 1 : 0)) << level_);
+    }
+
+    void step() {
+        const double leaving_x = leaving_time(0);
+        const double leaving_y = leaving_time(1);
+        const double end = std::min({leaving_x, leaving_y, end_});
+        if (t_ < end) {
+            const double z = z_at(end);
+            if (level_ == 0) {
+                visit_cell({t_, end}, z);
+            } else if (!passes(pyramid_.level(level_)(block_.x, block_.y), z)) {
+                descend();
+                return;
             }
+            t_ = end;
+            z_ = z;
         }
+        advance(leaving_x <= end, leaving_y <= end);
+    }
+
+    // Whether the ray clears all of a block until it leaves it at `z`.
+    bool passes(MinMax bounds, double z) {
+        const auto [lowest, highest] = std::minmax({z_, z});
+        if (lowest > bounds.high) {
+            pass(lowest - bounds.high, t_);
+            return true;
+        }
+        if (highest < bounds.low) {
+            pass(highest - bounds.low, t_);
+            return true;
+        }
+        return false;
+    }
+
+    // To the quarter in which the ray is now.
+    void descend() {
+        --level_;
+        for (int axis = 0; axis < 2; ++axis) {
+            const int middle = (2 * block_[axis] + 1) << level_;
+            block_[axis] = 2 * block_[axis] + (middle < last(axis) && is_beyond(axis, middle));
+        }
+    }
+
+    [[nodiscard]] bool is_beyond(int axis, int line) const {
+        if (inverse_[axis] == 0.0) {
+            return ray_.origin[axis] >= line;
+        }
+        return inverse_[axis] > 0.0 ? t_ >= time_at(axis, line) : t_ < time_at(axis, line);
+    }
+
+    // To the next block, and to its parent where that is another one than before.
+    void advance(bool along_x, bool along_y) {
+        const bool left_parent_x = along_x && leave_block(0);
+        const bool left_parent_y = along_y && leave_block(1);
+        if ((left_parent_x || left_parent_y) && level_ + 1 < pyramid_.levels() && is_inside()) {
+            ++level_;
+            block_ = block_ / 2;
+        }
+    }
+
+    // Whether the next block has another parent.
+    bool leave_block(int axis) {
+        const bool forward = inverse_[axis] > 0.0;
+        block_[axis] += forward ? 1 : -1;
+        return (block_[axis] % 2 == 0) == forward;
     }
 
     // Height of the ray above the bilinear patch is a quadratic in τ = t − range.begin; between its
-    // roots the sign is constant and read in the middle.
-    void visit_cell(int col, int row, Interval range) {
-        const double h00 = heights_(col, row);
-        const double h10 = heights_(col + 1, row);
-        const double h01 = heights_(col, row + 1);
-        const double h11 = heights_(col + 1, row + 1);
+    // roots the sign is constant and read in the middle. The ray ends at `z`.
+    void visit_cell(Interval range, double z) {
+        const double h00 = heights_(block_.x, block_.y);
+        const double h10 = heights_(block_.x + 1, block_.y);
+        const double h01 = heights_(block_.x, block_.y + 1);
+        const double h11 = heights_(block_.x + 1, block_.y + 1);
+        if (passes({static_cast<float>(std::min(std::min(h00, h10), std::min(h01, h11))),
+                    static_cast<float>(std::max(std::max(h00, h10), std::max(h01, h11)))},
+                   z)) {
+            return;
+        }
         const double twist = h00 - h10 - h01 + h11;
-        const glm::dvec3 start = ray_.at(range.begin) - glm::dvec3(col, row, 0.0);
+        const glm::dvec3 start = ray_.at(range.begin) - glm::dvec3(block_, 0.0);
         const glm::dvec3& d = ray_.direction;
         const double slope_u = h10 - h00 + twist * start.y;
         const double slope_v = h01 - h00 + twist * start.x;
@@ -156,7 +236,13 @@ private:
     GridView<const float> heights_;
     const MinMaxPyramid& pyramid_;
     Ray ray_;
+    glm::dvec2 inverse_{0.0}; // of the direction; 0: along the other axis
     Side side_;
+    int level_;
+    glm::ivec2 block_{0}; // on that level
+    double t_ = 0.0;      // where the ray is, its height there
+    double z_ = 0.0;
+    double end_ = 0.0;
     std::optional<double> hit_;
 };
 
@@ -164,9 +250,107 @@ bool is_finite(glm::dvec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-constexpr double bend_tolerance = 1e-3; // samples, and metres of height
+constexpr double bend_tolerance = 1e-3;    // samples, and metres of height
+constexpr double quartic_tolerance = 1e-5; // the same
 constexpr int most_halvings = 24;
 constexpr int most_halvings_unmapped = 8; // of a stretch without a place on the map
+
+// A place on a world ray and where that is on the grid; nowhere where the map has no place for it.
+struct RayPlace {
+    double t = 0.0;
+    std::optional<glm::dvec3> sample;
+};
+
+// How far the middle of a stretch lies from the straight line: samples, and metres of height.
+struct Bend {
+    double across = 0.0;
+    double height = 0.0;
+};
+
+Bend bend_of(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
+    const glm::dvec3 off = halfway - 0.5 * (from + to);
+    return {glm::length(glm::dvec2(off)), std::abs(off.z)};
+}
+
+// A box around a stretch, with twice the room that its bend asks for; nothing where it is bent so
+// much that its middle says little about the rest.
+std::optional<Box> box_around(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
+    constexpr double most_bend = 0.25; // of the chord
+    const Bend bend = bend_of(from, halfway, to);
+    if (bend.across > most_bend * glm::distance(glm::dvec2(from), glm::dvec2(to))) {
+        return std::nullopt;
+    }
+    Box box;
+    box.add(from);
+    box.add(halfway);
+    box.add(to);
+    const glm::dvec3 room = 2.0 * glm::dvec3(bend.across, bend.across, bend.height);
+    return Box{box.low - room, box.high + room};
+}
+
+// Bounds of the surface below a box; nothing where the box is not over the grid.
+std::optional<MinMax> bounds_below(const MinMaxPyramid& pyramid, const Box& box) {
+    const glm::dvec2 cells(pyramid.level(0).cols(), pyramid.level(0).rows());
+    if (box.high.x < 0.0 || box.high.y < 0.0 || box.low.x > cells.x || box.low.y > cells.y) {
+        return std::nullopt;
+    }
+    glm::ivec2 low(glm::clamp(glm::dvec2(box.low), glm::dvec2(0.0), cells - 1.0));
+    glm::ivec2 high(glm::clamp(glm::dvec2(box.high), glm::dvec2(0.0), cells - 1.0));
+    int level = 0;
+    while (high.x - low.x > 1 || high.y - low.y > 1) {
+        low /= 2;
+        high /= 2;
+        ++level;
+    }
+    const Grid<MinMax>& blocks = pyramid.level(level);
+    MinMax bounds = blocks(low.x, low.y);
+    for (const MinMax& block :
+         {blocks(high.x, low.y), blocks(low.x, high.y), blocks(high.x, high.y)}) {
+        bounds = {std::min(bounds.low, block.low), std::max(bounds.high, block.high)};
+    }
+    return bounds;
+}
+
+// Through five places of a ray, evenly apart in t (Newton's form): good for 100 km, at a hundredth
+// of the map's own cost.
+class Quartic {
+public:
+    Quartic(const RayPlace& first, const RayPlace& second, const RayPlace& third,
+            const RayPlace& fourth, const RayPlace& fifth)
+        : begin_(first.t),
+          step_(second.t - first.t), differences_{*first.sample, *second.sample, *third.sample,
+                                                  *fourth.sample, *fifth.sample} {
+        for (std::size_t order = 1; order < differences_.size(); ++order) {
+            for (std::size_t i = differences_.size() - 1; i >= order; --i) {
+                differences_[i] =
+                    (differences_[i] - differences_[i - 1]) / static_cast<double>(order);
+            }
+        }
+    }
+
+    [[nodiscard]] RayPlace at(double t) const {
+        const double u = (t - begin_) / step_;
+        glm::dvec3 sample = differences_[4];
+        for (int i = 3; i >= 0; --i) {
+            sample = sample * (u - i) + differences_[static_cast<std::size_t>(i)];
+        }
+        return {t, sample};
+    }
+
+    // Whether it meets another place of the ray too.
+    [[nodiscard]] bool meets(const RayPlace& place) const {
+        if (!place.sample) {
+            return false;
+        }
+        const glm::dvec3 miss = glm::abs(*at(place.t).sample - *place.sample);
+        return std::max({miss.x, miss.y, miss.z}) <= quartic_tolerance;
+    }
+
+private:
+    double begin_;
+    double step_;
+    std::array<glm::dvec3, 5> differences_; // divided, of order 0 to 4
+};
 
 // A world ray as seen in sample coordinates, followed front to back.
 class BentRay {
@@ -175,48 +359,156 @@ public:
             const Ray& ray)
         : heights_(heights), pyramid_(pyramid), placement_(placement), ray_(ray) {}
 
-    std::optional<SurfaceHit> first_hit_between(double begin, double end, int halvings) {
-        const auto from = placement_.sample_from_world(ray_.at(begin));
-        const auto to = placement_.sample_from_world(ray_.at(end));
-        const double middle = 0.5 * (begin + end);
-        const auto halfway = placement_.sample_from_world(ray_.at(middle));
-        const bool unmapped = !from && !to && !halfway;
-        const bool straight = from && to && halfway && bend(*from, *to, *halfway) <= bend_tolerance;
-        if (!straight && halvings > (unmapped ? most_halvings - most_halvings_unmapped : 0)) {
-            if (const auto hit = first_hit_between(begin, middle, halvings - 1)) {
-                return hit;
-            }
-            return first_hit_between(middle, end, halvings - 1);
+    std::optional<SurfaceHit> first_hit(Interval range) {
+        const RayPlace from = place_at(range.begin);
+        const RayPlace to = place_at(range.end);
+        if (placement_.kind() == PlacementKind::plane) {
+            return first_hit_on_chord(from, to);
         }
-        if (!from || !to) {
-            side_ = Side::unknown;
-            return std::nullopt;
-        }
-        return first_hit_on({*from, *to - *from}, {begin, end});
+        return first_hit_between(from, place_at(middle_of(from, to)), to, most_halvings);
     }
 
 private:
-    // On a straight piece, which is left at t = 1; `range` is what it is of the world ray.
-    std::optional<SurfaceHit> first_hit_on(const Ray& piece, Interval range) {
-        Traversal traversal(heights_, pyramid_, piece, side_);
-        const auto t = traversal.run({0.0, 1.0});
-        // Beyond the border the ray is neither above nor below.
-        side_ = is_over_surface(piece.at(1.0)) ? traversal.side() : Side::unknown;
-        if (!t) {
+    [[nodiscard]] RayPlace place_at(double t) const {
+        return {t, placement_.sample_from_world(ray_.at(t))};
+    }
+
+    [[nodiscard]] static double middle_of(const RayPlace& from, const RayPlace& to) {
+        return 0.5 * (from.t + to.t);
+    }
+
+    std::optional<SurfaceHit> first_hit_between(const RayPlace& from, const RayPlace& halfway,
+                                                const RayPlace& to, int halvings) {
+        const bool mapped = from.sample && halfway.sample && to.sample;
+        if (mapped && clears_surface(*from.sample, *halfway.sample, *to.sample)) {
             return std::nullopt;
         }
-        return SurfaceHit{range.begin + *t * (range.end - range.begin), piece.at(*t)};
+        if (mapped && is_straight(from, halfway, to)) {
+            return first_hit_near_chord(from, to);
+        }
+        const bool unmapped = !from.sample && !halfway.sample && !to.sample;
+        if (halvings <= (unmapped ? most_halvings - most_halvings_unmapped : 0)) {
+            return first_hit_on_chord(from, to);
+        }
+        const RayPlace before = place_at(middle_of(from, halfway));
+        const RayPlace after = place_at(middle_of(halfway, to));
+        if (mapped && before.sample && after.sample) {
+            const Quartic quartic(from, before, halfway, after, to);
+            // Where it is farthest off: next to the ends.
+            if (quartic.meets(place_at(middle_of(from, before))) &&
+                quartic.meets(place_at(middle_of(after, to)))) {
+                return first_hit_on(quartic, from, to, halvings);
+            }
+        }
+        const auto hit = first_hit_between(from, before, halfway, halvings - 1);
+        return hit ? hit : first_hit_between(halfway, after, to, halvings - 1);
+    }
+
+    // As first_hit_between, where the quartic is as good as the map.
+    std::optional<SurfaceHit> first_hit_on(const Quartic& quartic, const RayPlace& from,
+                                           const RayPlace& to, int halvings) {
+        const RayPlace halfway = quartic.at(middle_of(from, to));
+        if (clears_surface(*from.sample, *halfway.sample, *to.sample)) {
+            return std::nullopt;
+        }
+        if (halvings == 0 || is_straight(from, halfway, to)) {
+            return first_hit_near_chord(from, to);
+        }
+        const auto hit = first_hit_on(quartic, from, halfway, halvings - 1);
+        return hit ? hit : first_hit_on(quartic, halfway, to, halvings - 1);
+    }
+
+    [[nodiscard]] static bool is_straight(const RayPlace& from, const RayPlace& halfway,
+                                          const RayPlace& to) {
+        const Bend bend = bend_of(*from.sample, *halfway.sample, *to.sample);
+        return std::max(bend.across, bend.height) <= bend_tolerance;
+    }
+
+    std::optional<SurfaceHit> first_hit_near_chord(const RayPlace& from, const RayPlace& to) {
+        const auto hit = first_hit_on_chord(from, to);
+        return hit ? std::optional(moved_onto_surface(*hit, from, to)) : std::nullopt;
+    }
+
+    // Whether all of a stretch lies above, below or beside the surface.
+    bool clears_surface(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
+        const std::optional<Box> box = box_around(from, halfway, to);
+        if (!box) {
+            return false;
+        }
+        const std::optional<MinMax> surface = bounds_below(pyramid_, *box);
+        const bool below = surface && box->high.z < surface->low;
+        if (surface && !below && box->low.z <= surface->high) {
+            return false;
+        }
+        const Side side = below ? Side::below : Side::above;
+        // Beyond the border the ray is neither above nor below.
+        const bool all_over_surface =
+            surface && is_over_surface(box->low) && is_over_surface(box->high);
+        if (below && side_ == Side::above) {
+            return false; // it went through at the joint
+        }
+        side_ = all_over_surface || (surface && is_over_surface(to)) ? side : Side::unknown;
+        return true;
+    }
+
+    // On the straight line between two places.
+    std::optional<SurfaceHit> first_hit_on_chord(const RayPlace& from, const RayPlace& to) {
+        if (!from.sample || !to.sample) {
+            side_ = Side::unknown;
+            return std::nullopt;
+        }
+        const Ray chord{*from.sample, *to.sample - *from.sample};
+        Stretch stretch = follow(heights_, pyramid_, chord, {0.0, 1.0}, side_);
+        side_ = is_over_surface(*to.sample) ? stretch.side : Side::unknown;
+        if (stretch.hit) {
+            stretch.hit->t = from.t + stretch.hit->t * (to.t - from.t);
+        }
+        return stretch.hit;
+    }
+
+    // The surface as the ray itself meets it, near a hit of its chord: the first step by the slope
+    // of the chord over the surface, the others by secants. The hit as it is where they come no
+    // closer.
+    [[nodiscard]] SurfaceHit moved_onto_surface(const SurfaceHit& hit, const RayPlace& from,
+                                                const RayPlace& to) const {
+        constexpr int most_secants = 4;
+        constexpr double close_enough = 1e-8; // metres of height
+        RayPlace best = place_at(hit.t);
+        double best_miss = clearance(best);
+        double step = -best_miss / slope_over_surface(hit, from, to);
+        for (int i = 0; i < most_secants && std::abs(best_miss) > close_enough; ++i) {
+            const RayPlace next = place_at(best.t + step);
+            const double miss = clearance(next);
+            if (!(std::abs(miss) < std::abs(best_miss))) {
+                break;
+            }
+            step *= -miss / (miss - best_miss);
+            best = next;
+            best_miss = miss;
+        }
+        return best.sample ? SurfaceHit{best.t, *best.sample} : hit;
+    }
+
+    // Change of the chord's height over the surface with t.
+    [[nodiscard]] double slope_over_surface(const SurfaceHit& hit, const RayPlace& from,
+                                            const RayPlace& to) const {
+        constexpr double part = 1e-3; // of the chord
+        const double step = part * (to.t - from.t);
+        const glm::dvec3 ahead = hit.sample + part * (*to.sample - *from.sample);
+        return (clearance({hit.t + step, ahead}) - clearance({hit.t, hit.sample})) / step;
+    }
+
+    // How far a place of the ray lies above the surface, metres of height; no number off the grid.
+    [[nodiscard]] double clearance(const RayPlace& place) const {
+        if (!place.sample || !is_over_surface(*place.sample)) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        return place.sample->z - bilinear_height(heights_, glm::dvec2(*place.sample));
     }
 
     [[nodiscard]] bool is_over_surface(glm::dvec3 sample) const {
         return sample.x >= 0.0 && sample.y >= 0.0 && sample.x <= heights_.cols() - 1 &&
                sample.y <= heights_.rows() - 1;
-    }
-
-    // How far the middle of a stretch lies from the straight line: samples, or metres of height.
-    [[nodiscard]] static double bend(glm::dvec3 from, glm::dvec3 to, glm::dvec3 halfway) {
-        const glm::dvec3 off = halfway - 0.5 * (from + to);
-        return std::max(std::hypot(off.x, off.y), std::abs(off.z));
     }
 
     GridView<const float> heights_;
@@ -226,10 +518,9 @@ private:
     Side side_ = Side::unknown;
 };
 
-// The stretch of the ray that can meet the surface: inside the box around the placed border, blown
-// up by the Earth's bulge over it.
-std::optional<Interval> reach(GridView<const float> heights, const MinMaxPyramid& pyramid,
-                              const Placement& placement, const Ray& ray) {
+// A box that holds the placed surface: the one around its border, blown up by the Earth's bulge
+// over it.
+Box reach(GridView<const float> heights, const MinMaxPyramid& pyramid, const Placement& placement) {
     Box box;
     const MinMax total = pyramid.total();
     constexpr int steps = 16;
@@ -242,7 +533,7 @@ std::optional<Interval> reach(GridView<const float> heights, const MinMaxPyramid
         }
     }
     const glm::dvec3 margin = 0.02 * box.size() + glm::dvec3(1.0);
-    return intersect(ray, Box{box.low - margin, box.high + margin});
+    return {box.low - margin, box.high + margin};
 }
 
 } // namespace
@@ -252,25 +543,35 @@ std::optional<SurfaceHit> first_hit(GridView<const float> heights, const MinMaxP
     if (!is_finite(sample_ray.origin) || !is_finite(sample_ray.direction)) {
         return std::nullopt;
     }
-    const auto t = Traversal(heights, pyramid, sample_ray).run(range);
-    if (!t) {
+    return follow(heights, pyramid, sample_ray, range, Side::unknown).hit;
+}
+
+Stretch follow(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& sample_ray,
+               Interval range, Side side) {
+    Traversal traversal(heights, pyramid, sample_ray, side);
+    const auto t = traversal.run(range);
+    return {t ? std::optional(SurfaceHit{*t, sample_ray.at(*t)}) : std::nullopt, traversal.side()};
+}
+
+SurfaceCaster::SurfaceCaster(GridView<const float> heights, const MinMaxPyramid& pyramid,
+                             const Placement& placement)
+    : heights_(heights), pyramid_(pyramid), placement_(placement),
+      reach_(reach(heights, pyramid, placement)) {}
+
+std::optional<SurfaceHit> SurfaceCaster::first_hit(const Ray& world_ray, Interval range) const {
+    if (!is_finite(world_ray.origin) || !is_finite(world_ray.direction)) {
         return std::nullopt;
     }
-    return SurfaceHit{*t, sample_ray.at(*t)};
+    const auto inside = intersect(world_ray, reach_, range);
+    if (!inside || !std::isfinite(inside->end)) {
+        return std::nullopt;
+    }
+    return BentRay(heights_, pyramid_, placement_, world_ray).first_hit(*inside);
 }
 
 std::optional<SurfaceHit> pick(GridView<const float> heights, const MinMaxPyramid& pyramid,
                                const Placement& placement, const Ray& world_ray) {
-    if (!is_finite(world_ray.origin) || !is_finite(world_ray.direction)) {
-        return std::nullopt;
-    }
-    const auto range = reach(heights, pyramid, placement, world_ray);
-    if (!range) {
-        return std::nullopt;
-    }
-    const int halvings = placement.kind() == PlacementKind::plane ? 0 : most_halvings;
-    return BentRay(heights, pyramid, placement, world_ray)
-        .first_hit_between(range->begin, range->end, halvings);
+    return SurfaceCaster(heights, pyramid, placement).first_hit(world_ray);
 }
 
 } // namespace reljef::terrain

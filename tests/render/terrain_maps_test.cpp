@@ -21,8 +21,8 @@ std::shared_ptr<const scene::TerrainSurface> surface(terrain::Heightfield height
         scene::TerrainSurface::create(std::move(terrain)).value());
 }
 
-TerrainLight light_from(double azimuth, double altitude) {
-    TerrainLight light;
+scene::TerrainLight light_from(double azimuth, double altitude) {
+    scene::TerrainLight light;
     light.sun.azimuth = azimuth;
     light.sun.altitude = altitude;
     light.sun.color = glm::vec3(0.8F);
@@ -48,7 +48,7 @@ TEST(LitMap, OfAPlaneIsLambertsLaw) {
             surface(test::plane_heightfield(test::made_heights(
                         9, 9, [&](int col, int row) { return slope.x * col - slope.y * row; })),
                     Image(9, 9, Rgba8{120, 60, 200, 255}));
-        TerrainLight light = light_from(azimuths(random), 80.0);
+        scene::TerrainLight light = light_from(azimuths(random), 80.0);
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope, 1.0));
         const double sun = std::max(0.0, glm::dot(normal, scene::to_light(light.sun)));
         const auto light_there = static_cast<float>(0.8 * sun + 0.1 * (0.5 + 0.5 * normal.z));
@@ -83,7 +83,7 @@ TEST(LitMap, TurnsWithItsNode) {
     const auto made = surface(
         test::plane_heightfield(test::made_heights(17, 17, [](int col, int) { return 0.5 * col; })),
         Image(17, 17, Rgba8{200, 200, 200, 255}));
-    TerrainLight turned = light_from(90.0, 60.0);
+    scene::TerrainLight turned = light_from(90.0, 60.0);
     turned.world_from_local =
         glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 0.0, 1.0)));
     // Turned by 90 degrees from east to north, the slope faces south: the same as sun from there.

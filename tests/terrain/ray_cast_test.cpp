@@ -3,12 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/terrain/brute_force.h"
+#include "tests/terrain/chance.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::terrain {
@@ -21,89 +22,10 @@ std::optional<SurfaceHit> cast(const Grid<float>& heights, const Ray& ray,
     return first_hit(heights.view(), MinMaxPyramid(heights.view()), ray, range);
 }
 
-// How far a ray is above the surface at t.
-double clearance(const Grid<float>& heights, const Ray& ray, double t) {
-    const glm::dvec3 at = ray.at(t);
-    return at.z - bilinear_height(heights.view(), glm::dvec2(at));
-}
-
-// The part of a ray over the grid.
-Interval over_grid(const Grid<float>& heights, const Ray& ray, Interval range) {
-    for (int axis = 0; axis < 2; ++axis) {
-        const double last = (axis == 0 ? heights.cols() : heights.rows()) - 1;
-        const double origin = ray.origin[axis];
-        const double direction = ray.direction[axis];
-        if (direction == 0.0) {
-            range.end = origin >= 0.0 && origin <= last ? range.end : -infinity;
-            continue;
-        }
-        range.begin =
-            std::max(range.begin, std::min(-origin / direction, (last - origin) / direction));
-        range.end = std::min(range.end, std::max(-origin / direction, (last - origin) / direction));
-    }
-    return range;
-}
-
-// Where a ray passes a line between cells, and the middle of each piece between these places: in
-// each half a parabola whose vertex is added too is monotone.
-std::vector<double> monotone_breaks(const Grid<float>& heights, const Ray& ray, Interval range) {
-    std::vector<double> lines{range.begin, range.end};
-    for (int axis = 0; axis < 2; ++axis) {
-        const int count = axis == 0 ? heights.cols() : heights.rows();
-        for (int line = 0; line < count && ray.direction[axis] != 0.0; ++line) {
-            const double t = (line - ray.origin[axis]) / ray.direction[axis];
-            if (t > range.begin && t < range.end) {
-                lines.push_back(t);
-            }
-        }
-    }
-    std::sort(lines.begin(), lines.end());
-    std::vector<double> breaks = lines;
-    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-        // The vertex of the parabola through both ends and the middle.
-        const double half = 0.5 * (lines[i + 1] - lines[i]);
-        const double middle = lines[i] + half;
-        const double before = clearance(heights, ray, lines[i]);
-        const double at = clearance(heights, ray, middle);
-        const double after = clearance(heights, ray, lines[i + 1]);
-        const double bend = before - 2.0 * at + after;
-        const double vertex = bend != 0.0 ? middle + 0.5 * half * (before - after) / bend : middle;
-        breaks.push_back(vertex > lines[i] && vertex < lines[i + 1] ? vertex : middle);
-    }
-    std::sort(breaks.begin(), breaks.end());
-    return breaks;
-}
-
-// The first change from above to below over all cells, by bisection.
-std::optional<double> brute_force(const Grid<float>& heights, const Ray& ray, Interval range) {
-    range = over_grid(heights, ray, range);
-    if (!(range.begin < range.end)) {
-        return std::nullopt;
-    }
-    double above = infinity; // the last break that lies above the surface
-    for (const double t : monotone_breaks(heights, ray, range)) {
-        const double height = clearance(heights, ray, t);
-        if (height > 0.0) {
-            above = t;
-        } else if (height < 0.0 && above < infinity) {
-            double low = above;
-            double high = t;
-            for (int i = 0; i < 200; ++i) {
-                const double middle = 0.5 * (low + high);
-                (clearance(heights, ray, middle) > 0.0 ? low : high) = middle;
-            }
-            return high;
-        } else if (height < 0.0) {
-            above = infinity;
-        }
-    }
-    return std::nullopt;
-}
-
 void expect_as_brute_force(const Grid<float>& heights, const MinMaxPyramid& pyramid, const Ray& ray,
                            Interval range = {0.0, 1e6}) {
     const auto hit = first_hit(heights.view(), pyramid, ray, range);
-    const auto expected = brute_force(heights, ray, range);
+    const auto expected = test::brute_force(heights, ray, range);
     ASSERT_EQ(hit.has_value(), expected.has_value())
         << "from " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z << " along "
         << ray.direction.x << ' ' << ray.direction.y << ' ' << ray.direction.z << " hit "
@@ -117,29 +39,6 @@ void expect_as_brute_force(const Grid<float>& heights, const MinMaxPyramid& pyra
     }
 }
 
-class Chance {
-public:
-    explicit Chance(unsigned seed) : random_(seed) {}
-
-    double between(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random_);
-    }
-    int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
-    bool one_in(int n) { return whole(1, n) == 1; }
-
-    // A place in or around the grid; now and then exactly on a line between cells or on a vertex.
-    glm::dvec2 place(const Grid<float>& heights, double beyond) {
-        glm::dvec2 at{between(-beyond, heights.cols() - 1 + beyond),
-                      between(-beyond, heights.rows() - 1 + beyond)};
-        at.x = one_in(4) ? std::round(at.x) : at.x;
-        at.y = one_in(4) ? std::round(at.y) : at.y;
-        return at;
-    }
-
-private:
-    std::mt19937 random_;
-};
-
 TEST(RayCast, MeetsAPlaneWhereGeometrySays) {
     const Grid<float> heights = test::made_heights(33, 17, [](int, int) { return 7.0; });
     const auto hit = cast(heights, {{1.25, 2.5, 17.0}, {2.0, 1.0, -1.0}});
@@ -149,7 +48,7 @@ TEST(RayCast, MeetsAPlaneWhereGeometrySays) {
 }
 
 TEST(RayCast, MeetsARampWhereGeometrySays) {
-    Chance chance(1);
+    test::Chance chance(1);
     const Grid<float> heights =
         test::made_heights(65, 40, [](int col, int row) { return 0.5 * col - 0.25 * row + 3.0; });
     const MinMaxPyramid pyramid(heights.view());
@@ -197,7 +96,7 @@ TEST(RayCast, MeetsATwistedPatchWhereTheQuadraticSays) {
 }
 
 TEST(RayCast, AgreesWithBruteForceOnRandomFields) {
-    Chance chance(2);
+    test::Chance chance(2);
     for (unsigned field = 0; field < 12; ++field) {
         const Grid<float> heights =
             test::random_heights(chance.whole(2, 40), chance.whole(2, 40), -3.0F, 3.0F, field);
@@ -215,7 +114,7 @@ TEST(RayCast, AgreesWithBruteForceOnRandomFields) {
 }
 
 TEST(RayCast, AgreesWithBruteForceAlongTheAxes) {
-    Chance chance(3);
+    test::Chance chance(3);
     const Grid<float> heights = test::random_heights(31, 23, -2.0F, 2.0F, 11);
     const MinMaxPyramid pyramid(heights.view());
     for (int i = 0; i < 6000; ++i) {
@@ -231,7 +130,7 @@ TEST(RayCast, AgreesWithBruteForceAlongTheAxes) {
 
 // Along the diagonal through vertices, and along the lines between cells.
 TEST(RayCast, AgreesWithBruteForceThroughVerticesAndAlongCellBorders) {
-    Chance chance(4);
+    test::Chance chance(4);
     const Grid<float> heights = test::random_heights(24, 33, -2.0F, 2.0F, 12);
     const MinMaxPyramid pyramid(heights.view());
     for (int i = 0; i < 8000; ++i) {
@@ -246,7 +145,7 @@ TEST(RayCast, AgreesWithBruteForceThroughVerticesAndAlongCellBorders) {
 }
 
 TEST(RayCast, AVerticalRayMeetsTheBilinearHeight) {
-    Chance chance(5);
+    test::Chance chance(5);
     const Grid<float> heights = test::random_heights(20, 30, -2.0F, 2.0F, 13);
     const MinMaxPyramid pyramid(heights.view());
     for (int i = 0; i < 5000; ++i) {
@@ -311,7 +210,7 @@ TEST(RayCast, TouchingASummitIsNoHit) {
 }
 
 TEST(RayCast, IsWatertight) {
-    Chance chance(6);
+    test::Chance chance(6);
     for (const float offset : {0.0F, 8000.0F}) {
         const Grid<float> heights = test::random_heights(37, 53, offset - 2.0F, offset + 2.0F, 15);
         const MinMaxPyramid pyramid(heights.view());
@@ -329,7 +228,7 @@ TEST(RayCast, IsWatertight) {
 
 // Vertical walls of 10 km between samples a metre apart: nothing slips through between two cells.
 TEST(RayCast, IsWatertightOnACheckerboardOfCliffs) {
-    Chance chance(7);
+    test::Chance chance(7);
     const Grid<float> heights = test::made_heights(
         30, 30, [](int col, int row) { return (col + row) % 2 == 0 ? 1e4 : 0.0; });
     const MinMaxPyramid pyramid(heights.view());
@@ -341,7 +240,7 @@ TEST(RayCast, IsWatertightOnACheckerboardOfCliffs) {
 }
 
 TEST(RayCast, IsTheSameInMirrorAndTransposed) {
-    Chance chance(8);
+    test::Chance chance(8);
     const Grid<float> heights = test::random_heights(19, 27, -2.0F, 2.0F, 16);
     const Grid<float> mirrored =
         test::made_heights(19, 27, [&](int col, int row) { return heights(18 - col, row); });
@@ -374,7 +273,7 @@ TEST(RayCast, NeitherHangsNorHitsWithRaysThatAreNoNumbers) {
 }
 
 TEST(Pick, OnAPlaneIsTheRayInSampleCoordinates) {
-    Chance chance(9);
+    test::Chance chance(9);
     const Heightfield heightfield =
         test::plane_heightfield(test::random_heights(31, 41, -20.0F, 20.0F, 18), {3.0, 5.0});
     const Placement placement = test::placed(heightfield, 2.0);
@@ -389,7 +288,7 @@ TEST(Pick, OnAPlaneIsTheRayInSampleCoordinates) {
         const auto hit = pick(heightfield.heights.view(), pyramid, placement, ray);
         const Ray sample_ray{*placement.sample_from_world(from),
                              *placement.sample_from_world(to) - *placement.sample_from_world(from)};
-        const auto expected = brute_force(heightfield.heights, sample_ray, {0.0, 1e4});
+        const auto expected = test::brute_force(heightfield.heights, sample_ray, {0.0, 1e4});
         ASSERT_EQ(hit.has_value(), expected.has_value());
         if (hit) {
             ++hits;
@@ -414,7 +313,7 @@ std::optional<double> placed_clearance(const Heightfield& heightfield, const Pla
 }
 
 TEST(Pick, OnAnEllipsoidAgreesWithFineSteps) {
-    Chance chance(10);
+    test::Chance chance(10);
     // 80 km of hills 1,500 m high, 0.01° a sample.
     const Heightfield heightfield =
         test::geographic_heightfield(test::made_heights(101, 81,
@@ -458,7 +357,7 @@ TEST(Pick, OnAnEllipsoidAgreesWithFineSteps) {
 
 // Pieces of a bent ray meet: what crosses the surface at such a joint is seen too.
 TEST(Pick, IsWatertightOnAnEllipsoid) {
-    Chance chance(11);
+    test::Chance chance(11);
     const Heightfield heightfield = test::geographic_heightfield(
         test::random_heights(65, 65, 0.0F, 500.0F, 19), 60.0, 20.0, 0.01);
     const Placement placement = test::placed(heightfield);
@@ -478,7 +377,7 @@ TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
         test::geographic_heightfield(Grid<float>(129, 129, 100.0F), 46.5, 7.0, 0.01);
     const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
-    Chance chance(12);
+    test::Chance chance(12);
     for (int i = 0; i < 3000; ++i) {
         // Steep short rays; whatever the joints' places, the ground is in between.
         const glm::dvec3 ground = placement.world_from_sample(
@@ -493,7 +392,7 @@ TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
 }
 
 TEST(Pick, EndsSoonWhereverTheRayComesFrom) {
-    Chance chance(13);
+    test::Chance chance(13);
     std::vector<Heightfield> fields;
     fields.push_back(test::geographic_heightfield(Grid<float>(101, 81, 0.0F), 46.0, 7.0, 0.01));
     fields.push_back(test::geographic_heightfield(Grid<float>(361, 161, 0.0F), 80.0, -180.0, 1.0));

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/core/grid.h"
+
+namespace reljef {
+
+/// Bilinear between the four samples around `place` (col, row; the caller keeps it inside the
+/// grid); `value(sample)` makes of a sample a float or vector that can be mixed.
+template <class T, class Value>
+auto bilinear(const Grid<T>& grid, glm::dvec2 place, const Value& value) {
+    const glm::ivec2 last(grid.cols() - 1, grid.rows() - 1);
+    const glm::ivec2 near = glm::min(glm::ivec2(place), last);
+    const glm::ivec2 far = glm::min(near + 1, last);
+    const glm::vec2 part(place - glm::dvec2(near));
+    const auto north = glm::mix(value(grid(near.x, near.y)), value(grid(far.x, near.y)), part.x);
+    const auto south = glm::mix(value(grid(near.x, far.y)), value(grid(far.x, far.y)), part.x);
+    return glm::mix(north, south, part.y);
+}
+
+} // namespace reljef

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/color.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/terrain_node.h"
+
+namespace reljef::scene {
+
+/// The sun over a terrain whose node may be turned or scaled.
+struct TerrainLight {
+    Light sun;
+    glm::dmat3 world_from_local{1.0};
+
+    friend bool operator==(const TerrainLight&, const TerrainLight&) = default;
+};
+
+/// The colour of the terrain itself: its imagery over the hypsometric tint, sRGB, opaque. Its
+/// outermost texels are the outermost samples.
+Image albedo_map(const TerrainSurface& surface);
+
+/// What every place of a terrain reflects at albedo 1, whichever way one looks (Lambert): the sun,
+/// as far as the terrain around does not hide it, and the sky.
+class TerrainIrradiance {
+public:
+    /// Finds slope and visibility of the sun at every sample.
+    TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light);
+
+    /// Linear; slope and visibility are bilinear between samples. `sample`: col, row inside the
+    /// heightfield.
+    [[nodiscard]] glm::vec3 at(glm::dvec2 sample) const;
+
+private:
+    Grid<glm::vec2> gradients_;
+    Grid<std::uint8_t> visibility_;
+    glm::mat3 world_from_normal_;
+    glm::vec3 to_sun_;
+    glm::vec3 sun_;
+    glm::vec3 sky_;
+};
+
+} // namespace reljef::scene

@@ -1,0 +1,53 @@
+#include "engine/truth/scene_caster.h"
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+
+namespace reljef::truth {
+namespace {
+
+PlacedTerrain placed(const scene::TerrainNode& node, const glm::dmat4& world_from_local) {
+    const scene::TerrainSurface& surface = *node.surface;
+    return {node.surface, world_from_local, glm::inverse(world_from_local),
+            terrain::SurfaceCaster(surface.heightfield().heights.view(), surface.pyramid(),
+                                   surface.placement())};
+}
+
+Ray moved(const glm::dmat4& to_from_from, const Ray& ray) {
+    return {glm::dvec3(to_from_from * glm::dvec4(ray.origin, 1.0)),
+            glm::dvec3(to_from_from * glm::dvec4(ray.direction, 0.0))};
+}
+
+} // namespace
+
+Result<SceneCaster> SceneCaster::create(const scene::Scene& scene) {
+    SceneCaster caster;
+    std::optional<Error> error;
+    scene::visit_visible(
+        scene.root(), [&](const scene::Node& node, const glm::dmat4& world_from_local) {
+            if (const auto* terrain = node.get<scene::TerrainNode>()) {
+                caster.terrains_.push_back(placed(*terrain, world_from_local));
+                caster.bounds_.add(transformed(world_from_local, terrain->surface->bounds()));
+            } else if (node.get<scene::MeshNode>() != nullptr && !error) {
+                error = Error{fmt::format("node '{}': is a mesh, and of meshes there is no exact "
+                                          "picture; terrains only were expected",
+                                          node.name())};
+            }
+        });
+    return error ? Result<SceneCaster>(*error) : Result<SceneCaster>(std::move(caster));
+}
+
+std::optional<SceneHit> SceneCaster::first_hit(const Ray& world_ray, Interval range) const {
+    std::optional<SceneHit> nearest;
+    for (std::size_t i = 0; i < terrains_.size(); ++i) {
+        const PlacedTerrain& terrain = terrains_[i];
+        const auto hit =
+            terrain.caster.first_hit(moved(terrain.local_from_world, world_ray), range);
+        if (hit && (!nearest || hit->t < nearest->surface.t)) {
+            nearest = SceneHit{i, *hit};
+        }
+    }
+    return nearest;
+}
+
+} // namespace reljef::truth

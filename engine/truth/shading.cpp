@@ -1,0 +1,77 @@
+#include "engine/truth/shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/core/bilinear.h"
+
+namespace reljef::truth {
+namespace {
+
+// Forward scattering: a wide glow, and the disc in it.
+glm::vec3 sun_glow(const scene::Light& sun, glm::dvec3 direction) {
+    const double toward = std::max(glm::dot(direction, scene::to_light(sun)), 0.0);
+    const double glow = std::pow(toward, 8);
+    const double disc = glm::smoothstep(0.99985, 0.99995, toward);
+    return sun.color * static_cast<float>(0.18 * glow + disc);
+}
+
+} // namespace
+
+glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun,
+                    glm::dvec3 direction) {
+    direction = glm::normalize(direction);
+    const auto height = static_cast<float>(direction.z);
+    const glm::vec3 color = height > 0.0F ? glm::mix(sky.horizon, sky.zenith, std::sqrt(height))
+                                          : sky.horizon * (1.0F + 0.35F * std::max(height, -1.0F));
+    return sun ? color + sun_glow(*sun, direction) : color;
+}
+
+glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distance) {
+    const double left = std::exp(-scene::extinction(sky) * distance);
+    return glm::mix(sky.horizon, color, static_cast<float>(left));
+}
+
+Shading::Shading(const scene::Scene& scene, const SceneCaster& caster)
+    : sun_(scene.sun()), sky_(scene.sky()) {
+    for (const PlacedTerrain& terrain : caster.terrains()) {
+        maps_.push_back(maps_of(terrain, sun_));
+    }
+}
+
+Shading::Maps Shading::maps_of(const PlacedTerrain& terrain,
+                               const std::optional<scene::Light>& sun) {
+    Maps maps;
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    maps.albedo = scene::albedo_map(*terrain.surface);
+    maps.texels_per_sample = glm::dvec2(maps.albedo.cols() - 1, maps.albedo.rows() - 1) /
+                             glm::dvec2(heights.cols() - 1, heights.rows() - 1);
+    if (sun) {
+        maps.irradiance.emplace(*terrain.surface,
+                                scene::TerrainLight{*sun, glm::dmat3(terrain.world_from_local)});
+    }
+    return maps;
+}
+
+glm::vec3 Shading::at(const SceneHit& hit) const {
+    const Maps& maps = maps_[hit.terrain];
+    // Rounding may put a hit a hair beyond the border.
+    const glm::dvec2 sample = glm::max(glm::dvec2(hit.surface.sample), glm::dvec2(0.0));
+    const glm::vec3 albedo =
+        bilinear(maps.albedo, sample * maps.texels_per_sample, linear_from_rgba8);
+    return maps.irradiance ? albedo * maps.irradiance->at(sample) : albedo;
+}
+
+glm::vec3 Shading::at(const SceneHit& hit, double distance) const {
+    const glm::vec3 color = at(hit);
+    return sky_ ? seen_through_air(*sky_, color, distance) : color;
+}
+
+glm::vec3 Shading::background(glm::dvec3 direction) const {
+    return sky_ ? sky_color(*sky_, sun_, direction) : glm::vec3(0.0F);
+}
+
+} // namespace reljef::truth

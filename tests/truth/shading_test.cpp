@@ -1,0 +1,169 @@
+#include "engine/truth/shading.h"
+
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/terrain/gradient.h"
+#include "tests/render/made_scene.h"
+#include "tests/terrain/chance.h"
+
+namespace reljef::truth {
+namespace {
+
+constexpr scene::Light white_sun{.azimuth = 90.0,
+                                 .altitude = 45.0,
+                                 .color = glm::vec3(2.0F, 1.0F, 0.5F),
+                                 .ambient = glm::vec3(0.2F, 0.3F, 0.4F)};
+
+// A plane, 8 × 8 m, z rising by `slope` towards the east; white unless coloured.
+scene::Scene sloped_scene(double slope, Image color = Image(9, 9, Rgba8{255, 255, 255, 255})) {
+    scene::Scene scene;
+    test::add_terrain(scene,
+                      test::plane_heightfield(
+                          test::made_heights(9, 9, [&](int col, int) { return slope * col; })),
+                      std::move(color));
+    return scene;
+}
+
+SceneHit hit_at(double col, double row) {
+    return {0, {0.0, {col, row, 0.0}}};
+}
+
+glm::vec3 shade(const scene::Scene& scene, const SceneHit& hit) {
+    return Shading(scene, SceneCaster::create(scene).value()).at(hit);
+}
+
+void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
+    EXPECT_LE(glm::distance(a, b), tolerance)
+        << a.r << ' ' << a.g << ' ' << a.b << " and " << b.r << ' ' << b.g << ' ' << b.b;
+}
+
+TEST(Shading, OfAPlaneIsLambertsLaw) {
+    // Rising by −1 to the east, the slope faces the sun: N·L = 1, N.z = √½.
+    scene::Scene facing = sloped_scene(-1.0);
+    facing.add_light(white_sun);
+    const float sky = 0.5F + 0.5F * std::sqrt(0.5F);
+    expect_near(shade(facing, hit_at(4.3, 3.7)), white_sun.color + white_sun.ambient * sky, 1e-5F);
+    scene::Scene level = sloped_scene(0.0);
+    level.add_light(white_sun);
+    expect_near(shade(level, hit_at(4.3, 3.7)),
+                white_sun.color * std::sqrt(0.5F) + white_sun.ambient, 1e-5F);
+}
+
+TEST(Shading, WithoutALightItIsTheAlbedoBilinearInLinearColour) {
+    Image color(2, 2, Rgba8{0, 0, 0, 255});
+    color(1, 0) = {255, 128, 0, 255};
+    const scene::Scene scene = sloped_scene(0.0, color);
+    const float green = linear_from_rgba8({0, 128, 0, 255}).g;
+    // Two texels over eight samples: corner on corner.
+    expect_near(shade(scene, hit_at(8.0, 0.0)), {1.0F, green, 0.0F}, 1e-6F);
+    expect_near(shade(scene, hit_at(4.0, 0.0)), {0.5F, 0.5F * green, 0.0F}, 1e-6F);
+    expect_near(shade(scene, hit_at(4.0, 4.0)), {0.25F, 0.25F * green, 0.0F}, 1e-6F);
+    expect_near(shade(scene, hit_at(8.0 + 1e-15, -1e-15)), {1.0F, green, 0.0F}, 1e-6F);
+}
+
+TEST(Shading, MixesSlopesNotColoursBetweenSamples) {
+    scene::Scene scene;
+    // Level, then rising: slopes 0 at col 0 … 3, ½ at 4, 1 from 5 on.
+    const terrain::Heightfield heightfield = test::plane_heightfield(
+        test::made_heights(9, 9, [](int col, int) { return std::max(col - 4, 0); }));
+    test::add_terrain(scene, heightfield, Image(9, 9, Rgba8{255, 255, 255, 255}));
+    scene::Light light = white_sun;
+    light.azimuth = 270.0;
+    light.color = glm::vec3(0.0F);
+    scene.add_light(light);
+    const auto sky_at = [](double slope) {
+        return static_cast<float>(0.5 + 0.5 / std::hypot(slope, 1.0));
+    };
+    expect_near(shade(scene, hit_at(4.5, 4.0)), light.ambient * sky_at(0.75), 1e-6F);
+    expect_near(shade(scene, hit_at(3.25, 4.0)), light.ambient * sky_at(0.125), 1e-6F);
+}
+
+TEST(Shading, AWallHidesTheSun) {
+    scene::Scene scene;
+    test::add_terrain(scene,
+                      test::plane_heightfield(test::made_heights(
+                          65, 9, [](int col, int) { return col == 40 ? 10.0 : 0.0; })),
+                      Image(9, 9, Rgba8{255, 255, 255, 255}));
+    scene.add_light(white_sun);
+    expect_near(shade(scene, hit_at(34.5, 4.0)), white_sun.ambient, 1e-5F);
+    expect_near(shade(scene, hit_at(20.5, 4.0)),
+                white_sun.color * std::sqrt(0.5F) + white_sun.ambient, 1e-5F);
+}
+
+TEST(Shading, TurnsWithItsNode) {
+    scene::Scene scene = sloped_scene(1.0); // faces west
+    scene.root().children().front()->set_parent_from_local(
+        glm::rotate(glm::dmat4(1.0), glm::radians(180.0), glm::dvec3(0.0, 0.0, 1.0)));
+    scene.add_light(white_sun);
+    const float sky = 0.5F + 0.5F * std::sqrt(0.5F);
+    expect_near(shade(scene, hit_at(4.3, 3.7)), white_sun.color + white_sun.ambient * sky, 1e-5F);
+}
+
+TEST(Shading, ManyPlanesAgainstTheFormula) {
+    test::Chance chance(31);
+    for (int i = 0; i < 300; ++i) {
+        const double slope = chance.between(-2.0, 2.0);
+        scene::Light light = white_sun;
+        light.azimuth = chance.between(0.0, 360.0);
+        light.altitude = 75.0;
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope, 0.0, 1.0));
+        const double sun = glm::dot(normal, scene::to_light(light));
+        if (sun < 0.3) {
+            continue; // a plane that the sun only grazes lies in its own penumbra
+        }
+        scene::Scene scene = sloped_scene(slope);
+        scene.add_light(light);
+        expect_near(shade(scene, hit_at(chance.between(1.0, 7.0), chance.between(1.0, 7.0))),
+                    light.color * static_cast<float>(sun) +
+                        light.ambient * static_cast<float>(0.5 + 0.5 * normal.z),
+                    1e-5F);
+    }
+}
+
+TEST(Air, LeavesTwoPercentAtTheVisibility) {
+    const scene::Sky sky{.horizon = glm::vec3(0.5F), .visibility = 1000.0};
+    const glm::vec3 color(1.0F, 0.0F, 0.25F);
+    expect_near(seen_through_air(sky, color, 0.0), color, 0.0F);
+    expect_near(seen_through_air(sky, color, 1000.0), glm::mix(glm::vec3(0.5F), color, 0.02F),
+                1e-6F);
+    expect_near(seen_through_air(sky, color, 500.0),
+                glm::mix(glm::vec3(0.5F), color, std::sqrt(0.02F)), 1e-6F);
+    expect_near(seen_through_air(sky, color, std::numeric_limits<double>::infinity()),
+                glm::vec3(0.5F), 0.0F);
+}
+
+TEST(Air, WithoutFogChangesNothing) {
+    expect_near(seen_through_air({}, {0.1F, 0.2F, 0.3F}, 1e7), {0.1F, 0.2F, 0.3F}, 0.0F);
+}
+
+TEST(Sky, GoesFromHorizonToZenithByTheRootOfTheHeight) {
+    const scene::Sky sky;
+    expect_near(sky_color(sky, {}, {0.0, 0.0, 5.0}), sky.zenith, 1e-6F);
+    expect_near(sky_color(sky, {}, {3.0, 4.0, 0.0}), sky.horizon, 1e-6F);
+    expect_near(sky_color(sky, {}, {std::sqrt(15.0), 0.0, 1.0}),
+                glm::mix(sky.horizon, sky.zenith, 0.5F), 1e-6F);
+    expect_near(sky_color(sky, {}, {0.0, 0.0, -1.0}), 0.65F * sky.horizon, 1e-6F);
+}
+
+TEST(Sky, HasTheSunWhereItIs) {
+    const scene::Sky sky;
+    const glm::dvec3 to_sun = scene::to_light(white_sun);
+    const glm::vec3 behind = sky_color(sky, {}, to_sun);
+    expect_near(sky_color(sky, white_sun, 3.0 * to_sun), behind + 1.18F * white_sun.color, 1e-5F);
+    // 60 degrees off: cos⁸ = 1/256.
+    const glm::dvec3 off =
+        glm::dvec3(glm::rotate(glm::dmat4(1.0), glm::radians(60.0), glm::dvec3(0.0, 1.0, 0.0)) *
+                   glm::dvec4(to_sun, 0.0));
+    expect_near(sky_color(sky, white_sun, off),
+                sky_color(sky, {}, off) + (0.18F / 256.0F) * white_sun.color, 1e-6F);
+    expect_near(sky_color(sky, white_sun, -to_sun), sky_color(sky, {}, -to_sun), 0.0F);
+}
+
+} // namespace
+} // namespace reljef::truth
