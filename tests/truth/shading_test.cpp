@@ -30,7 +30,7 @@ scene::Scene sloped_scene(double slope, Image color = Image(9, 9, Rgba8{255, 255
     return scene;
 }
 
-SceneHit hit_at(double col, double row) {
+SceneHit place_at(double col, double row) {
     return {0, {0.0, {col, row, 0.0}}};
 }
 
@@ -48,10 +48,11 @@ TEST(Shading, OfAPlaneIsLambertsLaw) {
     scene::Scene facing = sloped_scene(-1.0);
     facing.add_light(white_sun);
     const float sky = 0.5F + 0.5F * std::sqrt(0.5F);
-    expect_near(shade(facing, hit_at(4.3, 3.7)), white_sun.color + white_sun.ambient * sky, 1e-5F);
+    expect_near(shade(facing, place_at(4.3, 3.7)), white_sun.color + white_sun.ambient * sky,
+                1e-5F);
     scene::Scene level = sloped_scene(0.0);
     level.add_light(white_sun);
-    expect_near(shade(level, hit_at(4.3, 3.7)),
+    expect_near(shade(level, place_at(4.3, 3.7)),
                 white_sun.color * std::sqrt(0.5F) + white_sun.ambient, 1e-5F);
 }
 
@@ -61,10 +62,10 @@ TEST(Shading, WithoutALightItIsTheAlbedoBilinearInLinearColour) {
     const scene::Scene scene = sloped_scene(0.0, color);
     const float green = linear_from_rgba8({0, 128, 0, 255}).g;
     // Two texels over eight samples: corner on corner.
-    expect_near(shade(scene, hit_at(8.0, 0.0)), {1.0F, green, 0.0F}, 1e-6F);
-    expect_near(shade(scene, hit_at(4.0, 0.0)), {0.5F, 0.5F * green, 0.0F}, 1e-6F);
-    expect_near(shade(scene, hit_at(4.0, 4.0)), {0.25F, 0.25F * green, 0.0F}, 1e-6F);
-    expect_near(shade(scene, hit_at(8.0 + 1e-15, -1e-15)), {1.0F, green, 0.0F}, 1e-6F);
+    expect_near(shade(scene, place_at(8.0, 0.0)), {1.0F, green, 0.0F}, 1e-6F);
+    expect_near(shade(scene, place_at(4.0, 0.0)), {0.5F, 0.5F * green, 0.0F}, 1e-6F);
+    expect_near(shade(scene, place_at(4.0, 4.0)), {0.25F, 0.25F * green, 0.0F}, 1e-6F);
+    expect_near(shade(scene, place_at(8.0 + 1e-15, -1e-15)), {1.0F, green, 0.0F}, 1e-6F);
 }
 
 TEST(Shading, MixesSlopesNotColoursBetweenSamples) {
@@ -80,8 +81,8 @@ TEST(Shading, MixesSlopesNotColoursBetweenSamples) {
     const auto sky_at = [](double slope) {
         return static_cast<float>(0.5 + 0.5 / std::hypot(slope, 1.0));
     };
-    expect_near(shade(scene, hit_at(4.5, 4.0)), light.ambient * sky_at(0.75), 1e-6F);
-    expect_near(shade(scene, hit_at(3.25, 4.0)), light.ambient * sky_at(0.125), 1e-6F);
+    expect_near(shade(scene, place_at(4.5, 4.0)), light.ambient * sky_at(0.75), 1e-6F);
+    expect_near(shade(scene, place_at(3.25, 4.0)), light.ambient * sky_at(0.125), 1e-6F);
 }
 
 TEST(Shading, AWallHidesTheSun) {
@@ -91,8 +92,8 @@ TEST(Shading, AWallHidesTheSun) {
                           65, 9, [](int col, int) { return col == 40 ? 10.0 : 0.0; })),
                       Image(9, 9, Rgba8{255, 255, 255, 255}));
     scene.add_light(white_sun);
-    expect_near(shade(scene, hit_at(34.5, 4.0)), white_sun.ambient, 1e-5F);
-    expect_near(shade(scene, hit_at(20.5, 4.0)),
+    expect_near(shade(scene, place_at(34.5, 4.0)), white_sun.ambient, 1e-5F);
+    expect_near(shade(scene, place_at(20.5, 4.0)),
                 white_sun.color * std::sqrt(0.5F) + white_sun.ambient, 1e-5F);
 }
 
@@ -102,7 +103,7 @@ TEST(Shading, TurnsWithItsNode) {
         glm::rotate(glm::dmat4(1.0), glm::radians(180.0), glm::dvec3(0.0, 0.0, 1.0)));
     scene.add_light(white_sun);
     const float sky = 0.5F + 0.5F * std::sqrt(0.5F);
-    expect_near(shade(scene, hit_at(4.3, 3.7)), white_sun.color + white_sun.ambient * sky, 1e-5F);
+    expect_near(shade(scene, place_at(4.3, 3.7)), white_sun.color + white_sun.ambient * sky, 1e-5F);
 }
 
 TEST(Shading, ManyPlanesAgainstTheFormula) {
@@ -119,7 +120,7 @@ TEST(Shading, ManyPlanesAgainstTheFormula) {
         }
         scene::Scene scene = sloped_scene(slope);
         scene.add_light(light);
-        expect_near(shade(scene, hit_at(chance.between(1.0, 7.0), chance.between(1.0, 7.0))),
+        expect_near(shade(scene, place_at(chance.between(1.0, 7.0), chance.between(1.0, 7.0))),
                     light.color * static_cast<float>(sun) +
                         light.ambient * static_cast<float>(0.5 + 0.5 * normal.z),
                     1e-5F);
