@@ -24,7 +24,7 @@ class Device {
 public:
     static Result<Device> create(const DeviceOptions& options = {});
 
-    [[nodiscard]] platform::Context& context() { return *context_; }
+    [[nodiscard]] const platform::Context& context() const { return *context_; }
     [[nodiscard]] render::Driver& driver() { return *driver_; }
 
 private:

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/command.h"
-#include "app/device.h"
+#include "app/frame_maker.h"
 #include "app/frame_sink.h"
 #include "app/options.h"
 #include "app/output_files.h"
@@ -24,13 +24,19 @@ struct RenderChoice {
     std::filesystem::path hits;
     std::filesystem::path contact_sheet;
     bool stats = false;
+    bool truth = false;
+    int rays = 1;
 };
 
 constexpr int sheet_columns = 4;
 constexpr int sheet_picture_width = 320;
 constexpr int most_sheet_pictures = 24;
 
-Result<Device> make_device(const RenderChoice& choice) {
+Result<std::unique_ptr<FrameMaker>> make_frame_maker(const RenderChoice& choice) {
+    using Maker = std::unique_ptr<FrameMaker>;
+    if (choice.truth) {
+        return Maker(new TruthFrames(choice.view.size, choice.rays));
+    }
     DeviceOptions options;
     options.threads = choice.terrain.threads;
     options.context = choice.view.context;
@@ -38,28 +44,15 @@ Result<Device> make_device(const RenderChoice& choice) {
     options.context_options.visible = false;
     options.driver.size = choice.view.size;
     options.driver.shader_dir = choice.view.shader_dir;
-    return Device::create(options);
+    auto device = Device::create(options);
+    return device ? Result<Maker>(Maker(new DeviceFrames(std::move(*device), choice.stats)))
+                  : device.error();
 }
 
 void move_camera(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
     const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
     auto& camera = *scene.camera->get<scene::Camera>();
     camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
-}
-
-void print_stats(const render::FrameStats& stats, const platform::Context& context) {
-    fmt::print(
-        "renderer: {}\n"
-        "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
-        "uploads: {} ({:.1f} MB)\n"
-        "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the frustum, {} "
-        "uploads that were there\n"
-        "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
-        context.renderer(), stats.nodes, stats.tiles, stats.triangles, stats.draws,
-        stats.state_changes, stats.uploads, static_cast<double>(stats.upload_bytes) * 1e-6,
-        stats.skipped.invisible_nodes, stats.skipped.nodes_outside_frustum,
-        stats.skipped.tiles_outside_frustum, stats.skipped.triangles_outside_frustum,
-        stats.skipped.uploads_unchanged, stats.cpu_ms, stats.gpu_ms);
 }
 
 // The pictures on a contact sheet: as many of the frames as fit, evenly spread.
@@ -84,32 +77,19 @@ private:
     std::vector<Image> pictures_;
 };
 
+// How a frame is drawn: stopped by Ctrl-C, told as a part of all frames.
+ParallelOptions frame_options(const RenderChoice& choice, const Interrupt& interrupt,
+                              Progress progress = {}) {
+    return {.threads = static_cast<unsigned>(choice.terrain.threads),
+            .stop = interrupt.token(),
+            .progress = std::move(progress)};
+}
+
 Result<void> check_interrupt(const Interrupt& interrupt) {
     return interrupt.requested() ? Result<void>(Error{"interrupted"}) : Result<void>();
 }
 
-// Draws a frame into the sink and perhaps onto the sheet.
-Result<void> draw_frame(const RenderChoice& choice, TerrainScene& scene, Device& device, int index,
-                        FrameSink& sink, SheetPictures& sheet, const Interrupt& interrupt) {
-    const auto stats = device.driver().draw(scene.scene, choice.stats);
-    if (!stats) {
-        return stats.error();
-    }
-    Image picture = device.driver().read_color();
-    if (auto going_on = check_interrupt(interrupt); !going_on) { // while it was drawn
-        return going_on;
-    }
-    if (auto written = sink.write(picture, index); !written) {
-        return written;
-    }
-    if (choice.stats && index == choice.view.frames - 1) {
-        print_stats(*stats, device.context());
-    }
-    sheet.add(std::move(picture), index);
-    return {};
-}
-
-Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device& device,
+Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameMaker& maker,
                          const std::optional<scene::FlyPath>& path, const Interrupt& interrupt) {
     const int frames = choice.view.frames;
     auto sink =
@@ -125,14 +105,26 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, Device
         if (path) {
             move_camera(scene, *path, index, frames);
         }
-        if (auto drawn = draw_frame(choice, scene, device, index, **sink, sheet, interrupt);
-            !drawn) {
-            return drawn;
+        auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
+                                      line.update((index + part) / frames);
+                                  }));
+        if (!picture) {
+            return picture.error();
         }
-        line.update(static_cast<double>(index + 1) / frames);
+        if (auto going_on = check_interrupt(interrupt); !going_on) { // while it was drawn
+            return going_on;
+        }
+        if (auto written = (*sink)->write(*picture, index); !written) {
+            return written;
+        }
+        sheet.add(std::move(*picture), index);
+        line.update((index + 1.0) / frames);
     }
     if (auto finished = (*sink)->finish(); !finished) {
         return finished;
+    }
+    if (choice.stats) {
+        fmt::print("{}", maker.stats());
     }
     return sheet.write(choice.contact_sheet);
 }
@@ -207,9 +199,11 @@ std::vector<NamedFile> outputs_of(const RenderChoice& choice, std::span<const Na
     return outputs;
 }
 
-Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scene, Device& device,
-                            const Interrupt& interrupt) {
-    const auto hits = device.driver().draw_hits(scene.scene);
+Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scene,
+                            FrameMaker& maker, const Interrupt& interrupt) {
+    ProgressLine line("finding hits", choice.terrain.quiet);
+    const auto hits =
+        maker.draw_hits(scene.scene, frame_options(choice, interrupt, line.callback()));
     if (!hits) {
         return hits.error();
     }
@@ -219,7 +213,7 @@ Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scen
     return io::write_hits(choice.hits, *hits);
 }
 
-Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, Device& device,
+Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, FrameMaker& maker,
                           const Interrupt& interrupt) {
     const auto path = open_path(scene, choice.view);
     if (!path) {
@@ -229,21 +223,21 @@ Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, Devic
         move_camera(scene, **path, 0, 1);
     }
     if (!choice.hits.empty()) {
-        if (auto written = write_hit_file(choice, scene, device, interrupt); !written) {
+        if (auto written = write_hit_file(choice, scene, maker, interrupt); !written) {
             return written;
         }
     }
     return choice.output.empty() ? Result<void>()
-                                 : draw_frames(choice, scene, device, *path, interrupt);
+                                 : draw_frames(choice, scene, maker, *path, interrupt);
 }
 
 Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (auto good = check_targets(choice); !good) {
         return good;
     }
-    auto device = make_device(choice);
-    if (!device) {
-        return device.error();
+    auto maker = make_frame_maker(choice);
+    if (!maker) {
+        return maker.error();
     }
     auto source = open_terrain(choice.terrain, interrupt.token());
     if (!source) {
@@ -257,7 +251,7 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!scene) {
         return scene.error();
     }
-    return draw_outputs(choice, *scene, *device, interrupt);
+    return draw_outputs(choice, *scene, **maker, interrupt);
 }
 
 } // namespace
@@ -280,6 +274,18 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         ->add_option("--contact-sheet", choice->contact_sheet,
                      "picture with small copies of up to 24 frames")
         ->type_name("FILE");
+    auto* truth = arguments->add_flag(
+        "--truth", choice->truth,
+        "draw with exact rays on the CPU: the picture that every technique approximates");
+    for (const char* option : {"--wireframe", "--context", "--technique", "--shader-dir"}) {
+        truth->excludes(arguments->get_option(option));
+    }
+    arguments
+        ->add_option("--rays", choice->rays,
+                     "with --truth: along each side of a pixel, 1 to 16 (1)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 16))
+        ->needs(truth);
     arguments->add_flag("--stats", choice->stats, "print what the last frame took and skipped");
     arguments->callback([choice] {
         check_view_options(choice->view);
@@ -293,7 +299,8 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         "sheet.png\n"
         "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
         "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
-        "  reljef render dem.tif --technique texture --hit hit.exr");
+        "  reljef render dem.tif --technique texture --hit hit.exr\n"
+        "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr");
     return {arguments, [choice, &interrupt] { return render(*choice, interrupt); }};
 }
 

@@ -1,0 +1,96 @@
+#include "app/frame_maker.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace reljef::app {
+namespace {
+
+class Stopwatch {
+public:
+    [[nodiscard]] double ms() const {
+        const auto gone = std::chrono::steady_clock::now() - start_;
+        return std::chrono::duration<double, std::milli>(gone).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& /*parallel*/) {
+    const auto stats = device_.driver().draw(scene, timed_);
+    if (!stats) {
+        return stats.error();
+    }
+    stats_ = *stats;
+    return device_.driver().read_color();
+}
+
+Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
+                                          const ParallelOptions& /*parallel*/) {
+    return device_.driver().draw_hits(scene);
+}
+
+std::string DeviceFrames::stats() const {
+    return fmt::format(
+        "renderer: {}\n"
+        "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
+        "uploads: {} ({:.1f} MB)\n"
+        "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the frustum, {} "
+        "uploads that were there\n"
+        "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
+        device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles, stats_.draws,
+        stats_.state_changes, stats_.uploads, static_cast<double>(stats_.upload_bytes) * 1e-6,
+        stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
+        stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
+        stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
+}
+
+Result<void> TruthFrames::prepare(const scene::Scene& scene) {
+    if (caster_) {
+        return {};
+    }
+    auto caster = truth::SceneCaster::create(scene);
+    if (!caster) {
+        return caster.error();
+    }
+    caster_ = std::move(*caster);
+    return {};
+}
+
+Result<Image> TruthFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
+    const Stopwatch preparing;
+    if (auto prepared = prepare(scene); !prepared) {
+        return prepared.error();
+    }
+    if (!shading_) {
+        shading_.emplace(scene, *caster_);
+        prepare_ms_ = preparing.ms();
+    }
+    const Stopwatch drawing;
+    auto picture = truth::draw(*caster_, *shading_, scene.camera(), size_,
+                               {.rays_per_side = rays_per_side_, .parallel = parallel});
+    draw_ms_ = drawing.ms();
+    return picture ? Result<Image>(std::move(picture->image)) : picture.error();
+}
+
+Result<HitBuffer> TruthFrames::draw_hits(const scene::Scene& scene,
+                                         const ParallelOptions& parallel) {
+    if (auto prepared = prepare(scene); !prepared) {
+        return prepared.error();
+    }
+    return truth::draw_hits(*caster_, scene.camera(), size_, parallel);
+}
+
+std::string TruthFrames::stats() const {
+    return fmt::format("renderer: exact rays on the CPU\n"
+                       "rays: {} a frame\n"
+                       "once: {:.2f} ms, frame: {:.2f} ms\n",
+                       static_cast<long long>(size_.x) * size_.y * rays_per_side_ * rays_per_side_,
+                       prepare_ms_, draw_ms_);
+}
+
+} // namespace reljef::app

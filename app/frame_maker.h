@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+
+#include "app/device.h"
+#include "engine/core/color.h"
+#include "engine/core/hit.h"
+#include "engine/core/worker_pool.h"
+#include "engine/scene/scene.h"
+#include "engine/truth/draw.h"
+
+namespace reljef::app {
+
+/// What draws the frames of one scene, of which only the camera moves from frame to frame.
+class FrameMaker {
+public:
+    virtual ~FrameMaker() = default;
+    /// Progress is that of this frame.
+    virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
+    virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
+                                        const ParallelOptions& parallel) = 0;
+    /// What the last frame took and skipped, as lines.
+    [[nodiscard]] virtual std::string stats() const = 0;
+};
+
+/// Draws with OpenGL; `timed` also waits for each frame's end.
+class DeviceFrames : public FrameMaker {
+public:
+    DeviceFrames(Device device, bool timed) : device_(std::move(device)), timed_(timed) {}
+    Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
+    Result<HitBuffer> draw_hits(const scene::Scene& scene,
+                                const ParallelOptions& parallel) override;
+    [[nodiscard]] std::string stats() const override;
+
+private:
+    Device device_;
+    bool timed_;
+    render::FrameStats stats_;
+};
+
+/// Draws with exact rays on the CPU.
+class TruthFrames : public FrameMaker {
+public:
+    TruthFrames(glm::ivec2 size, int rays_per_side) : size_(size), rays_per_side_(rays_per_side) {}
+    Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
+    Result<HitBuffer> draw_hits(const scene::Scene& scene,
+                                const ParallelOptions& parallel) override;
+    [[nodiscard]] std::string stats() const override;
+
+private:
+    Result<void> prepare(const scene::Scene& scene);
+
+    glm::ivec2 size_;
+    int rays_per_side_;
+    std::optional<truth::SceneCaster> caster_; // made for the first frame
+    std::optional<truth::Shading> shading_;    // made for the first picture
+    double prepare_ms_ = 0.0;
+    double draw_ms_ = 0.0;
+};
+
+} // namespace reljef::app
