@@ -440,14 +440,12 @@ private:
         if (surface && !below && box->low.z <= surface->high) {
             return false;
         }
-        const Side side = below ? Side::below : Side::above;
-        // Beyond the border the ray is neither above nor below.
-        const bool all_over_surface =
-            surface && is_over_surface(box->low) && is_over_surface(box->high);
         if (below && side_ == Side::above) {
             return false; // it went through at the joint
         }
-        side_ = all_over_surface || (surface && is_over_surface(to)) ? side : Side::unknown;
+        // Beyond the border the ray is neither above nor below.
+        const bool over = surface && is_over_surface(to);
+        side_ = !over ? Side::unknown : below ? Side::below : Side::above;
         return true;
     }
 
