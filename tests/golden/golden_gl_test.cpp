@@ -1,0 +1,79 @@
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/image.h"
+#include "engine/scene/technique.h"
+#include "tests/app/command_line.h"
+#include "tests/golden/golden_picture.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace reljef {
+namespace {
+
+struct GoldenCase {
+    std::string name;
+    std::string terrain; ///< built-in, or a file of the test data where `is_data`
+    bool is_data = false;
+    std::vector<std::string> options;
+};
+
+void PrintTo(const GoldenCase& golden, std::ostream* stream) {
+    *stream << golden.name;
+}
+
+// Each technique and the exact picture on each built-in terrain, and real elevation data.
+std::vector<GoldenCase> golden_cases() {
+    std::vector<GoldenCase> cases;
+    for (const std::string terrain : {"natural", "urban"}) {
+        for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
+            const std::string id(technique.name);
+            cases.push_back(
+                {terrain + "_" + id, terrain, false, {"--technique", id, "--context", "osmesa"}});
+        }
+        cases.push_back({terrain + "_truth", terrain, false, {"--truth"}});
+    }
+    cases.push_back({"alps",
+                     "natural/srtm3/N45E006.hgt",
+                     true,
+                     {"--camera", "45.60,6.70,5200,20,-18", "--context", "osmesa"}});
+    cases.push_back({"rainier", "natural/mt_rainier_90m.tif", true, {"--context", "osmesa"}});
+    cases.push_back({"delft", "urban/delft/tud-dsm-5m.tif", true, {"--context", "osmesa"}});
+    return cases;
+}
+
+class Golden : public testing::TestWithParam<GoldenCase> {};
+
+TEST_P(Golden, IsStillDrawn) {
+    const GoldenCase& golden = GetParam();
+    if (golden.is_data) {
+        RELJEF_NEED_DATA(golden.terrain);
+    }
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "picture.png";
+    std::vector<std::string> arguments{
+        "render",     golden.is_data ? test::data_path(golden.terrain).string() : golden.terrain,
+        "--size",     "320x240",
+        "--quiet",    "-o",
+        file.string()};
+    arguments.insert(arguments.end(), golden.options.begin(), golden.options.end());
+    const auto run = test::reljef(arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto picture = io::read_image(file);
+    ASSERT_TRUE(picture) << picture.error().message;
+    const test::GoldenFolders folders{RELJEF_GOLDEN_PICTURES, RELJEF_GOLDEN_FAILURES};
+    if (std::getenv("RELJEF_WRITE_GOLDENS") != nullptr) { // ./dev goldens
+        const auto written = io::write_image(folders.pictures / (golden.name + ".png"), *picture);
+        ASSERT_TRUE(written) << written.error().message;
+        return;
+    }
+    const auto checked = test::check_golden(golden.name, *picture, folders);
+    EXPECT_TRUE(checked) << checked.error().message;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(golden_cases()),
+                         [](const auto& info) { return info.param.name; });
+
+} // namespace
+} // namespace reljef
