@@ -15,7 +15,7 @@ namespace {
 // The air of a clear day over a scene: a fifth of the contrast is gone after one and a half widths.
 constexpr double visibility_in_widths = 25.0;
 
-scene::TerrainOptions terrain_options(const TerrainChoice& choice,
+scene::TerrainOptions terrain_options(const TerrainChoice& choice, const ViewChoice& view,
                                       const io::SceneDescription& description) {
     scene::TerrainOptions options;
     options.exaggeration = choice.exaggeration.value_or(description.exaggeration);
@@ -23,6 +23,9 @@ scene::TerrainOptions terrain_options(const TerrainChoice& choice,
     if (!options.placement && description.placement) {
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
+    }
+    if (!options.placement && scene::geometry_of(view.technique.id) == scene::Geometry::box) {
+        options.placement = terrain::PlacementKind::plane; // the only one it draws
     }
     return options;
 }
@@ -86,7 +89,7 @@ double TerrainScene::ground(double x, double y) const {
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
                                 const ViewChoice& view) {
     TerrainScene result;
-    const auto options = terrain_options(terrain, source.description);
+    const auto options = terrain_options(terrain, view, source.description);
     auto node = result.scene.add_terrain(std::move(source.terrain), options);
     if (!node) {
         return node.error();
@@ -94,6 +97,11 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     result.terrain = *node;
     result.bounds = result.terrain->world_bounds();
     auto& material = result.terrain->get<scene::TerrainNode>()->material;
+    if (auto good = scene::check_technique(view.technique,
+                                           *result.terrain->get<scene::TerrainNode>()->surface);
+        !good) {
+        return good.error();
+    }
     material.technique = view.technique;
     material.wireframe = view.wireframe;
 

@@ -81,10 +81,14 @@ scene::Camera perspective_start(const TerrainScene& scene) {
     return camera;
 }
 
-// The catalogue's, with the parameters that were asked for.
-std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for) {
+// The catalogue's that can draw the surface, with the parameters that were asked for.
+std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
+                                              const scene::TerrainSurface& surface) {
     std::vector<scene::Technique> techniques;
     for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        if (!scene::check_technique(scene::make_technique(info.id), surface)) {
+            continue;
+        }
         techniques.push_back(info.id == asked_for.id ? asked_for : scene::make_technique(info.id));
     }
     return techniques;
@@ -138,7 +142,9 @@ std::string Viewer::keys() {
 
 Viewer::Viewer(TerrainScene& scene, scene::FlyPath path, glm::ivec2 size)
     : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
-      techniques_(techniques_with(material().technique)), flight_(make_flight(scene, start_)) {
+      techniques_(techniques_with(material().technique,
+                                  *scene.terrain->get<scene::TerrainNode>()->surface)),
+      flight_(make_flight(scene, start_)) {
     if (camera().projection == scene::ProjectionKind::orthographic) {
         map_.emplace(camera(), scene_.bounds, size_);
     } else {

@@ -20,6 +20,6 @@ void main() {
     hit = vec4(-1.0, -1.0, 0.0, view_depth);
 #else
     vec3 lit = lit_color(albedo, normalize(world_normal), 1.0);
-    color = vec4(seen_through_air(lit), 1.0);
+    color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);
 #endif
 }

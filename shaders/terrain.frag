@@ -23,6 +23,6 @@ void main() {
     hit = vec4(place, height_and_depth);
 #else
     vec3 lit = texture(lit_map, place * lit_from_sample.xy + lit_from_sample.zw).rgb;
-    color = vec4(seen_through_air(lit), 1.0);
+    color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);
 #endif
 }

@@ -39,7 +39,11 @@ public:
         if (const auto* mesh = node.get<scene::MeshNode>()) {
             add_mesh(*mesh, world_from_local, node.local_bounds());
         } else if (const auto* terrain = node.get<scene::TerrainNode>()) {
-            add_tiles(*terrain, world_from_local);
+            if (scene::geometry_of(terrain->material.technique.id) == scene::Geometry::box) {
+                add_relief(*terrain, world_from_local);
+            } else {
+                add_tiles(*terrain, world_from_local);
+            }
         }
     }
 
@@ -54,8 +58,19 @@ private:
         }
     }
 
+    void add_relief(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        const Box bounds = transformed(world_from_local, terrain.surface->bounds());
+        if (frustum_.may_see(bounds)) {
+            list_.reliefs.push_back(
+                {&terrain, world_from_local, distance_to(list_.camera.eye, bounds)});
+        } else {
+            ++list_.stats.skipped.nodes_outside_frustum;
+        }
+    }
+
     void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        const bool flat = terrain.material.technique.id == scene::TechniqueId::texture;
+        const bool flat =
+            scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
         const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
         const std::size_t before = list_.tiles.size();
         for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -94,8 +109,9 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size) {
         ++visited;
         selector.add(node, transform);
     });
-    std::stable_sort(list.tiles.begin(), list.tiles.end(),
-                     [](const TileDraw& a, const TileDraw& b) { return a.distance < b.distance; });
+    const auto nearer = [](const auto& a, const auto& b) { return a.distance < b.distance; };
+    std::stable_sort(list.tiles.begin(), list.tiles.end(), nearer);
+    std::stable_sort(list.reliefs.begin(), list.reliefs.end(), nearer);
     list.stats.nodes = count_nodes(scene.root());
     list.stats.skipped.invisible_nodes = list.stats.nodes - visited;
     list.stats.skipped.sky = list.sky ? 0 : 1;

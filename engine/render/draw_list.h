@@ -20,6 +20,13 @@ struct TileDraw {
     double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
 };
 
+/// One terrain whose surface each pixel looks for along its ray.
+struct ReliefDraw {
+    const scene::TerrainNode* terrain = nullptr;
+    glm::dmat4 world_from_local{1.0};
+    double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+};
+
 struct MeshDraw {
     const scene::MeshNode* mesh = nullptr;
     glm::dmat4 world_from_local{1.0};
@@ -31,7 +38,8 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::vector<TileDraw> tiles; ///< front to back
+    std::vector<TileDraw> tiles;     ///< front to back
+    std::vector<ReliefDraw> reliefs; ///< front to back
     std::vector<MeshDraw> meshes;
     FrameStats stats; ///< nodes and what was skipped, so far
 };

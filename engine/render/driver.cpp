@@ -74,6 +74,35 @@ std::uint32_t features_of(const DrawList& list, bool hits) {
     return features;
 }
 
+std::uint32_t search_features(scene::TechniqueId id) {
+    switch (id) {
+    case scene::TechniqueId::parallax:
+        return feature_parallax;
+    case scene::TechniqueId::parallax_limited:
+        return feature_parallax | feature_limited;
+    case scene::TechniqueId::parallax_iterated:
+        return feature_parallax | feature_iterated;
+    case scene::TechniqueId::relief:
+        return feature_bisect;
+    case scene::TechniqueId::interval:
+        return feature_secant;
+    case scene::TechniqueId::pom:
+        return feature_secant | feature_view_steps;
+    case scene::TechniqueId::exact:
+        return feature_exact;
+    default:
+        return 0U;
+    }
+}
+
+glm::vec4 search_values(const scene::Technique& technique) {
+    glm::vec4 values(0.0F);
+    for (std::size_t i = 0; i < technique.values.size(); ++i) {
+        values[static_cast<int>(i)] = static_cast<float>(technique.values[i]);
+    }
+    return values;
+}
+
 // Draws a list and counts what it sets; what is set already is not set again.
 class Painter {
 public:
@@ -92,6 +121,22 @@ public:
         for (const TileDraw& draw : list_.tiles) {
             draw_tile(draw);
         }
+        return {};
+    }
+
+    Result<void> draw_reliefs(const gl::VertexArray& no_vertices) {
+        if (list_.reliefs.empty()) {
+            return {};
+        }
+        gl::set_culling(gl::Culling::front); // the box's far sides are seen from inside, too
+        ++stats_.state_changes;
+        for (const ReliefDraw& draw : list_.reliefs) {
+            if (auto drawn = draw_relief(draw, no_vertices); !drawn) {
+                return drawn;
+            }
+        }
+        gl::set_culling(gl::Culling::back);
+        ++stats_.state_changes;
         return {};
     }
 
@@ -154,12 +199,12 @@ private:
         return {};
     }
 
-    void bind_maps(const TileDraw& draw) {
-        if (hits_ || maps_of_ == draw.terrain) {
+    void bind_maps(const scene::TerrainNode& terrain) {
+        if (hits_ || maps_of_ == &terrain) {
             return;
         }
-        maps_of_ = draw.terrain;
-        const ResidentMaps& maps = residency_.maps(draw);
+        maps_of_ = &terrain;
+        const ResidentMaps& maps = residency_.maps(terrain);
         maps.lit.bind(0);
         program_->set_uniform("lit_from_sample", maps.lit_from_sample);
         ++stats_.state_changes;
@@ -169,7 +214,7 @@ private:
         const ResidentMesh& mesh = residency_.tile(draw);
         const scene::TerrainSurface& surface = *draw.terrain->surface;
         const auto& tile = surface.tiles()[static_cast<std::size_t>(draw.tile)];
-        bind_maps(draw);
+        bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
         program_->set_uniform("relative_from_tile",
                               relative_from(list_.camera, draw.world_from_local, mesh.origin));
@@ -181,6 +226,73 @@ private:
         program_->set_uniform("rows_per_vertex", 1.0F / vertices_per_row);
         draw_resident(mesh, gl::IndexType::uint16);
         ++stats_.tiles;
+    }
+
+    Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {
+        const scene::Technique& technique = draw.terrain->material.technique;
+        if (auto good = scene::check_technique(technique, *draw.terrain->surface); !good) {
+            return good;
+        }
+        if (auto used = use({ShaderKind::relief, features_ | search_features(technique.id)});
+            !used) {
+            return used;
+        }
+        maps_of_ = nullptr; // another program
+        bind_maps(*draw.terrain);
+        set_wireframe(draw.terrain->material.wireframe);
+        set_relief(draw, residency_.relief(draw));
+        no_vertices.bind();
+        constexpr int box_vertices = 14; // relief.vert
+        gl::draw_arrays(gl::Primitive::triangle_strip, 0, box_vertices);
+        stats_.triangles += box_vertices - 2;
+        stats_.state_changes += 3;
+        ++stats_.draws;
+        ++stats_.tiles;
+        return {};
+    }
+
+    void set_relief(const ReliefDraw& draw, const ResidentRelief& relief) {
+        const ReliefSpace& space = relief.space;
+        relief.heights.bind(1);
+        if (relief.greatest) {
+            relief.greatest->bind(2);
+            program_->set_uniform("top_level", relief.greatest->levels() - 1);
+        }
+        const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
+        const glm::dvec3 eye(local_from_world * glm::dvec4(list_.camera.eye, 1.0));
+        const glm::ivec2 samples = relief.heights.size();
+        const auto values = search_values(draw.terrain->material.technique);
+        program_->set_uniform("relative_from_local",
+                              relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
+        program_->set_uniform("box_low", glm::vec3(space.local_box.low));
+        program_->set_uniform("box_high", glm::vec3(space.local_box.high));
+        program_->set_uniform("space_from_relative",
+                              glm::mat3(space.space_from_local * glm::dmat3(local_from_world)));
+        program_->set_uniform("eye_in_space",
+                              glm::vec3(space.space_from_local * eye + space.space_of_origin));
+        program_->set_uniform("box_begin", glm::vec3(space.box.low));
+        program_->set_uniform("box_end", glm::vec3(space.box.high));
+        program_->set_uniform("perspective", is_perspective(list_) ? 1.0F : 0.0F);
+        program_->set_uniform("range_of_height", glm::vec2(space.lowest, space.range));
+        program_->set_uniform("height_texel", 1.0F / glm::vec2(samples));
+        program_->set_uniform("last_cell", samples - 2);
+        program_->set_uniform("metres_per_unit", space.metres_per_unit);
+        program_->set_uniform("search_values", values);
+        program_->set_uniform("texels_per_metre_away", texels_per_metre_away(draw, space));
+    }
+
+    // Texels of the lit map that a pixel facing the eye covers, a metre away.
+    [[nodiscard]] float texels_per_metre_away(const ReliefDraw& draw,
+                                              const ReliefSpace& space) const {
+        if (hits_ || !is_perspective(list_)) {
+            return 1e6F; // no limit
+        }
+        const ResidentMaps& maps = residency_.maps(*draw.terrain);
+        const glm::vec2 texels_per_sample =
+            glm::vec2(maps.lit_from_sample) * glm::vec2(maps.lit.size());
+        const glm::vec2 texels_per_metre = texels_per_sample / glm::vec2(space.metres_per_unit);
+        const glm::vec4 ray = ray_from_pixel(list_.camera, glm::dvec2(list_.size));
+        return ray.x * std::max(texels_per_metre.x, texels_per_metre.y);
     }
 
     void draw_mesh(const MeshDraw& draw) {
@@ -319,6 +431,9 @@ Result<void> Driver::draw_content(const DrawList& list, bool hits, FrameStats& s
     frame_block_.bind_uniform_block(0);
     Painter painter(list, hits, shaders_, residency_, stats);
     auto done = painter.draw_tiles();
+    if (done) {
+        done = painter.draw_reliefs(no_vertices_);
+    }
     if (done) {
         done = painter.draw_meshes();
     }

@@ -58,11 +58,36 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
     return ResidentMaps{std::move(*texture), lit_from_sample};
 }
 
-std::optional<scene::TerrainLight> light_on(const DrawList& list, const TileDraw& draw) {
+std::optional<scene::TerrainLight> light_on(const DrawList& list,
+                                            const glm::dmat4& world_from_local) {
     if (!list.sun) {
         return std::nullopt;
     }
-    return scene::TerrainLight{*list.sun, glm::dmat3(draw.world_from_local)};
+    return scene::TerrainLight{*list.sun, glm::dmat3(world_from_local)};
+}
+
+Result<gl::Texture2D> height_texture(const Grid<float>& heights, FrameStats& stats) {
+    auto texture = gl::Texture2D::create(
+        {.size = {heights.cols(), heights.rows()}, .format = gl::Format::r32f});
+    if (texture) {
+        texture->upload(0, heights);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, FrameStats& stats) {
+    auto texture = gl::Texture2D::create({.size = {levels.front().cols(), levels.front().rows()},
+                                          .format = gl::Format::r32f,
+                                          .levels = gl::full_chain,
+                                          .filter = gl::Filter::nearest});
+    if (texture) {
+        for (std::size_t level = 0; level < levels.size(); ++level) {
+            texture->upload(static_cast<int>(level), levels[level]);
+        }
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
 }
 
 struct MeshVertex {
@@ -87,7 +112,12 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
         return done;
     }
     if (with_maps) {
-        if (auto done = prepare_maps(list, stats); !done) {
+        if (auto done = prepare_all_maps(list, stats); !done) {
+            return done;
+        }
+    }
+    for (const ReliefDraw& draw : list.reliefs) {
+        if (auto done = prepare_relief(draw, stats); !done) {
             return done;
         }
     }
@@ -104,8 +134,8 @@ void Residency::forget_unused() {
     std::erase_if(meshes_, [](const auto& entry) { return entry.second.owner.expired(); });
 }
 
-Residency::Surface& Residency::surface_of(const TileDraw& draw) {
-    const auto& surface = draw.terrain->surface;
+Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
+    const auto& surface = terrain.surface;
     auto [entry, is_new] = surfaces_.try_emplace(surface.get());
     if (is_new) {
         entry->second.owner = surface;
@@ -118,7 +148,7 @@ Residency::Surface& Residency::surface_of(const TileDraw& draw) {
 Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
     std::vector<const TileDraw*> missing;
     for (const TileDraw& draw : list.tiles) {
-        Surface& surface = surface_of(draw);
+        Surface& surface = surface_of(*draw.terrain);
         const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
         if (slots[static_cast<std::size_t>(draw.tile)]) {
             ++stats.skipped.uploads_unchanged;
@@ -174,47 +204,87 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
                                                     .offset = offsetof(GridVertex, height)}};
     mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
     mesh.vertex_array.set_indices(**indices);
-    Surface& resident = surface_of(draw);
+    Surface& resident = surface_of(*draw.terrain);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
     slots[index] = std::move(mesh);
     return {};
 }
 
-Result<void> Residency::prepare_maps(const DrawList& list, FrameStats& stats) {
+Result<void> Residency::prepare_all_maps(const DrawList& list, FrameStats& stats) {
     maps_.clear();
     for (const TileDraw& draw : list.tiles) {
-        if (maps_.contains(draw.terrain)) {
-            continue;
+        if (auto done = prepare_maps(list, *draw.terrain, draw.world_from_local, stats); !done) {
+            return done;
         }
-        auto maps = maps_for(draw, light_on(list, draw), stats);
-        if (!maps) {
-            return maps.error();
-        }
-        maps_.emplace(draw.terrain, std::move(*maps));
     }
-    for (const TileDraw& draw : list.tiles) {
-        std::erase_if(surface_of(draw).maps,
+    for (const ReliefDraw& draw : list.reliefs) {
+        if (auto done = prepare_maps(list, *draw.terrain, draw.world_from_local, stats); !done) {
+            return done;
+        }
+    }
+    for (const auto& [terrain, maps] : maps_) {
+        std::erase_if(surface_of(*terrain).maps,
                       [](const LitMaps& entry) { return entry.maps.use_count() == 1; });
     }
     return {};
 }
 
+Result<void> Residency::prepare_maps(const DrawList& list, const scene::TerrainNode& terrain,
+                                     const glm::dmat4& world_from_local, FrameStats& stats) {
+    if (maps_.contains(&terrain)) {
+        return {};
+    }
+    auto maps = maps_for(terrain, light_on(list, world_from_local), stats);
+    if (!maps) {
+        return maps.error();
+    }
+    maps_.emplace(&terrain, std::move(*maps));
+    return {};
+}
+
 Result<std::shared_ptr<const ResidentMaps>>
-Residency::maps_for(const TileDraw& draw, const std::optional<scene::TerrainLight>& light,
-                    FrameStats& stats) {
-    std::vector<LitMaps>& there = surface_of(draw).maps;
+Residency::maps_for(const scene::TerrainNode& terrain,
+                    const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
+    std::vector<LitMaps>& there = surface_of(terrain).maps;
     const auto found = std::find_if(there.begin(), there.end(),
                                     [&](const LitMaps& entry) { return entry.light == light; });
     if (found != there.end()) {
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
-    auto maps = make_maps(*draw.terrain->surface, light, stats);
+    auto maps = make_maps(*terrain.surface, light, stats);
     if (!maps) {
         return maps.error();
     }
     there.push_back({light, std::make_shared<const ResidentMaps>(std::move(*maps))});
     return there.back().maps;
+}
+
+Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats) {
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    const bool exact = draw.terrain->material.technique.id == scene::TechniqueId::exact;
+    std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
+    if (relief && (relief->greatest || !exact)) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const ReliefSpace space = relief_space(surface);
+    const Grid<float> heights = relief_heights(surface, space);
+    if (!relief) {
+        auto texture = height_texture(heights, stats);
+        if (!texture) {
+            return texture.error();
+        }
+        relief = ResidentRelief{space, std::move(*texture), std::nullopt};
+    }
+    if (exact) {
+        auto texture = pyramid_texture(greatest_heights(heights.view()), stats);
+        if (!texture) {
+            return texture.error();
+        }
+        relief->greatest = std::move(*texture);
+    }
+    return {};
 }
 
 Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
@@ -272,8 +342,14 @@ const ResidentMesh& Residency::tile(const TileDraw& draw) const {
     return *slot;
 }
 
-const ResidentMaps& Residency::maps(const TileDraw& draw) const {
-    return *maps_.at(draw.terrain);
+const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {
+    return *maps_.at(&terrain);
+}
+
+const ResidentRelief& Residency::relief(const ReliefDraw& draw) const {
+    const auto& relief = surfaces_.at(draw.terrain->surface.get()).relief;
+    check(relief.has_value(), "a relief that was not prepared");
+    return *relief;
 }
 
 const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {

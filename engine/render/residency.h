@@ -11,6 +11,7 @@
 #include "engine/gl/vertex_array.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/relief_maps.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
@@ -31,6 +32,14 @@ struct ResidentMaps {
     glm::vec4 lit_from_sample{0.0F};
 };
 
+/// The heights that pixels look for along their rays, where they lie, and, for the exact technique,
+/// a pyramid of the greatest.
+struct ResidentRelief {
+    ReliefSpace space;
+    gl::Texture2D heights;
+    std::optional<gl::Texture2D> greatest;
+};
+
 /// What of the scene is in the driver's memory. Only what is drawn gets there, and stays while the
 /// scene holds its surface. Needs a current context; destroy while it is current.
 class Residency {
@@ -41,7 +50,8 @@ public:
 
     /// Precondition: prepared.
     [[nodiscard]] const ResidentMesh& tile(const TileDraw& draw) const;
-    [[nodiscard]] const ResidentMaps& maps(const TileDraw& draw) const;
+    [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
+    [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
 
 private:
@@ -54,6 +64,7 @@ private:
         std::vector<std::optional<ResidentMesh>> tiles;
         std::vector<std::optional<ResidentMesh>> flat_tiles;
         std::vector<LitMaps> maps; // one for each light that the last frame had for it
+        std::optional<ResidentRelief> relief;
     };
     struct Mesh {
         std::weak_ptr<const scene::Mesh> owner;
@@ -62,13 +73,16 @@ private:
     };
 
     void forget_unused();
-    Surface& surface_of(const TileDraw& draw);
+    Surface& surface_of(const scene::TerrainNode& terrain);
     Result<void> prepare_tiles(const DrawList& list, FrameStats& stats);
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
-    Result<void> prepare_maps(const DrawList& list, FrameStats& stats);
+    Result<void> prepare_all_maps(const DrawList& list, FrameStats& stats);
+    Result<void> prepare_maps(const DrawList& list, const scene::TerrainNode& terrain,
+                              const glm::dmat4& world_from_local, FrameStats& stats);
     Result<std::shared_ptr<const ResidentMaps>>
-    maps_for(const TileDraw& draw, const std::optional<scene::TerrainLight>& light,
+    maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              FrameStats& stats);
+    Result<void> prepare_relief(const ReliefDraw& draw, FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 

@@ -12,11 +12,20 @@ namespace reljef::render {
 namespace {
 
 constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terrain")},
+                           std::pair{ShaderKind::relief, std::string_view("relief")},
                            std::pair{ShaderKind::mesh, std::string_view("mesh")},
                            std::pair{ShaderKind::sky, std::string_view("sky")}};
-constexpr std::array features_by_name{std::pair{feature_lit, std::string_view("LIT")},
-                                      std::pair{feature_fog, std::string_view("FOG")},
-                                      std::pair{feature_hit, std::string_view("HIT")}};
+constexpr std::array features_by_name{
+    std::pair{feature_lit, std::string_view("LIT")},
+    std::pair{feature_fog, std::string_view("FOG")},
+    std::pair{feature_hit, std::string_view("HIT")},
+    std::pair{feature_exact, std::string_view("EXACT")},
+    std::pair{feature_parallax, std::string_view("PARALLAX")},
+    std::pair{feature_bisect, std::string_view("BISECT")},
+    std::pair{feature_secant, std::string_view("SECANT")},
+    std::pair{feature_limited, std::string_view("LIMITED")},
+    std::pair{feature_iterated, std::string_view("ITERATED")},
+    std::pair{feature_view_steps, std::string_view("VIEW_STEPS")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -124,14 +133,36 @@ Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& 
 
 } // namespace
 
+namespace {
+
+// One way to search, with what belongs to it.
+std::uint32_t search_of(std::uint32_t features) {
+    if ((features & feature_exact) != 0) {
+        return feature_exact;
+    }
+    if ((features & feature_parallax) != 0) {
+        return features & (feature_parallax | feature_limited | feature_iterated);
+    }
+    if ((features & feature_bisect) != 0) {
+        return feature_bisect;
+    }
+    return (features & feature_secant) != 0 ? features & (feature_secant | feature_view_steps) : 0U;
+}
+
+} // namespace
+
 ShaderVariant without_meaningless(ShaderVariant variant) {
+    const std::uint32_t search =
+        variant.kind == ShaderKind::relief ? search_of(variant.features) : 0U;
+    variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::sky) {
         variant.features &= feature_lit;
     } else if ((variant.features & feature_hit) != 0) {
         variant.features = feature_hit;
-    } else if (variant.kind == ShaderKind::terrain) {
-        variant.features &= ~feature_lit; // its light is in its map
+    } else if (variant.kind != ShaderKind::mesh) {
+        variant.features &= ~feature_lit; // a terrain's light is in its map
     }
+    variant.features |= search;
     return variant;
 }
 

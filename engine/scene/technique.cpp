@@ -14,14 +14,54 @@ namespace {
 constexpr std::array<ParameterInfo, 1> polygons_parameters{
     {{"lods", 1.0, 1.0, 1.0, true, "levels of detail at most; 1: every sample is a vertex"}}};
 
-constexpr std::array<TechniqueInfo, 2> catalogue{
+constexpr ParameterInfo offset_parameter{
+    "offset", -0.5,  -1.0,
+    0.0,      false, "where the reference plane lies: 0 lowest, -1 highest height of the surface"};
+constexpr std::array<ParameterInfo, 1> parallax_parameters{offset_parameter};
+constexpr std::array<ParameterInfo, 2> iterated_parameters{
+    offset_parameter, {"k", 3.0, 1.0, 64.0, true, "times the height is looked at again"}};
+constexpr std::array<ParameterInfo, 1> steep_parameters{
+    {{"n", 32.0, 1.0, 4096.0, true, "equal steps along the ray"}}};
+constexpr std::array<ParameterInfo, 2> relief_parameters{
+    {{"n", 11.0, 1.0, 4096.0, true, "equal steps along the ray"},
+     {"k", 8.0, 0.0, 32.0, true, "times the bracket is halved"}}};
+constexpr std::array<ParameterInfo, 2> interval_parameters{
+    {{"n", 14.0, 1.0, 4096.0, true, "equal steps along the ray"},
+     {"k", 2.0, 1.0, 32.0, true, "chords drawn through the bracket"}}};
+constexpr std::array<ParameterInfo, 2> pom_parameters{
+    {{"min", 8.0, 1.0, 4096.0, true, "equal steps seen from straight above"},
+     {"max", 32.0, 1.0, 4096.0, true, "equal steps seen along the ground"}}};
+
+constexpr std::array<TechniqueInfo, 10> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
       "GPU surface-detail survey (2008) ch. 1; Janković 2010 ch. 2",
       {}},
      {TechniqueId::polygons, "polygons", "the heightfield as triangles",
-      "Janković 2010 ch. 2.7 test 4", polygons_parameters}}};
+      "Janković 2010 ch. 2.7 test 4", polygons_parameters},
+     {TechniqueId::parallax, "parallax",
+      "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
+      "Janković 2010 ch. 2.3; Kaneko et al. 2001", parallax_parameters},
+     {TechniqueId::parallax_limited, "parallax-limited",
+      "parallax with offset limiting: t + (h + b) s v.xy",
+      "GPU surface-detail survey (2008) ch. 3.5; Welsh 2004", parallax_parameters},
+     {TechniqueId::parallax_iterated, "parallax-iterated",
+      "parallax looked at again from where it led, the heights averaged",
+      "GPU surface-detail survey (2008) ch. 3.5", iterated_parameters},
+     {TechniqueId::steep, "steep", "equal steps along the ray until one lies below the surface",
+      "GPU surface-detail survey (2008) ch. 3.6.1; McGuire and McGuire 2005", steep_parameters},
+     {TechniqueId::relief, "relief", "equal steps, then the bracket halved",
+      "Janković 2010 ch. 2.4.6; Policarpo, Oliveira and Comba 2005", relief_parameters},
+     {TechniqueId::interval, "interval", "equal steps, then chords through the bracket",
+      "Janković 2010 ch. 2.4.9; Risser, Shah and Pattanaik 2006", interval_parameters},
+     {TechniqueId::pom, "pom", "steps by the angle of view, then one chord",
+      "Janković 2010 ch. 2.3.3; Tatarchuk 2005", pom_parameters},
+     {TechniqueId::exact,
+      "exact",
+      "the ray against the bilinear surface itself: the true first hit",
+      "Tevs, Ihrke and Seidel 2008",
+      {}}}};
 
 std::vector<std::string_view> names_of(const auto& infos) {
     std::vector<std::string_view> names;
@@ -86,6 +126,17 @@ const TechniqueInfo& technique_info(TechniqueId id) {
                      [&](const TechniqueInfo& info) { return info.id == id; });
     check(found != catalogue.end(), "technique without a catalogue entry");
     return *found;
+}
+
+Geometry geometry_of(TechniqueId id) {
+    switch (id) {
+    case TechniqueId::texture:
+        return Geometry::flat;
+    case TechniqueId::polygons:
+        return Geometry::full;
+    default:
+        return Geometry::box;
+    }
 }
 
 Technique make_technique(TechniqueId id) {

@@ -11,9 +11,25 @@ namespace reljef::scene {
 
 /// How a terrain's surface is drawn.
 enum class TechniqueId {
-    texture,  ///< colour over the flat reference surface
-    polygons, ///< the heightfield as triangles
+    texture,           ///< colour over the flat reference surface
+    polygons,          ///< the heightfield as triangles
+    parallax,          ///< one look at the height shifts the place
+    parallax_limited,  ///< the same, by no more than the height
+    parallax_iterated, ///< looked at again from where it was shifted to
+    steep,             ///< equal steps along the ray
+    relief,            ///< equal steps, then halving
+    interval,          ///< equal steps, then the chord
+    pom,               ///< steps by the angle of view, then one chord
+    exact,             ///< the true first hit
 };
+
+/// What is drawn so that a technique's pixels are reached.
+enum class Geometry {
+    flat, ///< the flat reference surface
+    full, ///< every sample a vertex
+    box,  ///< the box that holds the surface; each pixel looks for it along its ray
+};
+Geometry geometry_of(TechniqueId id);
 
 /// One number a technique can be told.
 struct ParameterInfo {

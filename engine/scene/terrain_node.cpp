@@ -1,5 +1,7 @@
 #include "engine/scene/terrain_node.h"
 
+#include <fmt/format.h>
+
 namespace reljef::scene {
 
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
@@ -56,6 +58,17 @@ std::optional<double> TerrainSurface::height_at(double x, double y) const {
 
 std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
     return terrain::pick(heightfield().heights.view(), pyramid_, placement_, ray);
+}
+
+Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
+    if (geometry_of(technique.id) != Geometry::box ||
+        surface.placement().kind() == terrain::PlacementKind::plane) {
+        return {};
+    }
+    return Error{
+        fmt::format("technique {}: placement ellipsoid found, plane was expected; polygons "
+                    "draws both",
+                    technique_info(technique.id).name)};
 }
 
 } // namespace reljef::scene

@@ -63,6 +63,10 @@ private:
     Box bounds_;
 };
 
+/// Whether the technique can draw the surface. Those that look for it along rays need a surface
+/// over a plane: fails, and names what works, where it is bent over the Earth.
+Result<void> check_technique(const Technique& technique, const TerrainSurface& surface);
+
 /// What makes a node a terrain.
 struct TerrainNode {
     std::shared_ptr<const TerrainSurface> surface;

@@ -1,0 +1,74 @@
+#include "frame_block.glsl"
+#include "air.glsl"
+#include "relief_surface.glsl"
+#if defined(EXACT)
+#include "relief_exact.glsl"
+#elif defined(PARALLAX)
+#include "relief_parallax.glsl"
+#else
+#include "relief_linear.glsl"
+#endif
+
+in vec3 back;
+
+// From world directions relative to the eye to the search space: column, row, height in [0,1].
+uniform mat3 space_from_relative;
+uniform vec3 eye_in_space;
+uniform vec3 box_begin; // of the search space
+uniform vec3 box_end;
+uniform float perspective;    // 1, or 0: all rays run along the view axis
+uniform vec2 range_of_height; // metres: lowest, highest less lowest
+uniform float texels_per_metre_away; // of a pixel that faces the eye
+uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
+
+layout(binding = 0) uniform sampler2D lit_map; // what the surface sends to the eye, linear
+
+#ifdef HIT
+layout(location = 0) out vec4 hit; // col, row, height, depth
+#else
+layout(location = 0) out vec4 color;
+#endif
+
+// Where the ray from the box's back enters it, in units of -along: from the eye on in perspective.
+float entry_before(vec3 point, vec3 direction) {
+    vec3 away = vec3(equal(direction, vec3(0.0)));
+    vec3 inverse = (1.0 - away) / (direction + away);
+    vec3 first = min((box_begin - point) * inverse, (box_end - point) * inverse) - away * 3e38;
+    float nearest = max(max(first.x, first.y), first.z);
+    return min(max(nearest, perspective > 0.5 ? -1.0 : nearest), 0.0);
+}
+
+#ifndef HIT
+// The mip level for a pixel, as from derivatives; but no coarser than for a surface that is seen
+// eight times longer than wide: over a silhouette the neighbours show another place.
+float level_of(vec2 coordinate, float distance_to_hit) {
+    vec2 texels = coordinate * vec2(textureSize(lit_map, 0));
+    vec2 across = dFdx(texels);
+    vec2 down = dFdy(texels);
+    float most = 8.0 * distance_to_hit * texels_per_metre_away;
+    return 0.5 * log2(min(max(dot(across, across), dot(down, down)), most * most));
+}
+#endif
+
+void main() {
+    vec3 along = mix(view_forward.xyz, back, perspective);
+    vec3 direction = space_from_relative * along;
+    vec3 leave = space_from_relative * back + eye_in_space;
+    float entry = entry_before(leave, direction);
+    vec3 span = -entry * direction;
+    vec3 start = leave - span;
+    float part;
+    vec2 place;
+    if (!find_hit(start, span, part, place)) {
+        discard;
+    }
+    vec3 relative = back + entry * (1.0 - part) * along;
+#ifdef HIT
+    float height = range_of_height.x + range_of_height.y * height_at(place);
+    hit = vec4(place, height, dot(relative, view_forward.xyz));
+#else
+    vec2 coordinate = place * lit_from_sample.xy + lit_from_sample.zw;
+    vec3 lit = textureLod(lit_map, coordinate, level_of(coordinate, length(relative))).rgb;
+    color = vec4(seen_through_air(lit, length(relative)), 1.0);
+#endif
+}

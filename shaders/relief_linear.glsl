@@ -1,0 +1,74 @@
+// Equal steps until one lies below the surface, then the bracket is narrowed: by halving (Policarpo,
+// Oliveira and Comba 2005) or by the chord, the bracket kept (Risser, Shah and Pattanaik 2006).
+uniform vec3 metres_per_unit; // of the search space's axes
+
+float steps_for(vec3 span) {
+#ifdef VIEW_STEPS
+    float upright = abs(normalize(span * metres_per_unit).z);
+    return ceil(mix(search_values.y, search_values.x, upright));
+#else
+    return search_values.x;
+#endif
+}
+
+// Between `part` where the ray is `over` (>= 0) above the surface and `low_part` where it is `under`
+// (< 0).
+float narrowed(vec3 start, vec3 span, float part, float over, float low_part, float under) {
+#if defined(BISECT)
+    for (float i = 0.0; i < search_values.y; ++i) {
+        float middle = 0.5 * (part + low_part);
+        vec3 p = start + middle * span;
+        if (p.z < height_at(p.xy)) {
+            low_part = middle;
+        } else {
+            part = middle;
+        }
+    }
+    return low_part;
+#elif defined(SECANT)
+#ifdef VIEW_STEPS
+    const float rounds = 0.0;
+#else
+    float rounds = search_values.y - 1.0;
+#endif
+    for (float i = 0.0; i < rounds; ++i) {
+        float guess = mix(part, low_part, over / (over - under));
+        vec3 p = start + guess * span;
+        float above = p.z - height_at(p.xy);
+        if (above < 0.0) {
+            low_part = guess;
+            under = above;
+        } else {
+            part = guess;
+            over = above;
+        }
+    }
+    return mix(part, low_part, over / (over - under));
+#else
+    return low_part;
+#endif
+}
+
+// The first crossing from above to below on the way from start to start + span.
+bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+    float n = steps_for(span);
+    float before = start.z - height_at(start.xy);
+    float at = 0.0;
+    float under = 0.0;
+    bool found = false;
+    for (float i = 1.0; i <= n; ++i) {
+        float next = i / n;
+        vec3 p = start + next * span;
+        float now = p.z - height_at(p.xy);
+        if (now < 0.0 && before >= 0.0) {
+            under = now;
+            found = true;
+            break;
+        }
+        at = next;
+        before = now;
+    }
+    part = found ? narrowed(start, span, at, before, at + 1.0 / n, under) : 1.0;
+    place = start.xy + part * span.xy;
+    return found;
+}
