@@ -17,6 +17,7 @@ uniform vec3 eye_in_space;
 uniform vec3 box_begin; // of the search space
 uniform vec3 box_end;
 uniform float perspective;    // 1, or 0: all rays run along the view axis
+uniform float near_depth;     // metres, in perspective
 uniform vec2 range_of_height; // metres: lowest, highest less lowest
 uniform float texels_per_metre_away; // of a pixel that faces the eye
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
@@ -29,13 +30,15 @@ layout(location = 0) out vec4 hit; // col, row, height, depth
 layout(location = 0) out vec4 color;
 #endif
 
-// Where the ray from the box's back enters it, in units of -along: from the eye on in perspective.
+// Where the ray from the box's back enters it, in units of -along: from the nearest depth on in
+// perspective.
 float entry_before(vec3 point, vec3 direction) {
     vec3 away = vec3(equal(direction, vec3(0.0)));
     vec3 inverse = (1.0 - away) / (direction + away);
     vec3 first = min((box_begin - point) * inverse, (box_end - point) * inverse) - away * 3e38;
     float nearest = max(max(first.x, first.y), first.z);
-    return min(max(nearest, perspective > 0.5 ? -1.0 : nearest), 0.0);
+    float begin = near_depth / dot(back, view_forward.xyz) - 1.0;
+    return min(perspective > 0.5 ? max(nearest, begin) : nearest, 0.0);
 }
 
 #ifndef HIT

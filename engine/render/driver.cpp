@@ -230,9 +230,6 @@ private:
 
     Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {
         const scene::Technique& technique = draw.terrain->material.technique;
-        if (auto good = scene::check_technique(technique, *draw.terrain->surface); !good) {
-            return good;
-        }
         if (auto used = use({ShaderKind::relief, features_ | search_features(technique.id)});
             !used) {
             return used;
@@ -273,6 +270,7 @@ private:
         program_->set_uniform("box_begin", glm::vec3(space.box.low));
         program_->set_uniform("box_end", glm::vec3(space.box.high));
         program_->set_uniform("perspective", is_perspective(list_) ? 1.0F : 0.0F);
+        program_->set_uniform("near_depth", static_cast<float>(list_.camera.near));
         program_->set_uniform("range_of_height", glm::vec2(space.lowest, space.range));
         program_->set_uniform("height_texel", 1.0F / glm::vec2(samples));
         program_->set_uniform("last_cell", samples - 2);
@@ -417,6 +415,13 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
+    for (const ReliefDraw& draw : list.reliefs) {
+        if (auto good =
+                scene::check_technique(draw.terrain->material.technique, *draw.terrain->surface);
+            !good) {
+            return good;
+        }
+    }
     const FrameBlock block = frame_block(list);
     frame_block_.write(0, std::as_bytes(std::span(&block, 1)));
     ++stats.uploads;

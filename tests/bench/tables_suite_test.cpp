@@ -51,8 +51,11 @@ TEST_F(TablesSuite, has_every_technique_and_the_null_row_of_every_terrain) {
 TEST_F(TablesSuite, draws_each_row_with_its_own_technique) {
     const Results results = run_tables(small_options(), {});
     ASSERT_FALSE(results.stopped);
-    for (const Row& row : results.rows) { // 2 by 2 cells, or one flat square
-        EXPECT_EQ(row.stats.triangles, row.technique.id == scene::TechniqueId::texture ? 2U : 8U);
+    for (const Row& row : results.rows) { // one flat square, 2 by 2 cells, or a box
+        const auto geometry = scene::geometry_of(row.technique.id);
+        EXPECT_EQ(row.stats.triangles, geometry == scene::Geometry::flat   ? 2U
+                                       : geometry == scene::Geometry::full ? 8U
+                                                                           : 12U);
     }
 }
 

@@ -18,9 +18,10 @@ TEST(ShaderVariants, AreEachThereOnceAndMeanSomething) {
 
 TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     const auto variants = all_variants();
-    for (const ShaderKind kind : {ShaderKind::terrain, ShaderKind::mesh, ShaderKind::sky}) {
-        for (std::uint32_t features = 0; features < 64; ++features) {
-            const ShaderVariant variant = without_meaningless({kind, features & 7U});
+    for (const ShaderKind kind :
+         {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::sky}) {
+        for (std::uint32_t features = 0; features < 1024; ++features) {
+            const ShaderVariant variant = without_meaningless({kind, features});
             EXPECT_EQ(variant.kind, kind);
             EXPECT_NE(std::find(variants.begin(), variants.end(), variant), variants.end());
         }
@@ -29,12 +30,25 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
 
 TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     for (const ShaderVariant& variant : all_variants()) {
+        constexpr std::uint32_t looks = feature_lit | feature_fog;
         const bool hit = (variant.features & feature_hit) != 0;
-        EXPECT_FALSE(hit && variant.features != feature_hit);
+        EXPECT_FALSE(hit && (variant.features & looks) != 0);
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
     }
-    // terrain: fog or not, or a hit; mesh: lit or not too; sky: lit or not.
-    EXPECT_EQ(all_variants().size(), 3U + 5U + 2U);
+    // terrain: fog or not, or a hit; relief: each of nine searches so; mesh: lit or not too; sky:
+    // lit or not.
+    EXPECT_EQ(all_variants().size(), 3U + 9U * 3U + 5U + 2U);
+}
+
+TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
+    for (const ShaderVariant& variant : all_variants()) {
+        int ways = 0;
+        for (const std::uint32_t way :
+             {feature_exact, feature_parallax, feature_bisect, feature_secant}) {
+            ways += (variant.features & way) != 0 ? 1 : 0;
+        }
+        EXPECT_LE(ways, variant.kind == ShaderKind::relief ? 1 : 0);
+    }
 }
 
 TEST(EmbeddedShaders, HaveNamesAndTexts) {
