@@ -4,16 +4,18 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace reljef::bench {
 namespace {
 
 // Hue and colourfulness along the scale: Oklab's a and b at even steps, blue through green to
-// yellow. Magenta is left for what has no bound.
+// yellow, all inside sRGB. Magenta is left for what has no bound.
 constexpr std::array<glm::vec2, 5> hues{
-    {{0.01F, -0.09F}, {-0.03F, -0.12F}, {-0.10F, -0.02F}, {-0.12F, 0.12F}, {0.01F, 0.17F}}};
+    {{0.0F, -0.08F}, {-0.03F, -0.12F}, {-0.09F, -0.02F}, {-0.12F, 0.12F}, {-0.05F, 0.165F}}};
 constexpr float darkest = 0.20F;
-constexpr float lightest = 0.94F;
+constexpr float lightest = 0.92F;
 
 constexpr int hatch_period = 8; // pixels
 constexpr int hatch_width = 2;

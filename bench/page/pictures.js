@@ -29,7 +29,7 @@ function factList(row) {
 }
 
 function picture(source, name, shown) {
-  return element('img', {src: source, alt: name, width: shown.width, height: shown.height, decoding: 'async', loading: 'lazy', draggable: 'false'});
+  return element('img', {src: source, alt: name, width: shown.width, height: shown.height, loading: 'lazy', draggable: 'false'});
 }
 
 // The picture lies over the other one, cut at the share that the slider says.
@@ -83,7 +83,7 @@ function wipeOf(shown, sources, title, id) {
 }
 
 function strip(shown, sources, title) {
-  const panels = [['shown', 'picture'], ['truth', 'truth'], ['heat', 'reprojection error']];
+  const panels = [['shown', 'picture'], ['truth', 'truth'], ['heat', 'error']];
   return element('div', {class: 'strip'}, panels.map(([key, name]) =>
     element('figure', {}, picture(sources[key], name + ' of ' + title, shown), element('figcaption', {}, name))));
 }

@@ -118,16 +118,15 @@ function frontLine(points, layout) {
 function pointNode(point, layout, plot) {
   const [x, y] = layout.place(point);
   const [low, high] = at(point.row, 'ms.interval') || [point.time, point.time];
-  const node = svg('g', {
+  return svg('g', {
     class: ['point', point.isOnFront ? 'on-front' : '', point.isDominated ? 'dominated' : '', point.row.noisy ? 'noisy' : ''].join(' ').trim(),
     role: 'img', tabindex: '-1', 'data-row': point.index, 'aria-label': summaryOf(point, plot.measure).join(', '),
-    onpointerenter: () => showTip(plot, point, node), onpointerleave: () => hideTip(plot),
-    onfocus: () => showTip(plot, point, node), onblur: () => hideTip(plot),
+    onpointerenter: () => showTip(plot, point), onpointerleave: () => hideTip(plot),
+    onfocus: () => showTip(plot, point), onblur: () => hideTip(plot),
     onclick: () => goToPictures(point), onkeydown: event => moveOn(event, plot, point),
   },
   svg('line', {class: 'interval', x1: layout.x.place(low), x2: layout.x.place(high), y1: y, y2: y}),
   svg('g', {transform: `translate(${x} ${y})`}, svg('circle', {class: 'target', r: 14}), svg('circle', {class: 'ring', r: 11}), marker(point.series)));
-  return node;
 }
 
 function summaryOf(point, measure) {
@@ -145,7 +144,7 @@ function summaryOf(point, measure) {
   return lines;
 }
 
-function showTip(plot, point, node) {
+function showTip(plot, point) {
   const [x, y] = plot.layout.place(point);
   const [name, ...rest] = summaryOf(point, plot.measure);
   plot.tip.replaceChildren(element('strong', {}, name), ...rest.map(line => element('span', {}, line)));
@@ -154,7 +153,6 @@ function showTip(plot, point, node) {
   const above = y - plot.tip.offsetHeight - 16;
   plot.tip.style.left = left + 'px';
   plot.tip.style.top = (above >= 0 ? above : y + 18) + 'px';
-  node.parentNode.append(node); // over its neighbours
 }
 
 function hideTip(plot) {

@@ -65,7 +65,7 @@ function noiseTile(measured) {
   const floors = unique(measured.map(row => row.noise_floor)).filter(isNumber);
   if (!floors.length) return tile('A/A noise floor', '?', '', 'not measured');
   return tile('A/A noise floor', percent(Math.min(...floors)) + '–' + percent(Math.max(...floors)), '%',
-    'what the same technique differs from itself');
+    'how far a technique differs from itself');
 }
 
 function showSummary(report) {

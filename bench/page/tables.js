@@ -72,7 +72,7 @@ function nameCell({row, index}) {
   const name = labelOf(row) + (row.null_row ? ', again' : '');
   const shown = byId('row-' + index);
   return element('th', {scope: 'row'},
-    shown ? element('a', {href: '#row-' + index, title: 'to its pictures'}, name) : name, tagsOf(row));
+    shown ? element('a', {href: '#row-' + index, title: 'to its pictures'}, name) : name, ' ', tagsOf(row));
 }
 
 function dataCell(column, row, table) {
