@@ -23,3 +23,8 @@ function svg(tag, attributes, ...children) {
 function byId(id) {
   return document.getElementById(id);
 }
+
+// A name that may go on in the next line after each of its parts.
+function breakable(name) {
+  return name.split(/(?<=[:,])/).flatMap((part, i) => (i ? [element('wbr'), part] : [part]));
+}

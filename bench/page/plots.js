@@ -16,6 +16,7 @@ const frontMeasure = measures[0]; // what the report's fronts are made of
 
 const margin = {left: 58, right: 18, top: 14, bottom: 42};
 const zeroLane = 30;
+const mostNames = 14; // where there are more points, only those of the front have names beside them
 const shapes = [
   'M-6 0a6 6 0 1 0 12 0a6 6 0 1 0 -12 0z', 'M-5.3 -5.3h10.6v10.6h-10.6z', 'M0 -7.4L7.4 0L0 7.4L-7.4 0z',
   'M0 -7L6.8 5.2H-6.8z', 'M0 7L6.8 -5.2H-6.8z', 'M-2.2 -6.4h4.4v4.2h4.2v4.4h-4.2v4.2h-4.4v-4.2h-4.2v-4.4h4.2z',
@@ -184,11 +185,12 @@ function namesOf(points, layout) {
   const isFree = box => box[0] >= margin.left && box[2] <= layout.width - 4 && box[1] >= 0 && box[3] <= layout.height - margin.bottom + 2 &&
     taken.every(other => box[2] < other[0] || box[0] > other[2] || box[3] < other[1] || box[1] > other[3]);
   const names = svg('g', {class: 'names', 'aria-hidden': 'true'});
-  for (const point of points) {
+  for (const point of points.filter(point => points.length <= mostNames || point.isOnFront)) {
     const [x, y] = layout.place(point);
     const text = labelOf(point.row);
-    const width = 6.4 * text.length;
-    const choices = [['start', x + 12, y + 4, x + 12], ['end', x - 12, y + 4, x - 12 - width],
+    const width = 6.9 * text.length;
+    const beside = point.isOnFront ? [['start', x + 11, y - 9, x + 11]] : []; // off the front's line
+    const choices = [...beside, ['start', x + 12, y + 4, x + 12], ['end', x - 12, y + 4, x - 12 - width],
       ['middle', x, y - 13, x - width / 2], ['middle', x, y + 21, x - width / 2]];
     const choice = choices.find(([, , base, left]) => isFree([left, base - 11, left + width, base + 3]));
     if (!choice) continue;

@@ -64,14 +64,15 @@ function extremeTile(name, row, path, unit, note) {
 function noiseTile(measured) {
   const floors = unique(measured.map(row => row.noise_floor)).filter(isNumber);
   if (!floors.length) return tile('A/A noise floor', '?', '', 'not measured');
-  return tile('A/A noise floor', percent(Math.min(...floors)) + '–' + percent(Math.max(...floors)), '%',
+  const ends = unique([percent(Math.min(...floors)), percent(Math.max(...floors))]);
+  return tile('A/A noise floor', ends.join('–'), '%',
     'how far a technique differs from itself');
 }
 
 function showSummary(report) {
   const measured = report.rows.filter(row => isMeasured(row) && !row.null_row);
   const place = row => labelOf(row) + ' on ' + viewOf(row);
-  const drop = row => isNumber(dropOf(row)) ? '; ' + percent(dropOf(row), 0) + ' % below texture' : '';
+  const drop = row => isNumber(dropOf(row)) ? '; ' + percent(dropOf(row), 0) + '\u00a0% below texture' : '';
   const fastest = leastBy(measured, 'ms.median');
   const slowest = leastBy(measured.map(row => ({...row, slowness: -at(row, 'ms.median')})), 'slowness');
   byId('summary').append(element('div', {class: 'tiles'},

@@ -69,7 +69,7 @@ function tagsOf(row) {
 }
 
 function nameCell({row, index}) {
-  const name = labelOf(row) + (row.null_row ? ', again' : '');
+  const name = breakable(labelOf(row) + (row.null_row ? ', again' : ''));
   const shown = byId('row-' + index);
   return element('th', {scope: 'row'},
     shown ? element('a', {href: '#row-' + index, title: 'to its pictures'}, name) : name, ' ', tagsOf(row));

@@ -1,5 +1,5 @@
-"""The report's page in a real browser: page_browser_test.py TABLES PARETO HOSTILE, three folders
-with an index.html. Ends with 77 where there is no browser."""
+"""The report's page in a real browser: page_browser_test.py TABLES PARETO HOSTILE BARE, folders with
+an index.html. Ends with 77 where there is no browser."""
 
 import json
 import pathlib
@@ -9,6 +9,7 @@ import unittest
 
 from page_browser import ARROW_LEFT, ARROW_RIGHT, ENTER, Browser, missing_programs
 
+NAMES = ('tables', 'pareto', 'hostile', 'bare')
 PAGES = {}
 SKIPPED = 77
 
@@ -63,6 +64,14 @@ class PageTest(unittest.TestCase):
         titles = self.browser.script("return [...document.querySelectorAll('#tables h3')].map(node => node.textContent)")
         self.assertTrue(any(scene in title for title in titles), titles)
         self.assertEqual(self.browser.script("return document.querySelectorAll('img[src=x], h3 *').length"), 0)
+
+    def test_run_that_ended_early_and_measured_no_error_is_shown_as_far_as_it_goes(self):
+        self.open('bare')
+        self.assertIn('ended early', self.browser.script("return document.querySelector('.notice[role=note]').textContent"))
+        names = self.browser.script("return [...document.querySelectorAll('tbody th')].map(node => node.textContent.trim())")
+        self.assertEqual(len(names), len(self.report['rows']))
+        self.assertTrue(names[0].startswith('texture'), names)
+        self.assertEqual(self.browser.script("return document.querySelectorAll('.plot, .comparison').length"), 0)
 
     # --- plots ----------------------------------------------------------------------------------
 
@@ -221,7 +230,7 @@ class PageTest(unittest.TestCase):
     # --- looks ----------------------------------------------------------------------------------
 
     def test_phone_page_does_not_scroll_sideways(self):
-        for page in ('tables', 'pareto', 'hostile'):
+        for page in NAMES:
             self.browser.resize(390, 844, is_phone=True)
             self.open(page)
             self.assertEqual(self.browser.script('return document.scrollingElement.scrollWidth'), 390, page)
@@ -255,5 +264,5 @@ if __name__ == '__main__':
         print('not there:', ', '.join(missing_programs()))
         sys.exit(SKIPPED)
     PAGES = {name: pathlib.Path(folder) / 'index.html'
-             for name, folder in zip(('tables', 'pareto', 'hostile'), sys.argv[1:4])}
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)
+             for name, folder in zip(NAMES, sys.argv[1:])}
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -196,13 +196,18 @@ TEST(PageInBrowser, loads_plots_sorts_wipes_and_fits_everywhere) {
     ASSERT_TRUE(write_page(folder.path() / "pareto", test::made_pareto_report(), {}));
     ASSERT_TRUE(write_page(folder.path() / "hostile", test::made_report(hostile), pictures));
 
+    Results bare = test::made_results();
+    bare.stopped = Error{"interrupted"};
+    ASSERT_TRUE(write_page(folder.path() / "bare", json_report(bare), {}));
+
     const auto folder_of = [&](const char* name) { return (folder.path() / name).string(); };
     test::ProgramOptions options;
     options.environment["PYTHONDONTWRITEBYTECODE"] = "1";
-    const auto result = test::run_program(
-        RELJEF_PYTHON3,
-        {RELJEF_PAGE_BROWSER_TEST, folder_of("tables"), folder_of("pareto"), folder_of("hostile")},
-        options);
+    const auto result =
+        test::run_program(RELJEF_PYTHON3,
+                          {RELJEF_PAGE_BROWSER_TEST, folder_of("tables"), folder_of("pareto"),
+                           folder_of("hostile"), folder_of("bare")},
+                          options);
     constexpr int skipped = 77;
     constexpr int not_started = 127;
     if (result.exit_code == skipped || result.exit_code == not_started) {
