@@ -89,6 +89,12 @@ Error unknown_format(const fs::path& path) {
                         path.string(), path.extension().string())};
 }
 
+Error no_pixels(const fs::path& path, const Image& image) {
+    return {fmt::format("{}: cannot be written: a picture of {}×{} pixels was given, at least "
+                        "1×1 was expected",
+                        path.string(), image.cols(), image.rows())};
+}
+
 OIIO::ImageSpec spec_of(const Image& image) {
     OIIO::ImageSpec spec(image.cols(), image.rows(), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
@@ -145,10 +151,7 @@ Result<void> check_image_target(const fs::path& path) {
 
 Result<void> write_image(const fs::path& path, const Image& image) {
     if (image.empty()) {
-        return Error{
-            fmt::format("{}: cannot be written: a picture of {}×{} pixels was given, at least "
-                        "1×1 was expected",
-                        path.string(), image.cols(), image.rows())};
+        return no_pixels(path, image);
     }
     auto output = output_for(path);
     if (output == nullptr) {
@@ -156,6 +159,18 @@ Result<void> write_image(const fs::path& path, const Image& image) {
     }
     return write_encoded(std::move(output), spec_of(image), image.samples().data(), sizeof(Rgba8),
                          path);
+}
+
+Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image) {
+    const fs::path path = "a picture in memory" + extension;
+    if (image.empty()) {
+        return no_pixels(path, image);
+    }
+    auto output = output_for(path);
+    if (output == nullptr) {
+        return unknown_format(path);
+    }
+    return encoded(std::move(output), spec_of(image), image.samples().data(), sizeof(Rgba8));
 }
 
 Image contact_sheet(std::span<const Image> pictures, int columns, int width) {

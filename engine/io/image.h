@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
@@ -14,6 +17,9 @@ Result<Image> read_image(const std::filesystem::path& path);
 
 /// Writes a picture, opaque, whole or not at all; the extension chooses the format (.png, .jpg, …).
 Result<void> write_image(const std::filesystem::path& path, const Image& image);
+
+/// The bytes that write_image() would put into a file of that extension (".png", ".jpg", …).
+Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image);
 
 /// Whether a picture, or the hits, can be put there: the format is known, the folder takes files.
 /// Asked before long work. Leaves nothing behind.

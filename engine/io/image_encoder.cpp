@@ -1,6 +1,7 @@
 #include "engine/io/image_encoder.h"
 
 #include <exception>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,29 +21,32 @@ bool encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const void* 
 
 } // namespace
 
-Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
-                           const void* pixels, std::size_t stride,
-                           const std::filesystem::path& path) {
-    const auto failed = [&](const std::string& why) {
-        return Error{fmt::format("{}: cannot be written: {}", path.string(), why)};
-    };
+Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output,
+                                       const OIIO::ImageSpec& spec, const void* pixels,
+                                       std::size_t stride) {
     const auto file = MemoryFile::create();
     if (!file) {
-        return failed(file.error().message);
+        return file.error();
     }
     try {
         if (!encode(*output, spec, pixels, stride, *file)) {
-            return failed(output->geterror());
+            return Error{output->geterror()};
         }
     } catch (const std::exception& problem) {
-        return failed(problem.what());
+        return Error{problem.what()};
     }
     output.reset(); // what it held back is written now
-    const auto bytes = file->bytes();
-    if (!bytes) {
-        return failed(bytes.error().message);
-    }
-    return bytes->empty() ? failed("its encoder wrote nothing") : write_file(path, *bytes);
+    auto bytes = file->bytes();
+    return bytes && bytes->empty() ? Error{"its encoder wrote nothing"} : std::move(bytes);
+}
+
+Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
+                           const void* pixels, std::size_t stride,
+                           const std::filesystem::path& path) {
+    const auto bytes = encoded(std::move(output), spec, pixels, stride);
+    return bytes ? write_file(path, *bytes)
+                 : Error{fmt::format("{}: cannot be written: {}", path.string(),
+                                     bytes.error().message)};
 }
 
 } // namespace reljef::io

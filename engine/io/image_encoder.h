@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 
@@ -10,9 +11,14 @@
 
 namespace reljef::io {
 
-/// Encodes pixels of `spec`'s type, `stride` bytes from one to the next, and writes them to `path`,
-/// whole or not at all. Encoded in memory: the encoders do not tell of a full disk, and some end
-/// the program.
+/// The bytes of a file that holds pixels of `spec`'s type, `stride` bytes from one to the next.
+/// Fails with the encoder's reason.
+Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output,
+                                       const OIIO::ImageSpec& spec, const void* pixels,
+                                       std::size_t stride);
+
+/// Writes encoded() to `path`, whole or not at all. Encoded in memory: the encoders do not tell of
+/// a full disk, and some end the program.
 Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
                            const void* pixels, std::size_t stride,
                            const std::filesystem::path& path);

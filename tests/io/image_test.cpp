@@ -41,6 +41,28 @@ TEST(ImageFile, APngComesBackOpaque) {
     }
 }
 
+TEST(ImageFile, EncodedInMemoryItIsTheFileByteForByte) {
+    const test::TemporaryFolder folder;
+    const Image image = random_image(37, 23);
+    for (const std::string extension : {".png", ".jpg"}) {
+        const auto path = folder.path() / ("a" + extension);
+        ASSERT_TRUE(write_image(path, image));
+        const auto bytes = encode_image(extension, image);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        EXPECT_EQ(text, test::read_bytes(path));
+    }
+}
+
+TEST(ImageFile, WhatCannotBeEncodedIsNamed) {
+    const auto unknown = encode_image(".nothing", random_image(2, 2));
+    ASSERT_FALSE(unknown);
+    EXPECT_THAT(unknown.error().message, HasSubstr(".nothing"));
+    const auto empty = encode_image(".png", Image());
+    ASSERT_FALSE(empty);
+    EXPECT_THAT(empty.error().message, HasSubstr("0×0"));
+}
+
 TEST(ImageFile, AnExistingFileIsReplaced) {
     const test::TemporaryFolder folder;
     const auto path = folder.write("a.png", "old");

@@ -1,0 +1,205 @@
+#include "bench/page.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/page_data_uri.h"
+#include "bench/page_parts.h"
+#include "engine/core/atomic_file.h"
+#include "engine/io/image.h"
+
+namespace reljef::bench {
+namespace fs = std::filesystem;
+namespace {
+
+using PageJson = nlohmann::ordered_json;
+
+constexpr std::string_view page_name = "index.html";
+constexpr std::string_view page_schema = "reljef-bench/1";
+
+/// Pictures of the page: each once, named by its index.
+struct Album {
+    std::vector<std::string> uris;
+    /// Truths that are in already: rows of one view share theirs.
+    std::vector<std::pair<const Image*, std::size_t>> truths;
+};
+
+Result<std::size_t> add_picture(Album& album, const char* extension, const char* media_type,
+                                const Image& picture) {
+    const auto bytes = io::encode_image(extension, picture);
+    if (!bytes) {
+        return bytes.error();
+    }
+    album.uris.push_back(data_uri(media_type, *bytes));
+    return album.uris.size() - 1;
+}
+
+Result<std::size_t> add_truth(Album& album, const Image& truth) {
+    const auto same = std::find_if(album.truths.begin(), album.truths.end(),
+                                   [&](const auto& known) { return *known.first == truth; });
+    if (same != album.truths.end()) {
+        return same->second;
+    }
+    auto added = add_picture(album, ".jpg", "image/jpeg", truth);
+    if (added) {
+        album.truths.emplace_back(&truth, *added);
+    }
+    return added;
+}
+
+Result<PageJson> add_pictures_of(Album& album, const RowPictures& pictures) {
+    const auto shown = add_picture(album, ".jpg", "image/jpeg", pictures.shown);
+    if (!shown) {
+        return shown.error();
+    }
+    const auto truth = add_truth(album, pictures.truth);
+    if (!truth) {
+        return truth.error();
+    }
+    const auto heat = add_picture(album, ".png", "image/png", pictures.heat);
+    if (!heat) {
+        return heat.error();
+    }
+    return PageJson{{"row", pictures.row},
+                    {"width", pictures.shown.cols()},
+                    {"height", pictures.shown.rows()},
+                    {"shown", *shown},
+                    {"truth", *truth},
+                    {"heat", *heat}};
+}
+
+std::string css_color(Rgba8 color) {
+    return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
+}
+
+PageJson scale_of_errors() {
+    const auto scale = heat_scale();
+    PageJson colors = PageJson::array();
+    std::transform(scale.begin(), scale.end(), std::back_inserter(colors), css_color);
+    return {{"low", heat_low_px},
+            {"high", heat_high_px},
+            {"unbounded", css_color(heat_unbounded)},
+            {"colors", std::move(colors)}};
+}
+
+Result<std::string> pictures_as_json(std::span<const RowPictures> pictures) {
+    Album album;
+    PageJson rows = PageJson::array();
+    for (const RowPictures& row : pictures) {
+        auto added = add_pictures_of(album, row);
+        if (!added) {
+            return added.error();
+        }
+        rows.push_back(std::move(*added));
+    }
+    return PageJson{
+        {"scale", scale_of_errors()}, {"rows", std::move(rows)}, {"images", std::move(album.uris)}}
+        .dump();
+}
+
+// How many rows the report has.
+Result<std::size_t> rows_of_report(std::string_view json_report) {
+    const auto report = PageJson::parse(json_report, nullptr, false);
+    const auto text_at = [&](const char* key) {
+        return report.contains(key) && report[key].is_string() ? report[key].get<std::string>()
+                                                               : std::string();
+    };
+    if (!report.is_object() || text_at("schema") != page_schema || !report.contains("rows") ||
+        !report["rows"].is_array()) {
+        return Error{fmt::format("no page can be made: the report is no JSON with rows of the "
+                                 "schema {:?}, which was expected",
+                                 page_schema)};
+    }
+    return report["rows"].size();
+}
+
+// JSON that ends no script element, whatever its strings hold: in JSON "<" is in strings only.
+std::string safe_in_script(std::string_view json) {
+    std::string safe;
+    safe.reserve(json.size());
+    for (const char c : json) {
+        if (c == '<') {
+            safe += "\\u003c";
+        } else {
+            safe += c;
+        }
+    }
+    return safe;
+}
+
+std::string_view page_part(std::string_view name) {
+    const auto parts = page_parts();
+    const auto found = std::find_if(parts.begin(), parts.end(),
+                                    [&](const PagePart& each) { return each.name == name; });
+    check(found != parts.end(), "a part of the page that is not compiled in");
+    return found->text;
+}
+
+// The skeleton with each "{{name}}" replaced by the part of that name or by the data. What is put
+// in is not looked at again.
+std::string assembled(std::string_view report, std::string_view pictures) {
+    std::string_view rest = page_part(page_name);
+    std::string page;
+    for (auto begin = rest.find("{{"); begin != rest.npos; begin = rest.find("{{")) {
+        const auto end = rest.find("}}", begin);
+        const auto name = rest.substr(begin + 2, end - begin - 2);
+        page += rest.substr(0, begin);
+        page += name == "report" ? report : name == "pictures" ? pictures : page_part(name);
+        rest.remove_prefix(end + 2);
+    }
+    page += rest;
+    return page;
+}
+
+bool are_complete(const RowPictures& pictures) {
+    const auto has_size = [&](const Image& image) {
+        return image.cols() == pictures.shown.cols() && image.rows() == pictures.shown.rows();
+    };
+    return !pictures.shown.empty() && has_size(pictures.truth) && has_size(pictures.heat);
+}
+
+Result<void> make_folder(const fs::path& folder) {
+    std::error_code code;
+    fs::create_directory(folder, code);
+    return code ? Error{fmt::format("{}: the folder cannot be made: {}", folder.string(),
+                                    code.message())}
+                : Result<void>();
+}
+
+} // namespace
+
+Result<void> check_page_target(const fs::path& folder) {
+    std::error_code code;
+    const auto writable =
+        AtomicFile::create(fs::exists(folder, code) ? folder / page_name : folder);
+    return writable ? Result<void>() : writable.error();
+}
+
+Result<void> write_page(const fs::path& folder, std::string_view json_report,
+                        std::span<const RowPictures> pictures) {
+    const auto rows = rows_of_report(json_report);
+    if (!rows) {
+        return rows.error();
+    }
+    for (const RowPictures& each : pictures) {
+        check(each.row < *rows, "write_page: pictures of a row that is not in the report");
+        check(are_complete(each), "write_page: a row's pictures are empty or differ in size");
+    }
+    const auto embedded = pictures_as_json(pictures);
+    if (!embedded) {
+        return embedded.error();
+    }
+    if (auto made = make_folder(folder); !made) {
+        return made;
+    }
+    return write_text_file(folder / page_name,
+                           assembled(safe_in_script(json_report), safe_in_script(*embedded)));
+}
+
+} // namespace reljef::bench

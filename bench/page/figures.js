@@ -1,0 +1,85 @@
+// What a report says, and how its figures are written.
+
+const absent = '–';
+
+function isNumber(value) {
+  return typeof value === 'number' && Number.isFinite(value);
+}
+
+// A value with about three digits that matter; "0" only for nothing at all.
+function figure(value) {
+  if (!isNumber(value)) return absent;
+  const size = Math.abs(value);
+  if (value === 0) return '0';
+  if (size < 0.001) return power(value);
+  return value.toFixed(size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3);
+}
+
+function power(value) {
+  const [digits, exponent] = value.toExponential(1).split('e');
+  const raised = [...exponent.replace('+', '')].map(sign => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(sign)]);
+  return digits + '·10' + raised.join('');
+}
+
+function fixed(value, decimals) {
+  return isNumber(value) ? value.toFixed(decimals) : absent;
+}
+
+// 2097152 as "2 097 152", with thin spaces.
+function grouped(value) {
+  return isNumber(value) ? String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, '\u2009') : absent;
+}
+
+function percent(share, decimals = 1) {
+  return isNumber(share) ? (100 * share).toFixed(decimals) : absent;
+}
+
+function counted(count, thing, things = thing + 's') {
+  return count + ' ' + (count === 1 ? thing : things);
+}
+
+// The value at "reprojection_px.rms", or undefined.
+function at(object, path) {
+  return path.split('.').reduce((value, key) => (value === null || value === undefined ? undefined : value[key]), object);
+}
+
+function labelOf(row) {
+  if (row.label) return row.label;
+  const values = Object.entries(row.params || {}).map(([name, value]) => name + '=' + value);
+  return values.length ? row.technique + ':' + values.join(',') : String(row.technique);
+}
+
+function isMeasured(row) {
+  return isNumber(at(row, 'ms.median'));
+}
+
+function dropOf(row) {
+  return isNumber(row.ratio_to_texture) && row.ratio_to_texture > 0 ? 1 - 1 / row.ratio_to_texture : undefined;
+}
+
+function viewOf(row) {
+  return [row.scene, row.pose].filter(Boolean).join(', ');
+}
+
+function titleOf(row) {
+  return row.test ? row.test + ' · ' + viewOf(row) : viewOf(row);
+}
+
+// Rows of one test, scene and pose, in the order of the report.
+function groupsOf(rows) {
+  const groups = new Map();
+  rows.forEach((row, index) => {
+    const key = JSON.stringify([row.suite, row.test, row.scene, row.pose]);
+    if (!groups.has(key)) groups.set(key, {title: titleOf(row), scene: row.scene, pose: row.pose, rows: []});
+    groups.get(key).rows.push({row, index});
+  });
+  return [...groups.values()];
+}
+
+function techniquesOf(rows) {
+  return [...new Set(rows.filter(row => !row.missing).map(row => row.technique))];
+}
+
+function unique(values) {
+  return [...new Set(values.filter(value => value !== undefined && value !== null))];
+}

@@ -1,0 +1,90 @@
+// Heading, machine and the few figures that come first.
+
+function headline(report) {
+  const techniques = techniquesOf(report.rows).length;
+  const scenes = unique(report.rows.map(row => row.scene)).length;
+  return 'Frame time and error of ' + counted(techniques, 'technique') + ' on ' + counted(scenes, 'terrain');
+}
+
+function subtitle(report) {
+  const sizes = unique(report.rows.map(row => row.size)).map(size => size.replace('x', ' × '));
+  const poses = unique(report.rows.map(row => row.pose));
+  const frames = report.rows.map(row => row.frames).filter(isNumber);
+  const least = Math.min(...frames);
+  const most = Math.max(...frames);
+  const drawn = !frames.length ? '' : least === most ? ', ' + least + ' frames each' : ', ' + least + ' to ' + most + ' frames each';
+  return sizes.join(' and ') + ' pixels, ' + (poses.length === 1 ? 'pose ' : 'poses ') + poses.join(', ') + drawn +
+    '. Every picture is held against an exact one.';
+}
+
+function environmentList(environment) {
+  const names = {renderer: 'Renderer', gl: 'OpenGL', context: 'Context', cpu: 'Processor', threads: 'Threads', commit: 'Commit'};
+  return element('dl', {class: 'environment'}, Object.entries(names)
+    .filter(([key]) => environment[key] !== undefined)
+    .map(([key, name]) => element('div', {}, element('dt', {}, name), element('dd', {}, String(environment[key])))));
+}
+
+function showHeading(report) {
+  const suites = unique(report.rows.map(row => row.suite));
+  document.title = ['reljef-bench', ...suites].join(' ') + ' – ' + headline(report);
+  byId('heading').append(
+    element('p', {class: 'overline'}, 'reljef-bench ' + suites.join(', ')),
+    element('h1', {}, headline(report)),
+    element('p', {class: 'lede'}, subtitle(report)),
+    environmentList(report.environment || {}));
+  if (report.complete === false) {
+    byId('heading').append(element('p', {class: 'notice', role: 'note'},
+      'The run ended early: these are the rows it had by then.'));
+  }
+}
+
+function tile(name, value, unit, note) {
+  return element('div', {class: 'tile'},
+    element('p', {class: 'tile-name'}, name),
+    element('p', {class: 'tile-value'}, value, unit ? element('span', {class: 'unit'}, ' ' + unit) : null),
+    element('p', {class: 'tile-note'}, note));
+}
+
+function leastBy(rows, path) {
+  return rows.filter(row => isNumber(at(row, path)))
+    .reduce((best, row) => (best === null || at(row, path) < at(best, path) ? row : best), null);
+}
+
+function measuredTile(report, measured) {
+  const missing = report.rows.filter(row => row.missing).length;
+  const noisy = measured.filter(row => row.noisy).length;
+  const notes = [missing ? missing + ' not there yet' : 'none missing', noisy ? noisy + ' noisy' : 'none noisy'];
+  return tile('Rows measured', String(measured.length), 'of ' + report.rows.length, notes.join(', '));
+}
+
+function extremeTile(name, row, path, unit, note) {
+  return row ? tile(name, figure(at(row, path)), unit, note(row)) : null;
+}
+
+function noiseTile(measured) {
+  const floors = unique(measured.map(row => row.noise_floor)).filter(isNumber);
+  if (!floors.length) return tile('A/A noise floor', '?', '', 'not measured');
+  const ends = unique([percent(Math.min(...floors)), percent(Math.max(...floors))]);
+  return tile('A/A noise floor', ends.join('–'), '%',
+    'how far a technique differs from itself');
+}
+
+function showSummary(report) {
+  const measured = report.rows.filter(row => isMeasured(row) && !row.null_row);
+  const place = row => labelOf(row) + ' on ' + viewOf(row);
+  const drop = row => isNumber(dropOf(row)) ? '; ' + percent(dropOf(row), 0) + '\u00a0% below texture' : '';
+  const fastest = leastBy(measured, 'ms.median');
+  const slowest = leastBy(measured.map(row => ({...row, slowness: -at(row, 'ms.median')})), 'slowness');
+  byId('summary').append(element('div', {class: 'tiles'},
+    measuredTile(report, measured),
+    extremeTile('Fastest', fastest, 'ms.median', 'ms', place),
+    extremeTile('Slowest', slowest, 'ms.median', 'ms', row => place(row) + drop(row)),
+    extremeTile('Least RMS error', leastBy(measured, 'error.reprojection_px.rms'), 'error.reprojection_px.rms', 'px', place),
+    noiseTile(measured)));
+}
+
+function showFooter(report) {
+  byId('footer').append(element('p', {},
+    'Written by reljef-bench, schema ' + report.schema + '. The page holds all it shows and fetches nothing. ' +
+    'Pictures are shown as JPEG; the figures come from the exact ones.'));
+}

@@ -1,0 +1,162 @@
+// The tables: one for each test, scene and pose.
+
+const columns = [
+  {group: 'Frame time', title: 'median ms', value: row => at(row, 'ms.median'), cell: timeCell},
+  {group: 'Frame time', title: 'p95', value: row => at(row, 'ms.p95'), text: figure},
+  {group: 'Frame time', title: 'FPS', value: row => row.fps, text: figure},
+  {group: 'Frame time', title: '1 % low', value: row => row.fps_1_percent_low, text: figure},
+  {group: 'Frame time', title: '× texture', value: row => row.ratio_to_texture, text: value => fixed(value, 2)},
+  {group: 'Frame time', title: 'drop %', value: dropOf, text: percent},
+  {group: 'Sources', title: 'FPS', value: row => at(row, 'source.fps'), cell: sourceCell},
+  {group: 'Sources', title: '× texture', value: row => at(row, 'source.ratio'), text: value => fixed(value, 2)},
+  {group: 'Reprojection error, px', title: 'median', value: row => at(row, 'error.reprojection_px.median'), text: figure},
+  {group: 'Reprojection error, px', title: 'p99', value: row => at(row, 'error.reprojection_px.p99'), text: figure},
+  {group: 'Reprojection error, px', title: 'max', value: row => at(row, 'error.reprojection_px.max'), cell: maximumCell},
+  {group: 'Surface', title: 'wrong %', value: row => at(row, 'error.wrong_percent'), text: figure},
+  {group: 'Surface', title: 'holes', value: row => at(row, 'error.holes'), text: grouped},
+  {group: 'Picture', title: 'PSNR dB', value: psnrOf, cell: psnrCell},
+  {group: 'Picture', title: 'FLIP', value: row => at(row, 'error.flip'), text: figure},
+  {group: 'Run', title: 'triangles', value: row => row.triangles, text: grouped},
+  {group: 'Run', title: 'noise %', value: row => row.noise_floor, text: percent},
+];
+
+// Identical pictures have no finite one.
+function psnrOf(row) {
+  if (!row.error || row.error.psnr === undefined) return undefined;
+  return row.error.psnr === null ? Infinity : row.error.psnr;
+}
+
+function psnrCell(row) {
+  const psnr = psnrOf(row);
+  return psnr === Infinity ? element('span', {title: 'the same picture'}, '∞') : fixed(psnr, 1);
+}
+
+// The median, and below it a bar of its length with the interval's ends.
+function timeCell(row, table) {
+  if (!isMeasured(row)) return absent;
+  const [low, high] = at(row, 'ms.interval') || [row.ms.median, row.ms.median];
+  const share = value => (100 * value / table.longest).toFixed(2) + '%';
+  const name = 'median ' + figure(row.ms.median) + ' ms, 95 % interval ' + figure(low) + ' to ' + figure(high) + ' ms';
+  return element('span', {class: 'time', title: name},
+    figure(row.ms.median),
+    element('span', {class: 'bar', role: 'img', 'aria-label': name, '--length': share(row.ms.median)},
+      element('span', {class: 'interval', '--low': share(low), '--span': share(high - low)})));
+}
+
+function sourceCell(row) {
+  const fps = at(row, 'source.fps');
+  return isNumber(fps) ? element('span', {title: row.source.where || ''}, figure(fps)) : absent;
+}
+
+function maximumCell(row) {
+  const unbounded = at(row, 'error.reprojection_px.unbounded');
+  const text = figure(at(row, 'error.reprojection_px.max'));
+  if (!unbounded) return text;
+  return element('span', {title: counted(unbounded, 'pixel') + ' without a bound, not in the figures'},
+    text, element('span', {class: 'beyond'}, ' +' + grouped(unbounded) + ' ∞'));
+}
+
+function tag(text, kind, title) {
+  return element('span', {class: 'tag ' + kind, title}, text);
+}
+
+function tagsOf(row) {
+  return [
+    row.missing ? tag('not there yet', 'missing', 'This technique is not in reljef yet.') : null,
+    row.null_row ? tag('A/A', 'again', 'The same technique once more: the noise floor.') : null,
+    row.noisy ? tag('noisy', 'noisy', 'The noise floor is ' + percent(row.noise_floor) + ' %.') : null,
+  ];
+}
+
+function nameCell({row, index}) {
+  const name = breakable(labelOf(row) + (row.null_row ? ', again' : ''));
+  const shown = byId('row-' + index);
+  return element('th', {scope: 'row'},
+    shown ? element('a', {href: '#row-' + index, title: 'to its pictures'}, name) : name, ' ', tagsOf(row));
+}
+
+function dataCell(column, row, table) {
+  const content = column.cell ? column.cell(row, table) : column.text(column.value(row));
+  return element('td', {class: content === absent ? 'absent' : null}, content);
+}
+
+function bodyRow(entry, table) {
+  const kinds = ['missing', 'noisy', 'null_row'].filter(kind => entry.row[kind]);
+  return element('tr', {class: kinds.join(' ') || null, 'data-row': entry.index},
+    nameCell(entry), table.columns.map(column => dataCell(column, entry.row, table)));
+}
+
+// What is not there comes last, whichever way the rest is sorted.
+function compared(a, b, direction) {
+  const isAbsent = value => value === undefined || value === null || value === '';
+  if (isAbsent(a) || isAbsent(b)) return isAbsent(a) - isAbsent(b);
+  const order = typeof a === 'string' ? a.localeCompare(b, 'en', {numeric: true}) : a < b ? -1 : a > b ? 1 : 0;
+  return direction * order;
+}
+
+function sortBy(table, column, head) {
+  const ascending = head.getAttribute('aria-sort') !== 'ascending';
+  table.node.querySelectorAll('th[aria-sort]').forEach(other => other.removeAttribute('aria-sort'));
+  head.setAttribute('aria-sort', ascending ? 'ascending' : 'descending');
+  table.entries.sort((a, b) => compared(column.value(a.row), column.value(b.row), ascending ? 1 : -1));
+  table.body.append(...table.entries.map(entry => table.nodes.get(entry.index)));
+}
+
+function sortableHead(table, column) {
+  const head = element('th', {scope: 'col'});
+  head.append(element('button', {type: 'button', onclick: () => sortBy(table, column, head)},
+    column.title, element('span', {class: 'arrow', 'aria-hidden': 'true'})));
+  return head;
+}
+
+function groupHeads(table) {
+  const heads = [element('td', {})];
+  for (const name of unique(table.columns.map(column => column.group))) {
+    const span = table.columns.filter(column => column.group === name).length;
+    heads.push(element('th', {scope: 'colgroup', colspan: span}, name));
+  }
+  return heads;
+}
+
+function tableHead(table) {
+  const technique = {title: 'technique', value: row => labelOf(row)};
+  return element('thead', {},
+    element('tr', {class: 'groups'}, groupHeads(table)),
+    element('tr', {}, sortableHead(table, technique), table.columns.map(column => sortableHead(table, column))));
+}
+
+function isShown(column, entries) {
+  return column.group !== 'Sources' || entries.some(({row}) => row.source);
+}
+
+function tableOf(group) {
+  const rows = group.rows.map(entry => entry.row);
+  const table = {
+    entries: [...group.rows],
+    columns: columns.filter(column => isShown(column, group.rows)),
+    longest: Math.max(...rows.filter(isMeasured).map(row => (at(row, 'ms.interval') || [0, row.ms.median])[1]), 1e-9),
+  };
+  table.nodes = new Map(table.entries.map(entry => [entry.index, bodyRow(entry, table)]));
+  table.body = element('tbody', {}, [...table.nodes.values()]);
+  table.node = element('table', {}, tableHead(table), table.body);
+  return table.node;
+}
+
+function sourcesOf(group) {
+  const places = unique(group.rows.map(({row}) => at(row, 'source.where')));
+  return places.length ? element('p', {class: 'note'}, 'Sources: ' + places.join('; ') + '.') : null;
+}
+
+function showTables(report) {
+  const section = byId('tables');
+  section.append(element('h2', {}, 'Tables'),
+    element('p', {class: 'note'}, 'A click on a column’s name sorts by it; once more turns it round. ' +
+      'The bar is the median, the mark on it its 95 % interval.'));
+  groupsOf(report.rows).forEach((group, number) => {
+    const id = 'table-' + number;
+    section.append(element('article', {class: 'table'},
+      element('h3', {id}, group.title),
+      element('div', {class: 'scroll', role: 'region', tabindex: '0', 'aria-labelledby': id}, tableOf(group)),
+      sourcesOf(group)));
+  });
+}

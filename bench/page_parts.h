@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace reljef::bench {
+
+/// A file of bench/page, compiled into the program.
+struct PagePart {
+    std::string_view name; ///< "index.html"
+    std::string_view text;
+};
+std::span<const PagePart> page_parts();
+
+} // namespace reljef::bench
