@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -29,8 +30,9 @@ std::vector<GoldenCase> golden_cases() {
     for (const std::string terrain : {"natural", "urban"}) {
         for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
             const std::string id(technique.name);
-            cases.push_back(
-                {terrain + "_" + id, terrain, false, {"--technique", id, "--context", "osmesa"}});
+            std::string name = terrain + "_" + id;
+            std::replace(name.begin(), name.end(), '-', '_');
+            cases.push_back({name, terrain, false, {"--technique", id, "--context", "osmesa"}});
         }
         cases.push_back({terrain + "_truth", terrain, false, {"--truth"}});
     }
