@@ -103,7 +103,7 @@ Result<scene::Pose> parse_pose(const std::string& text) {
     const auto pose = scene::pose_from_string(text);
     if (!pose) {
         return Error{fmt::format(
-            "--pose: '{}' found, one of overview, low, grazing, map was expected", text)};
+            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
     }
     return *pose;
 }
@@ -200,7 +200,7 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
                               "LAT,LON,HEIGHT,HEADING,PITCH");
     camera->excludes(eye);
     auto* pose = add_parsed(command, "--pose", choice.pose, parse_pose,
-                            "overview, low, grazing or map (overview)", "NAME");
+                            "overview, oblique, low, grazing or map (overview)", "NAME");
     pose->excludes(eye)->excludes(camera);
     command
         .add_option("--path", choice.path,

@@ -82,8 +82,13 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
     if (!description) {
         return description.error();
     }
-    auto terrain = description->generator.empty() ? read(choice, *description, stop)
-                                                  : generate(choice, *description, stop);
+    return open_terrain(std::move(*description), choice, stop, notes);
+}
+
+Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
+                                   const std::stop_token& stop, Notes notes) {
+    auto terrain = description.generator.empty() ? read(choice, description, stop)
+                                                 : generate(choice, description, stop);
     if (!terrain) {
         return terrain.error();
     }
@@ -92,7 +97,7 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
             tell(fmt::format("reljef: note: {}\n", note));
         }
     }
-    return TerrainSource{std::move(*terrain), std::move(*description)};
+    return TerrainSource{std::move(*terrain), std::move(description)};
 }
 
 } // namespace reljef::app

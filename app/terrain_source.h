@@ -22,4 +22,8 @@ enum class Notes { told, kept };
 Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop,
                                    Notes notes = Notes::told);
 
+/// The same of a scene that is described already; `choice.terrain` is not looked at.
+Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
+                                   const std::stop_token& stop, Notes notes = Notes::told);
+
 } // namespace reljef::app

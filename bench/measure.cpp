@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/core/check.h"
+#include "engine/core/statistics.h"
 
 namespace reljef::bench {
 namespace {
@@ -47,7 +48,10 @@ public:
         return {};
     }
 
-    Measurement take() { return std::move(result_); }
+    Measurement take() {
+        result_.noise_floor = noise_floor();
+        return std::move(result_);
+    }
 
 private:
     bool stopped() {
@@ -70,9 +74,30 @@ private:
         }
         const double elapsed = seconds_until(now_ms_());
         const double timed = elapsed - *warm_up_seconds_;
-        return rounds >= options_.most_rounds ||
-               (rounds >= options_.least_rounds && timed >= options_.seconds) ||
-               elapsed + timed / rounds > options_.most_seconds;
+        const bool has_the_least = rounds >= options_.least_rounds && timed >= options_.seconds;
+        return rounds >= options_.most_rounds || elapsed + timed / rounds > options_.most_seconds ||
+               (has_the_least && (timed >= options_.noisy_seconds || is_quiet(rounds)));
+    }
+
+    // Precondition: a round is done.
+    bool is_quiet(int rounds) {
+        if (!options_.null_pair) {
+            return true;
+        }
+        if (rounds < ask_at_round_) {
+            return false;
+        }
+        ask_at_round_ = rounds + std::max(rounds / 4, 1);
+        return *noise_floor() <= options_.most_noise;
+    }
+
+    [[nodiscard]] std::optional<double> noise_floor() const {
+        if (!options_.null_pair || result_.ms[options_.null_pair->first].empty() ||
+            result_.ms[options_.null_pair->second].empty()) {
+            return std::nullopt;
+        }
+        return relative_distance(median(result_.ms[options_.null_pair->first]),
+                                 median(result_.ms[options_.null_pair->second]));
     }
 
     void tell_progress(double now) {
@@ -102,6 +127,7 @@ private:
     double begin_ms_;
     std::optional<double> warm_up_seconds_; // once it is over
     int frames_drawn_ = 0;
+    int ask_at_round_ = 0; // how noisy it is
     double fraction_ = 0.0;
 };
 
@@ -111,6 +137,9 @@ Result<Measurement> measure(std::span<const DrawFrame> frames, const MeasureOpti
     check(!frames.empty(), "nothing to measure");
     check(options.least_rounds >= 1 && options.most_rounds >= options.least_rounds,
           "measuring needs a round");
+    check(!options.null_pair ||
+              std::max(options.null_pair->first, options.null_pair->second) < frames.size(),
+          "a null pair that is not drawn");
     Rounds rounds(frames, options);
     if (auto warm = rounds.warm_up(); !warm) {
         return warm.error();

@@ -1,8 +1,11 @@
 #include "bench/report_json.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/report_schema.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {
@@ -10,14 +13,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double most_exact_whole = 9e15; // of the whole numbers a double tells apart
+
 Json to_json(const Environment& environment) {
     return {{"renderer", environment.renderer}, {"gl", environment.gl},
             {"context", environment.context},   {"threads", environment.threads},
             {"cpu", environment.cpu},           {"commit", environment.commit}};
-}
-
-Json to_json(const Summary& summary) {
-    return {{"median", summary.median}, {"p95", summary.p95}, {"p99", summary.p99}};
 }
 
 Json to_json(const render::FrameStats::Skipped& skipped) {
@@ -29,50 +30,128 @@ Json to_json(const render::FrameStats::Skipped& skipped) {
             {"sky", skipped.sky}};
 }
 
-Json parameters_of(const scene::Technique& technique) {
+Json parameters_of(const Setting& setting) {
     Json parameters = Json::object();
-    const auto infos = scene::technique_info(technique.id).parameters;
-    for (std::size_t i = 0; i < infos.size(); ++i) {
-        if (infos[i].whole) {
-            parameters[std::string(infos[i].name)] = static_cast<long long>(technique.values[i]);
-        } else {
-            parameters[std::string(infos[i].name)] = technique.values[i];
-        }
+    for (const Setting::Parameter& parameter : setting.parameters) {
+        const bool is_whole = parameter.value == std::trunc(parameter.value) &&
+                              std::abs(parameter.value) < most_exact_whole;
+        parameters[parameter.name] =
+            is_whole ? Json(static_cast<long long>(parameter.value)) : Json(parameter.value);
     }
     return parameters;
 }
 
+Json or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json to_json(const std::optional<RowError::Geometric>& error) {
+    if (!error) {
+        return {};
+    }
+    const truth::Distribution& distribution = error->distribution;
+    return {{"median", distribution.median}, {"p95", distribution.p95},
+            {"p99", distribution.p99},       {"max", distribution.max},
+            {"rms", distribution.rms},       {"count", distribution.count},
+            {"unbounded", error->unbounded}};
+}
+
+Json to_json(const RowError& error) {
+    return {{"reprojection_px", to_json(error.reprojection_px)},
+            {"hit_texels", to_json(error.hit_texels)},
+            {"wrong_percent", error.wrong_percent},
+            {"holes", error.holes},
+            {"rmse", error.rmse},
+            {"psnr", or_null(error.psnr)},
+            {"ssim", or_null(error.ssim)},
+            {"flip", error.flip}};
+}
+
+Json to_json(const SourceFigure& source) {
+    return {{"fps", source.fps}, {"ratio", source.ratio}, {"where", source.where}};
+}
+
+Json to_json(const Timing& timing) {
+    return {{"frames", timing.frames},
+            {"ms",
+             {{"median", timing.ms.median},
+              {"p95", timing.ms.p95},
+              {"p99", timing.ms.p99},
+              {"interval", {timing.interval.low, timing.interval.high}}}},
+            {"fps", 1000.0 / timing.ms.median},
+            {"fps_1_percent_low", timing.fps_1_percent_low},
+            {"ratio_to_texture", timing.ratio_to_texture},
+            {"noise_floor", or_null(timing.noise_floor)},
+            {"tiles", timing.stats.tiles},
+            {"triangles", timing.stats.triangles},
+            {"draws", timing.stats.draws},
+            {"uploads", timing.stats.uploads}};
+}
+
+Json description_of(const Row& row) {
+    Json json{{"suite", row.suite}};
+    if (!row.test.empty()) {
+        json["test"] = row.test;
+    }
+    json.update({{"scene", row.scene},
+                 {"pose", scene::to_string(row.pose)},
+                 {"technique", row.setting.technique},
+                 {"params", parameters_of(row.setting)},
+                 {"label", row.setting.label},
+                 {"null_row", row.null_row},
+                 {"missing", row.missing()},
+                 {"noisy", row.noisy()},
+                 {"size", fmt::format("{}x{}", row.size.x, row.size.y)}});
+    return json;
+}
+
 Json to_json(const Row& row) {
-    return {{"suite", row.suite},
-            {"scene", row.scene},
-            {"pose", scene::to_string(row.pose)},
-            {"technique", scene::technique_info(row.technique.id).name},
-            {"params", parameters_of(row.technique)},
-            {"null_row", row.null_row},
-            {"size", fmt::format("{}x{}", row.size.x, row.size.y)},
-            {"frames", row.frames},
-            {"ms", to_json(row.ms)},
-            {"fps", 1000.0 / row.ms.median},
-            {"ratio_to_texture", row.ratio_to_texture},
-            {"noise_floor", row.noise_floor ? Json(*row.noise_floor) : Json()},
-            {"tiles", row.stats.tiles},
-            {"triangles", row.stats.triangles},
-            {"draws", row.stats.draws},
-            {"uploads", row.stats.uploads},
-            {"skipped", to_json(row.stats.skipped)}};
+    Json json = description_of(row);
+    if (row.timing) {
+        json.update(to_json(*row.timing));
+    }
+    if (row.error) {
+        json["error"] = to_json(*row.error);
+    }
+    if (row.source) {
+        json["source"] = to_json(*row.source);
+    }
+    if (row.timing) {
+        json["skipped"] = to_json(row.timing->stats.skipped);
+    }
+    return json;
+}
+
+Json to_json(const Front& front) {
+    Json dominated = Json::array();
+    for (const Front::Dominated& setting : front.dominated) {
+        dominated.push_back({{"label", setting.label}, {"by", setting.by}});
+    }
+    return {{"scene", front.scene},
+            {"pose", scene::to_string(front.pose)},
+            {"area", front.area},
+            {"front", front.front},
+            {"dominated", std::move(dominated)}};
+}
+
+template <class Part> Json array_of(const std::vector<Part>& parts) {
+    Json array = Json::array();
+    for (const Part& part : parts) {
+        array.push_back(to_json(part));
+    }
+    return array;
 }
 
 } // namespace
 
 std::string json_report(const Results& results) {
-    Json rows = Json::array();
-    for (const Row& row : results.rows) {
-        rows.push_back(to_json(row));
+    Json report{{"schema", schema_name},
+                {"complete", !results.stopped.has_value()},
+                {"environment", to_json(results.environment)},
+                {"rows", array_of(results.rows)}};
+    if (!results.fronts.empty()) {
+        report["fronts"] = array_of(results.fronts);
     }
-    const Json report{{"schema", "reljef-bench/1"},
-                      {"complete", !results.stopped.has_value()},
-                      {"environment", to_json(results.environment)},
-                      {"rows", rows}};
     // File names need not be UTF-8.
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

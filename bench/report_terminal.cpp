@@ -1,116 +1,86 @@
 #include "bench/report_terminal.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/report_table.h"
 
 namespace reljef::bench {
 namespace {
 
-constexpr std::size_t columns = 9;
-constexpr std::size_t left_aligned_columns = 2;
-constexpr std::size_t reliable_frames = 5;
-using Cells = std::array<std::string, columns>;
-
-std::size_t code_points(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-    }));
-}
-
-// 1234567 as "1,234,567".
-std::string grouped(std::size_t number) {
-    std::string text = std::to_string(number);
-    for (std::size_t from_end = 3; from_end < text.size(); from_end += 4) {
-        text.insert(text.size() - from_end, ",");
+std::vector<std::size_t> widths_of(const std::vector<ReportTable>& tables) {
+    std::vector<std::size_t> widths;
+    const auto widen = [&](const std::vector<std::string>& cells) {
+        widths.resize(std::max(widths.size(), cells.size()));
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            widths[i] = std::max(widths[i], text_width(cells[i]));
+        }
+    };
+    for (const ReportTable& table : tables) {
+        widen(table.columns);
+        std::for_each(table.lines.begin(), table.lines.end(), widen);
     }
-    return text;
+    return widths;
 }
 
-std::string name_of(const Row& row) {
-    return row.null_row ? fmt::format("{} (again)", scene::to_string(row.technique))
-                        : scene::to_string(row.technique);
-}
-
-std::string milliseconds(double value, int decimals) {
-    return fmt::format("{:.{}f}", value, decimals);
-}
-
-Cells cells_of(const Row& row, int decimals) {
-    return {row.scene,
-            name_of(row),
-            milliseconds(row.ms.median, decimals),
-            milliseconds(row.ms.p95, decimals),
-            fmt::format("{:.1f}", 1000.0 / row.ms.median),
-            fmt::format("{:.2f}", row.ratio_to_texture),
-            grouped(row.stats.triangles),
-            std::to_string(row.frames),
-            row.noise_floor ? fmt::format("{:.1f} %", 100.0 * *row.noise_floor) : "?"};
-}
-
-std::string line_of(const Cells& cells, const std::array<std::size_t, columns>& widths) {
+std::string padded_line(const std::vector<std::string>& cells,
+                        const std::vector<std::size_t>& widths) {
     std::string line;
-    for (std::size_t i = 0; i < columns; ++i) {
-        const std::string padding(widths[i] - code_points(cells[i]), ' ');
-        line += i == 0 ? "" : "  ";
-        line += i < left_aligned_columns ? cells[i] + padding : padding + cells[i];
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::string padding(widths[i] - text_width(cells[i]), ' ');
+        line += i == 0 ? cells[i] + padding : "  " + padding + cells[i];
     }
     return line + "\n";
 }
 
-std::string table_of(const std::vector<Row>& rows) {
-    const bool is_fast =
-        std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.ms.median < 1.0; });
-    std::vector<Cells> lines{{"scene", "technique", "median ms", "p95 ms", "fps", "ratio",
-                              "triangles", "frames", "noise floor"}};
-    std::transform(rows.begin(), rows.end(), std::back_inserter(lines),
-                   [&](const Row& row) { return cells_of(row, is_fast ? 3 : 2); });
-    std::array<std::size_t, columns> widths{};
-    for (const Cells& cells : lines) {
-        for (std::size_t i = 0; i < columns; ++i) {
-            widths[i] = std::max(widths[i], code_points(cells[i]));
-        }
+std::string terminal_table(const ReportTable& table, const std::vector<std::size_t>& widths) {
+    std::string text = table.heading + "\n" + padded_line(table.columns, widths);
+    for (const auto& line : table.lines) {
+        text += padded_line(line, widths);
     }
-    std::string table;
-    for (const Cells& cells : lines) {
-        table += line_of(cells, widths);
+    for (const std::string& note : table.notes) {
+        text += note + "\n";
     }
-    return table;
+    return text + "\n";
 }
 
-std::string heading_of(const Row& row, const Environment& environment) {
-    return fmt::format("{}: {}x{} pixels, pose {}, frames of the techniques interleaved\n"
-                       "renderer: {}\n"
-                       "OpenGL:   {}, context {}\n"
-                       "machine:  {}, {} thread{}; commit {}\n",
-                       row.suite, row.size.x, row.size.y, scene::to_string(row.pose),
-                       environment.renderer, environment.gl, environment.context, environment.cpu,
-                       environment.threads, environment.threads == 1 ? "" : "s",
-                       environment.commit);
+std::string terminal_front(const Front& front) {
+    std::string text =
+        fmt::format("{}, {}: front {}; area {:.3f}\n", front.scene, scene::to_string(front.pose),
+                    fmt::join(front.front, ", "), front.area);
+    for (const Front::Dominated& setting : front.dominated) {
+        text += fmt::format("  {} is dominated by {}\n", setting.label, setting.by);
+    }
+    return text;
 }
 
-std::string warning_of(const std::vector<Row>& rows) {
-    const bool too_few = std::any_of(rows.begin(), rows.end(),
-                                     [](const Row& row) { return row.frames < reliable_frames; });
-    return too_few
-               ? fmt::format("Caution: under {} frames of a technique are too few to rely on.\n",
-                             reliable_frames)
-               : "";
+std::string terminal_fronts(const std::vector<Front>& fronts) {
+    if (fronts.empty()) {
+        return "";
+    }
+    std::string text = "Pareto fronts of ratio to texture against error px, fastest first; the "
+                       "smaller the area the\nbetter:\n";
+    for (const Front& front : fronts) {
+        text += terminal_front(front);
+    }
+    return text + "\n";
 }
 
 } // namespace
 
 std::string terminal_report(const Results& results) {
     check(!results.rows.empty(), "a report of no rows");
-    return heading_of(results.rows.front(), results.environment) + "\n" + table_of(results.rows) +
-           "\n"
-           "ratio: median over the median of texture on the same scene in the same run.\n"
-           "noise floor: how far two measurements of texture in one run lie apart; a difference "
-           "below it\nis none.\n"
-           "error: not told; a column for it comes with the truth, the exact picture to compare "
-           "with.\n" +
-           warning_of(results.rows);
+    const std::vector<ReportTable> tables = report_tables(results);
+    std::string text =
+        fmt::format("{}: frames of the techniques interleaved\n{}\n\n", results.rows.front().suite,
+                    fmt::join(environment_lines(results.environment), "\n"));
+    for (const ReportTable& table : tables) {
+        text += terminal_table(table, widths_of(tables));
+    }
+    return text + terminal_fronts(results.fronts) +
+           fmt::format("{}\n", fmt::join(column_notes(results), "\n"));
 }
 
 } // namespace reljef::bench

@@ -76,7 +76,7 @@ Result<void> write_text_file(const fs::path& path, std::string_view text) {
     return write_file(path, std::as_bytes(std::span(text)));
 }
 
-Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+Result<AtomicFile> prepare_file(const fs::path& path, std::span<const std::byte> bytes) {
     auto file = AtomicFile::create(path);
     if (!file) {
         return file.error();
@@ -88,7 +88,12 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
     if (!stream) {
         return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno))};
     }
-    return file->commit();
+    return file;
+}
+
+Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+    auto file = prepare_file(path, bytes);
+    return file ? file->commit() : file.error();
 }
 
 Result<std::string> read_text_file(const fs::path& path, std::size_t limit) {

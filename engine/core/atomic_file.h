@@ -39,6 +39,9 @@ private:
     std::filesystem::path temporary_;
 };
 
+/// Writes `bytes` beside `path`; a commit() puts them there.
+Result<AtomicFile> prepare_file(const std::filesystem::path& path,
+                                std::span<const std::byte> bytes);
 /// Writes `bytes` to `path`, whole or not at all.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 /// The same of a text.

@@ -7,7 +7,8 @@
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<std::pair<Pose, std::string_view>, 4> names{{{Pose::overview, "overview"},
+constexpr std::array<std::pair<Pose, std::string_view>, 5> names{{{Pose::overview, "overview"},
+                                                                  {Pose::oblique, "oblique"},
                                                                   {Pose::low, "low"},
                                                                   {Pose::grazing, "grazing"},
                                                                   {Pose::map, "map"}}};
@@ -47,6 +48,10 @@ Camera pose_camera(Pose pose, const Box& bounds,
     case Pose::overview:
         camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
         camera.look = middle + glm::dvec3(0.0, -0.05 * w, h0);
+        return camera;
+    case Pose::oblique:
+        camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
+        camera.look = middle + glm::dvec3(0.0, -0.05 * w, h1);
         return camera;
     case Pose::low:
         camera.eye = middle + glm::dvec3(0.0, -0.3 * w, 0.0);

@@ -144,6 +144,82 @@ TEST_F(Measuring, progress_rises_to_one) {
     }
 }
 
+// Texture and texture again, whose second takes `times` as long as the first until `quiet_at_ms`.
+class MeasuringNoise : public Measuring {
+protected:
+    std::vector<DrawFrame> pair(double times, double quiet_at_ms) {
+        return {thing('A', 100.0), thing('B', 50.0), [=, this]() -> Result<void> {
+                    now_ms_ += now_ms_ < 1e6 + quiet_at_ms ? times * 100.0 : 100.0;
+                    return {};
+                }};
+    }
+
+    MeasureOptions noisy_options() {
+        auto options = rounds(5);
+        options.most_rounds = 1000;
+        options.seconds = 2.0;
+        options.null_pair = {0, 2};
+        options.noisy_seconds = 20.0;
+        return options;
+    }
+};
+
+TEST_F(MeasuringNoise, floor_is_how_far_the_pair_lies_apart) {
+    const auto measured = measure(pair(1.05, 1e9), noisy_options());
+    ASSERT_TRUE(measured);
+    EXPECT_NEAR(*measured->noise_floor, 0.05, 1e-9);
+    EXPECT_THAT(measured->ms, Each(SizeIs(8))); // of 255 ms each: no more than without noise
+}
+
+TEST_F(MeasuringNoise, noisy_pair_is_measured_until_it_is_quiet) {
+    const auto measured = measure(pair(1.5, 3000.0), noisy_options());
+    ASSERT_TRUE(measured);
+    EXPECT_LE(*measured->noise_floor, 0.10);
+    EXPECT_GT(measured->ms[0].size(), 20U); // the quiet half of them
+    EXPECT_LT(measured->ms[0].size(), 35U);
+}
+
+TEST_F(MeasuringNoise, pair_that_stays_noisy_ends_at_the_limit_and_keeps_its_floor) {
+    const auto measured = measure(pair(1.5, 1e9), noisy_options());
+    ASSERT_TRUE(measured);
+    EXPECT_NEAR(*measured->noise_floor, 0.5, 1e-9);
+    EXPECT_THAT(measured->ms, Each(SizeIs(67))); // 300 ms each, none begins after 20 s
+}
+
+TEST_F(MeasuringNoise, rounds_that_were_asked_for_stay_as_many) {
+    auto options = noisy_options();
+    options.most_rounds = options.least_rounds;
+    const auto measured = measure(pair(1.5, 1e9), options);
+    ASSERT_TRUE(measured);
+    EXPECT_THAT(measured->ms, Each(SizeIs(5)));
+}
+
+TEST_F(MeasuringNoise, last_limit_holds_for_noise_too) {
+    auto options = noisy_options();
+    options.most_seconds = 4.0;
+    const auto measured = measure(pair(1.5, 1e9), options);
+    ASSERT_TRUE(measured);
+    EXPECT_THAT(measured->ms, Each(SizeIs(13))); // one more would end at 4.2 s
+}
+
+TEST_F(Measuring, without_a_pair_or_its_times_there_is_no_floor) {
+    std::stop_source stop;
+    const std::vector<DrawFrame> things{[&]() -> Result<void> {
+                                            stop.request_stop();
+                                            return {};
+                                        },
+                                        thing('B', 1.0)};
+    auto options = rounds(5);
+    options.null_pair = {0, 1};
+    options.stop = stop.get_token();
+    const auto stopped = measure(things, options);
+    ASSERT_TRUE(stopped);
+    EXPECT_FALSE(stopped->noise_floor);
+    const auto alone = measure(std::vector<DrawFrame>{thing('A', 1.0)}, rounds(5));
+    ASSERT_TRUE(alone);
+    EXPECT_FALSE(alone->noise_floor);
+}
+
 TEST_F(Measuring, stop_ends_after_the_frame_and_keeps_what_was_timed) {
     std::stop_source stop;
     const std::vector<DrawFrame> things{thing('A', 1.0),

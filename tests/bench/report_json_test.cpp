@@ -34,7 +34,14 @@ TEST(JsonReport, row_says_what_was_drawn_how_and_how_fast) {
     EXPECT_EQ(row.at("params"), json({{"lods", 1}}));
     EXPECT_EQ(row.at("size"), "1024x768");
     EXPECT_EQ(row.at("frames"), 20);
-    EXPECT_EQ(row.at("ms"), json({{"median", 8.0}, {"p95", 9.0}, {"p99", 10.0}}));
+    EXPECT_EQ(row.at("label"), "polygons:lods=1");
+    EXPECT_EQ(row.at("missing"), false);
+    EXPECT_EQ(row.at("noisy"), false);
+    EXPECT_EQ(row.at("ms").at("median"), 8.0);
+    EXPECT_EQ(row.at("ms").at("p95"), 10.0);
+    EXPECT_EQ(row.at("ms").at("p99"), 12.0);
+    EXPECT_EQ(row.at("ms").at("interval"), json({0.9 * 8.0, 1.1 * 8.0}));
+    EXPECT_EQ(row.at("fps_1_percent_low"), 62.5);
     EXPECT_EQ(row.at("fps"), 125.0);
     EXPECT_EQ(row.at("ratio_to_texture"), 4.0);
     EXPECT_EQ(row.at("noise_floor"), 0.05);
@@ -43,7 +50,67 @@ TEST(JsonReport, row_says_what_was_drawn_how_and_how_fast) {
     EXPECT_EQ(row.at("uploads"), 1);
     EXPECT_EQ(row.at("skipped").at("tiles_outside_frustum"), 17);
     EXPECT_EQ(row.at("null_row"), false);
-    EXPECT_FALSE(row.contains("error")); // nothing measured it
+    EXPECT_FALSE(row.contains("test")); // it is none of the sources'
+    EXPECT_FALSE(row.contains("source"));
+}
+
+TEST(JsonReport, row_says_how_wrong) {
+    const json error = json::parse(json_report(test::made_results())).at("rows").at(1).at("error");
+    EXPECT_EQ(error.at("reprojection_px"), json({{"median", 0.125},
+                                                 {"p95", 0.5},
+                                                 {"p99", 0.75},
+                                                 {"max", 1.0},
+                                                 {"rms", 0.25},
+                                                 {"count", 700'000},
+                                                 {"unbounded", 0}}));
+    EXPECT_EQ(error.at("wrong_percent"), 1.25);
+    EXPECT_EQ(error.at("holes"), 3);
+    EXPECT_EQ(error.at("rmse"), 0.01);
+    EXPECT_EQ(error.at("psnr"), 40.0);
+    EXPECT_EQ(error.at("ssim"), 0.975);
+    EXPECT_EQ(error.at("flip"), 0.02);
+}
+
+TEST(JsonReport, error_without_a_figure_is_null) {
+    Results results = test::made_results();
+    results.rows[0].error->reprojection_px.reset();
+    results.rows[0].error->psnr.reset();
+    results.rows[0].error->ssim.reset();
+    const json error = json::parse(json_report(results)).at("rows").at(0).at("error");
+    EXPECT_TRUE(error.at("reprojection_px").is_null());
+    EXPECT_TRUE(error.at("psnr").is_null());
+    EXPECT_TRUE(error.at("ssim").is_null());
+}
+
+TEST(JsonReport, missing_row_has_no_time_and_no_error_but_the_sources_figure) {
+    const json row = json::parse(json_report(test::made_source_results())).at("rows").at(2);
+    EXPECT_EQ(row.at("technique"), "relief");
+    EXPECT_EQ(row.at("missing"), true);
+    EXPECT_EQ(row.at("test"), "relief-4");
+    for (const char* absent : {"ms", "fps", "frames", "ratio_to_texture", "error", "skipped"}) {
+        EXPECT_FALSE(row.contains(absent)) << absent;
+    }
+    EXPECT_EQ(
+        row.at("source"),
+        json({{"fps", 55.0}, {"ratio", 824.0 / 55.0}, {"where", "relief-4, configuration 2"}}));
+}
+
+TEST(JsonReport, row_above_the_noise_is_noisy) {
+    Results results = test::made_results();
+    results.rows[0].timing->noise_floor = most_noise;
+    results.rows[1].timing->noise_floor = 1.01 * most_noise;
+    const json rows = json::parse(json_report(results)).at("rows");
+    EXPECT_EQ(rows.at(0).at("noisy"), false);
+    EXPECT_EQ(rows.at(1).at("noisy"), true);
+}
+
+TEST(JsonReport, fronts_name_who_dominates_whom) {
+    Results results = test::made_results();
+    EXPECT_FALSE(json::parse(json_report(results)).contains("fronts"));
+    results.fronts = {{"natural", scene::Pose::low, 0.25, {"a", "b"}, {{"c", "b"}}}};
+    EXPECT_EQ(json::parse(json_report(results)).at("fronts"),
+              json::parse(R"([{"scene": "natural", "pose": "low", "area": 0.25,
+                              "front": ["a", "b"], "dominated": [{"label": "c", "by": "b"}]}])"));
 }
 
 TEST(JsonReport, technique_without_parameters_has_an_empty_object) {
@@ -61,7 +128,7 @@ TEST(JsonReport, run_that_ended_early_says_so_and_invents_no_floor) {
     Results results = test::made_results();
     results.stopped = Error{"interrupted"};
     results.rows.resize(1);
-    results.rows[0].noise_floor.reset();
+    results.rows[0].timing->noise_floor.reset();
     const json report = json::parse(json_report(results));
     EXPECT_EQ(report.at("complete"), false);
     EXPECT_TRUE(report.at("rows").at(0).at("noise_floor").is_null());

@@ -32,12 +32,47 @@ std::size_t width_of(const std::string& line) {
     return width;
 }
 
-TEST(TerminalReport, row_holds_time_rate_ratio_triangles_and_floor) {
+TEST(TerminalReport, row_holds_time_interval_rates_ratio_drop_and_error) {
     const std::string row = line_with(terminal_report(test::made_results()), "polygons");
-    for (const char* part : {"natural", "polygons:lods=1", "8.00", "9.00", "125.0", "4.00",
-                             "2,097,152", "20", "5.0 %"}) {
+    for (const char* part :
+         {"polygons:lods=1", "8.00", "10.0 %", "125", "62.5", "4.00", "75 %", "0.250", "1.25 %"}) {
         EXPECT_THAT(row, HasSubstr(part));
     }
+}
+
+TEST(TerminalReport, heading_holds_scene_pose_size_frames_and_floor) {
+    EXPECT_THAT(terminal_report(test::made_results()),
+                HasSubstr("natural, overview, 1024x768, 20 frames, noise floor 5.0 %\n"));
+}
+
+TEST(TerminalReport, sources_figures_stand_beside_ours) {
+    const std::string report = terminal_report(test::made_source_results());
+    EXPECT_THAT(report, HasSubstr("relief-4: natural 1025"));
+    EXPECT_THAT(line_with(report, "polygons:lods=1"), HasSubstr("164.80"));
+    EXPECT_THAT(terminal_report(test::made_results()), Not(HasSubstr("source")));
+}
+
+TEST(TerminalReport, missing_technique_is_told_and_has_no_figure_of_ours) {
+    const std::string report = terminal_report(test::made_source_results());
+    EXPECT_THAT(line_with(report, "relief  "), HasSubstr("55.0   14.98"));
+    EXPECT_THAT(report, HasSubstr("missing, not there yet: relief\n"));
+}
+
+TEST(TerminalReport, noisy_table_says_so) {
+    Results results = test::made_results();
+    EXPECT_THAT(terminal_report(results), Not(HasSubstr("NOISY")));
+    for (Row& row : results.rows) {
+        row.timing->noise_floor = 0.123;
+    }
+    EXPECT_THAT(terminal_report(results), HasSubstr("noise floor 12.3 %: NOISY\n"));
+}
+
+TEST(TerminalReport, fronts_and_what_they_dominate_are_named) {
+    Results results = test::made_results();
+    results.fronts = {{"natural", scene::Pose::low, 0.25, {"a", "b"}, {{"c", "b"}}}};
+    const std::string report = terminal_report(results);
+    EXPECT_THAT(report, HasSubstr("natural, low: front a, b; area 0.250\n"));
+    EXPECT_THAT(report, HasSubstr("c is dominated by b\n"));
 }
 
 TEST(TerminalReport, says_on_what_it_was_measured) {
@@ -50,18 +85,18 @@ TEST(TerminalReport, says_on_what_it_was_measured) {
 
 TEST(TerminalReport, columns_line_up_whatever_the_names_length) {
     Results results = test::made_results("Međimurje.tif");
-    Results more = test::made_results("a name that is longer than any column.tif");
-    results.rows.insert(results.rows.end(), more.rows.begin(), more.rows.end());
+    results.rows[0].setting.label = "ć";
+    results.rows[1].setting.label = "a name that is longer than any column";
     const std::string report = terminal_report(results);
     const std::string heading = line_with(report, "median ms");
     ASSERT_FALSE(heading.empty());
-    for (const char* name : {"Međimurje.tif", "longer than any"}) {
+    for (const char* name : {"ć", "longer than any"}) {
         EXPECT_EQ(width_of(line_with(report, name)), width_of(heading)) << report;
     }
 }
 
 TEST(TerminalReport, fits_the_screen_with_the_built_in_terrains) {
-    std::istringstream lines(terminal_report(test::made_results()));
+    std::istringstream lines(terminal_report(test::made_source_results()));
     for (std::string line; std::getline(lines, line);) {
         EXPECT_LE(width_of(line), 100U) << line;
     }
@@ -69,23 +104,21 @@ TEST(TerminalReport, fits_the_screen_with_the_built_in_terrains) {
 
 TEST(TerminalReport, times_below_a_millisecond_keep_their_digits) {
     Results results = test::made_results();
-    results.rows[0].ms = {0.042, 0.051, 0.06};
+    results.rows[0].timing->ms = {0.042, 0.051, 0.06};
     EXPECT_THAT(terminal_report(results), HasSubstr("0.042"));
 }
 
-TEST(TerminalReport, floor_that_was_not_measured_is_a_question_mark) {
+TEST(TerminalReport, floor_that_was_not_measured_is_told) {
     Results results = test::made_results();
     results.rows.resize(1);
-    results.rows[0].noise_floor.reset();
-    const std::string row = line_with(terminal_report(results), "natural");
-    EXPECT_THAT(row, HasSubstr("?"));
-    EXPECT_THAT(row, Not(HasSubstr("%")));
+    results.rows[0].timing->noise_floor.reset();
+    EXPECT_THAT(terminal_report(results), HasSubstr("noise floor unknown"));
 }
 
 TEST(TerminalReport, cautions_about_too_few_frames) {
     Results results = test::made_results();
     EXPECT_THAT(terminal_report(results), Not(HasSubstr("Caution")));
-    results.rows[1].frames = 4;
+    results.rows[1].timing->frames = 4;
     EXPECT_THAT(terminal_report(results), HasSubstr("Caution: under 5 frames"));
 }
 

@@ -18,10 +18,10 @@ protected:
         TablesOptions options;
         options.terrains = {folder_.write("a.asc", test::small_dem).string(),
                             folder_.write("b.asc", test::small_dem).string()};
-        options.size = {64, 48};
-        options.context = platform::ContextKind::osmesa;
-        options.rounds = 6;
-        options.quiet = true;
+        options.suite.size = {64, 48};
+        options.suite.context = platform::ContextKind::osmesa;
+        options.suite.rounds = 6;
+        options.suite.quiet = true;
         return options;
     }
 
@@ -38,13 +38,17 @@ TEST_F(TablesSuite, has_every_technique_and_the_null_row_of_every_terrain) {
         const std::size_t place = i % (techniques + 1);
         EXPECT_EQ(row.scene, i <= techniques ? "a.asc" : "b.asc");
         EXPECT_EQ(row.null_row, place == techniques);
-        EXPECT_EQ(row.technique.id, row.null_row ? scene::TechniqueId::texture
-                                                 : scene::technique_catalogue()[place].id);
-        EXPECT_EQ(row.frames, 6U);
-        EXPECT_GT(row.ms.median, 0.0);
-        EXPECT_LE(row.ms.median, row.ms.p95);
-        EXPECT_TRUE(row.noise_floor.has_value());
-        EXPECT_GT(row.stats.triangles, 0U);
+        EXPECT_EQ(row.setting.technique,
+                  row.null_row ? "texture" : scene::technique_catalogue()[place].name);
+        ASSERT_TRUE(row.timing);
+        EXPECT_EQ(row.timing->frames, 6U);
+        EXPECT_GT(row.timing->ms.median, 0.0);
+        EXPECT_LE(row.timing->interval.low, row.timing->ms.median);
+        EXPECT_GE(row.timing->interval.high, row.timing->ms.median);
+        EXPECT_LE(row.timing->ms.median, row.timing->ms.p95);
+        EXPECT_LE(row.timing->fps_1_percent_low, 1000.0 / row.timing->ms.median);
+        EXPECT_TRUE(row.timing->noise_floor.has_value());
+        EXPECT_GT(row.timing->stats.triangles, 0U);
     }
 }
 
@@ -52,10 +56,11 @@ TEST_F(TablesSuite, draws_each_row_with_its_own_technique) {
     const Results results = run_tables(small_options(), {});
     ASSERT_FALSE(results.stopped);
     for (const Row& row : results.rows) { // one flat square, 2 by 2 cells, or a box
-        const auto geometry = scene::geometry_of(row.technique.id);
-        EXPECT_EQ(row.stats.triangles, geometry == scene::Geometry::flat   ? 2U
-                                       : geometry == scene::Geometry::full ? 8U
-                                                                           : 12U);
+        const auto technique = scene::parse_technique(row.setting.label).value();
+        const auto geometry = scene::geometry_of(technique.id);
+        EXPECT_EQ(row.timing->stats.triangles, geometry == scene::Geometry::flat   ? 2U
+                                               : geometry == scene::Geometry::full ? 8U
+                                                                                   : 12U);
     }
 }
 
@@ -63,8 +68,8 @@ TEST_F(TablesSuite, warm_frames_upload_no_terrain) {
     const Results results = run_tables(small_options(), {});
     ASSERT_FALSE(results.stopped);
     for (const Row& row : results.rows) {
-        EXPECT_LE(row.stats.uploads, 1); // the camera
-        EXPECT_GT(row.stats.skipped.uploads_unchanged, 0);
+        EXPECT_LE(row.timing->stats.uploads, 1); // the camera
+        EXPECT_GT(row.timing->stats.skipped.uploads_unchanged, 0);
     }
 }
 
@@ -74,9 +79,9 @@ TEST_F(TablesSuite, ratio_is_to_texture_on_the_same_terrain) {
     const std::size_t rows_a_terrain = results.rows.size() / 2;
     for (std::size_t i = 0; i < results.rows.size(); ++i) {
         const Row& texture = results.rows[i / rows_a_terrain * rows_a_terrain];
-        EXPECT_EQ(texture.ratio_to_texture, 1.0);
-        EXPECT_DOUBLE_EQ(results.rows[i].ratio_to_texture,
-                         results.rows[i].ms.median / texture.ms.median);
+        EXPECT_EQ(texture.timing->ratio_to_texture, 1.0);
+        EXPECT_DOUBLE_EQ(results.rows[i].timing->ratio_to_texture,
+                         results.rows[i].timing->ms.median / texture.timing->ms.median);
     }
 }
 
@@ -86,14 +91,47 @@ TEST_F(TablesSuite, texture_is_measured_beside_the_technique_asked_for) {
     options.techniques = {scene::make_technique(scene::TechniqueId::polygons)};
     const Results results = run_tables(options, {});
     ASSERT_EQ(results.rows.size(), 3U);
-    EXPECT_EQ(results.rows[0].technique.id, scene::TechniqueId::texture);
-    EXPECT_EQ(results.rows[1].technique.id, scene::TechniqueId::polygons);
+    EXPECT_EQ(results.rows[0].setting.label, "texture");
+    EXPECT_EQ(results.rows[1].setting.label, "polygons:lods=1");
     EXPECT_TRUE(results.rows[2].null_row);
+}
+
+// The DEM is a plane, which triangles draw as it is; laid flat, it is metres off.
+TEST_F(TablesSuite, every_row_tells_its_error) {
+    const Results results = run_tables(small_options(), {});
+    ASSERT_FALSE(results.stopped);
+    for (const Row& row : results.rows) {
+        ASSERT_TRUE(row.error && row.error->reprojection_px);
+        const double rms = row.error->reprojection_px->distribution.rms;
+        if (row.setting.technique == "polygons") {
+            EXPECT_LT(rms, 0.01);
+            EXPECT_LT(row.error->wrong_percent, 0.5);
+        } else {
+            EXPECT_GT(rms, 1.0);
+        }
+        EXPECT_FALSE(row.view);
+    }
+}
+
+TEST_F(TablesSuite, views_are_kept_where_they_are_asked_for) {
+    auto options = small_options();
+    options.suite.keep_views = true;
+    const Results results = run_tables(options, {});
+    ASSERT_FALSE(results.stopped);
+    for (const Row& row : results.rows) {
+        EXPECT_EQ(row.view == nullptr, row.null_row);
+        if (row.view) {
+            EXPECT_EQ(row.view->shown.cols(), 64);
+            EXPECT_EQ(row.view->truth->rows(), 48);
+            EXPECT_EQ(row.view->reprojection.cols(), 64);
+        }
+    }
+    EXPECT_EQ(results.rows[0].view->truth, results.rows[1].view->truth);
 }
 
 TEST_F(TablesSuite, environment_is_written_down) {
     auto options = small_options();
-    options.threads = 1;
+    options.suite.threads = 1;
     const Environment environment = run_tables(options, {}).environment;
     EXPECT_THAT(environment.renderer, testing::HasSubstr("llvmpipe"));
     EXPECT_THAT(environment.gl, testing::StartsWith("4.5"));
@@ -130,7 +168,8 @@ TEST(BenchProgram, prints_the_table_and_writes_the_json) {
                             "--rounds", "5", "--quiet", "--json", file.string()});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    for (const char* part : {"dem.asc", "texture", "polygons:lods=1", "noise floor", "llvmpipe"}) {
+    for (const char* part :
+         {"dem.asc", "texture", "polygons:lods=1", "noise floor", "error px", "llvmpipe"}) {
         EXPECT_THAT(result.out, testing::HasSubstr(part));
     }
     const json report = json::parse(test::read_bytes(file));
@@ -140,11 +179,13 @@ TEST(BenchProgram, prints_the_table_and_writes_the_json) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"dem.asc", "t.json"}));
 }
 
-TEST(BenchProgram, help_names_the_suite_there_is_and_none_that_is_not) {
+TEST(BenchProgram, help_names_the_suites_there_are_and_none_that_is_not) {
     const auto result = test::reljef_bench({"--help"});
     EXPECT_EQ(result.exit_code, 0);
-    EXPECT_THAT(result.out, testing::HasSubstr("tables"));
-    for (const char* absent : {"pareto", "stress", "peers"}) {
+    for (const char* present : {"tables", "pareto", "compare"}) {
+        EXPECT_THAT(result.out, testing::HasSubstr(present));
+    }
+    for (const char* absent : {"stress", "peers"}) {
         EXPECT_THAT(result.out, testing::Not(testing::HasSubstr(absent)));
     }
 }

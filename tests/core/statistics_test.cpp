@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -83,6 +84,90 @@ TEST(RelativeDistance, is_symmetric_and_zero_for_equals) {
     EXPECT_EQ(relative_distance(3.0, 3.0), 0.0);
     EXPECT_DOUBLE_EQ(relative_distance(10.0, 11.0), 0.1);
     EXPECT_DOUBLE_EQ(relative_distance(11.0, 10.0), 0.1);
+}
+
+TEST(MedianInterval, of_one_sample_or_equal_samples_has_no_width) {
+    for (const std::vector<double>& samples :
+         {std::vector<double>{7.0}, std::vector<double>(31, 7.0)}) {
+        const ConfidenceInterval interval = median_interval(samples);
+        EXPECT_EQ(interval.low, 7.0);
+        EXPECT_EQ(interval.high, 7.0);
+    }
+}
+
+// A resample of 5 has the smallest as its median where 3 of 5 draws take it: 5.8 % of all, more
+// than the tail of 2.5 %. Of 7 the smallest has 1.0 % and the next 10.7 %.
+TEST(MedianInterval, of_few_samples_ends_where_counting_says) {
+    const ConfidenceInterval of_five = median_interval(std::vector<double>{50, 10, 40, 20, 30});
+    EXPECT_EQ(of_five.low, 10.0);
+    EXPECT_EQ(of_five.high, 50.0);
+    const ConfidenceInterval of_seven =
+        median_interval(std::vector<double>{60, 50, 10, 70, 40, 20, 30});
+    EXPECT_EQ(of_seven.low, 20.0);
+    EXPECT_EQ(of_seven.high, 60.0);
+}
+
+// The median of n normal samples strays by 1.2533 σ/√n (asymptotically).
+TEST(MedianInterval, of_many_normal_samples_is_as_wide_as_theory_says) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> values(100.0, 5.0);
+    double widths = 0.0;
+    for (int i = 0; i < 50; ++i) {
+        std::vector<double> samples(400);
+        std::generate(samples.begin(), samples.end(), [&] { return values(random); });
+        const ConfidenceInterval interval = median_interval(samples, {.resamples = 500});
+        widths += (interval.high - interval.low) / 50.0;
+    }
+    const double theory = 2.0 * 1.96 * 1.2533 * 5.0 / std::sqrt(400.0);
+    EXPECT_NEAR(widths, theory, 0.15 * theory);
+}
+
+TEST(MedianInterval, holds_the_true_median_as_often_as_it_claims) {
+    std::mt19937 random(4);
+    std::lognormal_distribution<double> values(0.0, 1.0); // its median is 1
+    constexpr int trials = 1000;
+    int held = 0;
+    for (int i = 0; i < trials; ++i) {
+        std::vector<double> samples(40);
+        std::generate(samples.begin(), samples.end(), [&] { return values(random); });
+        const ConfidenceInterval interval = median_interval(samples, {.resamples = 400});
+        held += interval.low <= 1.0 && interval.high >= 1.0 ? 1 : 0;
+    }
+    EXPECT_GE(held, trials * 92 / 100);
+    EXPECT_LE(held, trials * 98 / 100);
+}
+
+TEST(MedianInterval, holds_the_median_of_the_samples_and_is_the_same_every_time) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> values(0.01, 100.0);
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<double> samples(std::uniform_int_distribution<std::size_t>(1, 60)(random));
+        std::generate(samples.begin(), samples.end(), [&] { return values(random); });
+        const BootstrapOptions options{.resamples = 100};
+        const ConfidenceInterval interval = median_interval(samples, options);
+        ASSERT_LE(interval.low, median(samples));
+        ASSERT_GE(interval.high, median(samples));
+        ASSERT_EQ(interval.low, median_interval(samples, options).low);
+        ASSERT_EQ(interval.high, median_interval(samples, options).high);
+    }
+}
+
+TEST(MeanOfLargest, takes_its_share_and_one_at_least) {
+    std::vector<double> samples;
+    for (int i = 1; i <= 300; ++i) {
+        samples.push_back(i);
+    }
+    std::shuffle(samples.begin(), samples.end(), std::mt19937(6));
+    EXPECT_DOUBLE_EQ(mean_of_largest(samples, 0.01), 299.0); // of 298, 299 and 300
+    EXPECT_DOUBLE_EQ(mean_of_largest(samples, 0.0), 300.0);
+    EXPECT_DOUBLE_EQ(mean_of_largest(samples, 1.0), 150.5);
+    EXPECT_DOUBLE_EQ(mean_of_largest(std::span(samples).first(1), 0.01), samples[0]);
+    samples.resize(100);
+    EXPECT_DOUBLE_EQ(mean_of_largest(samples, 0.29),
+                     [&] { // 29 of 100, though 0.29 * 100 is below 29 in binary
+                         std::sort(samples.rbegin(), samples.rend());
+                         return std::accumulate(samples.begin(), samples.begin() + 29, 0.0) / 29.0;
+                     }());
 }
 
 TEST(StatisticsDeathTest, of_nothing_is_a_broken_precondition) {

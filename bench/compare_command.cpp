@@ -1,0 +1,87 @@
+#include "bench/compare_command.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/compare.h"
+#include "bench/report_json.h"
+
+namespace reljef::bench {
+namespace {
+
+struct CompareChoice {
+    std::filesystem::path before;
+    std::filesystem::path after;
+    double threshold_percent = 10.0;
+};
+
+double parse_percent(const std::string& text) {
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool fits = code == std::errc{} && end == text.data() + text.size() &&
+                      std::isfinite(value) && value >= 0.0;
+    if (!fits) {
+        throw CLI::ValidationError(
+            fmt::format("--threshold: '{}' found, a percentage of at least 0 was expected", text));
+    }
+    return value;
+}
+
+void add_compare_options(CLI::App& command, CompareChoice& choice) {
+    command.add_option("BEFORE", choice.before, "results that --json wrote")->required();
+    command.add_option("AFTER", choice.after, "results to hold against them")->required();
+    command
+        .add_option_function<std::string>(
+            "--threshold",
+            [&choice](const std::string& text) { choice.threshold_percent = parse_percent(text); },
+            "changes up to so many percent are none (10)")
+        ->type_name("PERCENT");
+}
+
+Result<void> run_compare(const CompareChoice& choice) {
+    const auto before = read_json_report(choice.before);
+    if (!before) {
+        return before.error();
+    }
+    const auto after = read_json_report(choice.after);
+    if (!after) {
+        return after.error();
+    }
+    const Comparison comparison =
+        compare(*before, *after, {.threshold = 0.01 * choice.threshold_percent});
+    if (comparison.changes.empty()) {
+        return Error{fmt::format("{} and {}: no row found in both, some were expected",
+                                 choice.before.string(), choice.after.string())};
+    }
+    fmt::print("{}", comparison_report(comparison));
+    const std::size_t regressions = comparison.regressions();
+    return regressions == 0
+               ? Result<void>()
+               : Error{fmt::format("{}: {} figure{} worse than in {}", choice.after.string(),
+                                   regressions, regressions == 1 ? "" : "s",
+                                   choice.before.string())};
+}
+
+} // namespace
+
+app::Command add_compare_command(CLI::App& program, app::Interrupt& /*interrupt*/) {
+    auto* arguments = program.add_subcommand(
+        "compare", "what is faster, slower, more or less accurate than before");
+    auto choice = std::make_shared<CompareChoice>();
+    add_compare_options(*arguments, *choice);
+    arguments->footer(
+        "Changes count beyond the threshold and the noise of both runs. The exit status is 1 where "
+        "anything\n"
+        "got worse.\n"
+        "Examples:\n"
+        "  reljef-bench compare before.json after.json\n"
+        "  reljef-bench compare before.json after.json --threshold 5");
+    return {arguments, [choice] { return run_compare(*choice); }};
+}
+
+} // namespace reljef::bench

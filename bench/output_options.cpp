@@ -1,0 +1,112 @@
+#include "bench/output_options.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/page.h"
+#include "bench/report_csv.h"
+#include "bench/report_json.h"
+#include "bench/report_markdown.h"
+#include "bench/report_terminal.h"
+#include "engine/core/atomic_file.h"
+
+namespace reljef::bench {
+namespace {
+
+std::vector<app::NamedFile> outputs_of(const OutputChoice& choice) {
+    std::vector<app::NamedFile> outputs;
+    for (const app::NamedFile& output :
+         {app::NamedFile{"--json", choice.json}, app::NamedFile{"--csv", choice.csv},
+          app::NamedFile{"--markdown", choice.markdown}}) {
+        if (!output.path.empty()) {
+            outputs.push_back(output);
+        }
+    }
+    return outputs;
+}
+
+std::string output_text(const std::string& option, const Results& results) {
+    if (option == "--json") {
+        return json_report(results);
+    }
+    return option == "--csv" ? csv_report(results) : markdown_report(results);
+}
+
+// All are written before the first takes its place.
+Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
+    std::vector<AtomicFile> files;
+    for (const app::NamedFile& output : outputs_of(choice)) {
+        const std::string text = output_text(output.option, results);
+        auto file = prepare_file(output.path, std::as_bytes(std::span(text)));
+        if (!file) {
+            return file.error();
+        }
+        files.push_back(std::move(*file));
+    }
+    for (AtomicFile& file : files) {
+        if (auto committed = file.commit(); !committed) {
+            return committed;
+        }
+    }
+    return {};
+}
+
+std::vector<RowPictures> pictures_of(const Results& results) {
+    std::vector<RowPictures> pictures;
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        if (const auto& view = results.rows[i].view) {
+            pictures.push_back({i, view->shown, *view->truth, heat_map(view->reprojection)});
+        }
+    }
+    return pictures;
+}
+
+} // namespace
+
+void add_output_options(CLI::App& command, OutputChoice& choice) {
+    command.add_option("--json", choice.json, "write the results there too")->type_name("FILE");
+    command.add_option("--csv", choice.csv, "write a line a row there too")->type_name("FILE");
+    command
+        .add_option("--html", choice.html,
+                    "write a page there: tables, plots and pictures in one file, index.html")
+        ->type_name("FOLDER");
+    command.add_option("--markdown", choice.markdown, "write the tables there too")
+        ->type_name("FILE");
+}
+
+Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs) {
+    const std::vector<app::NamedFile> outputs = outputs_of(choice);
+    if (auto apart = app::check_apart(outputs, inputs); !apart) {
+        return apart;
+    }
+    for (const app::NamedFile& output : outputs) {
+        if (const auto writable = AtomicFile::create(output.path); !writable) {
+            return writable.error();
+        }
+    }
+    return choice.html.empty() ? Result<void>() : check_page_target(choice.html);
+}
+
+Result<void> report(const Results& results, const OutputChoice& choice) {
+    if (results.rows.empty()) {
+        return results.stopped.value_or(Error{"no rows found, some were expected"});
+    }
+    fmt::print("{}", terminal_report(results));
+    std::fflush(stdout);
+    if (auto written = write_outputs(results, choice); !written) {
+        return written;
+    }
+    if (!choice.html.empty()) {
+        if (auto written = write_page(choice.html, json_report(results), pictures_of(results));
+            !written) {
+            return written;
+        }
+    }
+    return results.stopped ? Result<void>(*results.stopped) : Result<void>();
+}
+
+} // namespace reljef::bench

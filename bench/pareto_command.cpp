@@ -1,0 +1,58 @@
+#include "bench/pareto_command.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "bench/output_options.h"
+#include "bench/pareto_suite.h"
+#include "bench/suite_arguments.h"
+
+namespace reljef::bench {
+namespace {
+
+struct ParetoChoice {
+    ParetoOptions options;
+    std::vector<std::string> terrains; // empty: the default ones
+    OutputChoice outputs;
+};
+
+void add_pareto_options(CLI::App& command, ParetoChoice& choice) {
+    add_terrains_option(command, choice.terrains, "natural and urban");
+    add_techniques_option(command, choice.options.techniques, "all, over their parameters' ranges");
+    add_suite_options(command, choice.options.suite);
+    add_output_options(command, choice.outputs);
+}
+
+Result<void> run_pareto_command(const ParetoChoice& choice, const app::Interrupt& interrupt) {
+    const auto inputs = terrain_files(choice.terrains);
+    if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
+        return good;
+    }
+    ParetoOptions options = choice.options;
+    if (!choice.terrains.empty()) {
+        options.terrains = choice.terrains;
+    }
+    return report(run_pareto(options, interrupt.token()), choice.outputs);
+}
+
+} // namespace
+
+app::Command add_pareto_command(CLI::App& program, app::Interrupt& interrupt) {
+    auto* arguments = program.add_subcommand(
+        "pareto", "time against error of every technique over its parameters' ranges");
+    auto choice = std::make_shared<ParetoChoice>();
+    add_pareto_options(*arguments, *choice);
+    arguments->footer(
+        "Each terrain is seen from the poses overview, oblique, low and grazing.\n"
+        "The area is that below the front, time and error on logarithmic axes: 0 the best, 1 the "
+        "worst.\n"
+        "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
+        "Examples:\n"
+        "  reljef-bench pareto --quick\n"
+        "  reljef-bench pareto --terrain N45E006.hgt --json pareto.json --html report\n"
+        "  reljef-bench pareto --technique polygons:lods=1 --csv pareto.csv");
+    return {arguments, [choice, &interrupt] { return run_pareto_command(*choice, interrupt); }};
+}
+
+} // namespace reljef::bench

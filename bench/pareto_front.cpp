@@ -1,0 +1,115 @@
+#include "bench/pareto_front.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reljef::bench {
+namespace {
+
+struct FrontPoint {
+    std::string label;
+    double ratio = 1.0;
+    double error = 0.0;
+};
+
+bool has_place(const Row& row) {
+    return !row.null_row && row.timing && row.error && row.error->reprojection_px &&
+           row.error->reprojection_px->unbounded == 0;
+}
+
+// The fastest first, of equally fast ones the most accurate.
+std::vector<FrontPoint> points_of(std::span<const Row> rows) {
+    std::vector<FrontPoint> points;
+    for (const Row& row : rows) {
+        if (has_place(row)) {
+            points.push_back({row.setting.label, row.timing->ratio_to_texture,
+                              row.error->reprojection_px->distribution.rms});
+        }
+    }
+    std::stable_sort(points.begin(), points.end(), [](const FrontPoint& a, const FrontPoint& b) {
+        return a.ratio != b.ratio ? a.ratio < b.ratio : a.error < b.error;
+    });
+    return points;
+}
+
+bool dominates(const FrontPoint& a, const FrontPoint& b) {
+    return a.ratio <= b.ratio && a.error <= b.error && (a.ratio < b.ratio || a.error < b.error);
+}
+
+// Sorted points: one is on the front unless one before it dominates it.
+std::vector<FrontPoint> front_points(const std::vector<FrontPoint>& points) {
+    std::vector<FrontPoint> front;
+    for (const FrontPoint& point : points) {
+        if (std::none_of(front.begin(), front.end(),
+                         [&](const FrontPoint& other) { return dominates(other, point); })) {
+            front.push_back(point);
+        }
+    }
+    return front;
+}
+
+// Of the front's settings that dominate a point, the most accurate. Absent: it is on the front.
+std::optional<std::string> dominator_of(const FrontPoint& point,
+                                        const std::vector<FrontPoint>& front) {
+    const FrontPoint* best = nullptr;
+    for (const FrontPoint& other : front) {
+        if (dominates(other, point) && (best == nullptr || other.error <= best->error)) {
+            best = &other;
+        }
+    }
+    return best == nullptr ? std::nullopt : std::optional(best->label);
+}
+
+// Of a staircase that goes down at each point of the front.
+double area_below(const std::vector<FrontPoint>& front, const FrontBox& box) {
+    const double width = std::log(box.most_ratio / box.least_ratio);
+    const double height = std::log(box.most_error / box.least_error);
+    double area = 0.0;
+    double place = 0.0;
+    double level = height;
+    for (const FrontPoint& point : front) {
+        const double next = std::clamp(std::log(point.ratio / box.least_ratio), 0.0, width);
+        area += level * (next - place);
+        place = next;
+        const double error = std::clamp(point.error, box.least_error, box.most_error);
+        level = std::log(error / box.least_error);
+    }
+    area += level * (width - place);
+    return std::clamp(area / (width * height), 0.0, 1.0);
+}
+
+bool is_same_place(const Row& a, const Row& b) {
+    return a.scene == b.scene && a.pose == b.pose && a.size == b.size;
+}
+
+} // namespace
+
+Front front_of(std::span<const Row> rows, const FrontBox& box) {
+    check(!rows.empty(), "a front of no rows");
+    const std::vector<FrontPoint> points = points_of(rows);
+    const std::vector<FrontPoint> best = front_points(points);
+    Front front{rows.front().scene, rows.front().pose, area_below(best, box), {}, {}};
+    for (const FrontPoint& point : points) {
+        if (const auto by = dominator_of(point, best)) {
+            front.dominated.push_back({point.label, *by});
+        } else {
+            front.front.push_back(point.label);
+        }
+    }
+    return front;
+}
+
+std::vector<Front> fronts_of(std::span<const Row> rows) {
+    std::vector<Front> fronts;
+    while (!rows.empty()) {
+        const auto end = std::find_if_not(rows.begin(), rows.end(), [&](const Row& row) {
+            return is_same_place(row, rows.front());
+        });
+        const auto count = static_cast<std::size_t>(end - rows.begin());
+        fronts.push_back(front_of(rows.first(count)));
+        rows = rows.subspan(count);
+    }
+    return fronts;
+}
+
+} // namespace reljef::bench

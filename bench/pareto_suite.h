@@ -1,0 +1,34 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "bench/results.h"
+#include "bench/suite_options.h"
+
+namespace reljef::bench {
+
+struct ParetoOptions {
+    SuiteOptions suite;
+    std::vector<std::string> terrains{"natural", "urban"};
+    std::vector<scene::Technique> techniques; ///< beside texture; empty: settings_over_range()
+};
+
+/// At most so many values of one parameter are measured.
+inline constexpr int most_values = 5;
+
+/// Values over the range of a parameter, its ends and its default among them, at most `most_values`
+/// and the default; in even steps of the logarithm where the range is above 0 and its end over ten
+/// times its beginning, else in even steps. Whole where it is. Ascending, none twice.
+std::vector<double> values_over_range(const scene::ParameterInfo& parameter);
+
+/// Every technique there is: as it is by default, and with one parameter at a time over its range,
+/// as far as the catalogue takes it. None twice.
+std::vector<scene::Technique> settings_over_range();
+
+/// Time against error: the settings on each terrain from each of the poses overview, oblique, low
+/// and grazing, and the front of each (pareto_front.h). See run_suite().
+Results run_pareto(const ParetoOptions& options, const std::stop_token& stop);
+
+} // namespace reljef::bench

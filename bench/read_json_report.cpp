@@ -1,0 +1,202 @@
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "bench/json_object.h"
+#include "bench/report_json.h"
+#include "bench/report_schema.h"
+#include "engine/core/atomic_file.h"
+
+namespace reljef::bench {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{1} << 28;
+constexpr JsonRange positive{.low = 0.0, .above_low = true};
+constexpr JsonRange share{.low = 0.0, .high = 1.0};
+
+Result<nlohmann::json> parse(const std::string& text, const std::string& file) {
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::parse_error& error) {
+        return Error{error.byte > text.size()
+                         ? fmt::format("{}: its end is missing after {} bytes, whole results of "
+                                       "reljef-bench were expected",
+                                       file, text.size())
+                         : fmt::format("{}: no JSON found at byte {}, results of reljef-bench were "
+                                       "expected",
+                                       file, error.byte)};
+    } catch (const nlohmann::json::out_of_range&) {
+        return Error{fmt::format("{}: a number beyond all range found, results of reljef-bench "
+                                 "were expected",
+                                 file)};
+    }
+}
+
+Environment read_environment(const JsonObject& json) {
+    return {json.text("renderer"), json.text("gl"),
+            json.text("context"),  static_cast<unsigned>(json.whole("threads")),
+            json.text("cpu"),      json.text("commit")};
+}
+
+// From "1024x768".
+glm::ivec2 read_size(const JsonObject& json) {
+    const std::string text = json.text("size");
+    glm::ivec2 size{0};
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    const bool has_separator = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+    const auto height = std::from_chars(width.ptr + (has_separator ? 1 : 0), end, size.y);
+    const bool is_whole = has_separator && height.ec == std::errc{} && height.ptr == end;
+    if (!is_whole || size.x < 1 || size.y < 1) {
+        json.fail("size", "WIDTHxHEIGHT");
+    }
+    return size;
+}
+
+scene::Pose read_pose(const JsonObject& json) {
+    const auto pose = scene::pose_from_string(json.text("pose"));
+    if (!pose) {
+        json.fail("pose", "a standard pose");
+    }
+    return pose.value_or(scene::Pose::overview);
+}
+
+Setting read_setting(const JsonObject& json) {
+    Setting setting{json.text("technique"), {}, json.text("label")};
+    const JsonObject parameters = json.object("params");
+    for (const std::string& key : parameters.keys()) {
+        const JsonRange any{.low = std::numeric_limits<double>::lowest()};
+        setting.parameters.push_back({key, parameters.number(key, any)});
+    }
+    return setting;
+}
+
+render::FrameStats::Skipped read_skipped(const JsonObject& json) {
+    return {json.whole("invisible_nodes"),       json.whole("nodes_outside_frustum"),
+            json.whole("tiles_outside_frustum"), json.count("triangles_outside_frustum"),
+            json.whole("uploads_unchanged"),     json.whole("sky")};
+}
+
+Timing read_timing(const JsonObject& json) {
+    const JsonObject ms = json.object("ms");
+    const std::vector<double> interval = ms.numbers("interval", 2);
+    if (interval[0] > interval[1]) {
+        ms.fail("interval", "the lower bound before the upper one");
+    }
+    Timing timing;
+    timing.frames = json.count("frames", 1);
+    timing.ms = {ms.number("median", positive), ms.number("p95", positive),
+                 ms.number("p99", positive)};
+    timing.interval = {interval[0], interval[1]};
+    timing.fps_1_percent_low = json.number("fps_1_percent_low", positive);
+    timing.ratio_to_texture = json.number("ratio_to_texture", positive);
+    timing.noise_floor = json.number_or_null("noise_floor");
+    timing.stats.tiles = json.whole("tiles");
+    timing.stats.triangles = json.count("triangles");
+    timing.stats.draws = json.whole("draws");
+    timing.stats.uploads = json.whole("uploads");
+    timing.stats.skipped = read_skipped(json.object("skipped"));
+    return timing;
+}
+
+std::optional<RowError::Geometric> read_geometric(const JsonObject& json, std::string_view key) {
+    if (json.is_null(key)) {
+        return std::nullopt;
+    }
+    const JsonObject error = json.object(key);
+    return RowError::Geometric{{.count = error.count("count", 1),
+                                .median = error.number("median"),
+                                .p95 = error.number("p95"),
+                                .p99 = error.number("p99"),
+                                .max = error.number("max"),
+                                .rms = error.number("rms")},
+                               error.count("unbounded")};
+}
+
+RowError read_error(const JsonObject& json) {
+    return {.reprojection_px = read_geometric(json, "reprojection_px"),
+            .hit_texels = read_geometric(json, "hit_texels"),
+            .wrong_percent = json.number("wrong_percent", {0.0, 100.0}),
+            .holes = json.count("holes"),
+            .rmse = json.number("rmse", share),
+            .psnr = json.number_or_null("psnr"),
+            .ssim = json.number_or_null("ssim", {-1.0, 1.0}),
+            .flip = json.number("flip", share)};
+}
+
+Row read_row(const JsonObject& json) {
+    Row row;
+    row.suite = json.text("suite");
+    row.test = json.has("test") ? json.text("test") : "";
+    row.scene = json.text("scene");
+    row.pose = read_pose(json);
+    row.setting = read_setting(json);
+    row.null_row = json.flag("null_row");
+    row.size = read_size(json);
+    if (!json.flag("missing")) {
+        row.timing = read_timing(json);
+    }
+    if (json.has("error")) {
+        row.error = read_error(json.object("error"));
+    }
+    if (json.has("source")) {
+        const JsonObject source = json.object("source");
+        row.source = SourceFigure{source.number("fps", positive), source.number("ratio", positive),
+                                  source.text("where")};
+    }
+    return row;
+}
+
+Front read_front(const JsonObject& json) {
+    Front front{
+        json.text("scene"), read_pose(json), json.number("area", share), json.texts("front"), {}};
+    for (const JsonObject& setting : json.objects("dominated")) {
+        front.dominated.push_back({setting.text("label"), setting.text("by")});
+    }
+    return front;
+}
+
+void check_schema(const JsonObject& json) {
+    if (json.text("schema") != schema_name) {
+        json.fail("schema", fmt::format("\"{}\"", schema_name));
+    }
+}
+
+Results read_results(const JsonObject& json, const std::string& file) {
+    Results results;
+    check_schema(json);
+    if (!json.flag("complete")) {
+        results.stopped = Error{fmt::format("{}: the run ended early", file)};
+    }
+    results.environment = read_environment(json.object("environment"));
+    for (const JsonObject& row : json.objects("rows")) {
+        results.rows.push_back(read_row(row));
+    }
+    if (json.has("fronts")) {
+        for (const JsonObject& front : json.objects("fronts")) {
+            results.fronts.push_back(read_front(front));
+        }
+    }
+    return results;
+}
+
+} // namespace
+
+Result<Results> read_json_report(const std::filesystem::path& file) {
+    const auto text = read_text_file(file, largest_file);
+    if (!text) {
+        return text.error();
+    }
+    const auto json = parse(*text, file.string());
+    if (!json) {
+        return json.error();
+    }
+    JsonFault fault(file.string());
+    Results results = read_results(JsonObject(*json, "", fault), file.string());
+    if (fault.error()) {
+        return *fault.error();
+    }
+    return results;
+}
+
+} // namespace reljef::bench

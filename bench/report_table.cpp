@@ -1,0 +1,178 @@
+#include "bench/report_table.h"
+
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace reljef::bench {
+namespace {
+
+constexpr std::size_t reliable_frames = 5;
+const std::string no_figure = "–";
+
+bool is_same_table(const Row& a, const Row& b) {
+    return a.suite == b.suite && a.test == b.test && a.scene == b.scene && a.pose == b.pose &&
+           a.size == b.size;
+}
+
+std::string heading_of(std::span<const Row> rows) {
+    const Row& row = rows.front();
+    std::string heading =
+        fmt::format("{}{}, {}, {}x{}", row.test.empty() ? "" : row.test + ": ", row.scene,
+                    scene::to_string(row.pose), row.size.x, row.size.y);
+    if (row.timing) {
+        heading += fmt::format(", {} frames", row.timing->frames);
+        heading += row.timing->noise_floor
+                       ? fmt::format(", noise floor {:.1f} %", 100.0 * *row.timing->noise_floor)
+                       : ", noise floor unknown";
+    }
+    return heading + (row.noisy() ? ": NOISY" : "");
+}
+
+bool has_sources(std::span<const Row> rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const Row& row) { return row.source.has_value(); });
+}
+
+std::vector<std::string> columns_of(bool with_sources) {
+    std::vector<std::string> columns{"technique", "median ms", "±",   "fps",
+                                     "1 % low",   "ratio",     "drop"};
+    if (with_sources) {
+        columns.insert(columns.end(), {"source fps", "ratio"});
+    }
+    columns.insert(columns.end(), {"error px", "wrong"});
+    return columns;
+}
+
+// At least three digits that count, and never more than one needs.
+std::string figure(double value) {
+    if (value >= 99.95) {
+        return fmt::format("{:.0f}", value);
+    }
+    return value >= 9.995 ? fmt::format("{:.1f}", value)
+                          : fmt::format("{:.{}f}", value, value >= 0.9995 ? 2 : 3);
+}
+
+std::vector<std::string> time_cells(const Row& row) {
+    if (!row.timing) {
+        return std::vector<std::string>(6, no_figure);
+    }
+    const Timing& timing = *row.timing;
+    const double half_width = 0.5 * (timing.interval.high - timing.interval.low);
+    return {figure(timing.ms.median),
+            fmt::format("{:.1f} %", 100.0 * half_width / timing.ms.median),
+            figure(1000.0 / timing.ms.median),
+            figure(timing.fps_1_percent_low),
+            fmt::format("{:.2f}", timing.ratio_to_texture),
+            fmt::format("{:.0f} %", 100.0 * (1.0 - 1.0 / timing.ratio_to_texture))};
+}
+
+std::vector<std::string> source_cells(const Row& row) {
+    return row.source
+               ? std::vector{figure(row.source->fps), fmt::format("{:.2f}", row.source->ratio)}
+               : std::vector(2, no_figure);
+}
+
+std::vector<std::string> error_cells(const Row& row) {
+    if (!row.error) {
+        return std::vector(2, no_figure);
+    }
+    return {row.error->reprojection_px ? figure(row.error->reprojection_px->distribution.rms)
+                                       : no_figure,
+            fmt::format("{:.2f} %", row.error->wrong_percent)};
+}
+
+std::vector<std::string> cells_of(const Row& row, bool with_sources) {
+    std::vector<std::string> cells{row.setting.label};
+    const auto append = [&](const std::vector<std::string>& more) {
+        cells.insert(cells.end(), more.begin(), more.end());
+    };
+    append(time_cells(row));
+    if (with_sources) {
+        append(source_cells(row));
+    }
+    append(error_cells(row));
+    return cells;
+}
+
+std::vector<std::string> notes_of(std::span<const Row> rows) {
+    std::vector<std::string> missing;
+    for (const Row& row : rows) {
+        if (row.missing()) {
+            missing.push_back(row.setting.label);
+        }
+    }
+    return missing.empty()
+               ? std::vector<std::string>{}
+               : std::vector{fmt::format("missing, not there yet: {}", fmt::join(missing, ", "))};
+}
+
+ReportTable table_of_rows(std::span<const Row> rows) {
+    const bool with_sources = has_sources(rows);
+    ReportTable table{heading_of(rows), columns_of(with_sources), {}, notes_of(rows)};
+    for (const Row& row : rows) {
+        if (!row.null_row) {
+            table.lines.push_back(cells_of(row, with_sources));
+        }
+    }
+    return table;
+}
+
+bool has_few_frames(const Row& row) {
+    return row.timing && row.timing->frames < reliable_frames;
+}
+
+} // namespace
+
+std::vector<ReportTable> report_tables(const Results& results) {
+    std::vector<ReportTable> tables;
+    const auto end = results.rows.end();
+    for (auto begin = results.rows.begin(); begin != end;) {
+        const auto next = std::find_if_not(
+            begin, end, [&](const Row& row) { return is_same_table(row, *begin); });
+        tables.push_back(table_of_rows(std::span(begin, next)));
+        begin = next;
+    }
+    return tables;
+}
+
+std::vector<std::string> environment_lines(const Environment& environment) {
+    return {fmt::format("renderer: {}", environment.renderer),
+            fmt::format("OpenGL:   {}, context {}", environment.gl, environment.context),
+            fmt::format("machine:  {}, {} thread{}; commit {}", environment.cpu,
+                        environment.threads, environment.threads == 1 ? "" : "s",
+                        environment.commit)};
+}
+
+std::vector<std::string> column_notes(const Results& results) {
+    std::vector<std::string> notes{
+        "±: half of the 95 % interval of the median. 1 % low: frame rate of the slowest hundredth.",
+        "ratio: median over that of texture in the same run; drop: what it costs of the rate.",
+        "error px: reprojection, RMS. wrong: pixels whose surface is over a texel off, or a hole."};
+    const auto begin = results.rows.begin();
+    const auto end = results.rows.end();
+    if (has_sources(results.rows)) {
+        notes.emplace_back("source: what the thesis measured, newer of its two machines.");
+    }
+    if (std::any_of(begin, end, [](const Row& row) { return row.noisy(); })) {
+        notes.push_back(fmt::format("NOISY: texture measured twice lies over {:.0f} % apart; a "
+                                    "difference below the floor is none.",
+                                    100.0 * most_noise));
+    }
+    if (std::any_of(begin, end, has_few_frames)) {
+        notes.push_back(fmt::format("Caution: under {} frames of a technique are too few to rely "
+                                    "on.",
+                                    reliable_frames));
+    }
+    return notes;
+}
+
+std::size_t text_width(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    }));
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,18 @@
+#include "bench/results.h"
+
+namespace reljef::bench {
+
+Setting setting_of(const scene::Technique& technique) {
+    const scene::TechniqueInfo& info = scene::technique_info(technique.id);
+    Setting setting{std::string(info.name), {}, scene::to_string(technique)};
+    for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+        setting.parameters.push_back({std::string(info.parameters[i].name), technique.values[i]});
+    }
+    return setting;
+}
+
+bool Row::noisy() const {
+    return timing && timing->noise_floor && *timing->noise_floor > most_noise;
+}
+
+} // namespace reljef::bench

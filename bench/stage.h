@@ -1,0 +1,90 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "app/scene_setup.h"
+#include "engine/core/result.h"
+#include "engine/truth/draw.h"
+
+namespace reljef::bench {
+
+/// Which terrain to measure on.
+struct StageChoice {
+    /// A built-in name, a scene file or a DEM file; with a `size`, the generator "natural" or
+    /// "urban".
+    std::string terrain;
+    int size = 0;          ///< samples a side of a generated terrain; 0: as `terrain` has it
+    bool tileable = false; ///< of a generated urban
+
+    friend bool operator==(const StageChoice&, const StageChoice&) = default;
+};
+
+/// How stages are opened.
+struct StageOptions {
+    glm::ivec2 size{1024, 768}; ///< of the picture, pixels
+    int threads = 0;            ///< 0: as many as the machine has
+    bool quiet = false;
+};
+
+/// The exact picture from one pose.
+struct TruePicture {
+    scene::Pose pose = scene::Pose::overview;
+    HitBuffer hits;
+    std::shared_ptr<const Image> image;
+};
+
+/// A terrain under a sun and a sky, and what is right there, found when first asked for.
+class Stage {
+public:
+    static Result<Stage> open(const StageChoice& choice, const StageOptions& options,
+                              const std::stop_token& stop);
+
+    /// The title of its scene, "urban 512 tile" for a generated one of a size of its own.
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const scene::Scene& scene() const { return scene_.scene; }
+    [[nodiscard]] const scene::Node& terrain() const { return *scene_.terrain; }
+
+    void set_pose(scene::Pose pose);
+    void set_technique(const scene::Technique& technique);
+
+    /// Seen from the pose that was set last. Kept for the next call. Fails where it is stopped.
+    Result<std::reference_wrapper<const TruePicture>> truth(const std::stop_token& stop);
+
+private:
+    Stage(std::string name, app::TerrainScene scene, const StageOptions& options)
+        : name_(std::move(name)), scene_(std::move(scene)), options_(options) {}
+
+    std::string name_;
+    app::TerrainScene scene_;
+    StageOptions options_;
+    scene::Pose pose_ = scene::Pose::overview;
+    std::optional<truth::SceneCaster> caster_;
+    std::optional<truth::Shading> shading_;
+    std::optional<TruePicture> truth_;
+};
+
+/// Opens stages as they are asked for, each once.
+class Stages {
+public:
+    /// `keep`: holds all of them; else only the one asked for last, for large ones.
+    Stages(const StageOptions& options, std::stop_token stop, bool keep)
+        : options_(options), stop_(std::move(stop)), keep_(keep) {}
+
+    /// Valid until another one is asked for, or, kept, as long as this.
+    Result<Stage*> get(const StageChoice& choice);
+
+private:
+    StageOptions options_;
+    std::stop_token stop_;
+    bool keep_;
+    std::vector<std::pair<StageChoice, std::unique_ptr<Stage>>> open_;
+};
+
+} // namespace reljef::bench

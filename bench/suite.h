@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "bench/results.h"
+#include "bench/stage.h"
+#include "bench/suite_options.h"
+
+namespace reljef::bench {
+
+/// A row to be: its setting, and what is known of it before it is measured.
+struct Candidate {
+    Setting setting;
+    std::optional<scene::Technique> technique; ///< absent: it does not exist yet
+    std::optional<SourceFigure> source;
+};
+
+/// The candidate of a technique, which must exist.
+Candidate candidate_of(const scene::Technique& technique);
+
+/// The candidate of "ID:key=value,…"; without a technique where the catalogue has none such or
+/// refuses its parameters.
+Candidate candidate_named(const std::string& text);
+
+/// What is measured interleaved: settings on one stage from one pose.
+struct Group {
+    std::string test; ///< of the sources; may be empty
+    StageChoice stage;
+    scene::Pose pose = scene::Pose::overview;
+    /// The first is texture, which the others are told in terms of. Its null row comes by itself.
+    std::vector<Candidate> candidates;
+};
+
+struct Suite {
+    std::string name;
+    std::vector<Group> groups;
+    bool keep_stages = true; ///< all opened before anything is measured, see Stages
+};
+
+/// Measures a suite group by group: first how wrong each candidate's picture is, then how fast it
+/// is drawn. The rows are in the groups' order, each group's null row last. A run that is stopped
+/// or fails on the way keeps the rows it has, and says why in Results::stopped.
+Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop);
+
+} // namespace reljef::bench

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/output_files.h"
+#include "bench/suite_options.h"
+#include "engine/core/result.h"
+#include "engine/scene/technique.h"
+
+namespace CLI {
+class App;
+}
+
+namespace reljef::bench {
+
+/// Adds --quick, --rounds, --size, --context, --threads and --quiet; they are checked as they are
+/// parsed (CLI::ParseError).
+void add_suite_options(CLI::App& command, SuiteOptions& options);
+
+/// Adds --terrain, which may be given again; `otherwise` says what is measured without it.
+void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
+                         const std::string& otherwise);
+
+/// Adds --technique, which may be given again; `otherwise` says what is measured without it.
+void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& techniques,
+                           const std::string& otherwise);
+
+/// The terrains as files that no output may replace.
+std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains);
+
+} // namespace reljef::bench

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "engine/platform/context.h"
+
+namespace reljef::bench {
+
+/// What all suites that measure are told.
+struct SuiteOptions {
+    glm::ivec2 size{1024, 768};
+    std::optional<platform::ContextKind> context; ///< absent: EGL on a hardware GPU, else OSMesa
+    int threads = 0;                              ///< 0: as many as the machine has
+    int rounds = 0; ///< of each measurement; 0: as many as fit in the time, at least 5
+    /// Done in a minute; fewer rounds than 5 where they would take longer.
+    bool quick = false;
+    bool quiet = false;      ///< no progress and no notes on stderr
+    bool keep_views = false; ///< fills Row::view
+};
+
+} // namespace reljef::bench

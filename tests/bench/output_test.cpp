@@ -1,0 +1,81 @@
+#include "bench/output_options.h"
+
+#include <array>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/bench/bench_program.h"
+#include "tests/bench/made_results.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::bench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(BenchOutputs, are_all_checked_before_anything_is_measured) {
+    const test::TemporaryFolder folder;
+    const auto dem = folder.write("dem.asc", test::small_dem).string();
+    const auto same = (folder.path() / "t.out").string();
+    const std::vector<std::vector<std::string>> misuses{
+        {"--csv", "/nonexistent/t.csv"},
+        {"--markdown", "/nonexistent/t.md"},
+        {"--json", same, "--csv", same},
+        {"--csv", same, "--markdown", same},
+        {"--csv", dem},
+        {"--markdown", dem},
+        {"--json", same, "--csv", folder.path().string()}};
+    for (std::vector<std::string> arguments : misuses) {
+        for (const char* suite : {"tables", "pareto"}) {
+            std::vector<std::string> all{suite, "--terrain", dem};
+            all.insert(all.end(), arguments.begin(), arguments.end());
+            const auto result = test::reljef_bench(all);
+            EXPECT_EQ(result.exit_code, 1);
+            EXPECT_EQ(result.out, "");
+            EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        }
+    }
+    EXPECT_THAT(folder.names(), ElementsAre("dem.asc"));
+    EXPECT_EQ(test::read_bytes(dem), test::small_dem);
+}
+
+TEST(BenchOutputs, one_that_fails_keeps_the_others_from_appearing) {
+    const test::TemporaryFolder folder;
+    const auto json = folder.write("t.json", "earlier");
+    const OutputChoice choice{json, folder.path() / "gone" / "t.csv", {}};
+    testing::internal::CaptureStdout();
+    const auto done = report(test::made_results(), choice);
+    EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("polygons"));
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("gone"));
+    EXPECT_EQ(test::read_bytes(json), "earlier");
+    EXPECT_THAT(folder.names(), ElementsAre("t.json"));
+}
+
+TEST(BenchOutputs, run_without_rows_leaves_earlier_files_alone) {
+    const test::TemporaryFolder folder;
+    const auto json = folder.write("t.json", "earlier");
+    Results nothing;
+    nothing.stopped = Error{"interrupted before the first frame was timed"};
+    const auto done = report(nothing, {json, {}, {}});
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message, "interrupted before the first frame was timed");
+    EXPECT_EQ(test::read_bytes(json), "earlier");
+}
+
+TEST(BenchOutputs, run_that_ended_early_is_written_and_fails) {
+    const test::TemporaryFolder folder;
+    Results part = test::made_results();
+    part.stopped = Error{"interrupted, the table holds the frames drawn until then"};
+    testing::internal::CaptureStdout();
+    const auto done = report(part, {folder.path() / "a.json", folder.path() / "b.csv", {}});
+    testing::internal::GetCapturedStdout();
+    ASSERT_FALSE(done);
+    EXPECT_THAT(folder.names(), ElementsAre("a.json", "b.csv"));
+}
+
+} // namespace
+} // namespace reljef::bench
