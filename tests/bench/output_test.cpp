@@ -45,7 +45,7 @@ TEST(BenchOutputs, are_all_checked_before_anything_is_measured) {
 TEST(BenchOutputs, one_that_fails_keeps_the_others_from_appearing) {
     const test::TemporaryFolder folder;
     const auto json = folder.write("t.json", "earlier");
-    const OutputChoice choice{json, folder.path() / "gone" / "t.csv", {}};
+    const OutputChoice choice{json, folder.path() / "gone" / "t.csv", {}, {}};
     testing::internal::CaptureStdout();
     const auto done = report(test::made_results(), choice);
     EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("polygons"));
@@ -55,12 +55,37 @@ TEST(BenchOutputs, one_that_fails_keeps_the_others_from_appearing) {
     EXPECT_THAT(folder.names(), ElementsAre("t.json"));
 }
 
+TEST(BenchOutputs, page_holds_the_pictures_of_the_rows_that_have_a_view) {
+    const test::TemporaryFolder folder;
+    Results results = test::made_results();
+    results.rows[0].view = std::make_shared<const RowView>(
+        RowView{Image(32, 24), std::make_shared<const Image>(32, 24), Grid<float>(32, 24, 0.5F)});
+    testing::internal::CaptureStdout();
+    const auto done =
+        report(results, {.json = {}, .csv = {}, .markdown = {}, .html = folder.path() / "page"});
+    testing::internal::GetCapturedStdout();
+    ASSERT_TRUE(done) << done.error().message;
+    const std::string page = test::read_bytes(folder.path() / "page" / "index.html");
+    EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+    EXPECT_THAT(page, HasSubstr("reljef-bench/1"));
+}
+
+TEST(BenchOutputs, page_that_cannot_be_written_is_refused_before_measuring) {
+    const test::TemporaryFolder folder;
+    const auto dem = folder.write("dem.asc", test::small_dem).string();
+    const auto result = test::reljef_bench(
+        {"tables", "--terrain", dem, "--html", (folder.path() / "no" / "page").string()});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("no"));
+    EXPECT_EQ(result.out, "");
+}
+
 TEST(BenchOutputs, run_without_rows_leaves_earlier_files_alone) {
     const test::TemporaryFolder folder;
     const auto json = folder.write("t.json", "earlier");
     Results nothing;
     nothing.stopped = Error{"interrupted before the first frame was timed"};
-    const auto done = report(nothing, {json, {}, {}});
+    const auto done = report(nothing, {json, {}, {}, {}});
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().message, "interrupted before the first frame was timed");
     EXPECT_EQ(test::read_bytes(json), "earlier");
@@ -71,7 +96,7 @@ TEST(BenchOutputs, run_that_ended_early_is_written_and_fails) {
     Results part = test::made_results();
     part.stopped = Error{"interrupted, the table holds the frames drawn until then"};
     testing::internal::CaptureStdout();
-    const auto done = report(part, {folder.path() / "a.json", folder.path() / "b.csv", {}});
+    const auto done = report(part, {folder.path() / "a.json", folder.path() / "b.csv", {}, {}});
     testing::internal::GetCapturedStdout();
     ASSERT_FALSE(done);
     EXPECT_THAT(folder.names(), ElementsAre("a.json", "b.csv"));
