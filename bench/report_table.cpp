@@ -10,7 +10,7 @@ namespace reljef::bench {
 namespace {
 
 constexpr std::size_t reliable_frames = 5;
-const std::string no_figure = "–";
+constexpr const char* no_figure = "–";
 
 bool is_same_table(const Row& a, const Row& b) {
     return a.suite == b.suite && a.test == b.test && a.scene == b.scene && a.pose == b.pose &&
@@ -71,17 +71,17 @@ std::vector<std::string> time_cells(const Row& row) {
 }
 
 std::vector<std::string> source_cells(const Row& row) {
-    return row.source
-               ? std::vector{figure(row.source->fps), fmt::format("{:.2f}", row.source->ratio)}
-               : std::vector(2, no_figure);
+    return row.source ? std::vector<std::string>{figure(row.source->fps),
+                                                 fmt::format("{:.2f}", row.source->ratio)}
+                      : std::vector<std::string>(2, no_figure);
 }
 
 std::vector<std::string> error_cells(const Row& row) {
     if (!row.error) {
-        return std::vector(2, no_figure);
+        return std::vector<std::string>(2, no_figure);
     }
     return {row.error->reprojection_px ? figure(row.error->reprojection_px->distribution.rms)
-                                       : no_figure,
+                                       : std::string(no_figure),
             fmt::format("{:.2f} %", row.error->wrong_percent)};
 }
 
