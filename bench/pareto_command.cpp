@@ -11,6 +11,8 @@
 namespace reljef::bench {
 namespace {
 
+constexpr glm::ivec2 quick_size{512, 384}; // four times as many settings have time
+
 struct ParetoChoice {
     ParetoOptions options;
     std::vector<std::string> terrains; // empty: the default ones
@@ -24,7 +26,8 @@ void add_pareto_options(CLI::App& command, ParetoChoice& choice) {
     add_output_options(command, choice.outputs);
 }
 
-Result<void> run_pareto_command(const ParetoChoice& choice, const app::Interrupt& interrupt) {
+Result<void> run_pareto_command(const ParetoChoice& choice, bool is_size_given,
+                                const app::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
@@ -32,6 +35,9 @@ Result<void> run_pareto_command(const ParetoChoice& choice, const app::Interrupt
     ParetoOptions options = choice.options;
     if (!choice.terrains.empty()) {
         options.terrains = choice.terrains;
+    }
+    if (options.suite.quick && !is_size_given) {
+        options.suite.size = quick_size;
     }
     return report(run_pareto(options, interrupt.token()), choice.outputs);
 }
@@ -47,12 +53,17 @@ app::Command add_pareto_command(CLI::App& program, app::Interrupt& interrupt) {
         "Each terrain is seen from the poses overview, oblique, low and grazing.\n"
         "The area is that below the front, time and error on logarithmic axes: 0 the best, 1 the "
         "worst.\n"
+        "With --quick pictures are 512x384 unless --size says otherwise, and settings there is no "
+        "time\n"
+        "for are left out.\n"
         "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
         "Examples:\n"
         "  reljef-bench pareto --quick\n"
         "  reljef-bench pareto --terrain N45E006.hgt --json pareto.json --html report\n"
         "  reljef-bench pareto --technique polygons:lods=1 --csv pareto.csv");
-    return {arguments, [choice, &interrupt] { return run_pareto_command(*choice, interrupt); }};
+    return {arguments, [arguments, choice, &interrupt] {
+                return run_pareto_command(*choice, arguments->count("--size") > 0, interrupt);
+            }};
 }
 
 } // namespace reljef::bench

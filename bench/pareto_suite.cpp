@@ -32,9 +32,10 @@ bool is_accepted(const scene::Technique& technique) {
     return scene::parse_technique(scene::to_string(technique)).has_value();
 }
 
+// Without the one that it is by default.
 std::vector<scene::Technique> settings_of(const scene::TechniqueInfo& info) {
     const scene::Technique usual = scene::make_technique(info.id);
-    std::vector<scene::Technique> settings{usual};
+    std::vector<scene::Technique> settings;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
         for (const double value : values_over_range(info.parameters[i])) {
             scene::Technique setting = usual;
@@ -83,6 +84,9 @@ std::vector<double> values_over_range(const scene::ParameterInfo& parameter) {
 
 std::vector<scene::Technique> settings_over_range() {
     std::vector<scene::Technique> all;
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        all.push_back(scene::make_technique(info.id));
+    }
     for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
         const std::vector<scene::Technique> settings = settings_of(info);
         all.insert(all.end(), settings.begin(), settings.end());

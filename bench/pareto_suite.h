@@ -23,8 +23,8 @@ inline constexpr int most_values = 5;
 /// times its beginning, else in even steps. Whole where it is. Ascending, none twice.
 std::vector<double> values_over_range(const scene::ParameterInfo& parameter);
 
-/// Every technique there is: as it is by default, and with one parameter at a time over its range,
-/// as far as the catalogue takes it. None twice.
+/// Every technique there is as it is by default, then each with one parameter at a time over its
+/// range, as far as the catalogue takes it. None twice.
 std::vector<scene::Technique> settings_over_range();
 
 /// Time against error: the settings on each terrain from each of the poses overview, oblique, low

@@ -10,7 +10,7 @@ namespace reljef::bench {
 namespace {
 
 constexpr std::size_t reliable_frames = 5;
-const std::string no_figure = "–";
+constexpr const char* no_figure = "–";
 
 bool is_same_table(const Row& a, const Row& b) {
     return a.suite == b.suite && a.test == b.test && a.scene == b.scene && a.pose == b.pose &&
@@ -23,7 +23,8 @@ std::string heading_of(std::span<const Row> rows) {
         fmt::format("{}{}, {}, {}x{}", row.test.empty() ? "" : row.test + ": ", row.scene,
                     scene::to_string(row.pose), row.size.x, row.size.y);
     if (row.timing) {
-        heading += fmt::format(", {} frames", row.timing->frames);
+        heading +=
+            fmt::format(", {} frame{}", row.timing->frames, row.timing->frames == 1 ? "" : "s");
         heading += row.timing->noise_floor
                        ? fmt::format(", noise floor {:.1f} %", 100.0 * *row.timing->noise_floor)
                        : ", noise floor unknown";
@@ -70,17 +71,17 @@ std::vector<std::string> time_cells(const Row& row) {
 }
 
 std::vector<std::string> source_cells(const Row& row) {
-    return row.source
-               ? std::vector{figure(row.source->fps), fmt::format("{:.2f}", row.source->ratio)}
-               : std::vector(2, no_figure);
+    return row.source ? std::vector<std::string>{figure(row.source->fps),
+                                                 fmt::format("{:.2f}", row.source->ratio)}
+                      : std::vector<std::string>(2, no_figure);
 }
 
 std::vector<std::string> error_cells(const Row& row) {
     if (!row.error) {
-        return std::vector(2, no_figure);
+        return std::vector<std::string>(2, no_figure);
     }
     return {row.error->reprojection_px ? figure(row.error->reprojection_px->distribution.rms)
-                                       : no_figure,
+                                       : std::string(no_figure),
             fmt::format("{:.2f} %", row.error->wrong_percent)};
 }
 
@@ -97,16 +98,26 @@ std::vector<std::string> cells_of(const Row& row, bool with_sources) {
     return cells;
 }
 
+bool shows_nothing(const Row& row) {
+    return !row.null_row && row.error && !row.error->reprojection_px;
+}
+
 std::vector<std::string> notes_of(std::span<const Row> rows) {
-    std::vector<std::string> missing;
-    for (const Row& row : rows) {
-        if (row.missing()) {
-            missing.push_back(row.setting.label);
+    std::vector<std::string> notes;
+    const auto tell = [&](std::string_view title, bool (*is_meant)(const Row&)) {
+        std::vector<std::string> labels;
+        for (const Row& row : rows) {
+            if (is_meant(row)) {
+                labels.push_back(row.setting.label);
+            }
         }
-    }
-    return missing.empty()
-               ? std::vector<std::string>{}
-               : std::vector{fmt::format("missing, not there yet: {}", fmt::join(missing, ", "))};
+        if (!labels.empty()) {
+            notes.push_back(fmt::format("{}: {}", title, fmt::join(labels, ", ")));
+        }
+    };
+    tell("missing, not there yet", [](const Row& row) { return row.missing(); });
+    tell("shows nothing of the terrain here, so its time says nothing", shows_nothing);
+    return notes;
 }
 
 ReportTable table_of_rows(std::span<const Row> rows) {
@@ -166,6 +177,7 @@ std::vector<std::string> column_notes(const Results& results) {
                                     "on.",
                                     reliable_frames));
     }
+    notes.insert(notes.end(), results.notes.begin(), results.notes.end());
     return notes;
 }
 

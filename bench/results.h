@@ -119,8 +119,9 @@ struct Front {
 struct Results {
     Environment environment;
     std::vector<Row> rows;
-    std::vector<Front> fronts;    ///< of the suite pareto
-    std::optional<Error> stopped; ///< why there are not all rows
+    std::vector<Front> fronts;      ///< of the suite pareto
+    std::vector<std::string> notes; ///< what a reader of the tables should be told; not in JSON
+    std::optional<Error> stopped;   ///< why there are not all rows
 };
 
 } // namespace reljef::bench

@@ -68,14 +68,14 @@ Result<Judgement> judge(Stage& stage, const scene::Technique& technique, render:
     if (!shown) {
         return shown.error();
     }
-    if (!has_terrain(shown->hits)) {
-        return Error{fmt::format("{}, {}: no pixel of terrain found in the picture, some were "
-                                 "expected",
-                                 stage.name(), scene::to_string(technique))};
-    }
     const auto truth = stage.truth(options.stop);
     if (!truth) {
         return truth.error();
+    }
+    if (!has_terrain(shown->hits) && !has_terrain(truth->get().hits)) {
+        return Error{fmt::format("{}, {}: no pixel of terrain found in the picture, some were "
+                                 "expected",
+                                 stage.name(), scene::to_string(truth->get().pose))};
     }
     auto geometric = geometric_errors_of(stage, shown->hits, truth->get().hits, options.threads);
     if (!geometric) {

@@ -22,8 +22,10 @@ struct JudgeOptions {
 };
 
 /// Draws a frame with a technique, from the pose set last, and holds it against the truth; the
-/// stage keeps the technique. Not for timed rounds. Fails where the driver or the truth does, and
-/// where the picture has not a single pixel of terrain: that is no error of 0.
+/// stage keeps the technique. Not for timed rounds. A technique that shows no terrain where there
+/// is some, as the flat surface from below, has holes and no reprojection error. Fails where the
+/// driver or the truth does, and where there is not a single pixel of terrain in either picture:
+/// that is no error of 0.
 Result<Judgement> judge(Stage& stage, const scene::Technique& technique, render::Driver& driver,
                         const JudgeOptions& options = {});
 

@@ -22,7 +22,7 @@ constexpr double noisy_seconds_a_group = 60.0;
 constexpr int most_rounds = 2000;
 constexpr double quick_seconds = 10.0; // of measuring, all groups together
 constexpr int most_quick_rounds = 200;
-constexpr double quick_limit = 45.0; // seconds for all of it, a slow machine's reserve left out
+constexpr double quick_limit = 48.0; // seconds for all of it, a slow machine's reserve left out
 
 // One thing drawn; what its last frame drew.
 struct Entry {
@@ -61,6 +61,15 @@ public:
     TimeTable(const SuiteOptions& options, std::size_t groups)
         : options_(options), groups_(static_cast<double>(groups)) {}
 
+    // Until the next group must have judged its candidates, when `left` groups are left, this one
+    // among them: half of its time.
+    [[nodiscard]] Clock::time_point judging_ends(std::size_t left) const {
+        const bool is_bounded = options_.quick && options_.rounds == 0;
+        const std::chrono::duration<double> share(0.5 * seconds_left() / static_cast<double>(left));
+        return is_bounded ? Clock::now() + std::chrono::duration_cast<Clock::duration>(share)
+                          : Clock::time_point::max();
+    }
+
     // Of the next group, when `left` are left, this one among them.
     [[nodiscard]] MeasureOptions next(std::size_t left) const {
         MeasureOptions measure;
@@ -69,12 +78,11 @@ public:
         measure.seconds = seconds_a_group;
         measure.noisy_seconds = noisy_seconds_a_group;
         if (options_.quick) {
-            const double gone = std::chrono::duration<double>(Clock::now() - begin_).count();
             measure.warm_up_rounds = 1;
             measure.most_rounds = most_quick_rounds;
             measure.seconds = quick_seconds / groups_;
             measure.noisy_seconds = 2.0 * measure.seconds;
-            measure.most_seconds = (quick_limit - gone) / static_cast<double>(left);
+            measure.most_seconds = seconds_left() / static_cast<double>(left);
         }
         if (options_.rounds > 0) {
             measure.least_rounds = options_.rounds;
@@ -86,6 +94,10 @@ public:
     }
 
 private:
+    [[nodiscard]] double seconds_left() const {
+        return quick_limit - std::chrono::duration<double>(Clock::now() - begin_).count();
+    }
+
     const SuiteOptions& options_;
     double groups_;
     Clock::time_point begin_ = Clock::now();
@@ -207,21 +219,28 @@ private:
         }
         (*stage)->set_pose(group.pose);
         std::vector<Entry> entries = entries_of(group, suite_.name, **stage, options_.size);
-        if (auto judged = judge_all(entries, **stage, driver, progress); !judged) {
+        const std::size_t left = suite_.groups.size() - index;
+        const Clock::time_point end = time_table_.judging_ends(left);
+        if (auto judged = judge_all(entries, end, **stage, driver, progress); !judged) {
             return judged;
         }
-        MeasureOptions measuring = time_table_.next(suite_.groups.size() - index);
+        MeasureOptions measuring = time_table_.next(left);
         measuring.stop = stop_;
         measuring.progress = [&](double fraction) { progress.tell_timed(fraction); };
         return time_all(entries, **stage, driver, std::move(measuring));
     }
 
-    Result<void> judge_all(std::vector<Entry>& entries, Stage& stage, render::Driver& driver,
-                           SuiteProgress& progress) {
+    // Leaves out what there is no time for before `end`, but not texture.
+    Result<void> judge_all(std::vector<Entry>& entries, Clock::time_point end, Stage& stage,
+                           render::Driver& driver, SuiteProgress& progress) {
         const JudgeOptions options{static_cast<unsigned>(options_.threads), options_.keep_views,
                                    stop_};
         const std::size_t count = entries.size() - 1;
         for (std::size_t i = 0; i < count; ++i) {
+            if (i > 0 && Clock::now() >= end) {
+                leave_out(entries, i, stage.name());
+                break;
+            }
             if (entries[i].technique) {
                 auto judgement = judge(stage, *entries[i].technique, driver, options);
                 if (!judgement) {
@@ -234,6 +253,15 @@ private:
         }
         entries.back().row.error = entries.front().row.error;
         return {};
+    }
+
+    // All from `first` on, but the null row.
+    void leave_out(std::vector<Entry>& entries, std::size_t first, const std::string& stage) {
+        results_.notes.push_back(
+            fmt::format("{}, {}: {} of {} settings left out, there was no time for them", stage,
+                        scene::to_string(entries.front().row.pose), entries.size() - 1 - first,
+                        entries.size() - 1));
+        entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end() - 1);
     }
 
     Result<void> time_all(std::vector<Entry>& entries, Stage& stage, render::Driver& driver,

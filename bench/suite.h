@@ -31,6 +31,8 @@ struct Group {
     StageChoice stage;
     scene::Pose pose = scene::Pose::overview;
     /// The first is texture, which the others are told in terms of. Its null row comes by itself.
+    /// A quick run leaves out the last ones where there is no time for them, and says so in
+    /// Results::notes.
     std::vector<Candidate> candidates;
 };
 

@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"tables", "--threads", "-1"}, {"--threads", "'-1'"}},
                     Misuse{{"tables", "--size", "0x768"}, {"--size", "0x768"}},
                     Misuse{{"tables", "--context", "vulkan"}, {"--context", "vulkan", "osmesa"}},
-                    Misuse{{"tables", "--html", "report"}, {"--html"}},
+                    Misuse{{"tables", "--html"}, {"--html"}},
                     Misuse{{"tables", "--terrain"}, {"--terrain"}},
                     Misuse{{"tables", "natural"}, {"natural"}}));
 

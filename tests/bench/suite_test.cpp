@@ -86,7 +86,25 @@ TEST_F(SuiteOnTinyTerrain, pose_of_the_group_is_that_of_the_picture) {
     EXPECT_GT(results.rows[3].error->reprojection_px->distribution.rms, 1.0);
 }
 
-// The terrain is a thread 1 m wide and 200 km long; a pixel of the 3 that there are sees past it.
+// Seen from its own valley floor, a bowl's flat surface, at its rim or above, is overhead.
+TEST_F(SuiteOnTinyTerrain,
+       technique_that_shows_none_of_the_terrain_there_is_has_holes_and_no_zero) {
+    Group below = group("ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
+                        "9 9 9 9 9\n9 -99 -99 -99 9\n9 -99 -99 -99 9\n9 -99 -99 -99 9\n"
+                        "9 9 9 9 9\n",
+                        {"texture", "polygons"});
+    below.pose = scene::Pose::low;
+    const Results results = run_suite({"a suite", {below}}, options(), {});
+    ASSERT_FALSE(results.stopped) << results.stopped->message;
+    ASSERT_EQ(results.rows.size(), 3U);
+    const RowError& texture = *results.rows[0].error;
+    EXPECT_FALSE(texture.reprojection_px);
+    EXPECT_GT(texture.wrong_percent, 10.0);
+    EXPECT_GT(texture.holes, 0U);
+    EXPECT_TRUE(results.rows[1].error->reprojection_px);
+}
+
+// The terrain is a thread of 1 mm by 200 m; the rays of 32 rows pass it by two metres and more.
 TEST_F(SuiteOnTinyTerrain, picture_without_a_pixel_of_terrain_is_an_error_and_keeps_earlier_rows) {
     const Group seen = group(std::string(test::small_dem), {"texture"});
     Group unseen = seen;
@@ -103,9 +121,11 @@ TEST_F(SuiteOnTinyTerrain, picture_without_a_pixel_of_terrain_is_an_error_and_ke
                                       return rows;
                                   }())
             .string();
-    const Results results = run_suite({"a suite", {seen, unseen}}, options(), {});
+    auto few_rows = options();
+    few_rows.size = {64, 32};
+    const Results results = run_suite({"a suite", {seen, unseen}}, few_rows, {});
     ASSERT_TRUE(results.stopped);
-    EXPECT_THAT(results.stopped->message, HasSubstr("thread.asc, texture: no pixel of terrain"));
+    EXPECT_THAT(results.stopped->message, HasSubstr("thread.asc, overview: no pixel of terrain"));
     EXPECT_EQ(results.rows.size(), 2U);
 }
 
