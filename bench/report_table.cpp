@@ -38,10 +38,9 @@ bool has_sources(std::span<const Row> rows) {
 }
 
 std::vector<std::string> columns_of(bool with_sources) {
-    std::vector<std::string> columns{"technique", "median ms", "±",   "fps",
-                                     "1 % low",   "ratio",     "drop"};
+    std::vector<std::string> columns{"technique", "ms", "±", "fps", "1 % low", "ratio", "drop"};
     if (with_sources) {
-        columns.insert(columns.end(), {"source fps", "ratio"});
+        columns.insert(columns.end(), {"source", "ratio"});
     }
     columns.insert(columns.end(), {"error px", "wrong"});
     return columns;
@@ -82,7 +81,7 @@ std::vector<std::string> error_cells(const Row& row) {
     }
     return {row.error->reprojection_px ? figure(row.error->reprojection_px->distribution.rms)
                                        : std::string(no_figure),
-            fmt::format("{:.2f} %", row.error->wrong_percent)};
+            fmt::format("{:.1f} %", row.error->wrong_percent)};
 }
 
 std::vector<std::string> cells_of(const Row& row, bool with_sources) {
@@ -159,13 +158,14 @@ std::vector<std::string> environment_lines(const Environment& environment) {
 
 std::vector<std::string> column_notes(const Results& results) {
     std::vector<std::string> notes{
-        "±: half of the 95 % interval of the median. 1 % low: frame rate of the slowest hundredth.",
+        "ms: median; ±: half of its 95 % interval. 1 % low: frame rate of the slowest hundredth.",
         "ratio: median over that of texture in the same run; drop: what it costs of the rate.",
         "error px: reprojection, RMS. wrong: pixels whose surface is over a texel off, or a hole."};
     const auto begin = results.rows.begin();
     const auto end = results.rows.end();
     if (has_sources(results.rows)) {
-        notes.emplace_back("source: what the thesis measured, newer of its two machines.");
+        notes.emplace_back(
+            "source: frame rate in the thesis, on the newer of its two machines, and ratio there.");
     }
     if (std::any_of(begin, end, [](const Row& row) { return row.noisy(); })) {
         notes.push_back(fmt::format("NOISY: texture measured twice lies over {:.0f} % apart; a "

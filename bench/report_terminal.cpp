@@ -10,6 +10,27 @@
 namespace reljef::bench {
 namespace {
 
+constexpr std::size_t screen_columns = 100;
+
+// A line broken between words where it would leave the screen; what follows is indented. A word
+// that is wider than the screen stays whole.
+std::string wrapped(const std::string& line, std::size_t indent = 2) {
+    std::string text;
+    std::string current;
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(' ', begin), line.size());
+        const std::string word = line.substr(begin, end - begin);
+        if (begin > 0 && text_width(current) + 1 + text_width(word) > screen_columns) {
+            text += current + "\n";
+            current = std::string(indent, ' ') + word;
+        } else {
+            current += (begin > 0 ? " " : "") + word;
+        }
+        begin = end + 1;
+    }
+    return text + current + "\n";
+}
+
 std::vector<std::size_t> widths_of(const std::vector<ReportTable>& tables) {
     std::vector<std::size_t> widths;
     const auto widen = [&](const std::vector<std::string>& cells) {
@@ -41,17 +62,17 @@ std::string terminal_table(const ReportTable& table, const std::vector<std::size
         text += padded_line(line, widths);
     }
     for (const std::string& note : table.notes) {
-        text += note + "\n";
+        text += wrapped(note);
     }
     return text + "\n";
 }
 
 std::string terminal_front(const Front& front) {
-    std::string text =
-        fmt::format("{}, {}: front {}; area {:.3f}\n", front.scene, scene::to_string(front.pose),
-                    fmt::join(front.front, ", "), front.area);
+    std::string text = wrapped(fmt::format("{}, {}: front {}; area {:.3f}", front.scene,
+                                           scene::to_string(front.pose),
+                                           fmt::join(front.front, ", "), front.area));
     for (const Front::Dominated& setting : front.dominated) {
-        text += fmt::format("  {} is dominated by {}\n", setting.label, setting.by);
+        text += wrapped(fmt::format("  {} is dominated by {}", setting.label, setting.by), 4);
     }
     return text;
 }
@@ -61,7 +82,7 @@ std::string terminal_fronts(const std::vector<Front>& fronts) {
         return "";
     }
     std::string text = "Pareto fronts of ratio to texture against error px, fastest first; the "
-                       "smaller the area the\nbetter:\n";
+                       "smaller the area,\nthe better:\n";
     for (const Front& front : fronts) {
         text += terminal_front(front);
     }
@@ -79,8 +100,11 @@ std::string terminal_report(const Results& results) {
     for (const ReportTable& table : tables) {
         text += terminal_table(table, widths_of(tables));
     }
-    return text + terminal_fronts(results.fronts) +
-           fmt::format("{}\n", fmt::join(column_notes(results), "\n"));
+    text += terminal_fronts(results.fronts);
+    for (const std::string& note : column_notes(results)) {
+        text += wrapped(note);
+    }
+    return text;
 }
 
 } // namespace reljef::bench

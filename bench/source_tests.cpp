@@ -75,12 +75,15 @@ std::span<const SourceMeasurement> source_measurements() {
     return measurements;
 }
 
-std::vector<Group> source_groups() {
+std::vector<Group> source_groups(bool quick) {
     const StageChoice urban_tile{"urban", 512, true};
     const StageChoice natural{"natural", 1025};
-    return {group_of("parallax-1", urban_tile),      group_of("relief-1", urban_tile),
-            group_of("parallax-2", {"urban", 4096}), group_of("relief-2", {"urban", 1024}),
-            group_of("parallax-3", natural),         group_of("relief-4", natural),
+    return {group_of("parallax-1", urban_tile),
+            group_of("relief-1", urban_tile),
+            group_of("parallax-2", {"urban", quick ? 2048 : 4096}),
+            group_of("relief-2", {"urban", 1024}),
+            group_of("parallax-3", natural),
+            group_of("relief-4", natural),
             group_of("relief-3", {"natural", 1280})};
 }
 

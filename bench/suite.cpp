@@ -230,14 +230,14 @@ private:
         return time_all(entries, **stage, driver, std::move(measuring));
     }
 
-    // Leaves out what there is no time for before `end`, but not texture.
+    // Leaves out what there is no time for before `end`, where that is allowed, but not texture.
     Result<void> judge_all(std::vector<Entry>& entries, Clock::time_point end, Stage& stage,
                            render::Driver& driver, SuiteProgress& progress) {
         const JudgeOptions options{static_cast<unsigned>(options_.threads), options_.keep_views,
                                    stop_};
         const std::size_t count = entries.size() - 1;
         for (std::size_t i = 0; i < count; ++i) {
-            if (i > 0 && Clock::now() >= end) {
+            if (suite_.may_leave_out && i > 0 && Clock::now() >= end) {
                 leave_out(entries, i, stage.name());
                 break;
             }

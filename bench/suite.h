@@ -31,8 +31,6 @@ struct Group {
     StageChoice stage;
     scene::Pose pose = scene::Pose::overview;
     /// The first is texture, which the others are told in terms of. Its null row comes by itself.
-    /// A quick run leaves out the last ones where there is no time for them, and says so in
-    /// Results::notes.
     std::vector<Candidate> candidates;
 };
 
@@ -40,6 +38,9 @@ struct Suite {
     std::string name;
     std::vector<Group> groups;
     bool keep_stages = true; ///< all opened before anything is measured, see Stages
+    /// Whether a quick run leaves out the last candidates of a group where there is no time for
+    /// them; it says so in Results::notes.
+    bool may_leave_out = true;
 };
 
 /// Measures a suite group by group: first how wrong each candidate's picture is, then how fast it

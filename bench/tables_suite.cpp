@@ -38,8 +38,9 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
 
 Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
     const bool as_sources = options.terrains.empty() && options.techniques.empty();
-    const Suite suite{"tables", as_sources ? source_groups() : terrain_groups(options),
-                      !as_sources};
+    const Suite suite{"tables",
+                      as_sources ? source_groups(options.suite.quick) : terrain_groups(options),
+                      !as_sources, !as_sources};
     Results results = run_suite(suite, options.suite, stop);
     std::stable_sort(results.rows.begin(), results.rows.end(),
                      [](const Row& a, const Row& b) { return a.test < b.test; });

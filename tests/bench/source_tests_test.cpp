@@ -62,6 +62,17 @@ TEST(SourceTests, relief_4_asks_for_all_its_techniques_by_our_names) {
     EXPECT_EQ(relief_4->candidates[1].setting.label, "polygons:lods=1");
 }
 
+TEST(SourceTests, quick_ones_differ_in_one_terrain_alone) {
+    const std::vector<Group> whole = source_groups();
+    const std::vector<Group> quick = source_groups(true);
+    ASSERT_EQ(quick.size(), whole.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        EXPECT_EQ(quick[i].test, whole[i].test);
+        EXPECT_EQ(quick[i].candidates.size(), whole[i].candidates.size());
+        EXPECT_EQ(quick[i].stage == whole[i].stage, whole[i].test != "parallax-2");
+    }
+}
+
 TEST(SourceTests, terrains_follow_each_other_so_that_each_is_opened_once) {
     std::vector<StageChoice> stages;
     for (const Group& group : source_groups()) {
