@@ -5,6 +5,7 @@
 
 #include "engine/io/image.h"
 #include "tests/app/command_line.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -64,9 +65,7 @@ TEST(Readme, example_has_at_most_30_lines_and_draws_a_picture) {
 }
 
 TEST(Readme, every_command_works) {
-#ifdef __SANITIZE_ADDRESS__
-    GTEST_SKIP() << "what users run is the release; each verb has sanitized tests of its own";
-#endif
+    RELJEF_RELEASE_ONLY("each verb has tests of its own");
     RELJEF_NEED_DATA(tile);
     const test::TemporaryFolder folder;
     std::filesystem::create_symlink(test::data_path(tile), folder.path() / "N45E006.hgt");

@@ -4,6 +4,7 @@
 
 #include "engine/io/image.h"
 #include "tests/app/command_line.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -25,6 +26,7 @@ double contrast(const Image& image) {
 class EveryRaster : public testing::TestWithParam<const char*> {};
 
 TEST_P(EveryRaster, gives_a_picture) {
+    RELJEF_RELEASE_ONLY("each is read by a test of its own, and drawing them is the same");
     RELJEF_NEED_DATA(GetParam());
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "picture.png").string();

@@ -11,6 +11,7 @@
 #include "bench/report_json.h"
 #include "tests/bench/made_page.h"
 #include "tests/bench/made_results.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_program.h"
 
@@ -188,6 +189,7 @@ TEST(DataUri, is_base64_as_the_standard_has_it) {
 
 // What no browser can be found for is skipped, not passed.
 TEST(PageInBrowser, loads_plots_sorts_wipes_and_fits_everywhere) {
+    RELJEF_RELEASE_ONLY("the browser is not ours, and the page has tests of its own");
     const test::TemporaryFolder folder;
     const auto pictures = test::made_pictures();
     const std::string hostile =

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/bench_program.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {
@@ -43,6 +44,7 @@ TEST(SettingsOverRange, hold_every_technique_as_it_is_none_twice_and_none_refuse
 }
 
 TEST(ParetoProgram, tells_rows_and_fronts_of_every_pose_in_every_form) {
+    RELJEF_RELEASE_ONLY("the suite, its fronts and its forms have tests of their own");
     const test::TemporaryFolder folder;
     const auto dem = folder.write("dem.asc", test::small_dem).string();
     const auto json_file = folder.path() / "p.json";
