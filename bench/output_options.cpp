@@ -59,7 +59,7 @@ std::vector<RowPictures> pictures_of(const Results& results) {
     std::vector<RowPictures> pictures;
     for (std::size_t i = 0; i < results.rows.size(); ++i) {
         if (const auto& view = results.rows[i].view) {
-            pictures.push_back({i, view->shown, *view->truth, heat_map(view->reprojection)});
+            pictures.push_back({i, view});
         }
     }
     return pictures;

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/page_data_uri.h"
+#include "bench/page_heat_map.h"
 #include "bench/page_parts.h"
 #include "engine/core/atomic_file.h"
-#include "engine/io/image.h"
 
 namespace reljef::bench {
 namespace fs = std::filesystem;
@@ -27,51 +27,33 @@ constexpr std::string_view page_schema = "reljef-bench/1";
 struct Album {
     std::vector<std::string> uris;
     /// Truths that are in already: rows of one view share theirs.
-    std::vector<std::pair<const Image*, std::size_t>> truths;
+    std::vector<std::pair<const RowView::File*, std::size_t>> truths;
 };
 
-Result<std::size_t> add_picture(Album& album, const char* extension, const char* media_type,
-                                const Image& picture) {
-    const auto bytes = io::encode_image(extension, picture);
-    if (!bytes) {
-        return bytes.error();
-    }
-    album.uris.push_back(data_uri(media_type, *bytes));
+std::size_t add_picture(Album& album, const char* media_type, const RowView::File& file) {
+    album.uris.push_back(data_uri(media_type, file));
     return album.uris.size() - 1;
 }
 
-Result<std::size_t> add_truth(Album& album, const Image& truth) {
+std::size_t add_truth(Album& album, const RowView::File& truth) {
     const auto same = std::find_if(album.truths.begin(), album.truths.end(),
-                                   [&](const auto& known) { return *known.first == truth; });
+                                   [&](const auto& known) { return known.first == &truth; });
     if (same != album.truths.end()) {
         return same->second;
     }
-    auto added = add_picture(album, ".jpg", "image/jpeg", truth);
-    if (added) {
-        album.truths.emplace_back(&truth, *added);
-    }
+    const std::size_t added = add_picture(album, "image/jpeg", truth);
+    album.truths.emplace_back(&truth, added);
     return added;
 }
 
-Result<PageJson> add_pictures_of(Album& album, const RowPictures& pictures) {
-    const auto shown = add_picture(album, ".jpg", "image/jpeg", pictures.shown);
-    if (!shown) {
-        return shown.error();
-    }
-    const auto truth = add_truth(album, pictures.truth);
-    if (!truth) {
-        return truth.error();
-    }
-    const auto heat = add_picture(album, ".png", "image/png", pictures.heat);
-    if (!heat) {
-        return heat.error();
-    }
-    return PageJson{{"row", pictures.row},
-                    {"width", pictures.shown.cols()},
-                    {"height", pictures.shown.rows()},
-                    {"shown", *shown},
-                    {"truth", *truth},
-                    {"heat", *heat}};
+PageJson add_pictures_of(Album& album, const RowPictures& pictures) {
+    const RowView& view = *pictures.view;
+    return {{"row", pictures.row},
+            {"width", view.size.x},
+            {"height", view.size.y},
+            {"shown", add_picture(album, "image/jpeg", view.shown)},
+            {"truth", add_truth(album, *view.truth)},
+            {"heat", add_picture(album, "image/png", view.heat)}};
 }
 
 std::string css_color(Rgba8 color) {
@@ -88,15 +70,11 @@ PageJson scale_of_errors() {
             {"colors", std::move(colors)}};
 }
 
-Result<std::string> pictures_as_json(std::span<const RowPictures> pictures) {
+std::string pictures_as_json(std::span<const RowPictures> pictures) {
     Album album;
     PageJson rows = PageJson::array();
     for (const RowPictures& row : pictures) {
-        auto added = add_pictures_of(album, row);
-        if (!added) {
-            return added.error();
-        }
-        rows.push_back(std::move(*added));
+        rows.push_back(add_pictures_of(album, row));
     }
     return PageJson{
         {"scale", scale_of_errors()}, {"rows", std::move(rows)}, {"images", std::move(album.uris)}}
@@ -157,13 +135,6 @@ std::string assembled(std::string_view report, std::string_view pictures) {
     return page;
 }
 
-bool are_complete(const RowPictures& pictures) {
-    const auto has_size = [&](const Image& image) {
-        return image.cols() == pictures.shown.cols() && image.rows() == pictures.shown.rows();
-    };
-    return !pictures.shown.empty() && has_size(pictures.truth) && has_size(pictures.heat);
-}
-
 Result<void> make_folder(const fs::path& folder) {
     std::error_code code;
     fs::create_directory(folder, code);
@@ -189,17 +160,14 @@ Result<void> write_page(const fs::path& folder, std::string_view json_report,
     }
     for (const RowPictures& each : pictures) {
         check(each.row < *rows, "write_page: pictures of a row that is not in the report");
-        check(are_complete(each), "write_page: a row's pictures are empty or differ in size");
-    }
-    const auto embedded = pictures_as_json(pictures);
-    if (!embedded) {
-        return embedded.error();
+        check(each.view != nullptr, "write_page: a row without pictures");
     }
     if (auto made = make_folder(folder); !made) {
         return made;
     }
-    return write_text_file(folder / page_name,
-                           assembled(safe_in_script(json_report), safe_in_script(*embedded)));
+    return write_text_file(
+        folder / page_name,
+        assembled(safe_in_script(json_report), safe_in_script(pictures_as_json(pictures))));
 }
 
 } // namespace reljef::bench

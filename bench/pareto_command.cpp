@@ -39,6 +39,7 @@ Result<void> run_pareto_command(const ParetoChoice& choice, bool is_size_given,
     if (options.suite.quick && !is_size_given) {
         options.suite.size = quick_size;
     }
+    options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_pareto(options, interrupt.token()), choice.outputs);
 }
 

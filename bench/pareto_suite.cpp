@@ -13,6 +13,8 @@ namespace {
 constexpr std::array poses{scene::Pose::overview, scene::Pose::oblique, scene::Pose::low,
                            scene::Pose::grazing};
 
+constexpr int most_view_cols = 512; // there are hundreds of rows
+
 bool is_wide(const scene::ParameterInfo& parameter) {
     return parameter.low > 0.0 && parameter.high > 10.0 * parameter.low;
 }
@@ -95,7 +97,9 @@ std::vector<scene::Technique> settings_over_range() {
 }
 
 Results run_pareto(const ParetoOptions& options, const std::stop_token& stop) {
-    Results results = run_suite({"pareto", pareto_groups(options)}, options.suite, stop);
+    Suite suite{.name = "pareto", .groups = pareto_groups(options)};
+    suite.most_view_cols = most_view_cols;
+    Results results = run_suite(suite, options.suite, stop);
     results.fronts = fronts_of(results.rows);
     return results;
 }

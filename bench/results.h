@@ -9,8 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "bench/environment.h"
-#include "engine/core/color.h"
-#include "engine/core/grid.h"
+#include "bench/row_view.h"
 #include "engine/core/result.h"
 #include "engine/core/statistics.h"
 #include "engine/render/frame_stats.h"
@@ -75,13 +74,6 @@ struct SourceFigure {
     std::string where;  ///< "relief-4, configuration 2"
 };
 
-/// What a row looks like; not part of the JSON.
-struct RowView {
-    Image shown;
-    std::shared_ptr<const Image> truth; ///< shared by the rows of one scene and pose
-    Grid<float> reprojection;           ///< pixels of error, NaN where there is none
-};
-
 /// One technique on one scene.
 struct Row {
     std::string suite;
@@ -94,7 +86,7 @@ struct Row {
     std::optional<Timing> timing; ///< absent: the technique does not exist yet, the row is missing
     std::optional<RowError> error;
     std::optional<SourceFigure> source;
-    std::shared_ptr<const RowView> view; ///< where it was asked for
+    std::shared_ptr<const RowView> view; ///< where it was asked for; not part of the JSON
 
     [[nodiscard]] bool missing() const { return !timing.has_value(); }
     /// Whether its noise floor is above most_noise.

@@ -175,7 +175,8 @@ public:
     SuiteRun(const Suite& suite, const SuiteOptions& options, std::stop_token stop)
         : suite_(suite), options_(options), stop_(std::move(stop)),
           time_table_(options, suite.groups.size()),
-          stages_({options.size, options.threads, options.quiet}, stop_, suite.keep_stages) {}
+          stages_({options.size, options.threads, options.quiet}, stop_, suite.keep_stages),
+          views_(suite.most_view_cols) {}
 
     Result<void> run() {
         auto device = make_device(options_);
@@ -247,11 +248,24 @@ private:
                     return judgement.error();
                 }
                 entries[i].row.error = judgement->error;
-                entries[i].row.view = std::move(judgement->view);
+                if (auto kept = keep_view(entries[i].row, judgement->view); !kept) {
+                    return kept;
+                }
             }
             progress.tell_judged(static_cast<double>(i + 1) / static_cast<double>(count));
         }
         entries.back().row.error = entries.front().row.error;
+        return {};
+    }
+
+    Result<void> keep_view(Row& row, const std::optional<ShownView>& shown) {
+        if (shown) {
+            auto view = views_.make(*shown);
+            if (!view) {
+                return view.error();
+            }
+            row.view = std::move(*view);
+        }
         return {};
     }
 
@@ -318,6 +332,7 @@ private:
     std::stop_token stop_;
     TimeTable time_table_;
     Stages stages_;
+    RowViews views_;
     Results results_;
 };
 

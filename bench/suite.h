@@ -38,6 +38,7 @@ struct Suite {
     std::string name;
     std::vector<Group> groups;
     bool keep_stages = true; ///< all opened before anything is measured, see Stages
+    int most_view_cols = 0;  ///< of a row's pictures, see RowViews
     /// Whether a quick run leaves out the last candidates of a group where there is no time for
     /// them; it says so in Results::notes.
     bool may_leave_out = true;

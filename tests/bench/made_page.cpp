@@ -194,8 +194,11 @@ std::vector<bench::RowPictures> made_pictures(int cols, int rows) {
                                                                 static_cast<float>(cols));
         }
     }
-    const Image heat = bench::heat_map(error);
-    return {{0, shown, truth, heat}, {1, truth, truth, heat}, {2, shown, truth, heat}};
+    const auto right = std::make_shared<const Image>(truth);
+    bench::RowViews views;
+    const auto shown_view = views.make({shown, right, error}).value();
+    const auto true_view = views.make({truth, right, error}).value();
+    return {{0, shown_view}, {1, true_view}, {2, shown_view}};
 }
 
 } // namespace reljef::test

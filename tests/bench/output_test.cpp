@@ -65,8 +65,10 @@ TEST(BenchOutputs, one_that_fails_keeps_the_others_from_appearing) {
 TEST(BenchOutputs, page_holds_the_pictures_of_the_rows_that_have_a_view) {
     const test::TemporaryFolder folder;
     Results results = test::made_results();
-    results.rows[0].view = std::make_shared<const RowView>(
-        RowView{Image(32, 24), std::make_shared<const Image>(32, 24), Grid<float>(32, 24, 0.5F)});
+    results.rows[0].view =
+        RowViews()
+            .make({Image(32, 24), std::make_shared<const Image>(32, 24), Grid<float>(32, 24, 0.5F)})
+            .value();
     testing::internal::CaptureStdout();
     const auto done =
         report(results, {.json = {}, .csv = {}, .markdown = {}, .html = folder.path() / "page"});

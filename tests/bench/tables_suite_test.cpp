@@ -123,9 +123,7 @@ TEST_F(TablesSuite, views_are_kept_where_they_are_asked_for) {
     for (const Row& row : results.rows) {
         EXPECT_EQ(row.view == nullptr, row.null_row);
         if (row.view) {
-            EXPECT_EQ(row.view->shown.cols(), 64);
-            EXPECT_EQ(row.view->truth->rows(), 48);
-            EXPECT_EQ(row.view->reprojection.cols(), 64);
+            EXPECT_EQ(row.view->size, glm::ivec2(64, 48));
         }
     }
     EXPECT_EQ(results.rows[0].view->truth, results.rows[1].view->truth);
