@@ -69,7 +69,7 @@ void check_verb(std::span<char*> texts, const Program& program,
 }
 
 int fail(const Program& program, std::string_view message) {
-    tell(fmt::format("{}: {}\n", program.name, message));
+    tell(fmt::format("{}: {}\n", program.name, printable(message)));
     return failed;
 }
 
@@ -88,7 +88,7 @@ int explain(const Program& program, const CLI::App& parser, const CLI::ParseErro
     }
     std::string message = error.what();
     std::replace(message.begin(), message.end(), '\n', ' ');
-    tell(fmt::format("{}: {} (see --help)\n", program.name, message));
+    tell(fmt::format("{}: {} (see --help)\n", program.name, printable(message)));
     return misused;
 }
 
