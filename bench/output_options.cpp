@@ -29,30 +29,21 @@ std::vector<app::NamedFile> outputs_of(const OutputChoice& choice) {
     return outputs;
 }
 
+// The page and its folder are no files of others.
+std::vector<app::NamedFile> with_page(std::vector<app::NamedFile> outputs,
+                                      const std::filesystem::path& html) {
+    if (!html.empty()) {
+        outputs.push_back({"--html", html});
+        outputs.push_back({"--html", page_file(html)});
+    }
+    return outputs;
+}
+
 std::string output_text(const std::string& option, const Results& results) {
     if (option == "--json") {
         return json_report(results);
     }
     return option == "--csv" ? csv_report(results) : markdown_report(results);
-}
-
-// All are written before the first takes its place.
-Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
-    std::vector<AtomicFile> files;
-    for (const app::NamedFile& output : outputs_of(choice)) {
-        const std::string text = output_text(output.option, results);
-        auto file = prepare_file(output.path, std::as_bytes(std::span(text)));
-        if (!file) {
-            return file.error();
-        }
-        files.push_back(std::move(*file));
-    }
-    for (AtomicFile& file : files) {
-        if (auto committed = file.commit(); !committed) {
-            return committed;
-        }
-    }
-    return {};
 }
 
 std::vector<RowPictures> pictures_of(const Results& results) {
@@ -63,6 +54,43 @@ std::vector<RowPictures> pictures_of(const Results& results) {
         }
     }
     return pictures;
+}
+
+Result<std::vector<AtomicFile>> prepare_outputs(const Results& results,
+                                                const OutputChoice& choice) {
+    std::vector<AtomicFile> files;
+    for (const app::NamedFile& output : outputs_of(choice)) {
+        const std::string text = output_text(output.option, results);
+        auto file = prepare_file(output.path, std::as_bytes(std::span(text)));
+        if (!file) {
+            return file.error();
+        }
+        files.push_back(std::move(*file));
+    }
+    return files;
+}
+
+Result<void> commit_all(std::vector<AtomicFile>& files) {
+    for (AtomicFile& file : files) {
+        if (auto committed = file.commit(); !committed) {
+            return committed;
+        }
+    }
+    return {};
+}
+
+// All are written before the first takes its place.
+Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
+    auto files = prepare_outputs(results, choice);
+    if (!files || choice.html.empty()) {
+        return files ? commit_all(*files) : files.error();
+    }
+    auto page = prepare_page(choice.html, json_report(results), pictures_of(results));
+    if (!page) {
+        return page.error();
+    }
+    auto committed = commit_all(*files);
+    return committed ? page->file.commit() : committed;
 }
 
 } // namespace
@@ -80,7 +108,7 @@ void add_output_options(CLI::App& command, OutputChoice& choice) {
 
 Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs) {
     const std::vector<app::NamedFile> outputs = outputs_of(choice);
-    if (auto apart = app::check_apart(outputs, inputs); !apart) {
+    if (auto apart = app::check_apart(with_page(outputs, choice.html), inputs); !apart) {
         return apart;
     }
     for (const app::NamedFile& output : outputs) {
@@ -95,16 +123,11 @@ Result<void> report(const Results& results, const OutputChoice& choice) {
     if (results.rows.empty()) {
         return results.stopped.value_or(Error{"no rows found, some were expected"});
     }
+    // What failed on the way is no reason to lose earlier results.
+    auto written = results.failed ? Result<void>() : write_outputs(results, choice);
     fmt::print("{}", terminal_report(results));
-    std::fflush(stdout);
-    if (auto written = write_outputs(results, choice); !written) {
+    if (std::fflush(stdout) != 0 || !written) {
         return written;
-    }
-    if (!choice.html.empty()) {
-        if (auto written = write_page(choice.html, json_report(results), pictures_of(results));
-            !written) {
-            return written;
-        }
     }
     return results.stopped ? Result<void>(*results.stopped) : Result<void>();
 }

@@ -12,7 +12,7 @@
 #include "bench/page_data_uri.h"
 #include "bench/page_heat_map.h"
 #include "bench/page_parts.h"
-#include "engine/core/atomic_file.h"
+#include "bench/report_schema.h"
 
 namespace reljef::bench {
 namespace fs = std::filesystem;
@@ -21,7 +21,6 @@ namespace {
 using PageJson = nlohmann::ordered_json;
 
 constexpr std::string_view page_name = "index.html";
-constexpr std::string_view page_schema = "reljef-bench/1";
 
 /// Pictures of the page: each once, named by its index.
 struct Album {
@@ -88,11 +87,11 @@ Result<std::size_t> rows_of_report(std::string_view json_report) {
         return report.contains(key) && report[key].is_string() ? report[key].get<std::string>()
                                                                : std::string();
     };
-    if (!report.is_object() || text_at("schema") != page_schema || !report.contains("rows") ||
+    if (!report.is_object() || text_at("schema") != schema_name || !report.contains("rows") ||
         !report["rows"].is_array()) {
         return Error{fmt::format("no page can be made: the report is no JSON with rows of the "
                                  "schema {:?}, which was expected",
-                                 page_schema)};
+                                 schema_name)};
     }
     return report["rows"].size();
 }
@@ -135,39 +134,72 @@ std::string assembled(std::string_view report, std::string_view pictures) {
     return page;
 }
 
-Result<void> make_folder(const fs::path& folder) {
-    std::error_code code;
-    fs::create_directory(folder, code);
-    return code ? Error{fmt::format("{}: the folder cannot be made: {}", folder.string(),
-                                    code.message())}
-                : Result<void>();
+// "report/" names the folder "report".
+fs::path without_slash(const fs::path& folder) {
+    return folder.has_filename() ? folder : folder.parent_path();
 }
 
 } // namespace
 
+fs::path page_file(const fs::path& folder) {
+    return without_slash(folder) / page_name;
+}
+
 Result<void> check_page_target(const fs::path& folder) {
+    const fs::path target = without_slash(folder);
     std::error_code code;
-    const auto writable =
-        AtomicFile::create(fs::exists(folder, code) ? folder / page_name : folder);
+    if (fs::exists(target, code) && !fs::is_directory(target, code)) {
+        return Error{fmt::format("--html: {} found, which is a file; a folder was expected",
+                                 target.string())};
+    }
+    const auto writable = AtomicFile::create(fs::exists(target, code) ? page_file(folder) : target);
     return writable ? Result<void>() : writable.error();
 }
 
-Result<void> write_page(const fs::path& folder, std::string_view json_report,
-                        std::span<const RowPictures> pictures) {
+Result<MadeFolder> MadeFolder::make(const fs::path& folder) {
+    std::error_code code;
+    const bool is_new = fs::create_directory(folder, code);
+    if (code) {
+        return Error{
+            fmt::format("{}: the folder cannot be made: {}", folder.string(), code.message())};
+    }
+    return MadeFolder(is_new ? folder : fs::path());
+}
+
+MadeFolder::~MadeFolder() {
+    std::error_code ignored;
+    if (!folder_.empty()) {
+        fs::remove(folder_, ignored); // fails where it is not empty
+    }
+}
+
+Result<PreparedPage> prepare_page(const fs::path& folder, std::string_view json_report,
+                                  std::span<const RowPictures> pictures) {
     const auto rows = rows_of_report(json_report);
     if (!rows) {
         return rows.error();
     }
     for (const RowPictures& each : pictures) {
-        check(each.row < *rows, "write_page: pictures of a row that is not in the report");
-        check(each.view != nullptr, "write_page: a row without pictures");
+        check(each.row < *rows, "a page with pictures of a row that is not in the report");
+        check(each.view != nullptr, "a page with a row without pictures");
     }
-    if (auto made = make_folder(folder); !made) {
-        return made;
+    auto made = MadeFolder::make(without_slash(folder));
+    if (!made) {
+        return made.error();
     }
-    return write_text_file(
-        folder / page_name,
-        assembled(safe_in_script(json_report), safe_in_script(pictures_as_json(pictures))));
+    const std::string page =
+        assembled(safe_in_script(json_report), safe_in_script(pictures_as_json(pictures)));
+    auto file = prepare_file(page_file(folder), std::as_bytes(std::span(page)));
+    if (!file) {
+        return file.error();
+    }
+    return PreparedPage{std::move(*made), std::move(*file)};
+}
+
+Result<void> write_page(const fs::path& folder, std::string_view json_report,
+                        std::span<const RowPictures> pictures) {
+    auto page = prepare_page(folder, json_report, pictures);
+    return page ? page->file.commit() : page.error();
 }
 
 } // namespace reljef::bench

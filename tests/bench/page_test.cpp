@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/page_data_uri.h"
+#include "bench/page_heat_map.h"
 #include "bench/report_json.h"
 #include "tests/bench/made_page.h"
 #include "tests/bench/made_results.h"

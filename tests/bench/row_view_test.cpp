@@ -12,7 +12,7 @@ namespace reljef::bench {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float no_bound = std::numeric_limits<float>::infinity();
 
 Image decoded(const RowView::File& file, const char* name) {
     const test::TemporaryFolder folder;
@@ -50,11 +50,11 @@ TEST(RowViewTest, AReducedErrorIsTheGreatestAndNoneOnlyWhereAllAreNone) {
     ShownView view = view_of(6, 4, nan);
     view.reprojection(0, 0) = 0.5F;
     view.reprojection(1, 1) = 20.0F;
-    view.reprojection(3, 0) = infinite;
+    view.reprojection(3, 0) = no_bound;
     view.reprojection(2, 0) = 3.0F;
     Grid<float> expected(3, 2, nan);
     expected(0, 0) = 20.0F;
-    expected(1, 0) = infinite;
+    expected(1, 0) = no_bound;
     const auto made = RowViews(3).make(view).value();
     EXPECT_EQ(decoded(made->heat, "heat.png"), heat_map(expected));
 }
