@@ -107,7 +107,12 @@ Box Node::local_bounds() const {
         return terrain->surface->bounds();
     }
     if (const auto* mesh = get<MeshNode>()) {
-        return bounds_of(*mesh->mesh);
+        Box bounds = bounds_of(*mesh->mesh);
+        if (mesh->material.detail.set != nullptr && !bounds.empty()) {
+            const double raised = raised_above(*mesh->mesh, mesh->material.detail);
+            bounds = {bounds.low - raised, bounds.high + raised};
+        }
+        return bounds;
     }
     return {};
 }

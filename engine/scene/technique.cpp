@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,8 +16,12 @@ constexpr std::array<ParameterInfo, 1> polygons_parameters{
     {{"lods", 1.0, 1.0, 1.0, true, "levels of detail at most; 1: every sample is a vertex"}}};
 
 constexpr ParameterInfo offset_parameter{
-    "offset", -0.5,  -1.0,
-    0.0,      false, "where the reference plane lies: 0 lowest, -1 highest height of the surface"};
+    "offset",
+    -0.5,
+    -1.0,
+    0.0,
+    false,
+    "where the reference plane lies: 0 lowest, -1 highest height; a mesh lies at its material's"};
 constexpr std::array<ParameterInfo, 1> parallax_parameters{offset_parameter};
 constexpr std::array<ParameterInfo, 2> iterated_parameters{
     offset_parameter, {"k", 3.0, 1.0, 64.0, true, "times the height is looked at again"}};
@@ -31,8 +36,12 @@ constexpr std::array<ParameterInfo, 2> interval_parameters{
 constexpr std::array<ParameterInfo, 2> pom_parameters{
     {{"min", 8.0, 1.0, 4096.0, true, "equal steps seen from straight above"},
      {"max", 32.0, 1.0, 4096.0, true, "equal steps seen along the ground"}}};
+constexpr std::array<ParameterInfo, 1> displacement_parameters{
+    {{"texels", 4.0, 1.0, 256.0, false, "of the heights between two vertices, at most"}}};
+constexpr std::array<ParameterInfo, 1> emboss_parameters{
+    {{"delta", 1.5, 0.25, 64.0, false, "texels towards the light to the second height"}}};
 
-constexpr std::array<TechniqueInfo, 10> catalogue{
+constexpr std::array<TechniqueInfo, 14> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
@@ -40,6 +49,22 @@ constexpr std::array<TechniqueInfo, 10> catalogue{
       {}},
      {TechniqueId::polygons, "polygons", "the heightfield as triangles",
       "Janković 2010 ch. 2.7 test 4", polygons_parameters},
+     {TechniqueId::displacement, "displacement",
+      "a mesh cut fine, its vertices moved along the normal by the height",
+      "GPU surface-detail survey (2008) ch. 3.1; Cook 1984", displacement_parameters},
+     {TechniqueId::bump,
+      "bump",
+      "a mesh lit by the height's derivatives: N + F_u (N x P_v) - F_v (N x P_u)",
+      "Janković 2010 ch. 2.2; Blinn 1978",
+      {}},
+     {TechniqueId::emboss, "emboss",
+      "h(t) - h(t + delta l.xy) added to a mesh's diffuse light; nothing shines",
+      "GPU surface-detail survey (2008) ch. 3.3; Schlag 1994", emboss_parameters},
+     {TechniqueId::normal,
+      "normal",
+      "a mesh lit by its normal map, with half vector and ambient light",
+      "GPU surface-detail survey (2008) ch. 3.4; Cohen, Olano and Manocha 1998",
+      {}},
      {TechniqueId::parallax, "parallax",
       "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
       "Janković 2010 ch. 2.3; Kaneko et al. 2001", parallax_parameters},
@@ -128,15 +153,31 @@ const TechniqueInfo& technique_info(TechniqueId id) {
     return *found;
 }
 
+std::vector<TechniqueInfo> terrain_techniques() {
+    std::vector<TechniqueInfo> infos;
+    std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(infos),
+                 [](const TechniqueInfo& info) { return draws_terrain(info.id); });
+    return infos;
+}
+
 Geometry geometry_of(TechniqueId id) {
     switch (id) {
     case TechniqueId::texture:
+    case TechniqueId::bump:
+    case TechniqueId::emboss:
+    case TechniqueId::normal:
         return Geometry::flat;
     case TechniqueId::polygons:
+    case TechniqueId::displacement:
         return Geometry::full;
     default:
         return Geometry::box;
     }
+}
+
+bool draws_terrain(TechniqueId id) {
+    return id != TechniqueId::displacement && id != TechniqueId::bump &&
+           id != TechniqueId::emboss && id != TechniqueId::normal;
 }
 
 Technique make_technique(TechniqueId id) {

@@ -21,6 +21,10 @@ enum class TechniqueId {
     interval,          ///< equal steps, then the chord
     pom,               ///< steps by the angle of view, then one chord
     exact,             ///< the true first hit
+    displacement,      ///< the vertices of a mesh cut fine, moved by the height
+    bump,              ///< lit by the height's derivatives
+    emboss,            ///< lit by the difference of two heights
+    normal,            ///< lit by a normal map
 };
 
 /// What is drawn so that a technique's pixels are reached.
@@ -30,6 +34,10 @@ enum class Geometry {
     box,  ///< the box that holds the surface; each pixel looks for it along its ray
 };
 Geometry geometry_of(TechniqueId id);
+
+/// Whether it draws terrains. All of them draw meshes with a tile of detail: there `polygons` shows
+/// the mesh as it is, as `texture` does.
+bool draws_terrain(TechniqueId id);
 
 /// One number a technique can be told.
 struct ParameterInfo {
@@ -52,6 +60,8 @@ struct TechniqueInfo {
 /// Every technique there is, in the order of the sources.
 std::span<const TechniqueInfo> technique_catalogue();
 const TechniqueInfo& technique_info(TechniqueId id);
+/// Those that draw terrains.
+std::vector<TechniqueInfo> terrain_techniques();
 
 /// A technique with a value for each of its parameters, in the catalogue's order.
 struct Technique {

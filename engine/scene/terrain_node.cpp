@@ -3,6 +3,18 @@
 #include <fmt/format.h>
 
 namespace reljef::scene {
+namespace {
+
+// A terrain's own light is that of its heights already, and its own vertices stand where they are.
+Error for_meshes_only(TechniqueId id) {
+    const bool moves = id == TechniqueId::displacement;
+    return Error{fmt::format("technique {}: a terrain found, a mesh with a tile of detail was "
+                             "expected; {} {} a terrain by its heights",
+                             technique_info(id).name, moves ? "polygons" : "texture",
+                             moves ? "shapes" : "lights")};
+}
+
+} // namespace
 
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
                                terrain::Placement placement)
@@ -61,6 +73,9 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
+    if (!draws_terrain(technique.id)) {
+        return for_meshes_only(technique.id);
+    }
     if (geometry_of(technique.id) != Geometry::box ||
         surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};
