@@ -14,19 +14,59 @@ struct Walk {
 
 // Where along the ray the walk leaves its block through a column's and through a row's border.
 vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk) {
-    vec2 border = vec2((walk.block + forward) << walk.level);
-    return max((border - start.xy) * inverse, walk.part);
+    ivec2 border = (walk.block + forward) << walk.level;
+#ifdef WRAP
+    border = min(border, last_cell + 1);
+#endif
+    return max((vec2(border) - start.xy) * inverse, walk.part);
+}
+
+// Whether there is such a block. Of a tile on a mesh there always is: where it wraps, the ray is
+// moved back over the tile.
+bool is_there(inout vec3 start, inout Walk walk) {
+    ivec2 beyond = last_cell >> walk.level;
+#ifdef WRAP
+    ivec2 copy = ivec2(greaterThan(walk.block, beyond)) - ivec2(lessThan(walk.block, ivec2(0)));
+    start.xy -= vec2(copy * (last_cell + 1));
+    walk.block -= copy * (beyond + 1);
+#endif
+#ifdef TILE
+    return true;
+#else
+    return all(greaterThanEqual(walk.block, ivec2(0))) &&
+           all(lessThanEqual(walk.block, beyond));
+#endif
+}
+
+float greatest_in(Walk walk) {
+#ifdef TILE
+    ivec2 block = clamp(walk.block, ivec2(0), last_cell >> walk.level);
+    return texelFetch(greatest_heights, block, walk.level).r;
+#else
+    return texelFetch(greatest_heights, walk.block, walk.level).r;
+#endif
+}
+
+// The cell a ray begins in.
+ivec2 first_cell(inout vec3 start) {
+#ifdef WRAP
+    vec2 cells = vec2(last_cell + 1);
+    start.xy -= cells * floor(start.xy / cells);
+    return min(ivec2(start.xy), last_cell);
+#elif defined(TILE)
+    return ivec2(floor(start.xy));
+#else
+    return clamp(ivec2(start.xy), ivec2(0), last_cell);
+#endif
 }
 
 // Into the next block, and up a level where that begins a new one there. False where there is none.
-bool move_on(vec2 exits, ivec2 forward, inout Walk walk) {
+bool move_on(vec2 exits, ivec2 forward, inout vec3 start, inout Walk walk) {
     walk.part = min(exits.x, exits.y);
     bool sideways = exits.x <= exits.y;
     ivec2 stride = 2 * forward - 1;
     walk.block += sideways ? ivec2(stride.x, 0) : ivec2(0, stride.y);
-    ivec2 beyond = last_cell >> walk.level;
-    bool there = walk.part < 1.0 && all(greaterThanEqual(walk.block, ivec2(0))) &&
-                 all(lessThanEqual(walk.block, beyond));
+    bool there = walk.part < 1.0 && is_there(start, walk);
     int odd = (sideways ? walk.block.x : walk.block.y) & 1;
     int ahead = sideways ? forward.x : forward.y;
     if (odd != ahead && walk.level < top_level) {
@@ -76,7 +116,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     Walk walk;
     walk.level = min(top_level, start_level);
     walk.part = 0.0;
-    walk.block = clamp(ivec2(start.xy), ivec2(0), last_cell) >> walk.level;
+    walk.block = first_cell(start) >> walk.level;
     bool inside = true;
     while (inside) {
         vec2 exits = vec2(1.0);
@@ -85,10 +125,10 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             exits = exits_of(start, inverse, forward, walk) + never;
             float leave = min(min(exits.x, exits.y), 1.0);
             float lowest = start.z + (span.z < 0.0 ? leave : walk.part) * span.z;
-            bool over = above && lowest > texelFetch(greatest_heights, walk.block, walk.level).r;
+            bool over = above && lowest > greatest_in(walk);
             reached = !over && walk.level == 0;
             if (over) {
-                inside = move_on(exits, forward, walk);
+                inside = move_on(exits, forward, start, walk);
             } else if (!reached) {
                 --walk.level;
                 vec2 middle = vec2((2 * walk.block + 1) << walk.level);
@@ -104,7 +144,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
                 place = start.xy + part * span.xy;
                 return true;
             }
-            inside = move_on(exits, forward, walk);
+            inside = move_on(exits, forward, start, walk);
         }
     }
     part = 1.0;

@@ -1,6 +1,5 @@
 // Equal steps until one lies below the surface, then the bracket is narrowed: by halving (Policarpo,
 // Oliveira and Comba 2005) or by the chord, the bracket kept (Risser, Shah and Pattanaik 2006).
-uniform vec3 metres_per_unit; // of the search space's axes
 
 float steps_for(vec3 span) {
 #ifdef VIEW_STEPS

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
@@ -11,6 +13,7 @@
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
 #include "engine/render/frame_block.h"
+#include "engine/render/mesh_painter.h"
 
 #include <glad/gl.h>
 
@@ -141,16 +144,21 @@ public:
     }
 
     Result<void> draw_meshes() {
-        if (list_.meshes.empty()) {
-            return {};
-        }
-        if (auto used = use({ShaderKind::mesh, features_}); !used) {
-            return used;
-        }
+        std::optional<ShaderVariant> in_use;
         for (const MeshDraw& draw : list_.meshes) {
-            if (!draw.mesh->mesh->indices.empty()) {
-                draw_mesh(draw);
+            if (draw.mesh->mesh->indices.empty()) {
+                continue;
             }
+            const scene::Material& material = draw.mesh->material;
+            const ShaderVariant variant =
+                mesh_variant(material, features_, search_features(material.technique.id));
+            if (in_use != variant) {
+                if (auto used = use(variant); !used) {
+                    return used;
+                }
+                in_use = variant;
+            }
+            draw_mesh(draw);
         }
         return {};
     }
@@ -299,7 +307,12 @@ private:
                               relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
         program_->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
         program_->set_uniform("albedo", draw.mesh->material.color);
-        draw_resident(residency_.mesh(draw), gl::IndexType::uint32);
+        if (draw.mesh->material.detail.set != nullptr) {
+            set_tile(*program_, draw, residency_.meshes().tile(draw), list_.camera,
+                     search_values(draw.mesh->material.technique));
+            ++stats_.state_changes;
+        }
+        draw_resident(residency_.meshes().mesh(draw), gl::IndexType::uint32);
     }
 
     void draw_resident(const ResidentMesh& mesh, gl::IndexType type) {
@@ -320,6 +333,28 @@ private:
     const scene::TerrainNode* maps_of_ = nullptr;
     bool wireframe_ = false;
 };
+
+// Whether each terrain can be drawn as it is asked to be.
+Result<void> check_techniques(const DrawList& list) {
+    const scene::TerrainNode* checked = nullptr;
+    const auto check_node = [&](const scene::TerrainNode& terrain) -> Result<void> {
+        if (std::exchange(checked, &terrain) == &terrain) {
+            return {};
+        }
+        return scene::check_technique(terrain.material.technique, *terrain.surface);
+    };
+    for (const TileDraw& draw : list.tiles) {
+        if (auto good = check_node(*draw.terrain); !good) {
+            return good;
+        }
+    }
+    for (const ReliefDraw& draw : list.reliefs) {
+        if (auto good = check_node(*draw.terrain); !good) {
+            return good;
+        }
+    }
+    return {};
+}
 
 glm::vec4 channels_of(const Hit& hit) {
     return {hit.col, hit.row, hit.height, hit.depth};
@@ -415,12 +450,8 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
-    for (const ReliefDraw& draw : list.reliefs) {
-        if (auto good =
-                scene::check_technique(draw.terrain->material.technique, *draw.terrain->surface);
-            !good) {
-            return good;
-        }
+    if (auto good = check_techniques(list); !good) {
+        return good;
     }
     const FrameBlock block = frame_block(list);
     frame_block_.write(0, std::as_bytes(std::span(&block, 1)));

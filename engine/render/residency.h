@@ -11,20 +11,11 @@
 #include "engine/gl/vertex_array.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/mesh_residency.h"
 #include "engine/render/relief_maps.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
-
-/// Triangles that are in the driver's memory.
-struct ResidentMesh {
-    gl::Buffer vertices;
-    gl::VertexArray vertex_array;
-    glm::dvec3 origin{0.0}; ///< local metres
-    int index_count = 0;
-    int vertices_per_row = 0;
-    glm::vec2 samples_per_vertex{1.0F};
-};
 
 /// A terrain's lit_map, and how sample coordinates become texture coordinates: sample · xy + zw.
 struct ResidentMaps {
@@ -52,7 +43,7 @@ public:
     [[nodiscard]] const ResidentMesh& tile(const TileDraw& draw) const;
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
-    [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+    [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
 
 private:
     struct LitMaps {
@@ -66,12 +57,6 @@ private:
         std::vector<LitMaps> maps; // one for each light that the last frame had for it
         std::optional<ResidentRelief> relief;
     };
-    struct Mesh {
-        std::weak_ptr<const scene::Mesh> owner;
-        ResidentMesh resident;
-        gl::Buffer indices;
-    };
-
     void forget_unused();
     Surface& surface_of(const scene::TerrainNode& terrain);
     Result<void> prepare_tiles(const DrawList& list, FrameStats& stats);
@@ -83,12 +68,11 @@ private:
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              FrameStats& stats);
     Result<void> prepare_relief(const ReliefDraw& draw, FrameStats& stats);
-    Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
-    std::map<const scene::Mesh*, Mesh> meshes_;
+    MeshResidency meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };
 

@@ -14,18 +14,23 @@ namespace {
 constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terrain")},
                            std::pair{ShaderKind::relief, std::string_view("relief")},
                            std::pair{ShaderKind::mesh, std::string_view("mesh")},
+                           std::pair{ShaderKind::textured_mesh, std::string_view("textured_mesh")},
+                           std::pair{ShaderKind::relief_mesh, std::string_view("relief_mesh")},
                            std::pair{ShaderKind::sky, std::string_view("sky")}};
-constexpr std::array features_by_name{
-    std::pair{feature_lit, std::string_view("LIT")},
-    std::pair{feature_fog, std::string_view("FOG")},
-    std::pair{feature_hit, std::string_view("HIT")},
-    std::pair{feature_exact, std::string_view("EXACT")},
-    std::pair{feature_parallax, std::string_view("PARALLAX")},
-    std::pair{feature_bisect, std::string_view("BISECT")},
-    std::pair{feature_secant, std::string_view("SECANT")},
-    std::pair{feature_limited, std::string_view("LIMITED")},
-    std::pair{feature_iterated, std::string_view("ITERATED")},
-    std::pair{feature_view_steps, std::string_view("VIEW_STEPS")}};
+constexpr std::array features_by_name{std::pair{feature_lit, std::string_view("LIT")},
+                                      std::pair{feature_fog, std::string_view("FOG")},
+                                      std::pair{feature_hit, std::string_view("HIT")},
+                                      std::pair{feature_exact, std::string_view("EXACT")},
+                                      std::pair{feature_parallax, std::string_view("PARALLAX")},
+                                      std::pair{feature_bisect, std::string_view("BISECT")},
+                                      std::pair{feature_secant, std::string_view("SECANT")},
+                                      std::pair{feature_limited, std::string_view("LIMITED")},
+                                      std::pair{feature_iterated, std::string_view("ITERATED")},
+                                      std::pair{feature_view_steps, std::string_view("VIEW_STEPS")},
+                                      std::pair{feature_normal_map, std::string_view("NORMAL_MAP")},
+                                      std::pair{feature_bump, std::string_view("BUMP")},
+                                      std::pair{feature_emboss, std::string_view("EMBOSS")},
+                                      std::pair{feature_wrap, std::string_view("WRAP")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -149,20 +154,51 @@ std::uint32_t search_of(std::uint32_t features) {
     return (features & feature_secant) != 0 ? features & (feature_secant | feature_view_steps) : 0U;
 }
 
+// One way to be lit by heights.
+std::uint32_t look_of(std::uint32_t features) {
+    for (const std::uint32_t look : {feature_normal_map, feature_bump, feature_emboss}) {
+        if ((features & look) != 0) {
+            return look;
+        }
+    }
+    return 0U;
+}
+
+// What a kind of shader has beside light, fog and hit.
+std::uint32_t own_features(ShaderVariant variant) {
+    const bool is_hit = (variant.features & feature_hit) != 0;
+    const bool is_lit = (variant.features & feature_lit) != 0;
+    const std::uint32_t wrap = variant.features & feature_wrap;
+    switch (variant.kind) {
+    case ShaderKind::relief:
+        return search_of(variant.features);
+    case ShaderKind::relief_mesh:
+        return search_of(variant.features) | wrap;
+    case ShaderKind::textured_mesh:
+        return is_hit ? wrap : is_lit ? look_of(variant.features) : 0U;
+    default:
+        return 0U;
+    }
+}
+
+bool is_mesh(ShaderKind kind) {
+    return kind == ShaderKind::mesh || kind == ShaderKind::textured_mesh ||
+           kind == ShaderKind::relief_mesh;
+}
+
 } // namespace
 
 ShaderVariant without_meaningless(ShaderVariant variant) {
-    const std::uint32_t search =
-        variant.kind == ShaderKind::relief ? search_of(variant.features) : 0U;
+    const std::uint32_t own = own_features(variant);
     variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::sky) {
         variant.features &= feature_lit;
     } else if ((variant.features & feature_hit) != 0) {
         variant.features = feature_hit;
-    } else if (variant.kind != ShaderKind::mesh) {
+    } else if (!is_mesh(variant.kind)) {
         variant.features &= ~feature_lit; // a terrain's light is in its map
     }
-    variant.features |= search;
+    variant.features |= own;
     return variant;
 }
 

@@ -21,7 +21,14 @@ struct EmbeddedShader {
 std::span<const EmbeddedShader> embedded_shaders();
 
 /// What is drawn.
-enum class ShaderKind { terrain, relief, mesh, sky };
+enum class ShaderKind {
+    terrain,
+    relief,
+    mesh,          ///< of one colour
+    textured_mesh, ///< with a tile of detail on it
+    relief_mesh,   ///< each pixel looks for the tile's surface
+    sky
+};
 
 /// What a variant of a shader is compiled with; a scene that lacks it never pays for it.
 enum ShaderFeature : std::uint32_t {
@@ -36,6 +43,11 @@ enum ShaderFeature : std::uint32_t {
     feature_limited = 1U << 7U,    ///< parallax: by no more than the height
     feature_iterated = 1U << 8U,   ///< parallax: looked at again
     feature_view_steps = 1U << 9U, ///< secant: as many steps as the angle of view asks for
+    // How a mesh with a tile of detail is lit; by its own normals where none of the three is there.
+    feature_normal_map = 1U << 10U,
+    feature_bump = 1U << 11U,
+    feature_emboss = 1U << 12U,
+    feature_wrap = 1U << 13U, ///< a mesh: the tile goes on in copies of itself
 };
 
 struct ShaderVariant {

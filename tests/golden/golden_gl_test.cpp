@@ -29,7 +29,7 @@ void PrintTo(const GoldenCase& golden, std::ostream* stream) {
 std::vector<GoldenCase> golden_cases() {
     std::vector<GoldenCase> cases;
     for (const std::string terrain : {"natural", "urban"}) {
-        for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
+        for (const scene::TechniqueInfo& technique : scene::terrain_techniques()) {
             const std::string id(technique.name);
             std::string name = terrain + "_" + id;
             std::replace(name.begin(), name.end(), '-', '_');

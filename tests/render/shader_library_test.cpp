@@ -19,8 +19,9 @@ TEST(ShaderVariants, AreEachThereOnceAndMeanSomething) {
 TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     const auto variants = all_variants();
     for (const ShaderKind kind :
-         {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::sky}) {
-        for (std::uint32_t features = 0; features < 1024; ++features) {
+         {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
+          ShaderKind::relief_mesh, ShaderKind::sky}) {
+        for (std::uint32_t features = 0; features < 1U << 14U; ++features) {
             const ShaderVariant variant = without_meaningless({kind, features});
             EXPECT_EQ(variant.kind, kind);
             EXPECT_NE(std::find(variants.begin(), variants.end(), variant), variants.end());
@@ -35,9 +36,9 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         EXPECT_FALSE(hit && (variant.features & looks) != 0);
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
     }
-    // terrain: fog or not, or a hit; relief: each of nine searches so; mesh: lit or not too; sky:
-    // lit or not.
-    EXPECT_EQ(all_variants().size(), 3U + 9U * 3U + 5U + 2U);
+    // terrain: fog or not, or a hit; relief: each of nine searches so; mesh: lit or not too; a tile
+    // on it: lit in four ways; a search: wrapped or not; sky: lit or not.
+    EXPECT_EQ(all_variants().size(), 3U + 9U * 3U + 5U + (4U * 2U + 2U + 2U) + 9U * 5U * 2U + 2U);
 }
 
 TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
@@ -47,7 +48,9 @@ TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
              {feature_exact, feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
-        EXPECT_LE(ways, variant.kind == ShaderKind::relief ? 1 : 0);
+        EXPECT_LE(
+            ways,
+            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh ? 1 : 0);
     }
 }
 
