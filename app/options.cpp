@@ -164,7 +164,7 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--technique", choice.technique,
         [](const std::string& text) { return scene::parse_technique(text); },
-        "how the surface is drawn; 'reljef techniques' lists them (polygons)",
+        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: relief)",
         "ID[:key=value,...]");
     command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
     add_parsed(command, "--projection", choice.projection,
@@ -260,11 +260,18 @@ template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::s
 
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command
-        .add_option("TERRAIN", choice.terrain,
-                    "natural, urban, a scene file (.toml) or a DEM file of any format GDAL reads")
+        .add_option(
+            "TERRAIN", choice.terrain,
+            "natural, urban, gallery, a scene file (.toml) or a DEM file of any format GDAL "
+            "reads")
         ->required();
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");
+    command
+        .add_option("--textures", choice.textures,
+                    "gallery only: brick, rock, cobble, mixed, or a folder of pictures (colour, "
+                    "height, normal)")
+        ->type_name("NAME|FOLDER");
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
                "of the heights, in the picture only (1)", "X");

@@ -27,6 +27,8 @@ namespace reljef::app {
 struct TerrainChoice {
     std::string terrain; ///< a built-in name, a scene file (.toml) or a DEM file
     std::filesystem::path imagery;
+    /// The gallery's tiles: a built-in set, "mixed" or a folder; absent: the scene file's.
+    std::optional<std::string> textures;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
     std::optional<terrain::PlacementKind> placement;
     int memory_megabytes = 512;
@@ -47,7 +49,8 @@ struct GeodeticView {
 struct ViewChoice {
     std::optional<platform::ContextKind> context; ///< absent: auto
     glm::ivec2 size{1024, 768};
-    scene::Technique technique = scene::make_technique(scene::TechniqueId::polygons);
+    std::optional<scene::Technique>
+        technique; ///< absent: polygons; the gallery's own on its models
     bool wireframe = false;
     double vertical_fov = 57.3;
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;

@@ -251,6 +251,11 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!scene) {
         return scene.error();
     }
+    if (choice.truth && !scene->models.empty()) {
+        return Error{fmt::format("--truth: {} found, whose models the exact picture does not know; "
+                                 "a terrain was expected, or --technique exact",
+                                 choice.terrain.terrain)};
+    }
     return draw_outputs(choice, *scene, **maker, interrupt);
 }
 
@@ -300,6 +305,7 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
         "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
         "  reljef render dem.tif --technique texture --hit hit.exr\n"
+        "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
         "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr");
     return {arguments, [choice, &interrupt] { return render(*choice, interrupt); }};
 }

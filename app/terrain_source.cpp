@@ -8,6 +8,7 @@
 #include "app/progress_line.h"
 #include "engine/io/raster.h"
 #include "terrains/built_in.h"
+#include "terrains/gallery.h"
 #include "terrains/generators.h"
 
 namespace reljef::app {
@@ -56,6 +57,9 @@ Result<terrain::Terrain> generate(const TerrainChoice& choice,
         return Error{fmt::format("--imagery: {} found, but {} brings its own colours",
                                  choice.imagery.string(), description.name)};
     }
+    if (description.generator == "gallery") {
+        return terrains::generate_gallery(options);
+    }
     return description.generator == "natural" ? terrains::generate_natural(options)
                                               : terrains::generate_urban(options);
 }
@@ -87,6 +91,10 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
 
 Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
                                    const std::stop_token& stop, Notes notes) {
+    if (choice.textures && description.generator != "gallery") {
+        return Error{fmt::format("--textures: {} found, but only the gallery shows tiles, not {}",
+                                 *choice.textures, description.name)};
+    }
     auto terrain = description.generator.empty() ? read(choice, description, stop)
                                                  : generate(choice, description, stop);
     if (!terrain) {

@@ -14,11 +14,12 @@
 namespace reljef::io {
 
 /// What a scene file (TOML) asks for; everything but where the heights come from has a default.
-/// terrains/natural.toml and terrains/urban.toml show every key.
+/// terrains/natural.toml, urban.toml and gallery.toml show every key.
 struct SceneDescription {
     std::string name;
 
-    // [terrain]: exactly one of `heights` (a DEM file) and `generator` ("natural", "urban")
+    // [terrain]: exactly one of `heights` (a DEM file) and `generator` ("natural", "urban",
+    // "gallery")
     std::filesystem::path heights; ///< relative to the scene file
     std::string generator;
     int size = 1025;        ///< generator only, samples a side, 16 to 4096
@@ -32,6 +33,10 @@ struct SceneDescription {
     std::filesystem::path imagery; ///< file only; relative to the scene file; may be empty
     double exaggeration = 1.0;     ///< (0, 1000]
     std::optional<std::string> placement; ///< "plane" or "ellipsoid"; absent: by the data
+
+    // [gallery]: its generator only
+    std::string gallery_textures = "mixed";   ///< a built-in set, "mixed", or a folder of pictures
+    std::string gallery_technique = "relief"; ///< as --technique has it
 
     // [sun]: degrees
     double sun_azimuth = 300.0; ///< [-360, 360], clockwise from north, where the light comes from

@@ -38,7 +38,7 @@ TEST_F(BadInput, missing_file) {
 }
 
 TEST_F(BadInput, unknown_name) {
-    expect_refusal(render("atlantis"), 1, {"atlantis", "natural, urban"});
+    expect_refusal(render("atlantis"), 1, {"atlantis", "gallery, natural, urban"});
 }
 
 TEST_F(BadInput, empty_file) {

@@ -75,6 +75,27 @@ TEST(SceneFile, AGeneratorNeedsNothingElse) {
     EXPECT_TRUE(full->tileable);
 }
 
+TEST(SceneFile, OnlyTheGalleryHasTexturesAndATechnique) {
+    const auto scene = parse("[terrain]\ngenerator = \"gallery\"\n[gallery]\ntextures = \"rock\"\n"
+                             "technique = \"relief:n=8\"");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->gallery_textures, "rock");
+    EXPECT_EQ(scene->gallery_technique, "relief:n=8");
+    EXPECT_EQ(parse("[terrain]\ngenerator = \"gallery\"")->gallery_textures, "mixed");
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[gallery]\ntextures = \"rock\""),
+                HasSubstr("belongs to the generator gallery"));
+}
+
+TEST(SceneFile, ATextureFolderIsRelativeToTheSceneFile) {
+    const test::TemporaryFolder folder;
+    folder.write("wall/color.txt", "");
+    const auto scene =
+        parse_scene("[terrain]\ngenerator = \"gallery\"\n[gallery]\ntextures = \"wall\"", "s.toml",
+                    folder.path());
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->gallery_textures, (folder.path() / "wall").string());
+}
+
 TEST(SceneFile, BrokenTomlIsNamedWithItsLine) {
     EXPECT_THAT(error_of("[terrain]\ngenerator = \n"), HasSubstr("scene.toml:2: is no TOML"));
     EXPECT_THAT(error_of("[terrain\n"), HasSubstr("scene.toml:1"));
