@@ -1,6 +1,7 @@
 #include "engine/render/draw_list.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -116,6 +117,27 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size) {
     list.stats.skipped.invisible_nodes = list.stats.nodes - visited;
     list.stats.skipped.sky = list.sky ? 0 : 1;
     return list;
+}
+
+Result<void> check_techniques(const DrawList& list) {
+    const scene::TerrainNode* checked = nullptr;
+    const auto check_node = [&](const scene::TerrainNode& terrain) -> Result<void> {
+        if (std::exchange(checked, &terrain) == &terrain) {
+            return {};
+        }
+        return scene::check_technique(terrain.material.technique, *terrain.surface);
+    };
+    for (const TileDraw& draw : list.tiles) {
+        if (auto good = check_node(*draw.terrain); !good) {
+            return good;
+        }
+    }
+    for (const ReliefDraw& draw : list.reliefs) {
+        if (auto good = check_node(*draw.terrain); !good) {
+            return good;
+        }
+    }
+    return {};
 }
 
 } // namespace reljef::render

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/core/result.h"
 #include "engine/render/frame_stats.h"
 #include "engine/scene/scene.h"
 
@@ -47,5 +48,8 @@ struct DrawList {
 /// Looks at the scene through its camera: leaves out what is hidden or outside the frustum and
 /// orders the rest. An orthographic camera's depth range is fitted to the scene.
 DrawList select(const scene::Scene& scene, glm::ivec2 size);
+
+/// Whether each terrain can be drawn as it is asked to be; fails as scene::check_technique.
+Result<void> check_techniques(const DrawList& list);
 
 } // namespace reljef::render

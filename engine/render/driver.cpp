@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
@@ -333,28 +332,6 @@ private:
     const scene::TerrainNode* maps_of_ = nullptr;
     bool wireframe_ = false;
 };
-
-// Whether each terrain can be drawn as it is asked to be.
-Result<void> check_techniques(const DrawList& list) {
-    const scene::TerrainNode* checked = nullptr;
-    const auto check_node = [&](const scene::TerrainNode& terrain) -> Result<void> {
-        if (std::exchange(checked, &terrain) == &terrain) {
-            return {};
-        }
-        return scene::check_technique(terrain.material.technique, *terrain.surface);
-    };
-    for (const TileDraw& draw : list.tiles) {
-        if (auto good = check_node(*draw.terrain); !good) {
-            return good;
-        }
-    }
-    for (const ReliefDraw& draw : list.reliefs) {
-        if (auto good = check_node(*draw.terrain); !good) {
-            return good;
-        }
-    }
-    return {};
-}
 
 glm::vec4 channels_of(const Hit& hit) {
     return {hit.col, hit.row, hit.height, hit.depth};

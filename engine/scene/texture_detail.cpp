@@ -124,8 +124,9 @@ int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         longest = std::max(longest, longest_edge(mesh, i, texels_per_coordinate));
     }
-    const double triangles = std::max(static_cast<double>(mesh.indices.size() / 3), 1.0);
-    const double most = std::sqrt(static_cast<double>(most_displaced_triangles) / triangles);
+    const std::size_t triangles = std::max<std::size_t>(mesh.indices.size() / 3, 1);
+    const double most =
+        std::sqrt(static_cast<double>(most_displaced_triangles) / static_cast<double>(triangles));
     return static_cast<int>(std::clamp(std::ceil(longest / texels), 1.0, std::max(most, 1.0)));
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 namespace reljef::terrain {
 namespace {

@@ -25,7 +25,8 @@ void PrintTo(const GoldenCase& golden, std::ostream* stream) {
     *stream << golden.name;
 }
 
-// Each technique and the exact picture on each built-in terrain, and real elevation data.
+// Each technique and the exact picture on each built-in terrain, what tiles on meshes add, and real
+// elevation data.
 std::vector<GoldenCase> golden_cases() {
     std::vector<GoldenCase> cases;
     for (const std::string terrain : {"natural", "urban"}) {
@@ -36,6 +37,10 @@ std::vector<GoldenCase> golden_cases() {
             cases.push_back({name, terrain, false, {"--technique", id, "--context", "osmesa"}});
         }
         cases.push_back({terrain + "_truth", terrain, false, {"--truth"}});
+    }
+    for (const std::string id : {"displacement", "bump", "emboss", "normal", "relief"}) {
+        cases.push_back(
+            {"gallery_" + id, "gallery", false, {"--technique", id, "--context", "osmesa"}});
     }
     cases.push_back({"alps",
                      "natural/srtm3/N45E006.hgt",

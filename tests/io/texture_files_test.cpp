@@ -42,7 +42,7 @@ void write_channels(const fs::path& path, glm::ivec2 size, int channels, OIIO::T
     ASSERT_TRUE(output->close());
 }
 
-float wave(int col, int row) {
+float wave_height(int col, int row) {
     return 0.5F + 0.25F * std::sin(0.19635F * static_cast<float>(col)) +
            0.25F * std::sin(0.3927F * static_cast<float>(row));
 }
@@ -54,7 +54,7 @@ protected:
         write_channels(file("a_color.png"), {32, 32}, 3, OIIO::TypeDesc::UINT8,
                        [](int, int, int) { return 0.5F; });
         write_channels(file("a_height.png"), {32, 32}, 1, height_type,
-                       [](int col, int row, int) { return wave(col, row); });
+                       [](int col, int row, int) { return wave_height(col, row); });
         return {file("a_color.png"), file("a_height.png"), {}};
     }
     // Normals of the waves at scale 1, with y as the rows run or against them.
@@ -62,7 +62,7 @@ protected:
         Grid<float> heights(32, 32);
         for (int row = 0; row < 32; ++row) {
             for (int col = 0; col < 32; ++col) {
-                heights(col, row) = wave(col, row);
+                heights(col, row) = wave_height(col, row);
             }
         }
         const auto normals =
@@ -82,7 +82,7 @@ TEST_F(TextureFilesTest, HeightsOf16BitsComeAsTheyAreAndWithoutANote) {
     ASSERT_TRUE(set) << set.error().message;
     EXPECT_THAT(set->notes, IsEmpty());
     for (int i = 0; i < 32; ++i) {
-        ASSERT_NEAR(set->heights(i, 7), wave(i, 7), 0.5 / 65535.0 + 1e-7);
+        ASSERT_NEAR(set->heights(i, 7), wave_height(i, 7), 0.5 / 65535.0 + 1e-7);
     }
     EXPECT_EQ(set->normals.cols(), 32);
 }
@@ -116,13 +116,13 @@ TEST_F(TextureFilesTest, HeightsMayStandInTheNormalsAlpha) {
     TextureFiles files = written(OIIO::TypeDesc::UINT8);
     write_channels(file("both_normal.png"), {32, 32}, 4, OIIO::TypeDesc::UINT16,
                    [](int col, int row, int channel) {
-                       return channel == 3 ? wave(col, row) : channel == 2 ? 1.0F : 0.5F;
+                       return channel == 3 ? wave_height(col, row) : channel == 2 ? 1.0F : 0.5F;
                    });
     files.heights.clear();
     files.normals = file("both_normal.png");
     const auto set = read_texture_set(files);
     ASSERT_TRUE(set) << set.error().message;
-    EXPECT_NEAR(set->heights(5, 9), wave(5, 9), 1e-4);
+    EXPECT_NEAR(set->heights(5, 9), wave_height(5, 9), 1e-4);
     EXPECT_NEAR(set->normals(5, 9).z, 1.0F, 1e-4);
 }
 
