@@ -4,7 +4,7 @@ layout(binding = 1) uniform sampler2D height_map;
 uniform vec2 height_texel;  // 1 / samples
 uniform vec4 search_values; // the technique's parameters, in the catalogue's order
 #ifdef TILE
-vec3 metres_per_unit; // of the search space's axes, at this fragment of a mesh
+vec3 metres_per_unit = vec3(1.0); // of the search space's axes, at this fragment of a mesh
 #else
 uniform vec3 metres_per_unit; // of the search space's axes
 #endif

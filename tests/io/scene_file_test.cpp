@@ -108,7 +108,7 @@ TEST(SceneFile, UnknownKeysAreRefusedWithTheKnownOnes) {
         error_of("[terrain]\ngenerator = \"urban\"\nsiez = 3\n"),
         HasSubstr("scene.toml:3: [terrain] siez is unknown, one of heights, generator, size"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sea]\nlevel = 1\n"),
-                HasSubstr("sea is unknown, one of name, terrain, sun, air, camera"));
+                HasSubstr("sea is unknown, one of name, terrain, gallery, sun, air, camera"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sun]\nheight = 3\n"),
                 HasSubstr("[sun] height is unknown, one of azimuth, altitude"));
 }
@@ -141,7 +141,8 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {urban + "exaggeration = -2.0",
          "exaggeration is -2.0, a number above 0 and at most 1000000"},
         {urban + "placement = \"sphere\"", "is \"sphere\", one of plane, ellipsoid was expected"},
-        {"[terrain]\ngenerator = \"moon\"", "is \"moon\", one of natural, urban was expected"},
+        {"[terrain]\ngenerator = \"moon\"",
+         "is \"moon\", one of natural, urban, gallery was expected"},
         {"[terrain]\nheights = \"\"", "heights is ''"},
         {"[terrain]\nheights = 3", "heights is 3"},
         {"[terrain]\nheights = \"a.tif\"\nheight_scale = 0", "height_scale is 0"},

@@ -365,7 +365,7 @@ TEST_F(MeshTechniquesGlTest, EmbossHasNoSpecularAndTheOthersDo) {
 
 TEST_F(MeshTechniquesGlTest, DisplacedVerticesLieOnTheSurface) {
     Panel panel(wave_tile(32));
-    panel.look({0.3, -2.0, 4.0}, {0.1, 0.0, 0.0});
+    panel.look({0.1, -0.3, 3.0}, {0.1, 0.1, 0.0}); // no border in sight
     const TileErrors coarse = tile_errors(panel, panel.hits("displacement:texels=8"));
     const TileErrors fine = tile_errors(panel, panel.hits("displacement:texels=1"));
     EXPECT_LT(fine.wrong_percent(), 0.5);
