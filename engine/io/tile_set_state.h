@@ -7,6 +7,9 @@
 
 namespace reljef::io {
 
+/// Of a sample: what coordinates of millions of metres lose by rounding.
+inline constexpr double near_sample = 1e-6;
+
 /// What a tile set knows; never changed once it is open.
 struct TileSet::State {
     std::string name;
