@@ -188,29 +188,75 @@ void fill_from_edges(const Grid<double>& edges, Grid<double>& heights) {
     }
 }
 
-bool on_a_tile(const TileLayer& layer, glm::dvec2 point) {
-    return std::any_of(layer.tiles.begin(), layer.tiles.end(), [&](const LayerTile& tile) {
-        const glm::dvec2 inside = point - glm::dvec2(tile.col, tile.row);
-        return inside.x >= -0.5 && inside.y >= -0.5 && inside.x <= tile.cols - 0.5 &&
-               inside.y <= tile.rows - 0.5;
-    });
-}
+/// The tiles of a layer that the samples of a grid may lie on.
+class NearTiles {
+public:
+    NearTiles(const TileLayer& layer, const LayerPoints& points, const TileGrid& grid)
+        : points_(points) {
+        glm::dvec2 low(std::numeric_limits<double>::infinity());
+        glm::dvec2 high = -low;
+        for (int row = 0; row < grid.rows; ++row) {
+            for (int col = 0; col < grid.cols; ++col) {
+                const glm::dvec2 point = points.at(col, row);
+                low = std::isnan(point.x) ? low : glm::min(low, point);
+                high = std::isnan(point.x) ? high : glm::max(high, point);
+            }
+        }
+        for (const LayerTile& tile : layer.tiles) {
+            if (tile.col - 1 <= high.x && tile.row - 1 <= high.y && tile.col + tile.cols >= low.x &&
+                tile.row + tile.rows >= low.y) {
+                tiles_.push_back(&tile);
+            }
+        }
+    }
+
+    /// Whether a sample of the grid lies on one, to the edge of its cells.
+    [[nodiscard]] bool cover(int col, int row) const {
+        const glm::dvec2 point = points_.at(col, row);
+        return std::any_of(tiles_.begin(), tiles_.end(), [&](const LayerTile* tile) {
+            const glm::dvec2 inside = point - glm::dvec2(tile->col, tile->row);
+            return inside.x >= -0.5 && inside.y >= -0.5 && inside.x <= tile->cols - 0.5 &&
+                   inside.y <= tile->rows - 0.5;
+        });
+    }
+
+private:
+    const LayerPoints& points_;
+    std::vector<const LayerTile*> tiles_;
+};
 
 /// 0 m where no tile lies; voids of tiles stay voids.
 void fill_sea(std::span<const TileLayer> layers, std::span<const std::optional<LayerPoints>> points,
-              Grid<double>& heights) {
+              const TileGrid& grid, Grid<double>& heights) {
+    std::vector<NearTiles> near;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        if (points[i]) {
+            near.emplace_back(layers[i], *points[i], grid);
+        }
+    }
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 0; col < heights.cols(); ++col) {
-            if (!std::isnan(heights(col, row))) {
-                continue;
-            }
-            bool covered = false;
-            for (std::size_t i = 0; i < layers.size() && !covered; ++i) {
-                covered = points[i] && on_a_tile(layers[i], points[i]->at(col, row));
-            }
+            const bool covered = !std::isnan(heights(col, row)) ||
+                                 std::any_of(near.begin(), near.end(), [&](const NearTiles& tiles) {
+                                     return tiles.cover(col, row);
+                                 });
             heights(col, row) = covered ? heights(col, row) : 0.0;
         }
     }
+}
+
+/// Whether a layer can have anything of a grid; only told for sure of degrees.
+bool may_meet(const std::string& grid_crs, const TileGrid& grid, const TileLayer& layer) {
+    if (grid_crs != wgs84_degrees) {
+        return true;
+    }
+    const glm::dvec2 last = grid.first + grid.step * glm::dvec2(grid.cols - 1, grid.rows - 1);
+    const auto& [west, south, east, north] = layer.box;
+    // Between the nine places that make the box a side may bulge, and cells reach beyond samples.
+    const glm::dvec2 margin =
+        0.1 * glm::dvec2(east - west, north - south) + glm::abs(grid.step) + glm::dvec2(1e-3);
+    return grid.first.x <= east + margin.x && last.x >= west - margin.x &&
+           last.y <= north + margin.y && grid.first.y >= south - margin.y;
 }
 
 } // namespace
@@ -223,14 +269,16 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
     const TileReading reading = state_->reading(stop);
     std::vector<std::optional<LayerPoints>> points;
     for (const TileLayer& layer : state_->layers) {
-        points.push_back(LayerPoints::create(state_->crs, grid, layer));
+        points.push_back(may_meet(state_->crs, grid, layer)
+                             ? LayerPoints::create(state_->crs, grid, layer)
+                             : std::nullopt);
         if (points.back() && has_gaps(result.heights)) {
             fill_from(layer, *points.back(), reading, grid, result, edges);
         }
     }
     fill_from_edges(edges, result.heights);
     if (gaps == Gaps::sea && has_gaps(result.heights)) {
-        fill_sea(state_->layers, points, result.heights);
+        fill_sea(state_->layers, points, grid, result.heights);
     }
     keep_each_once(result.faults);
     return result;

@@ -203,5 +203,24 @@ TEST(SceneFile, TheOnesThatComeWithReljefAreGood) {
     EXPECT_FALSE(example->heights.empty());
 }
 
+TEST(SceneFile, AnAreaHasAllItsFourSides) {
+    const std::string folder = "[terrain]\nheights = \"tiles\"\ngaps = \"sea\"\n[area]\n";
+    const auto scene =
+        parse_scene(folder + "south = 45\nwest = 6\nnorth = 46\neast = 7.5\n", "s.toml", "data");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->area);
+    EXPECT_EQ(scene->area->east, 7.5);
+    EXPECT_EQ(scene->gaps, "sea");
+    for (const auto& [sides, sentence] :
+         {std::pair("south = 45\nwest = 6\nnorth = 46\n", "east is missing"),
+          std::pair("south = 46\nwest = 6\nnorth = 45\neast = 7\n", "north is not above south"),
+          std::pair("south = 45\nwest = 7\nnorth = 46\neast = 6\n", "east is not east of west")}) {
+        const auto broken = parse_scene(folder + sides, "s.toml", "data");
+        ASSERT_FALSE(broken);
+        EXPECT_NE(broken.error().message.find(sentence), std::string::npos)
+            << broken.error().message;
+    }
+}
+
 } // namespace
 } // namespace reljef::io
