@@ -97,6 +97,28 @@ Described with_fault(Described described, std::string message) {
     return described;
 }
 
+/// Why the samples of a raster cannot be a tile; empty where they can, and then its place is set.
+std::string set_place(GDALDataset& dataset, const std::string& name, Described& described) {
+    IndexedFile& file = described.file;
+    if (file.cols < 2 || file.rows < 2) {
+        return fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name, file.cols,
+                           file.rows);
+    }
+    if (auto good = check_affine(dataset, name); !good) {
+        return good.error().message;
+    }
+    std::vector<std::string> ignored;
+    const auto affine = affine_of(dataset);
+    const auto crs = affine ? horizontal_crs(dataset, ignored) : std::nullopt;
+    if (!crs || crs->IsLocal() != 0) {
+        return name + ": names no place on Earth, a coordinate system and a position in it were "
+                      "expected of a tile";
+    }
+    file.crs_from_pixel = *affine;
+    described.wkt = wkt_of(*crs);
+    return {};
+}
+
 Described describe_dataset(GDALDataset& dataset, const std::string& name, Described described) {
     IndexedFile& file = described.file;
     GDALRasterBand& band = *dataset.GetRasterBand(1);
@@ -108,41 +130,28 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
     int declares = 0;
     band.GetNoDataValue(&declares);
     file.declares_voids = declares != 0;
+    std::string fault = set_place(dataset, name, described);
     if (kind_of_values(dataset) != ValueKind::plain) {
         file.use = TileUse::picture;
+        file.fault = std::move(fault); // of use only where the picture is asked for as heights
         return described;
     }
-    if (file.cols < 2 || file.rows < 2) {
-        return with_fault(described,
-                          fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name,
-                                      file.cols, file.rows));
-    }
-    if (auto good = check_affine(dataset, name); !good) {
-        return with_fault(described, good.error().message);
-    }
-    std::vector<std::string> ignored;
-    const auto affine = affine_of(dataset);
-    const auto crs = affine ? horizontal_crs(dataset, ignored) : std::nullopt;
-    if (!crs || crs->IsLocal() != 0) {
-        return with_fault(described, name + ": names no place on Earth, a coordinate system and a "
-                                            "position in it were expected of a tile");
-    }
     file.use = TileUse::heights;
-    file.crs_from_pixel = *affine;
-    described.wkt = wkt_of(*crs);
-    return described;
+    return fault.empty() ? described : with_fault(std::move(described), std::move(fault));
 }
 
 Described describe_file(const fs::path& path, IndexedFile file) {
     Described described{std::move(file), {}, true};
-    GdalMessages messages;
-    if (fs::is_regular_file(path) && !may_be_raster(path)) {
-        described.is_raster = false;
-        return described;
-    }
+    const GdalMessages messages;
     const auto dataset = open_raster(path, messages);
     return dataset ? describe_dataset(**dataset, path.string(), std::move(described))
                    : with_fault(std::move(described), dataset.error().message);
+}
+
+Described describe_if_raster(const fs::path& path, IndexedFile file) {
+    const GdalMessages unheard;
+    return may_be_raster(path) ? describe_file(path, std::move(file))
+                               : Described{std::move(file), {}, false};
 }
 
 /// Gives every distinct WKT its number.
@@ -238,7 +247,7 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
         auto same = known.find(file);
         const fs::path path = folder / file.path;
         all[static_cast<std::size_t>(i)] =
-            same ? std::move(*same) : describe_file(path, std::move(file));
+            same ? std::move(*same) : describe_if_raster(path, std::move(file));
     };
     if (!parallel_for(static_cast<int>(files->size()), describe,
                       {.threads = options.threads, .stop = options.stop, .progress = {}})) {
@@ -261,7 +270,7 @@ Result<TileIndex> index_tiles(const fs::path& path, const TileSetOptions& option
         return index_folder(path, options, notes);
     }
     Described only = describe_file(path, found_file(path, path.string()));
-    if (only.file.use == TileUse::fault && only.is_raster) {
+    if (!only.file.fault.empty()) {
         return Error{only.file.fault};
     }
     only.file.use = TileUse::heights; // of a picture the luminance, as for any single raster

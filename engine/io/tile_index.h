@@ -21,7 +21,7 @@ struct IndexedFile {
     std::uint64_t bytes = 0;   ///< with `modified`: tells whether the file is still the same
     std::int64_t modified = 0; ///< ticks of the file system's clock
     TileUse use = TileUse::fault;
-    std::string fault; ///< one sentence; empty but for TileUse::fault
+    std::string fault; ///< one sentence: why it cannot be used
     int cols = 0;
     int rows = 0;
     geo::PixelAffine crs_from_pixel; ///< GDAL's pixels: (0,0) is the outer corner

@@ -258,6 +258,23 @@ TEST_F(TileSets, WhatCannotBeUsedIsToldOnceAndTheRestIsThere) {
     }
 }
 
+TEST_F(TileSets, PicturesBesideTilesAreNoHeights) {
+    tile("good.tif", utm31, 20, 20, {500000.0, 5000000.0, 10.0}, plane);
+    auto picture = made_raster(20, 20, [](int col, int) { return col; });
+    picture.values.insert(picture.values.end(), picture.values.begin(), picture.values.end());
+    picture.values.insert(picture.values.end(), picture.values.begin(),
+                          picture.values.begin() + 400);
+    picture.bands = 3;
+    picture.type = GDT_Byte;
+    picture.colors = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand};
+    ASSERT_TRUE(test::write(picture, folder_.path() / "picture.tif"));
+    const TileSet tiles = open();
+    EXPECT_EQ(tiles.files().size(), 1U);
+    EXPECT_TRUE(tiles.faults().empty());
+    ASSERT_EQ(tiles.notes().size(), 1U);
+    EXPECT_THAT(tiles.notes()[0], HasSubstr("1 picture in colour"));
+}
+
 TEST_F(TileSets, AFolderWithoutAnyTileIsAnError) {
     const auto none = TileSet::open(folder_.path());
     ASSERT_FALSE(none);
