@@ -61,6 +61,17 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
+    const std::string_view name = technique_info(technique.id).name;
+    if (technique.options.two_sided) {
+        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a terrain "
+                                 "is not seen from beneath, detail tiles are",
+                                 name)};
+    }
+    if (technique.options.border && *technique.options.border != BorderRule::discard) {
+        return Error{fmt::format("technique {}: a border other than discard found, discard was "
+                                 "expected: a terrain ends at its border, detail tiles go on",
+                                 name)};
+    }
     if (geometry_of(technique.id) != Geometry::box ||
         surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};
@@ -68,7 +79,7 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
     return Error{
         fmt::format("technique {}: placement ellipsoid found, plane was expected; polygons "
                     "draws both",
-                    technique_info(technique.id).name)};
+                    name)};
 }
 
 } // namespace reljef::scene
