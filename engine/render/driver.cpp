@@ -11,6 +11,7 @@
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
 #include "engine/render/frame_block.h"
+#include "engine/render/relief_options.h"
 
 #include <glad/gl.h>
 
@@ -93,14 +94,6 @@ std::uint32_t search_features(scene::TechniqueId id) {
     default:
         return 0U;
     }
-}
-
-glm::vec4 search_values(const scene::Technique& technique) {
-    glm::vec4 values(0.0F);
-    for (std::size_t i = 0; i < technique.values.size(); ++i) {
-        values[static_cast<int>(i)] = static_cast<float>(technique.values[i]);
-    }
-    return values;
 }
 
 // Draws a list and counts what it sets; what is set already is not set again.
@@ -206,6 +199,9 @@ private:
         maps_of_ = &terrain;
         const ResidentMaps& maps = residency_.maps(terrain);
         maps.lit.bind(0);
+        if (maps.sun) {
+            maps.sun->bind(3);
+        }
         program_->set_uniform("lit_from_sample", maps.lit_from_sample);
         ++stats_.state_changes;
     }
@@ -230,8 +226,9 @@ private:
 
     Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {
         const scene::Technique& technique = draw.terrain->material.technique;
-        if (auto used = use({ShaderKind::relief, features_ | search_features(technique.id)});
-            !used) {
+        const std::uint32_t features =
+            features_ | search_features(technique.id) | option_features(technique.options);
+        if (auto used = use({ShaderKind::relief, features}); !used) {
             return used;
         }
         maps_of_ = nullptr; // another program
@@ -258,7 +255,6 @@ private:
         const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
         const glm::dvec3 eye(local_from_world * glm::dvec4(list_.camera.eye, 1.0));
         const glm::ivec2 samples = relief.heights.size();
-        const auto values = search_values(draw.terrain->material.technique);
         program_->set_uniform("relative_from_local",
                               relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
         program_->set_uniform("box_low", glm::vec3(space.local_box.low));
@@ -275,7 +271,7 @@ private:
         program_->set_uniform("height_texel", 1.0F / glm::vec2(samples));
         program_->set_uniform("last_cell", samples - 2);
         program_->set_uniform("metres_per_unit", space.metres_per_unit);
-        program_->set_uniform("search_values", values);
+        set_relief_options(*program_, draw.terrain->material.technique);
         program_->set_uniform("texels_per_metre_away", texels_per_metre_away(draw, space));
     }
 

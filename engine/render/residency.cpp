@@ -44,18 +44,34 @@ Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
     return texture;
 }
 
-Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
-                               const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
-    const Image lit = lit_map(surface, light, gl::query_limits().max_texture_size);
-    auto texture = mipmapped({lit.cols(), lit.rows()}, gl::Format::rgba8_srgb,
-                             std::as_bytes(lit.samples()), stats);
-    if (!texture) {
-        return texture.error();
-    }
+Result<gl::Texture2D> map_texture(const Image& map, FrameStats& stats) {
+    return mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb, std::as_bytes(map.samples()),
+                     stats);
+}
+
+Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Texture2D lit,
+                                std::optional<gl::Texture2D> sun) {
     const Grid<float>& heights = surface.heightfield().heights;
     const glm::vec4 lit_from_sample =
-        texture_from_sample({heights.cols(), heights.rows()}, texture->size());
-    return ResidentMaps{std::move(*texture), lit_from_sample};
+        texture_from_sample({heights.cols(), heights.rows()}, lit.size());
+    return ResidentMaps{std::move(lit), std::move(sun), lit_from_sample};
+}
+
+Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
+                               const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
+    auto lit = map_texture(lit_map(surface, light, gl::query_limits().max_texture_size), stats);
+    return lit ? with_place(surface, std::move(*lit), std::nullopt) : lit.error();
+}
+
+Result<ResidentMaps> make_light_parts(const scene::TerrainSurface& surface,
+                                      const scene::TerrainLight& light, FrameStats& stats) {
+    const LightParts parts = light_parts(surface, light, gl::query_limits().max_texture_size);
+    auto sky = map_texture(parts.sky, stats);
+    if (!sky) {
+        return sky.error();
+    }
+    auto sun = map_texture(parts.sun, stats);
+    return sun ? with_place(surface, std::move(*sky), std::move(*sun)) : sun.error();
 }
 
 std::optional<scene::TerrainLight> light_on(const DrawList& list,
@@ -246,17 +262,20 @@ Result<std::shared_ptr<const ResidentMaps>>
 Residency::maps_for(const scene::TerrainNode& terrain,
                     const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
     std::vector<LitMaps>& there = surface_of(terrain).maps;
-    const auto found = std::find_if(there.begin(), there.end(),
-                                    [&](const LitMaps& entry) { return entry.light == light; });
+    const bool in_parts = light && terrain.material.technique.options.shadow;
+    const auto found = std::find_if(there.begin(), there.end(), [&](const LitMaps& entry) {
+        return entry.light == light && entry.in_parts == in_parts;
+    });
     if (found != there.end()) {
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
-    auto maps = make_maps(*terrain.surface, light, stats);
+    auto maps = in_parts ? make_light_parts(*terrain.surface, *light, stats)
+                         : make_maps(*terrain.surface, light, stats);
     if (!maps) {
         return maps.error();
     }
-    there.push_back({light, std::make_shared<const ResidentMaps>(std::move(*maps))});
+    there.push_back({light, in_parts, std::make_shared<const ResidentMaps>(std::move(*maps))});
     return there.back().maps;
 }
 

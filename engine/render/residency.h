@@ -26,9 +26,11 @@ struct ResidentMesh {
     glm::vec2 samples_per_vertex{1.0F};
 };
 
-/// A terrain's lit_map, and how sample coordinates become texture coordinates: sample · xy + zw.
+/// A terrain's lit_map, or, where rays cast the shadows, its light_parts; and how sample
+/// coordinates become texture coordinates: sample · xy + zw.
 struct ResidentMaps {
     gl::Texture2D lit;
+    std::optional<gl::Texture2D> sun; ///< the sun's part; lit is then the sky's
     glm::vec4 lit_from_sample{0.0F};
 };
 
@@ -57,6 +59,7 @@ public:
 private:
     struct LitMaps {
         std::optional<scene::TerrainLight> light;
+        bool in_parts = false;
         std::shared_ptr<const ResidentMaps> maps;
     };
     struct Surface {
