@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
@@ -108,10 +109,10 @@ public:
         if (list_.tiles.empty()) {
             return {};
         }
-        if (auto used = use({ShaderKind::terrain, features_}); !used) {
-            return used;
-        }
         for (const TileDraw& draw : list_.tiles) {
+            if (auto used = use_for(*draw.terrain); !used) {
+                return used;
+            }
             draw_tile(draw);
         }
         return {};
@@ -189,6 +190,27 @@ private:
         program_ = *program;
         program_->use();
         ++stats_.state_changes;
+        return {};
+    }
+
+    // The program that draws the tiles of a terrain, if it is not in use.
+    Result<void> use_for(const scene::TerrainNode& terrain) {
+        if (tiles_of_ == &terrain) {
+            return {};
+        }
+        const bool warped = terrain.material.technique.id == scene::TechniqueId::prewarp;
+        if (tiles_of_ == nullptr || warped != tiles_warped_) {
+            if (auto used = use({ShaderKind::terrain, features_ | (warped ? feature_warped : 0U)});
+                !used) {
+                return used;
+            }
+            maps_of_ = nullptr;
+        }
+        if (warped) {
+            residency_.warped(terrain).bind(4);
+        }
+        tiles_of_ = &terrain;
+        tiles_warped_ = warped;
         return {};
     }
 
@@ -314,8 +336,21 @@ private:
     FrameStats& stats_;
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* maps_of_ = nullptr;
+    const scene::TerrainNode* tiles_of_ = nullptr;
+    bool tiles_warped_ = false;
     bool wireframe_ = false;
 };
+
+std::set<const scene::TerrainNode*> terrains_of(const DrawList& list) {
+    std::set<const scene::TerrainNode*> terrains;
+    for (const TileDraw& draw : list.tiles) {
+        terrains.insert(draw.terrain);
+    }
+    for (const ReliefDraw& draw : list.reliefs) {
+        terrains.insert(draw.terrain);
+    }
+    return terrains;
+}
 
 glm::vec4 channels_of(const Hit& hit) {
     return {hit.col, hit.row, hit.height, hit.depth};
@@ -411,9 +446,8 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
-    for (const ReliefDraw& draw : list.reliefs) {
-        if (auto good =
-                scene::check_technique(draw.terrain->material.technique, *draw.terrain->surface);
+    for (const scene::TerrainNode* terrain : terrains_of(list)) {
+        if (auto good = scene::check_technique(terrain->material.technique, *terrain->surface);
             !good) {
             return good;
         }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
 #include "engine/core/grid_triangles.h"
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
+#include "engine/render/prewarp.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
@@ -106,6 +108,23 @@ Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, Fr
     return texture;
 }
 
+// The eye of a camera as Warp takes it.
+glm::dvec4 eye_of(const scene::Camera& camera, const glm::dmat4& world_from_local) {
+    const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective
+                               ? glm::dvec4(camera.eye, 1.0)
+                               : glm::dvec4(-scene::view_axes(camera).forward, 0.0);
+    return glm::inverse(world_from_local) * eye;
+}
+
+// The texture of the last frame where it fits.
+Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before) {
+    if (before.size() == size) {
+        return std::move(before);
+    }
+    return gl::Texture2D::create(
+        {.size = size, .format = gl::Format::rgba32f, .filter = gl::Filter::nearest});
+}
+
 struct MeshVertex {
     glm::vec3 position;
     glm::vec3 normal;
@@ -131,6 +150,9 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
         if (auto done = prepare_all_maps(list, stats); !done) {
             return done;
         }
+    }
+    if (auto done = prepare_warped(list, stats); !done) {
+        return done;
     }
     for (const ReliefDraw& draw : list.reliefs) {
         if (auto done = prepare_relief(draw, stats); !done) {
@@ -306,6 +328,27 @@ Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats
     return {};
 }
 
+Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) {
+    std::map<const scene::TerrainNode*, gl::Texture2D> before = std::exchange(warped_, {});
+    for (const TileDraw& draw : list.tiles) {
+        const scene::TerrainNode& terrain = *draw.terrain;
+        if (terrain.material.technique.id != scene::TechniqueId::prewarp ||
+            warped_.contains(&terrain)) {
+            continue;
+        }
+        const Grid<glm::vec4> places =
+            warped_places(*terrain.surface, eye_of(list.camera, draw.world_from_local));
+        auto texture = place_texture({places.cols(), places.rows()}, before[&terrain]);
+        if (!texture) {
+            return texture.error();
+        }
+        texture->upload(0, places);
+        count_upload(stats, texture->bytes());
+        warped_.emplace(&terrain, std::move(*texture));
+    }
+    return {};
+}
+
 Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
     const scene::Mesh& mesh = *draw.mesh->mesh;
     if (meshes_.contains(&mesh) || mesh.indices.empty()) {
@@ -369,6 +412,10 @@ const ResidentRelief& Residency::relief(const ReliefDraw& draw) const {
     const auto& relief = surfaces_.at(draw.terrain->surface.get()).relief;
     check(relief.has_value(), "a relief that was not prepared");
     return *relief;
+}
+
+const gl::Texture2D& Residency::warped(const scene::TerrainNode& terrain) const {
+    return warped_.at(&terrain);
 }
 
 const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {

@@ -55,6 +55,8 @@ public:
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+    /// What prewarp shows at each sample: warped_places.
+    [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
 private:
     struct LitMaps {
@@ -86,11 +88,13 @@ private:
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              FrameStats& stats);
     Result<void> prepare_relief(const ReliefDraw& draw, FrameStats& stats);
+    Result<void> prepare_warped(const DrawList& list, FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
+    std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     std::map<const scene::Mesh*, Mesh> meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };

@@ -30,7 +30,8 @@ constexpr std::array features_by_name{
     std::pair{feature_hard_shadow, std::string_view("HARD_SHADOW")},
     std::pair{feature_soft_shadow, std::string_view("SOFT_SHADOW")},
     std::pair{feature_smooth_edges, std::string_view("SMOOTH_EDGES")},
-    std::pair{feature_write_depth, std::string_view("WRITE_DEPTH")}};
+    std::pair{feature_write_depth, std::string_view("WRITE_DEPTH")},
+    std::pair{feature_warped, std::string_view("WARPED")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -171,10 +172,11 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
 } // namespace
 
 ShaderVariant without_meaningless(ShaderVariant variant) {
-    std::uint32_t relief = 0U;
+    std::uint32_t own =
+        variant.kind == ShaderKind::terrain ? variant.features & feature_warped : 0U;
     if (variant.kind == ShaderKind::relief) {
         const std::uint32_t search = search_of(variant.features);
-        relief = search | options_of(variant.features, search);
+        own = search | options_of(variant.features, search);
     }
     variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::sky) {
@@ -184,7 +186,7 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
     } else if (variant.kind != ShaderKind::mesh) {
         variant.features &= ~feature_lit; // a terrain's light is in its map
     }
-    variant.features |= relief;
+    variant.features |= own;
     return variant;
 }
 

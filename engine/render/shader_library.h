@@ -42,6 +42,7 @@ enum ShaderFeature : std::uint32_t {
     feature_soft_shadow = 1U << 12U,  ///< a ray to the sun: lit by how deep it goes
     feature_smooth_edges = 1U << 13U, ///< near misses are blended in
     feature_write_depth = 1U << 14U,  ///< the depth of the hit, not of the box
+    feature_warped = 1U << 15U,       ///< a terrain: shows the places warped onto it
 };
 
 struct ShaderVariant {

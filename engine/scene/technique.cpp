@@ -30,7 +30,7 @@ constexpr std::array<ParameterInfo, 2> pom_parameters{
     {{"min", 8.0, 1.0, 4096.0, true, "equal steps seen from straight above"},
      {"max", 32.0, 1.0, 4096.0, true, "equal steps seen along the ground"}}};
 
-constexpr std::array<TechniqueInfo, 10> catalogue{
+constexpr std::array<TechniqueInfo, 11> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
@@ -59,6 +59,12 @@ constexpr std::array<TechniqueInfo, 10> catalogue{
       "exact",
       "the ray against the bilinear surface itself: the true first hit",
       "Tevs, Ihrke and Seidel 2008",
+      {}},
+     {TechniqueId::prewarp,
+      "prewarp",
+      "the surface warped forward onto the reference plane, rows and then columns, each frame: "
+      "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
+      "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000",
       {}}}};
 
 std::vector<std::string_view> names_of(const auto& infos) {
@@ -143,12 +149,17 @@ const TechniqueInfo& technique_info(TechniqueId id) {
 Geometry geometry_of(TechniqueId id) {
     switch (id) {
     case TechniqueId::texture:
+    case TechniqueId::prewarp:
         return Geometry::flat;
     case TechniqueId::polygons:
         return Geometry::full;
     default:
         return Geometry::box;
     }
+}
+
+bool needs_plane(TechniqueId id) {
+    return geometry_of(id) == Geometry::box || id == TechniqueId::prewarp;
 }
 
 Technique make_technique(TechniqueId id) {

@@ -22,6 +22,7 @@ enum class TechniqueId {
     interval,          ///< equal steps, then the chord
     pom,               ///< steps by the angle of view, then one chord
     exact,             ///< the true first hit
+    prewarp,           ///< the surface warped onto the reference plane beforehand
 };
 
 /// What is drawn so that a technique's pixels are reached.
@@ -31,6 +32,9 @@ enum class Geometry {
     box,  ///< the box that holds the surface; each pixel looks for it along its ray
 };
 Geometry geometry_of(TechniqueId id);
+
+/// Whether it draws surfaces over a plane only, none that is bent over the Earth.
+bool needs_plane(TechniqueId id);
 
 struct TechniqueInfo {
     TechniqueId id;

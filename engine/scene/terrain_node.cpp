@@ -72,8 +72,7 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
                                  "expected: a terrain ends at its border, detail tiles go on",
                                  name)};
     }
-    if (geometry_of(technique.id) != Geometry::box ||
-        surface.placement().kind() == terrain::PlacementKind::plane) {
+    if (!needs_plane(technique.id) || surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};
     }
     return Error{

@@ -16,12 +16,13 @@ namespace reljef::test {
 /// What is looked at.
 struct ReliefSetting {
     glm::dvec2 spacing{2.0, 2.0};
-    std::optional<scene::Light> light;
+    std::optional<scene::Light> light{};
     glm::ivec2 size{320, 240};
     double exaggeration = 1.0;
+    Image color{}; ///< empty: white
 };
 
-/// A white terrain over a plane, drawn with one technique or another. Needs a context.
+/// A terrain over a plane, drawn with one technique or another. Needs a context.
 class ReliefStage {
 public:
     explicit ReliefStage(Grid<float> heights, const ReliefSetting& setting = {})
@@ -29,7 +30,8 @@ public:
                                    {.size = setting.size, .shader_dir = {}, .software = true}))) {
         const Image white(heights.cols(), heights.rows(), Rgba8{255, 255, 255, 255});
         terrain_ = &add_terrain(
-            scene_, plane_heightfield(std::move(heights), setting.spacing), white,
+            scene_, plane_heightfield(std::move(heights), setting.spacing),
+            setting.color.empty() ? white : setting.color,
             {.placement = terrain::PlacementKind::plane, .exaggeration = setting.exaggeration});
         camera_ = &scene_.add_camera({});
         if (setting.light) {

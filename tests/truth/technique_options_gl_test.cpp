@@ -122,11 +122,11 @@ TEST_F(TechniqueOptionsGlTest, FadingByNothingIsNotFading) {
     }
 }
 
-// Share of pixels whose brightness differs by more than an eighth, percent.
+// Share of pixels where one picture is black and the other is not, percent.
 double differently_lit(const Image& a, const Image& b) {
     int different = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        different += std::abs(a.samples()[i].r - b.samples()[i].r) > 32 ? 1 : 0;
+        different += (a.samples()[i].r == 0) != (b.samples()[i].r == 0) ? 1 : 0;
     }
     return 100.0 * different / static_cast<double>(a.size());
 }
@@ -199,19 +199,29 @@ TEST_F(TechniqueOptionsGlTest, LightInPartsIsTheWholeWhereNothingIsHidden) {
 TEST_F(TechniqueOptionsGlTest, ASunBelowTheHorizonLightsNothing) {
     ReliefStage stage(test::hills(129, 97, 12.0), {.light = sun_alone(90.0, -5.0)});
     for (const char* technique : {"exact:shadow=hard", "relief:shadow=soft"}) {
-        for (const Rgba8 pixel : stage.image(technique).samples()) {
-            ASSERT_EQ(pixel.r, 0) << technique;
-        }
+        const Image image = stage.image(technique);
+        EXPECT_TRUE(std::all_of(image.samples().begin(), image.samples().end(), [](Rgba8 pixel) {
+            return pixel.r == 0;
+        })) << technique;
     }
 }
 
 // Behind an edge lies what is darker or lighter: the pixels along it are a mix of both.
 TEST_F(TechniqueOptionsGlTest, SmoothEdgesComeNearerToTheMeanOverThePixel) {
-    ReliefStage stage(blocks(), {.spacing = {2.0, 2.0}, .light = scene::Light{}});
-    for (const Pose pose : {Pose::overview, Pose::low}) {
-        stage.look(pose);
+    const Grid<float> heights = blocks();
+    Image color(heights.cols(), heights.rows());
+    for (std::size_t i = 0; i < color.size(); ++i) {
+        const bool is_roof = heights.samples()[i] > 0.0F;
+        color.samples()[i] = is_roof ? Rgba8{230, 180, 150, 255} : Rgba8{40, 50, 60, 255};
+    }
+    ReliefStage stage(heights, {.spacing = {2.0, 2.0}, .light = {}, .color = color});
+    for (const auto& cam : {test::camera_at({-40.0, -70.0, 60.0}, {0.0, -10.0, 10.0}),
+                            test::camera_at({-30.0, -60.0, 35.0}, {0.0, 0.0, 20.0}),
+                            scene::pose_camera(Pose::overview, stage.surface().bounds(),
+                                               [](double, double) { return 0.0; })}) {
+        stage.look(cam);
         const Image truth = stage.true_image(shadow_rays(4));
-        for (const std::string technique : {"exact:shadow=hard", "relief:n=256,shadow=hard"}) {
+        for (const std::string technique : {"exact:border=discard", "relief:n=256"}) {
             const double rough = root_mean_square_error(stage.image(technique), truth).value();
             for (double e : {0.0025, 0.005, 0.01, 0.02, 0.04, 0.08}) {
                 const double smooth =
@@ -253,7 +263,7 @@ TEST_F(TechniqueOptionsGlTest, WrittenDepthLetsMeshesCutTheRelief) {
                     differ("exact"));
         EXPECT_LE(differ("exact:depth=write"), 0.05) << to_string(pose);
         EXPECT_LE(differ("relief:n=128,depth=write"), 0.2) << to_string(pose);
-        EXPECT_GT(differ("exact"), 0.5) << to_string(pose);
+        EXPECT_GT(differ("exact"), 0.1) << to_string(pose);
     }
 }
 
