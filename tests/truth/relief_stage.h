@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -7,7 +8,6 @@
 #include "engine/render/driver.h"
 #include "engine/scene/poses.h"
 #include "engine/truth/draw.h"
-#include "engine/truth/geometric_error.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
 
@@ -66,11 +66,6 @@ public:
     [[nodiscard]] Image true_image(const truth::DrawOptions& options) const {
         return truth::draw(scene_, size_, options).value().image;
     }
-    truth::GeometricErrors errors(const std::string& technique) {
-        const truth::SurfaceView view{surface().heightfield().heights.view(), surface().placement(),
-                                      terrain_->world_from_local(), scene_.camera()};
-        return truth::geometric_errors(view, hits(technique), true_hits()).value();
-    }
 
 private:
     void choose(const std::string& technique) {
@@ -84,5 +79,18 @@ private:
     scene::Node* terrain_ = nullptr;
     scene::Node* camera_ = nullptr;
 };
+
+/// Share of the pixels that show another place than the truth, or one where it shows none, percent.
+inline double elsewhere_percent(const HitBuffer& shown, const HitBuffer& truth) {
+    int wrong = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const Hit& a = shown.samples()[i];
+        const Hit& b = truth.samples()[i];
+        const bool same = a.is_sky() == b.is_sky() &&
+                          (a.is_sky() || std::hypot(a.col - b.col, a.row - b.row) < 1.0F);
+        wrong += same ? 0 : 1;
+    }
+    return 100.0 * wrong / static_cast<double>(shown.size());
+}
 
 } // namespace reljef::test
