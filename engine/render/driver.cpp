@@ -76,27 +76,6 @@ std::uint32_t features_of(const DrawList& list, bool hits) {
     return features;
 }
 
-std::uint32_t search_features(scene::TechniqueId id) {
-    switch (id) {
-    case scene::TechniqueId::parallax:
-        return feature_parallax;
-    case scene::TechniqueId::parallax_limited:
-        return feature_parallax | feature_limited;
-    case scene::TechniqueId::parallax_iterated:
-        return feature_parallax | feature_iterated;
-    case scene::TechniqueId::relief:
-        return feature_bisect;
-    case scene::TechniqueId::interval:
-        return feature_secant;
-    case scene::TechniqueId::pom:
-        return feature_secant | feature_view_steps;
-    case scene::TechniqueId::exact:
-        return feature_exact;
-    default:
-        return 0U;
-    }
-}
-
 // Draws a list and counts what it sets; what is set already is not set again.
 class Painter {
 public:
@@ -248,9 +227,7 @@ private:
 
     Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {
         const scene::Technique& technique = draw.terrain->material.technique;
-        const std::uint32_t features =
-            features_ | search_features(technique.id) | option_features(technique.options);
-        if (auto used = use({ShaderKind::relief, features}); !used) {
+        if (auto used = use({ShaderKind::relief, features_ | relief_features(technique)}); !used) {
             return used;
         }
         maps_of_ = nullptr; // another program

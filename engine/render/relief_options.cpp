@@ -1,5 +1,7 @@
 #include "engine/render/relief_options.h"
 
+#include <glm/vec4.hpp>
+
 #include "engine/render/shader_library.h"
 
 namespace reljef::render {
@@ -31,7 +33,26 @@ double reference_height(const scene::Technique& technique) {
     return is_parallax(technique.id) ? -technique.values.front() : 0.5;
 }
 
-} // namespace
+std::uint32_t search_features(scene::TechniqueId id) {
+    switch (id) {
+    case scene::TechniqueId::parallax:
+        return feature_parallax;
+    case scene::TechniqueId::parallax_limited:
+        return feature_parallax | feature_limited;
+    case scene::TechniqueId::parallax_iterated:
+        return feature_parallax | feature_iterated;
+    case scene::TechniqueId::relief:
+        return feature_bisect;
+    case scene::TechniqueId::interval:
+        return feature_secant;
+    case scene::TechniqueId::pom:
+        return feature_secant | feature_view_steps;
+    case scene::TechniqueId::exact:
+        return feature_exact;
+    default:
+        return 0U;
+    }
+}
 
 std::uint32_t option_features(const scene::TechniqueOptions& options) {
     std::uint32_t features = 0U;
@@ -43,6 +64,12 @@ std::uint32_t option_features(const scene::TechniqueOptions& options) {
         features |= options.shadow->depth > 0.0 ? feature_soft_shadow : feature_hard_shadow;
     }
     return features;
+}
+
+} // namespace
+
+std::uint32_t relief_features(const scene::Technique& technique) {
+    return search_features(technique.id) | option_features(technique.options);
 }
 
 void set_relief_options(gl::Program& program, const scene::Technique& technique) {

@@ -7,8 +7,9 @@
 
 namespace reljef::render {
 
-/// The shader features that a technique's options ask for (shader_library.h).
-std::uint32_t option_features(const scene::TechniqueOptions& options);
+/// The shader features that a relief technique asks for: how it searches, and its options
+/// (shader_library.h).
+std::uint32_t relief_features(const scene::Technique& technique);
 
 /// Sets the uniforms that say a relief's parameters and options.
 void set_relief_options(gl::Program& program, const scene::Technique& technique);
