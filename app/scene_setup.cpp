@@ -24,7 +24,7 @@ scene::TerrainOptions terrain_options(const TerrainChoice& choice, const ViewCho
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    if (!options.placement && scene::geometry_of(view.technique.id) == scene::Geometry::box) {
+    if (!options.placement && scene::needs_plane(view.technique.id)) {
         options.placement = terrain::PlacementKind::plane; // the only one it draws
     }
     return options;
