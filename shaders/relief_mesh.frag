@@ -11,8 +11,18 @@
 #else
 #include "relief_linear.glsl"
 #endif
+#ifdef FADE
+#include "relief_fade.glsl"
+#endif
 #ifndef HIT
 #include "tile_light.glsl"
+#if defined(HARD_SHADOW) || defined(SOFT_SHADOW)
+#define SHADOW
+#include "relief_shadow.glsl"
+#endif
+#ifdef SMOOTH_EDGES
+#include "relief_edges.glsl"
+#endif
 #endif
 
 uniform float mesh_height; // of the tile's heights in [0,1]: where the mesh lies
@@ -39,10 +49,10 @@ struct TileRay {
     float way_per_height;
 };
 
+// `to_eye` in tangent space.
 TileRay ray_through(vec3 to_eye) {
     vec2 samples = tile_samples();
     vec2 samples_per_metre = tiles_per_metre * samples;
-    metres_per_unit = vec3(1.0 / max(samples_per_metre, vec2(1e-30)), lift);
     float way = lift / max(to_eye.z, 1e-30);
     vec2 tiles = abs(to_eye.xy * way * tiles_per_metre);
     way *= min(1.0, most_tiles / max(max(tiles.x, tiles.y), 1e-30));
@@ -82,27 +92,72 @@ bool cut_to_tile(inout TileRay ray) {
     return begin < end && inside;
 }
 
-void main() {
-    mat3 space = tangent_space();
-    vec3 way = way_to_eye();
-    TileRay ray = ray_through((local_from_relative * way) * space);
-    vec2 right = dFdx(tile_coordinate);
-    vec2 up = dFdy(tile_coordinate);
-    float part;
-    vec2 place;
-    if (!cut_to_tile(ray) || !find_hit(ray.start, ray.span, part, place)) {
-        discard;
-    }
-    float height = ray.start.z + part * ray.span.z;
-    vec3 where = relative + way * ((height - mesh_height) * ray.way_per_height);
-#ifdef HIT
-    hit = tile_hit(place, where);
+#ifndef HIT
+// Share of the sun's light that reaches a place of the surface, past the surface.
+float sun_share(vec2 place, mat3 space) {
+#ifdef SHADOW
+    vec3 direction = (local_from_relative * to_sun.xyz) * space / metres_per_unit;
+    vec2 reach = most_tiles * tile_samples();
+    vec2 low = mix(place - reach, vec2(-0.5), bounded);
+    vec2 high = mix(place + reach, tile_samples() - 0.5, bounded);
+    return sun_at(place, direction, vec3(low, -margin), vec3(high, 1.0 + margin));
 #else
+    return 1.0;
+#endif
+}
+
+// What a place of the tile sends to an eye that is `way` off. `right`, `up`: what a pixel to the
+// right and one up add to the tile's coordinate.
+vec3 color_at(vec2 place, mat3 space, vec3 way, vec2 right, vec2 up) {
     vec2 coordinate = (place + 0.5) * height_texel;
     vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
     vec3 leaning = mapped_normal(coordinate, level_of(normal_map, right, up));
-    vec3 lit = shiny_color(albedo, world_normal_of(leaning, space),
-                           world_normal_of(vec3(0.0, 0.0, 1.0), space), normalize(way));
-    color = vec4(seen_through_air(lit, length(where)), 1.0);
+    return shiny_color(albedo, world_normal_of(leaning, space),
+                       world_normal_of(vec3(0.0, 0.0, 1.0), space), normalize(way),
+                       sun_share(place, space));
+}
+#endif
+
+void main() {
+    mat3 space = tangent_space();
+    vec3 way = way_to_eye();
+    metres_per_unit = vec3(1.0 / max(tiles_per_metre * tile_samples(), vec2(1e-30)), lift);
+    TileRay ray = ray_through((local_from_relative * way) * space);
+    vec2 right = dFdx(tile_coordinate);
+    vec2 up = dFdy(tile_coordinate);
+    bool inside = cut_to_tile(ray);
+    vec3 start = ray.start;
+    vec3 span = ray.span;
+#ifdef FADE
+    vec2 ends = stretch(-margin, 1.0 + margin, start, span);
+#endif
+    float part;
+    vec2 place;
+    if (!inside || !find_hit(start, span, part, place)) {
+        discard;
+    }
+#ifdef FADE
+    float met = mix(ends.x, ends.y, part);
+#else
+    float met = part;
+#endif
+    float height = ray.start.z + met * ray.span.z;
+    vec3 where = relative + way * ((height - mesh_height) * ray.way_per_height);
+#ifdef WRITE_DEPTH
+    vec4 clip = clip_from_relative * vec4(where, 1.0);
+    gl_FragDepth = clip.z / clip.w;
+#endif
+#ifdef HIT
+    hit = tile_hit(place, where);
+#else
+    vec3 shown = color_at(place, space, way, right, up);
+#ifdef SMOOTH_EDGES
+    vec2 missed;
+    float distance_share = near_miss(start, span, part, missed);
+    if (distance_share < 1.0) {
+        shown = mix(color_at(missed, space, way, right, up), shown, distance_share);
+    }
+#endif
+    color = vec4(seen_through_air(shown, length(where)), 1.0);
 #endif
 }

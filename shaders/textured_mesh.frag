@@ -31,11 +31,11 @@ vec3 lit_tile(vec3 albedo, vec2 place, vec2 right, vec2 up) {
 #if defined(NORMAL_MAP)
     float level = level_of(normal_map, right, up);
     vec3 normal = world_normal_of(mapped_normal(tile_coordinate, level), space);
-    return shiny_color(albedo, normal, upright, normalize(way_to_eye()));
+    return shiny_color(albedo, normal, upright, normalize(way_to_eye()), 1.0);
 #elif defined(BUMP)
     float level = max(level_of(height_map, right, up), 0.0);
     vec3 normal = world_normal_of(bumped_normal(place, level), space);
-    return shiny_color(albedo, normal, upright, normalize(way_to_eye()));
+    return shiny_color(albedo, normal, upright, normalize(way_to_eye()), 1.0);
 #elif defined(EMBOSS)
     float facing = clamp(8.0 * dot(upright, to_sun.xyz), 0.0, 1.0);
     float level = max(level_of(height_map, right, up), 0.0);

@@ -47,9 +47,10 @@ vec3 world_normal_of(vec3 tangent_normal, mat3 space) {
 }
 
 // `upright`: the mesh's own normal; where that looks away from the sun, nothing on it is lit.
-vec3 shiny_color(vec3 albedo, vec3 normal, vec3 upright, vec3 to_eye) {
+// `visibility`: share of the sun's disc that is seen.
+vec3 shiny_color(vec3 albedo, vec3 normal, vec3 upright, vec3 to_eye, float visibility) {
 #ifdef LIT
-    float facing = clamp(8.0 * dot(upright, to_sun.xyz), 0.0, 1.0);
+    float facing = clamp(8.0 * dot(upright, to_sun.xyz), 0.0, 1.0) * visibility;
     float sun = max(dot(normal, to_sun.xyz), 0.0) * facing;
     float sky = 0.5 + 0.5 * normal.z;
     float mirrored = max(dot(normal, normalize(to_sun.xyz + to_eye)), 0.0);

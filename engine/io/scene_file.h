@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
+#include "engine/io/tile_set.h"
 
 namespace reljef::io {
 
@@ -18,8 +19,8 @@ namespace reljef::io {
 struct SceneDescription {
     std::string name;
 
-    // [terrain]: exactly one of `heights` (a DEM file) and `generator` ("natural", "urban",
-    // "gallery")
+    // [terrain]: exactly one of `heights` (a DEM file, or a folder of them) and `generator`
+    // ("natural", "urban", "gallery")
     std::filesystem::path heights; ///< relative to the scene file
     std::string generator;
     int size = 1025;        ///< generator only, samples a side, 16 to 4096
@@ -31,11 +32,16 @@ struct SceneDescription {
     double height_scale = 1.0;     ///< file only: metres = value · height_scale + height_offset
     double height_offset = 0.0;    ///< file only
     std::filesystem::path imagery; ///< file only; relative to the scene file; may be empty
+    std::string gaps = "holes";    ///< folder only: "holes" or "sea" where it has no tile
     double exaggeration = 1.0;     ///< (0, 1000]
     std::optional<std::string> placement; ///< "plane" or "ellipsoid"; absent: by the data
 
+    // [area]: south, west, north, east in degrees; a folder's part that is of use
+    std::optional<GeodeticArea> area;
+
     // [gallery]: its generator only
-    std::string gallery_textures = "mixed";   ///< a built-in set, "mixed", or a folder of pictures
+    /// A built-in set, "mixed", or a folder of pictures, relative to the scene file.
+    std::string gallery_textures = "mixed";
     std::string gallery_technique = "relief"; ///< as --technique has it
 
     // [sun]: degrees

@@ -137,6 +137,11 @@ Result<void> check_techniques(const DrawList& list) {
             return good;
         }
     }
+    for (const MeshDraw& draw : list.meshes) {
+        if (auto good = scene::check_technique(draw.mesh->material.technique, *draw.mesh); !good) {
+            return good;
+        }
+    }
     return {};
 }
 

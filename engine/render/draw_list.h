@@ -49,7 +49,8 @@ struct DrawList {
 /// orders the rest. An orthographic camera's depth range is fitted to the scene.
 DrawList select(const scene::Scene& scene, glm::ivec2 size);
 
-/// Whether each terrain can be drawn as it is asked to be; fails as scene::check_technique.
+/// Whether each terrain and mesh can be drawn as it is asked to be; fails as
+/// scene::check_technique.
 Result<void> check_techniques(const DrawList& list);
 
 } // namespace reljef::render

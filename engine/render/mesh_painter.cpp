@@ -5,6 +5,8 @@
 
 #include <glm/matrix.hpp>
 
+#include "engine/render/relief_options.h"
+
 namespace reljef::render {
 namespace {
 
@@ -26,35 +28,38 @@ bool looks_for_surface(scene::TechniqueId id) {
     return scene::geometry_of(id) == scene::Geometry::box;
 }
 
-bool is_parallax(scene::TechniqueId id) {
-    return id == scene::TechniqueId::parallax || id == scene::TechniqueId::parallax_limited ||
-           id == scene::TechniqueId::parallax_iterated;
-}
-
 // Metres that a height of 1 lifts a point; the shaders divide by it.
 float lift_of(const MeshDraw& draw) {
     const double lift = scene::relief_height(*draw.mesh->mesh, draw.mesh->material.detail);
     return std::max(static_cast<float>(lift), std::numeric_limits<float>::min());
 }
 
+// The mesh is the reference plane of parallax.
+scene::Technique on_mesh(scene::Technique technique, const scene::TextureDetail& detail) {
+    if (is_parallax(technique.id)) {
+        technique.values.front() = static_cast<double>(detail.offset);
+    }
+    return technique;
+}
+
 } // namespace
 
-ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features,
-                           std::uint32_t search) {
+ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
     if (material.detail.set == nullptr) {
         return {ShaderKind::mesh, features};
     }
-    features |= material.detail.border == terrain::TileBorder::wrap ? feature_wrap : 0U;
+    const bool wraps = scene::shown_detail(material).border == terrain::TileBorder::wrap;
+    features |= wraps ? feature_wrap : 0U;
     return looks_for_surface(material.technique.id)
-               ? ShaderVariant{ShaderKind::relief_mesh, features | search}
+               ? ShaderVariant{ShaderKind::relief_mesh,
+                               features | relief_features(material.technique)}
                : ShaderVariant{ShaderKind::textured_mesh,
                                features | look_features(material.technique.id)};
 }
 
 void set_tile(gl::Program& program, const MeshDraw& draw, const ResidentTile& tile,
-              const scene::Camera& camera, glm::vec4 values) {
-    const scene::Material& material = draw.mesh->material;
-    const scene::TextureDetail& detail = material.detail;
+              const scene::Camera& camera) {
+    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
     tile.color.bind(0);
     tile.heights.bind(1);
     if (tile.greatest) {
@@ -62,9 +67,6 @@ void set_tile(gl::Program& program, const MeshDraw& draw, const ResidentTile& ti
         program.set_uniform("top_level", tile.greatest->levels() - 1);
     }
     tile.normals.bind(4);
-    if (is_parallax(material.technique.id)) {
-        values.x = detail.offset; // the mesh is the reference plane
-    }
     const bool is_perspective = camera.projection == scene::ProjectionKind::perspective;
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
     program.set_uniform("local_from_relative", glm::mat3(local_from_world));
@@ -75,9 +77,9 @@ void set_tile(gl::Program& program, const MeshDraw& draw, const ResidentTile& ti
     program.set_uniform("bounded", detail.border == terrain::TileBorder::discard ? 1.0F : 0.0F);
     program.set_uniform("height_texel", 1.0F / glm::vec2(tile.heights.size()));
     program.set_uniform("last_cell", tile.cells - 1);
-    program.set_uniform("search_values", values);
     program.set_uniform("normal_scale", detail.set->scale);
     program.set_uniform("shine", glm::vec2(detail.set->specular, detail.set->shininess));
+    set_relief_options(program, on_mesh(draw.mesh->material.technique, detail), -detail.offset);
 }
 
 } // namespace reljef::render

@@ -10,13 +10,12 @@
 namespace reljef::render {
 
 /// The variant that draws a mesh: of one colour, with a tile of detail on it, or with each pixel
-/// looking for the tile's surface. `features` are the scene's, `search` the technique's.
-ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features,
-                           std::uint32_t search);
+/// looking for the tile's surface. `features` are the scene's.
+ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features);
 
-/// What the programs of meshes with a tile ask for, beside the transform: `values` are the
-/// technique's parameters, in the catalogue's order. Precondition: the material has a tile.
+/// What the programs of meshes with a tile ask for, beside the transform. Precondition: the
+/// material has a tile.
 void set_tile(gl::Program& program, const MeshDraw& draw, const ResidentTile& tile,
-              const scene::Camera& camera, glm::vec4 values);
+              const scene::Camera& camera);
 
 } // namespace reljef::render

@@ -208,14 +208,15 @@ Result<void> MeshResidency::prepare_displaced(const MeshDraw& draw, FrameStats& 
     }
     const scene::Material& material = draw.mesh->material;
     const double texels = material.technique.values.front();
-    const scene::Mesh fine = scene::tessellated(
-        *draw.mesh->mesh, scene::cuts_for(*draw.mesh->mesh, material.detail, texels));
-    auto made = filled(textured_vertices(fine, scene::displaced_positions(fine, material.detail)),
+    const scene::TextureDetail detail = scene::shown_detail(material);
+    const scene::Mesh fine =
+        scene::tessellated(*draw.mesh->mesh, scene::cuts_for(*draw.mesh->mesh, detail, texels));
+    auto made = filled(textured_vertices(fine, scene::displaced_positions(fine, detail)),
                        fine.indices, textured_attributes, stats);
     if (!made) {
         return made.error();
     }
-    displaced_.push_back({draw.mesh->mesh, material.detail, texels, std::move(made->resident),
+    displaced_.push_back({draw.mesh->mesh, detail, texels, std::move(made->resident),
                           std::move(made->indices), true});
     return {};
 }
@@ -225,7 +226,7 @@ MeshResidency::TileKey MeshResidency::key_of(const scene::TextureDetail& detail)
 }
 
 Result<void> MeshResidency::prepare_tile(const MeshDraw& draw, FrameStats& stats) {
-    const scene::TextureDetail& detail = draw.mesh->material.detail;
+    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
     const auto key = key_of(detail);
     auto found = tiles_.find(key);
     if (found == tiles_.end()) {
@@ -251,9 +252,10 @@ Result<void> MeshResidency::prepare_tile(const MeshDraw& draw, FrameStats& stats
 
 const MeshResidency::Displaced* MeshResidency::displaced(const MeshDraw& draw) const {
     const scene::Material& material = draw.mesh->material;
+    const scene::TextureDetail detail = scene::shown_detail(material);
     const auto found =
         std::find_if(displaced_.begin(), displaced_.end(), [&](const Displaced& entry) {
-            return entry.owner.lock() == draw.mesh->mesh && entry.detail == material.detail &&
+            return entry.owner.lock() == draw.mesh->mesh && entry.detail == detail &&
                    entry.texels == material.technique.values.front();
         });
     return found == displaced_.end() ? nullptr : &*found;
@@ -270,7 +272,7 @@ const ResidentMesh& MeshResidency::mesh(const MeshDraw& draw) const {
 }
 
 const ResidentTile& MeshResidency::tile(const MeshDraw& draw) const {
-    return tiles_.at(key_of(draw.mesh->material.detail)).resident;
+    return tiles_.at(key_of(scene::shown_detail(draw.mesh->material))).resident;
 }
 
 } // namespace reljef::render

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -64,6 +65,24 @@ Light turned(Light light, const glm::dmat4& world_from_local) {
         light.altitude = glm::degrees(std::asin(std::clamp(direction.z, -1.0, 1.0)));
     }
     return light;
+}
+
+Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
+    const std::string_view name = technique_info(technique.id).name;
+    if (mesh.material.detail.set == nullptr) {
+        return {};
+    }
+    if (!draws_meshes(technique.id)) {
+        return Error{fmt::format("technique {}: a mesh found, a terrain over a plane was expected; "
+                                 "relief draws both",
+                                 name)};
+    }
+    if (technique.options.two_sided) {
+        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a mesh "
+                                 "shows its outside only",
+                                 name)};
+    }
+    return {};
 }
 
 double extinction(const Sky& sky) {

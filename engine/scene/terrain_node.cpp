@@ -16,6 +16,12 @@ Error for_meshes_only(TechniqueId id) {
 
 } // namespace
 
+TextureDetail shown_detail(const Material& material) {
+    TextureDetail detail = material.detail;
+    detail.border = material.technique.options.border.value_or(detail.border);
+    return detail;
+}
+
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
                                terrain::Placement placement)
     : terrain_(std::move(terrain)), placement_(std::move(placement)),
@@ -76,14 +82,24 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
     if (!draws_terrain(technique.id)) {
         return for_meshes_only(technique.id);
     }
-    if (geometry_of(technique.id) != Geometry::box ||
-        surface.placement().kind() == terrain::PlacementKind::plane) {
+    const std::string_view name = technique_info(technique.id).name;
+    if (technique.options.two_sided) {
+        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a terrain "
+                                 "is not seen from beneath, detail tiles are",
+                                 name)};
+    }
+    if (technique.options.border && *technique.options.border != BorderRule::discard) {
+        return Error{fmt::format("technique {}: a border other than discard found, discard was "
+                                 "expected: a terrain ends at its border, detail tiles go on",
+                                 name)};
+    }
+    if (!needs_plane(technique.id) || surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};
     }
     return Error{
         fmt::format("technique {}: placement ellipsoid found, plane was expected; polygons "
                     "draws both",
-                    technique_info(technique.id).name)};
+                    name)};
 }
 
 } // namespace reljef::scene

@@ -24,6 +24,9 @@ struct Material {
     TextureDetail detail;  ///< meshes only; without a set the mesh is of one colour
 };
 
+/// The tile of detail as it is drawn: what the technique says of its border comes first.
+TextureDetail shown_detail(const Material& material);
+
 struct TerrainOptions {
     /// Absent: ellipsoid for georeferenced heights, else plane.
     std::optional<terrain::PlacementKind> placement;
@@ -66,8 +69,9 @@ private:
 };
 
 /// Whether the technique can draw the surface. Fails, with the reason and the name of what works,
-/// where a technique is one for meshes, and where one that looks for the surface along rays finds
-/// it bent over the Earth.
+/// where a technique is one for meshes, where one that looks for the surface along rays finds it
+/// bent over the Earth, and on options that only detail tiles have: two sides, a border that goes
+/// on.
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface);
 
 /// What makes a node a terrain.

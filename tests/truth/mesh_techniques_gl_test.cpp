@@ -1,6 +1,8 @@
 // Each technique on a mesh with a tile of detail, against the exact relief of that tile.
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -65,6 +67,9 @@ std::vector<MadeTile> hard_tiles() {
         }
     }
     tiles.push_back({"cliffs", std::move(cliffs)});
+    Grid<float> post(13, 7, 0.0F); // just behind the border, whose block reaches beyond it
+    post(1, 3) = 1.0F;
+    tiles.push_back({"post", std::move(post)});
     tiles.push_back({"one", Grid<float>(1, 1, 0.7F)});
     tiles.push_back({"row", noise_tile(9, 1, 5)});
     tiles.push_back({"lowest", Grid<float>(5, 5, 0.0F)});
@@ -385,6 +390,9 @@ TEST_F(MeshTechniquesGlTest, EveryTechniqueDrawsEveryShapeFromFarNearAndGrazing)
         panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(shape);
         panel.scene.add_light();
         for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+            if (!scene::draws_meshes(info.id)) {
+                continue;
+            }
             panel.material().technique = scene::make_technique(info.id);
             for (const glm::dvec3 eye : {glm::dvec3(2.0, -3.0, 2.5), glm::dvec3(0.0, -60.0, 0.01),
                                          glm::dvec3(0.2, -1.5, 0.001)}) {
@@ -400,6 +408,109 @@ TEST_F(MeshTechniquesGlTest, EveryTechniqueDrawsEveryShapeFromFarNearAndGrazing)
                 EXPECT_TRUE(shown > 0 || eye.z < 0.1) << info.name;
             }
         }
+    }
+}
+
+TEST_F(MeshTechniquesGlTest, WhatNoMeshCanShowIsRefusedWithTheReason) {
+    Panel panel(wave_tile(8));
+    render::Driver driver = test::must(
+        render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true}));
+    for (const auto& [technique, reason] :
+         {std::pair{"prewarp", "relief draws both"},
+          std::pair{"relief:sides=two", "a mesh shows its outside only"}}) {
+        panel.material().technique = scene::parse_technique(technique).value();
+        const auto drawn = driver.draw(panel.scene);
+        ASSERT_FALSE(drawn) << technique;
+        EXPECT_NE(drawn.error().message.find(reason), std::string::npos) << drawn.error().message;
+    }
+}
+
+TEST_F(MeshTechniquesGlTest, TheTechniquesBorderComesBeforeTheMaterials) {
+    Panel panel(noise_tile(16, 16, 13));
+    for (const auto& [word, border] :
+         {std::pair{"wrap", TileBorder::wrap}, std::pair{"clamp", TileBorder::clamp},
+          std::pair{"discard", TileBorder::discard}}) {
+        const HitBuffer hits = panel.hits(std::string("exact:border=") + word);
+        panel.detail().border = border;
+        EXPECT_LE(tile_errors(panel, hits).wrong_percent(), 0.01) << word;
+        panel.detail().border = TileBorder::wrap;
+    }
+}
+
+// Whether the sun reaches what the pixel of a picture without any other light shows; nothing where
+// the surface nearly lies along its rays.
+std::optional<bool> truly_lit(const Panel& panel, const ReliefPlane& relief, glm::dvec3 to_light,
+                              glm::ivec2 pixel) {
+    const Ray ray = scene::view_ray(panel.scene.camera(), mesh_picture, glm::dvec2(pixel) + 0.5);
+    const auto hit = relief.first_hit(ray);
+    if (!hit) {
+        return std::nullopt;
+    }
+    const scene::TextureDetail& detail = panel.detail();
+    const auto height = [&](glm::dvec2 off) {
+        return scene::tile_height(*detail.set, hit->texture_coordinate + off, detail.border);
+    };
+    const double step = 0.5 / panel.texels.x;
+    const glm::dvec2 slope =
+        static_cast<double>(detail.scale) / (2.0 * step) *
+        glm::dvec2(height({step, 0.0}) - height({-step, 0.0}),
+                   height({0.0, -step}) - height({0.0, step})); // v grows against y
+    const double facing = glm::dot(glm::normalize(glm::dvec3(-slope, 1.0)), to_light);
+    if (facing < 0.1) {
+        return facing < -0.1 ? std::optional(false) : std::nullopt;
+    }
+    const glm::dvec3 place = ray.at(hit->t) + glm::dvec3(0.0, 0.0, 1e-4);
+    return !relief.first_hit({place, to_light}).has_value();
+}
+
+TEST_F(MeshTechniquesGlTest, AHardShadowIsThatOfTheTruthsRay) {
+    Panel panel(wave_tile(32), 1.0F);
+    panel.detail().scale = 0.25F;
+    panel.look({0.2, -2.0, 6.5}, {0.1, 0.0, 0.0});
+    const scene::Light light{
+        .azimuth = 250.0, .altitude = 25.0, .color = glm::vec3(1.0F), .ambient = glm::vec3(0.0F)};
+    panel.scene.add_light(light);
+    const Image picture = panel.picture("exact:shadow=hard");
+    const auto relief = ReliefPlane::create(panel.detail().set->heights.view(),
+                                            {plane_side, 0.25, -1.0, Border::wrap})
+                            .value();
+    int compared = 0;
+    int wrong = 0;
+    int dark = 0;
+    for (int y = 40; y < mesh_picture.y - 40; ++y) {
+        for (int x = 50; x < mesh_picture.x - 50; ++x) {
+            const auto lit = truly_lit(panel, relief, scene::to_light(light), {x, y});
+            const Rgba8 shown = picture(x, y);
+            compared += lit ? 1 : 0;
+            wrong += lit && *lit != (shown.r + shown.g + shown.b > 3) ? 1 : 0;
+            dark += lit && !*lit ? 1 : 0;
+        }
+    }
+    EXPECT_GT(compared, 8000);
+    EXPECT_GT(dark, 800);
+    EXPECT_LE(wrong, compared / 200);
+}
+
+TEST_F(MeshTechniquesGlTest, OptionsDoOnMeshesWhatTheySay) {
+    Panel panel(wave_tile(32));
+    const TileErrors plain = tile_errors(panel, panel.hits("relief:n=8,k=8"));
+    const TileErrors stepped = tile_errors(panel, panel.hits("relief:n=8,k=8,steps=64..64"));
+    EXPECT_LT(stepped.wrong_percent(), plain.wrong_percent());
+    // A fade to nothing is the flat surface.
+    const HitBuffer faded = panel.hits("exact:fade=0..0");
+    const HitBuffer flat = panel.hits("texture");
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        const Hit& one = faded.samples()[i];
+        const Hit& other = flat.samples()[i];
+        if (!one.is_sky() && !other.is_sky()) {
+            ASSERT_LT(
+                apart({one.col, one.row}, {other.col, other.row}, panel.texels, TileBorder::wrap),
+                0.05);
+        }
+    }
+    for (const char* options : {"edges=smooth,0.05", "shadow=soft,0.2", "depth=write"}) {
+        panel.scene.add_light();
+        panel.picture(std::string("relief:") + options);
     }
 }
 
