@@ -11,6 +11,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/render/error_view.h"
 
 namespace reljef::app {
 namespace {
@@ -166,6 +167,11 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         [](const std::string& text) { return scene::parse_technique(text); },
         "how the surface is drawn; 'reljef techniques' lists them (polygons)",
         "ID[:key=value,...]");
+    add_parsed(command, "--max-error", choice.max_error,
+               number_in("--max-error", render::least_error, render::most_error),
+               "polygons: no pixel farther from where it belongs, with as few triangles as that "
+               "takes (every sample a vertex)",
+               "PX");
     command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
@@ -281,9 +287,19 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
 }
 
+scene::Technique technique_of(const ViewChoice& choice) {
+    return choice.max_error ? scene::with_parameter(choice.technique, "error", *choice.max_error)
+                            : choice.technique;
+}
+
 void check_view_options(const ViewChoice& choice) {
     if (choice.eye && choice.look && *choice.eye == *choice.look) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
+    }
+    if (choice.max_error && choice.technique.id != scene::TechniqueId::polygons) {
+        throw CLI::ValidationError(
+            fmt::format("--max-error: technique {} found, polygons was expected",
+                        scene::technique_info(choice.technique.id).name));
     }
     if (choice.pose == scene::Pose::map && !choice.path.empty()) {
         throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "

@@ -102,7 +102,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
         !good) {
         return good.error();
     }
-    material.technique = view.technique;
+    material.technique = technique_of(view);
     material.wireframe = view.wireframe;
 
     scene::Light sun;

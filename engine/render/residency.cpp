@@ -14,15 +14,6 @@
 namespace reljef::render {
 namespace {
 
-template <class T> std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-    return std::as_bytes(std::span(values));
-}
-
-void count_upload(FrameStats& stats, std::size_t bytes) {
-    ++stats.uploads;
-    stats.upload_bytes += bytes;
-}
-
 // Sample coordinates of the heightfield onto texels whose outermost centres are the outermost
 // samples.
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
@@ -111,6 +102,9 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
     if (auto done = prepare_tiles(list, stats); !done) {
         return done;
     }
+    if (auto done = coarse_tiles_.prepare(list, stats); !done) {
+        return done;
+    }
     if (with_maps) {
         if (auto done = prepare_all_maps(list, stats); !done) {
             return done;
@@ -131,6 +125,7 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
 
 void Residency::forget_unused() {
     std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
+    coarse_tiles_.forget_unused();
     std::erase_if(meshes_, [](const auto& entry) { return entry.second.owner.expired(); });
 }
 
@@ -148,6 +143,9 @@ Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
 Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
     std::vector<const TileDraw*> missing;
     for (const TileDraw& draw : list.tiles) {
+        if (draw.coarse) {
+            continue;
+        }
         Surface& surface = surface_of(*draw.terrain);
         const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
         if (slots[static_cast<std::size_t>(draw.tile)]) {
@@ -191,22 +189,11 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
         return vertices.error();
     }
     count_upload(stats, vertices->size());
-    const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const auto index = static_cast<std::size_t>(draw.tile);
-    const terrain::Tile& tile = draw.flat ? surface.flat_tiles()[index] : surface.tiles()[index];
-    ResidentMesh mesh{
-        std::move(*vertices), gl::VertexArray::create(),
-        grid.origin,          6 * grid.cols * grid.rows,
-        grid.cols + 1,        glm::vec2(tile.cols, tile.rows) / glm::vec2(grid.cols, grid.rows)};
-    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
-                                gl::VertexAttribute{.location = 1,
-                                                    .components = 1,
-                                                    .offset = offsetof(GridVertex, height)}};
-    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
+    ResidentMesh mesh = resident_grid(std::move(*vertices), grid.origin, 6 * grid.cols * grid.rows);
     mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(*draw.terrain);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
-    slots[index] = std::move(mesh);
+    slots[static_cast<std::size_t>(draw.tile)] = std::move(mesh);
     return {};
 }
 
@@ -334,12 +321,15 @@ Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, FrameStats&
     return &grid_indices_.emplace(std::pair{cols, rows}, std::move(*buffer)).first->second;
 }
 
-const ResidentMesh& Residency::tile(const TileDraw& draw) const {
+std::span<const ResidentMesh> Residency::tile(const TileDraw& draw) const {
+    if (draw.coarse) {
+        return coarse_tiles_.tile(draw);
+    }
     const Surface& surface = surfaces_.at(draw.terrain->surface.get());
     const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
     const auto& slot = slots[static_cast<std::size_t>(draw.tile)];
     check(slot.has_value(), "a tile that was not prepared");
-    return *slot;
+    return {&*slot, 1};
 }
 
 const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {

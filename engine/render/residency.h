@@ -3,28 +3,20 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
-#include "engine/gl/vertex_array.h"
+#include "engine/render/coarse_tiles.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
 #include "engine/render/relief_maps.h"
+#include "engine/render/resident_mesh.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
-
-/// Triangles that are in the driver's memory.
-struct ResidentMesh {
-    gl::Buffer vertices;
-    gl::VertexArray vertex_array;
-    glm::dvec3 origin{0.0}; ///< local metres
-    int index_count = 0;
-    int vertices_per_row = 0;
-    glm::vec2 samples_per_vertex{1.0F};
-};
 
 /// A terrain's lit_map, and how sample coordinates become texture coordinates: sample · xy + zw.
 struct ResidentMaps {
@@ -49,7 +41,7 @@ public:
     Result<void> prepare(const DrawList& list, bool with_maps, FrameStats& stats);
 
     /// Precondition: prepared.
-    [[nodiscard]] const ResidentMesh& tile(const TileDraw& draw) const;
+    [[nodiscard]] std::span<const ResidentMesh> tile(const TileDraw& draw) const;
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
@@ -87,6 +79,7 @@ private:
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
+    CoarseTiles coarse_tiles_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
     std::map<const scene::Mesh*, Mesh> meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column

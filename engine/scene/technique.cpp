@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,8 +12,12 @@
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<ParameterInfo, 1> polygons_parameters{
-    {{"lods", 1.0, 1.0, 1.0, true, "levels of detail at most; 1: every sample is a vertex"}}};
+constexpr std::array<ParameterInfo, 2> polygons_parameters{
+    {{"lods", 1.0, 1.0, 5.0, true,
+      "levels of detail at most, by distance; 1: every sample is a vertex"},
+     {"error", 0.0, 0.0, 16.0, false,
+      "pixels that no pixel is farther from where it belongs, instead of levels; 0: by levels",
+      true}}};
 
 constexpr ParameterInfo offset_parameter{
     "offset", -0.5,  -1.0,
@@ -38,8 +43,9 @@ constexpr std::array<TechniqueInfo, 10> catalogue{
       "diffuse colour over the flat reference surface, lit by the height gradient",
       "GPU surface-detail survey (2008) ch. 1; Janković 2010 ch. 2",
       {}},
-     {TechniqueId::polygons, "polygons", "the heightfield as triangles",
-      "Janković 2010 ch. 2.7 test 4", polygons_parameters},
+     {TechniqueId::polygons, "polygons",
+      "the heightfield as triangles: all, fewer by distance, or as few as an error allows",
+      "Janković 2010 ch. 2.7 test 4; Lindstrom and Pascucci 2001", polygons_parameters},
      {TechniqueId::parallax, "parallax",
       "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
       "Janković 2010 ch. 2.3; Kaneko et al. 2001", parallax_parameters},
@@ -114,6 +120,14 @@ Result<void> set_parameter(Technique& technique, std::string_view assignment) {
     return {};
 }
 
+std::size_t index_of(const TechniqueInfo& info, std::string_view name) {
+    const auto found =
+        std::find_if(info.parameters.begin(), info.parameters.end(),
+                     [&](const ParameterInfo& parameter) { return parameter.name == name; });
+    check(found != info.parameters.end(), "a technique without that parameter");
+    return static_cast<std::size_t>(found - info.parameters.begin());
+}
+
 } // namespace
 
 std::span<const TechniqueInfo> technique_catalogue() {
@@ -137,6 +151,19 @@ Geometry geometry_of(TechniqueId id) {
     default:
         return Geometry::box;
     }
+}
+
+double parameter(const Technique& technique, std::string_view name) {
+    return technique.values[index_of(technique_info(technique.id), name)];
+}
+
+Technique with_parameter(Technique technique, std::string_view name, double value) {
+    const TechniqueInfo& info = technique_info(technique.id);
+    const std::size_t index = index_of(info, name);
+    check(value >= info.parameters[index].low && value <= info.parameters[index].high,
+          "a parameter out of its range");
+    technique.values[index] = value;
+    return technique;
 }
 
 Technique make_technique(TechniqueId id) {
@@ -173,9 +200,13 @@ Result<Technique> parse_technique(std::string_view text) {
 std::string to_string(const Technique& technique) {
     const TechniqueInfo& info = technique_info(technique.id);
     std::string text(info.name);
+    char separator = ':';
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-        text += fmt::format("{}{}={}", i == 0 ? ':' : ',', info.parameters[i].name,
-                            technique.values[i]);
+        const ParameterInfo& known = info.parameters[i];
+        if (!known.is_option || technique.values[i] != known.default_value) {
+            text += fmt::format("{}{}={}", std::exchange(separator, ','), known.name,
+                                technique.values[i]);
+        }
     }
     return text;
 }

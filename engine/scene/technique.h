@@ -12,7 +12,7 @@ namespace reljef::scene {
 /// How a terrain's surface is drawn.
 enum class TechniqueId {
     texture,           ///< colour over the flat reference surface
-    polygons,          ///< the heightfield as triangles
+    polygons,          ///< the heightfield as triangles, all or as many as it takes
     parallax,          ///< one look at the height shifts the place
     parallax_limited,  ///< the same, by no more than the height
     parallax_iterated, ///< looked at again from where it was shifted to
@@ -26,7 +26,7 @@ enum class TechniqueId {
 /// What is drawn so that a technique's pixels are reached.
 enum class Geometry {
     flat, ///< the flat reference surface
-    full, ///< every sample a vertex
+    full, ///< triangles over its samples
     box,  ///< the box that holds the surface; each pixel looks for it along its ray
 };
 Geometry geometry_of(TechniqueId id);
@@ -39,6 +39,7 @@ struct ParameterInfo {
     double high = 0.0;  ///< greatest value allowed
     bool whole = false; ///< whole numbers only
     std::string_view meaning;
+    bool is_option = false; ///< named in a technique's text only where it is not the default
 };
 
 struct TechniqueInfo {
@@ -59,13 +60,19 @@ struct Technique {
     std::vector<double> values;
 };
 
+/// The value of one of its parameters. Precondition: it has one of that name.
+double parameter(const Technique& technique, std::string_view name);
+/// The same technique with another value. Preconditions: likewise, and the value is allowed.
+Technique with_parameter(Technique technique, std::string_view name, double value);
+
 /// The technique with its default parameters.
 Technique make_technique(TechniqueId id);
 
 /// From "ID" or "ID:key=value,key=value". Errors name what was found and what was expected.
 Result<Technique> parse_technique(std::string_view text);
 
-/// "ID:key=value,…" with every parameter: parse_technique gives the same technique back.
+/// "ID:key=value,…" with every parameter but options that are as by default: parse_technique gives
+/// the same technique back.
 std::string to_string(const Technique& technique);
 
 } // namespace reljef::scene
