@@ -15,7 +15,7 @@ constexpr int patch_samples = patch_cells + 1;
 
 int level_at(double distance, double patch_size, int levels) {
     int level = 0;
-    for (int i = 1; i < levels; ++i) {
+    for (int i = 1; i < std::min(levels, most_patch_levels); ++i) {
         level = distance >= patch_size * (i + 1 + i / 2) ? i : level;
     }
     return level;
@@ -84,7 +84,7 @@ bool has_area(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
 
 Grid<std::uint8_t> patch_levels(const Heightfield& heightfield, const Placement& placement,
                                 glm::dvec3 eye, int levels) {
-    check(levels >= 1 && levels <= most_patch_levels, "that many levels of patches");
+    check(levels >= 1, "patches without a level");
     const Grid<float>& heights = heightfield.heights;
     const glm::ivec2 cells(heights.cols() - 1, heights.rows() - 1);
     const glm::ivec2 patches = (cells + patch_cells - 1) / patch_cells;

@@ -15,13 +15,13 @@ namespace reljef::terrain {
 
 /// Cells along a patch's side: 17² samples.
 inline constexpr int patch_cells = 16;
-/// With the fifth level a patch is two triangles.
-inline constexpr int most_patch_levels = 5;
+/// Levels beyond are not used, as Irrlicht uses none for patches of 17 samples.
+inline constexpr int most_patch_levels = 4;
 
 /// The level of detail of each patch of a heightfield, patch row after patch row: 0 finest, below
 /// `levels`, by the distance of its middle from `eye` (scene metres) alone, as the terrain node of
 /// Irrlicht 1.8 chooses: level i from 17 √(dx dy) (i + 1 + ⌊i/2⌋) metres on.
-/// Precondition: 1 <= levels <= most_patch_levels.
+/// Precondition: levels >= 1.
 Grid<std::uint8_t> patch_levels(const Heightfield& heightfield, const Placement& placement,
                                 glm::dvec3 eye, int levels);
 

@@ -1,6 +1,7 @@
 // The promise of polygons:error=PX, held against the definition of the error itself.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,12 +13,15 @@
 #include "engine/truth/geometric_error.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::truth {
 namespace {
 
 constexpr glm::ivec2 picture{160, 120};
+constexpr const char* alps = "natural/srtm3/N45E006.hgt";
 
 class PolygonsErrorGlTest : public test::GlTest {};
 
@@ -120,6 +124,23 @@ TEST_F(PolygonsErrorGlTest, NorOverTheCurvedEarth) {
 TEST_F(PolygonsErrorGlTest, NorExaggerated) {
     expect_kept(promise_over(test::plane_heightfield(test::hills(131, 90, 6.0), {10, 10}), 20, 4,
                              {.placement = {}, .exaggeration = 20.0}));
+}
+
+// A window of an SRTM tile: 1201 rows of 1201 heights, 16 bits, the high byte first.
+Grid<float> real_heights(glm::ivec2 first, int side) {
+    constexpr int tile_side = 1201;
+    const std::string bytes = test::read_bytes(test::data_path(alps));
+    return test::made_heights(side, side, [&](int col, int row) {
+        const auto at = 2U * static_cast<std::size_t>((first.y + row) * tile_side + first.x + col);
+        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+        return static_cast<std::int16_t>(byte(at) << 8U | byte(at + 1));
+    });
+}
+
+TEST_F(PolygonsErrorGlTest, NorOnARealTerrain) {
+    RELJEF_NEED_DATA(alps);
+    expect_kept(
+        promise_over(test::plane_heightfield(real_heights({700, 100}, 400), {65.0, 92.6}), 40, 5));
 }
 
 TEST_F(PolygonsErrorGlTest, ALevelSurfaceTakesTheFewestTriangles) {
