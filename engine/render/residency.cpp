@@ -140,7 +140,7 @@ Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
     return entry->second;
 }
 
-Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+std::vector<const TileDraw*> Residency::missing_tiles(const DrawList& list, FrameStats& stats) {
     std::vector<const TileDraw*> missing;
     for (const TileDraw& draw : list.tiles) {
         if (draw.coarse) {
@@ -154,6 +154,11 @@ Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
             missing.push_back(&draw);
         }
     }
+    return missing;
+}
+
+Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+    const std::vector<const TileDraw*> missing = missing_tiles(list, stats);
     // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the
     // driver's.
     constexpr std::size_t batch = 32;

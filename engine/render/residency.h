@@ -66,6 +66,7 @@ private:
 
     void forget_unused();
     Surface& surface_of(const scene::TerrainNode& terrain);
+    std::vector<const TileDraw*> missing_tiles(const DrawList& list, FrameStats& stats);
     Result<void> prepare_tiles(const DrawList& list, FrameStats& stats);
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
     Result<void> prepare_all_maps(const DrawList& list, FrameStats& stats);

@@ -16,7 +16,8 @@ constexpr int patch_samples = patch_cells + 1;
 int level_at(double distance, double patch_size, int levels) {
     int level = 0;
     for (int i = 1; i < std::min(levels, most_patch_levels); ++i) {
-        level = distance >= patch_size * (i + 1 + i / 2) ? i : level;
+        const int patches = i + 1 + i / 2;
+        level = distance >= patch_size * patches ? i : level;
     }
     return level;
 }
