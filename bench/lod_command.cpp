@@ -41,8 +41,8 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
     add_suite_options(*arguments, choice->suite);
     add_output_options(*arguments, choice->outputs);
     arguments->footer(
-        "Each terrain is seen from the poses overview, oblique, low and grazing. Each frame is cut "
-        "anew,\nas with a camera that moves; a still one takes less.\n"
+        "Each terrain is seen from the poses overview, oblique, low and grazing, with a still "
+        "camera.\n"
         "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
         "Examples:\n"
         "  reljef-bench lod --quick\n"

@@ -15,7 +15,7 @@ struct LodOptions {
 };
 
 /// Polygons by levels and by error on each terrain from each of the poses overview, oblique, low
-/// and grazing. As settings take turns, each frame is cut anew, as with a camera that moves. See
+/// and grazing, with a still camera: tiles are cut and uploaded before they are timed. See
 /// run_suite().
 Results run_lod(const LodOptions& options, const std::stop_token& stop);
 

@@ -71,7 +71,8 @@ Result<std::vector<ResidentMesh>> uploaded(const NewCut& cut, glm::dvec3 origin,
 } // namespace
 
 std::span<const ResidentMesh> CoarseTiles::tile(const TileDraw& draw) const {
-    return cuts_.at(draw.terrain).tiles[static_cast<std::size_t>(draw.tile)].meshes;
+    const Cut& cut = cuts_.at({draw.terrain, draw.terrain->material.technique.values});
+    return cut.tiles[static_cast<std::size_t>(draw.tile)].meshes;
 }
 
 Result<void> CoarseTiles::prepare(const DrawList& list, FrameStats& stats) {
@@ -84,7 +85,11 @@ Result<void> CoarseTiles::prepare(const DrawList& list, FrameStats& stats) {
 }
 
 void CoarseTiles::forget_unused() {
-    std::erase_if(cuts_, [](const auto& entry) { return entry.second.owner.expired(); });
+    constexpr int kept_frames = 32;
+    ++frame_;
+    std::erase_if(cuts_, [&](const auto& entry) {
+        return entry.second.owner.expired() || frame_ - entry.second.frame > kept_frames;
+    });
     std::erase_if(bisections_, [](const auto& entry) { return entry.second.owner.expired(); });
 }
 
@@ -121,9 +126,10 @@ Result<void> CoarseTiles::prepare(const DrawList& list, const CoarseTerrain& ter
 
 CoarseTiles::Cut& CoarseTiles::cut_of(const CoarseTerrain& terrain) {
     const auto& surface = terrain.terrain->surface;
-    Cut& cut = cuts_[terrain.terrain];
+    Cut& cut = cuts_[{terrain.terrain, terrain.terrain->material.technique.values}];
+    cut.frame = frame_;
     if (cut.owner.lock() != surface) {
-        cut = {surface, terrain.coarseness, 0, {}};
+        cut = {surface, terrain.coarseness, 0, frame_, {}};
         cut.tiles.resize(surface->tiles().size());
     } else if (cut.coarseness != terrain.coarseness) {
         cut.coarseness = terrain.coarseness;

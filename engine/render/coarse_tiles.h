@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -22,7 +23,7 @@ public:
     /// Cuts and uploads the list's coarse tiles; fails when the driver has no memory left.
     Result<void> prepare(const DrawList& list, FrameStats& stats);
 
-    /// Lets go of what no scene holds any more.
+    /// Begins a frame: lets go of what no scene holds any more, and of what was not drawn for long.
     void forget_unused();
 
 private:
@@ -36,6 +37,7 @@ private:
         std::weak_ptr<const scene::TerrainSurface> owner;
         Coarseness coarseness;
         int choice = 0; // counts how often it changed
+        int frame = 0;  // that it was drawn in last
         std::vector<CutTile> tiles;
     };
     struct SharedBisection {
@@ -50,7 +52,11 @@ private:
                                                    const scene::TerrainNode& terrain,
                                                    const Cut& cut, FrameStats& stats);
 
-    std::map<const scene::TerrainNode*, Cut> cuts_;
+    // A node and the parameters of its technique: one that is taken up again is cut already.
+    using CutKey = std::pair<const scene::TerrainNode*, std::vector<double>>;
+
+    int frame_ = 0;
+    std::map<CutKey, Cut> cuts_;
     std::map<const scene::TerrainSurface*, SharedBisection> bisections_;
 };
 

@@ -65,6 +65,18 @@ TEST_F(DriverGlTest, MoreLevelsTakeFewerTriangles) {
     }
 }
 
+TEST_F(DriverGlTest, ATechniqueThatIsTakenUpAgainIsCutAlready) {
+    World world;
+    Driver made = driver();
+    for (const int cut : {9, 0}) {
+        for (const char* technique : {"polygons:error=1", "polygons:lods=3", "texture"}) {
+            set_technique(*world.terrain, technique);
+            const int tiles = test::must(made.draw(world.scene)).tiles_cut;
+            EXPECT_LE(tiles, cut) << technique;
+        }
+    }
+}
+
 TEST_F(DriverGlTest, TwoTerrainsOfOneSurfaceAreCutEachForItself) {
     World world;
     Node& other = world.scene.root().add(
