@@ -18,9 +18,11 @@
 
 namespace reljef::render {
 
-/// A terrain's lit_map, and how sample coordinates become texture coordinates: sample · xy + zw.
+/// A terrain's lit_map, or, where rays cast the shadows, its light_parts; and how sample
+/// coordinates become texture coordinates: sample · xy + zw.
 struct ResidentMaps {
     gl::Texture2D lit;
+    std::optional<gl::Texture2D> sun; ///< the sun's part; lit is then the sky's
     glm::vec4 lit_from_sample{0.0F};
 };
 
@@ -45,10 +47,13 @@ public:
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+    /// What prewarp shows at each sample: warped_places.
+    [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
 private:
     struct LitMaps {
         std::optional<scene::TerrainLight> light;
+        bool in_parts = false;
         std::shared_ptr<const ResidentMaps> maps;
     };
     struct Surface {
@@ -76,12 +81,14 @@ private:
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              FrameStats& stats);
     Result<void> prepare_relief(const ReliefDraw& draw, FrameStats& stats);
+    Result<void> prepare_warped(const DrawList& list, FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     CoarseTiles coarse_tiles_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
+    std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     std::map<const scene::Mesh*, Mesh> meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };

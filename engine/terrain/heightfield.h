@@ -44,6 +44,8 @@ struct Terrain {
     Image color; ///< covers the heightfield edge sample to edge sample; may be empty
     std::vector<std::string>
         notes; ///< what the reader should be told: undeclared voids, a reduced read
+    std::vector<std::string>
+        faults; ///< files that were to be read and failed, a sentence each; the rest is there
 };
 
 /// Lowest and highest of the samples that are no voids; {0,0} when there is none.
