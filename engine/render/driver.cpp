@@ -88,6 +88,8 @@ std::uint32_t search_features(scene::TechniqueId id) {
         return feature_secant;
     case scene::TechniqueId::pom:
         return feature_secant | feature_view_steps;
+    case scene::TechniqueId::cone:
+        return feature_cone;
     case scene::TechniqueId::exact:
         return feature_exact;
     default:
@@ -254,6 +256,9 @@ private:
         if (relief.greatest) {
             relief.greatest->bind(2);
             program_->set_uniform("top_level", relief.greatest->levels() - 1);
+        }
+        if (relief.cones) {
+            relief.cones->bind(3);
         }
         const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
         const glm::dvec3 eye(local_from_world * glm::dvec4(list_.camera.eye, 1.0));

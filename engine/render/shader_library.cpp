@@ -15,17 +15,17 @@ constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terr
                            std::pair{ShaderKind::relief, std::string_view("relief")},
                            std::pair{ShaderKind::mesh, std::string_view("mesh")},
                            std::pair{ShaderKind::sky, std::string_view("sky")}};
-constexpr std::array features_by_name{
-    std::pair{feature_lit, std::string_view("LIT")},
-    std::pair{feature_fog, std::string_view("FOG")},
-    std::pair{feature_hit, std::string_view("HIT")},
-    std::pair{feature_exact, std::string_view("EXACT")},
-    std::pair{feature_parallax, std::string_view("PARALLAX")},
-    std::pair{feature_bisect, std::string_view("BISECT")},
-    std::pair{feature_secant, std::string_view("SECANT")},
-    std::pair{feature_limited, std::string_view("LIMITED")},
-    std::pair{feature_iterated, std::string_view("ITERATED")},
-    std::pair{feature_view_steps, std::string_view("VIEW_STEPS")}};
+constexpr std::array features_by_name{std::pair{feature_lit, std::string_view("LIT")},
+                                      std::pair{feature_fog, std::string_view("FOG")},
+                                      std::pair{feature_hit, std::string_view("HIT")},
+                                      std::pair{feature_exact, std::string_view("EXACT")},
+                                      std::pair{feature_parallax, std::string_view("PARALLAX")},
+                                      std::pair{feature_bisect, std::string_view("BISECT")},
+                                      std::pair{feature_secant, std::string_view("SECANT")},
+                                      std::pair{feature_limited, std::string_view("LIMITED")},
+                                      std::pair{feature_iterated, std::string_view("ITERATED")},
+                                      std::pair{feature_view_steps, std::string_view("VIEW_STEPS")},
+                                      std::pair{feature_cone, std::string_view("CONE")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -139,6 +139,9 @@ namespace {
 std::uint32_t search_of(std::uint32_t features) {
     if ((features & feature_exact) != 0) {
         return feature_exact;
+    }
+    if ((features & feature_cone) != 0) {
+        return feature_cone;
     }
     if ((features & feature_parallax) != 0) {
         return features & (feature_parallax | feature_limited | feature_iterated);

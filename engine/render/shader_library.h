@@ -28,7 +28,7 @@ enum ShaderFeature : std::uint32_t {
     feature_lit = 1U << 0U, ///< there is a sun
     feature_fog = 1U << 1U, ///< there is air
     feature_hit = 1U << 2U, ///< writes the hit instead of the colour
-    // How a relief looks for its surface; steps alone where none of the first five is there.
+    // How a relief looks for its surface; steps alone where none of these is there.
     feature_exact = 1U << 3U,      ///< the true first hit
     feature_parallax = 1U << 4U,   ///< shifted by the height
     feature_bisect = 1U << 5U,     ///< steps, then halving
@@ -36,6 +36,7 @@ enum ShaderFeature : std::uint32_t {
     feature_limited = 1U << 7U,    ///< parallax: by no more than the height
     feature_iterated = 1U << 8U,   ///< parallax: looked at again
     feature_view_steps = 1U << 9U, ///< secant: as many steps as the angle of view asks for
+    feature_cone = 1U << 10U,      ///< from cone to cone
 };
 
 struct ShaderVariant {

@@ -20,7 +20,7 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     const auto variants = all_variants();
     for (const ShaderKind kind :
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::sky}) {
-        for (std::uint32_t features = 0; features < 1024; ++features) {
+        for (std::uint32_t features = 0; features < 2048; ++features) {
             const ShaderVariant variant = without_meaningless({kind, features});
             EXPECT_EQ(variant.kind, kind);
             EXPECT_NE(std::find(variants.begin(), variants.end(), variant), variants.end());
@@ -35,16 +35,16 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         EXPECT_FALSE(hit && (variant.features & looks) != 0);
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
     }
-    // terrain: fog or not, or a hit; relief: each of nine searches so; mesh: lit or not too; sky:
+    // terrain: fog or not, or a hit; relief: each of ten searches so; mesh: lit or not too; sky:
     // lit or not.
-    EXPECT_EQ(all_variants().size(), 3U + 9U * 3U + 5U + 2U);
+    EXPECT_EQ(all_variants().size(), 3U + 10U * 3U + 5U + 2U);
 }
 
 TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
     for (const ShaderVariant& variant : all_variants()) {
         int ways = 0;
         for (const std::uint32_t way :
-             {feature_exact, feature_parallax, feature_bisect, feature_secant}) {
+             {feature_exact, feature_cone, feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
         EXPECT_LE(ways, variant.kind == ShaderKind::relief ? 1 : 0);
