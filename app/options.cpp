@@ -90,6 +90,21 @@ Result<glm::dvec2> parse_sun(const std::string& text) {
     return glm::dvec2(azimuth, altitude);
 }
 
+Result<io::GeodeticArea> parse_area(const std::string& text) {
+    const auto numbers = parse_numbers<4>("--area", text, "SOUTH,WEST,NORTH,EAST in degrees");
+    if (!numbers) {
+        return numbers.error();
+    }
+    const auto [south, west, north, east] = *numbers;
+    if (!(south >= -90.0 && south < north && north <= 90.0 && west < east && east - west <= 360.0 &&
+          std::abs(west) <= 360.0)) {
+        return Error{fmt::format("--area: '{}' found, SOUTH below NORTH in -90 to 90 and WEST "
+                                 "below EAST, at most 360 apart, were expected",
+                                 text)};
+    }
+    return io::GeodeticArea{south, west, north, east};
+}
+
 Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
     const auto kind = platform::context_kind_from_string(text);
     if (!kind && text != "auto") {
@@ -195,8 +210,10 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         "overview, oblique, low, grazing or map (overview)", "NAME");
     pose->excludes(eye)->excludes(camera);
     command
-        .add_option("--path", choice.path,
-                    "fly: orbit, flyover, or a path file (TOML, [[key]] time, eye, look)")
+        .add_option(
+            "--path", choice.path,
+            "fly: orbit, flyover, a path file (TOML: [[key]] time, eye, look; or time, latitude, "
+            "longitude, height) or the line of a GPX, KML or GeoJSON file")
         ->type_name("NAME|FILE")
         ->excludes(eye)
         ->excludes(camera);
@@ -256,13 +273,16 @@ template Result<std::array<double, 2>> parse_numbers<2>(std::string_view, std::s
                                                         std::string_view);
 template Result<std::array<double, 3>> parse_numbers<3>(std::string_view, std::string_view,
                                                         std::string_view);
+template Result<std::array<double, 4>> parse_numbers<4>(std::string_view, std::string_view,
+                                                        std::string_view);
 template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::string_view,
                                                         std::string_view);
 
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command
         .add_option("TERRAIN", choice.terrain,
-                    "natural, urban, a scene file (.toml) or a DEM file of any format GDAL reads")
+                    "natural, urban, a scene file (.toml), a DEM file of any format GDAL reads, a "
+                    "folder of them, or the https:// address of one")
         ->required();
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");
@@ -274,6 +294,17 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                                                {{"plane", terrain::PlacementKind::plane},
                                                 {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
                "plane, or ellipsoid: on the curved Earth (georeferenced terrains)", "KIND");
+    add_parsed(command, "--area", choice.area, parse_area,
+               "only this part of a folder of tiles, degrees", "SOUTH,WEST,NORTH,EAST");
+    add_parsed(command, "--gaps", choice.gaps,
+               word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
+               "what lies between the tiles of a folder: holes, or sea at 0 m (holes)", "KIND");
+    command
+        .add_option(
+            "--geoid", choice.geoid,
+            "how far sea level lies above the ellipsoid: a file (.gtx, .tif, .pgm), or none "
+            "(the installed EGM96, for heights above EGM96)")
+        ->type_name("FILE");
     add_parsed(command, "--memory", choice.memory_megabytes,
                whole_number_in("--memory", 1, 1'000'000),
                "for the terrain, megabytes; larger files are read coarser (512)", "MB");

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
+#include "engine/io/tile_set.h"
 #include "engine/platform/context.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/poses.h"
@@ -25,10 +26,13 @@ namespace reljef::app {
 
 /// Which terrain, and how it is read.
 struct TerrainChoice {
-    std::string terrain; ///< a built-in name, a scene file (.toml) or a DEM file
+    std::string terrain; ///< a built-in name, a scene file (.toml), a DEM file or a folder of them
     std::filesystem::path imagery;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
     std::optional<terrain::PlacementKind> placement;
+    std::optional<io::GeodeticArea> area; ///< absent: the scene file's, else all
+    std::optional<io::Gaps> gaps;         ///< absent: the scene file's, else holes
+    std::string geoid;                    ///< a file, "none", or empty: the installed one
     int memory_megabytes = 512;
     int threads = 0; ///< 0: as many as the machine has
     bool quiet = false;

@@ -51,8 +51,15 @@ function(reljef_room NAME)
   target_precompile_headers(${target} REUSE_FROM reljef_precompiled)
 endfunction()
 
+# One process that runs each SHARDS-th test of a program; ./dev adds up what the reports tell.
+function(reljef_add_shard NAME PROGRAM SHARDS SHARD)
+  add_test(NAME ${NAME} COMMAND ${CMAKE_COMMAND} -E env
+           GTEST_TOTAL_SHARDS=${SHARDS} GTEST_SHARD_INDEX=${SHARD} $<TARGET_FILE:${PROGRAM}>
+           --gtest_brief=1 --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${NAME}.xml ${ARGN})
+endfunction()
+
 function(reljef_test ROOM)
-  cmake_parse_arguments(TEST "" "ALONE" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(TEST "" "ALONE;SHARDS;COST" "SOURCES;LINK" ${ARGN})
   set(target reljef_${ROOM}_test)
   add_executable(${target} ${TEST_SOURCES})
   target_link_libraries(${target} PRIVATE reljef_test_support ${TEST_LINK} reljef_warnings reljef_test_build
@@ -60,18 +67,29 @@ function(reljef_test ROOM)
   if(TARGET reljef_test_precompiled)
     target_precompile_headers(${target} REUSE_FROM reljef_test_precompiled)
   endif()
-  set(properties TIMEOUT 600 LABELS ${ROOM})
+  set(properties TIMEOUT 900 LABELS ${ROOM})
   if("address" IN_LIST RELJEF_SANITIZE)
     list(APPEND properties ENVIRONMENT
          "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
     target_link_libraries(${target} PRIVATE reljef_keep_loaded)
   endif()
-  # Skipped tests show as skipped: gtest_discover_tests() itself looks for gtest's word for it.
-  set(discovery TEST_PREFIX "${ROOM}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
+  # A process for each test would start programs that take a second under the sanitizers: the tests
+  # of a room share a few.
+  set(others)
   if(TEST_ALONE)
-    gtest_discover_tests(${target} ${discovery} TEST_FILTER "${TEST_ALONE}" TEST_LIST ${target}_alone
-                         PROPERTIES ${properties} RUN_SERIAL ON)
-    set(TEST_ALONE "-${TEST_ALONE}")
+    reljef_add_shard(${ROOM}.alone ${target} 1 0 --gtest_filter=${TEST_ALONE})
+    set_tests_properties(${ROOM}.alone PROPERTIES ${properties} RUN_SERIAL ON)
+    set(others --gtest_filter=-${TEST_ALONE})
   endif()
-  gtest_discover_tests(${target} ${discovery} TEST_FILTER "${TEST_ALONE}" PROPERTIES ${properties})
+  if(NOT TEST_SHARDS)
+    set(TEST_SHARDS 1)
+  endif()
+  if(TEST_COST)
+    list(APPEND properties COST ${TEST_COST}) # the longest begin first
+  endif()
+  math(EXPR last "${TEST_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    reljef_add_shard(${ROOM}.${shard} ${target} ${TEST_SHARDS} ${shard} ${others})
+    set_tests_properties(${ROOM}.${shard} PROPERTIES ${properties})
+  endforeach()
 endfunction()

@@ -2,7 +2,7 @@
 // which holds nothing of the surface. A relaxed cone (Policarpo and Oliveira 2007) holds what a ray
 // that does not rise meets at most once: where it is found below the surface, the hit lies behind
 // the last place above it.
-layout(binding = 3) uniform sampler2D cone_map; // of a cell, samples per unit: plain, relaxed
+layout(binding = 4) uniform sampler2D cone_map; // of a cell, samples per unit: plain, relaxed
 
 // Between `part` where the ray is `over` (>= 0) above the surface and `low_part` where it is `under`
 // (< 0): halved, then the chord.
@@ -51,5 +51,6 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     }
     part = found ? halved(start, span, at, over, next, under) : at;
     place = start.xy + part * span.xy;
-    return found || (at < 1.0 && over >= 0.0); // so near to it that the steps were used up
+    // A falling ray is so near to it that the steps were used up.
+    return found || (at < 1.0 && over >= 0.0 && span.z < 0.0);
 }

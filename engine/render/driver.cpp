@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
@@ -11,6 +12,7 @@
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
 #include "engine/render/frame_block.h"
+#include "engine/render/relief_options.h"
 
 #include <glad/gl.h>
 
@@ -74,37 +76,6 @@ std::uint32_t features_of(const DrawList& list, bool hits) {
     return features;
 }
 
-std::uint32_t search_features(scene::TechniqueId id) {
-    switch (id) {
-    case scene::TechniqueId::parallax:
-        return feature_parallax;
-    case scene::TechniqueId::parallax_limited:
-        return feature_parallax | feature_limited;
-    case scene::TechniqueId::parallax_iterated:
-        return feature_parallax | feature_iterated;
-    case scene::TechniqueId::relief:
-        return feature_bisect;
-    case scene::TechniqueId::interval:
-        return feature_secant;
-    case scene::TechniqueId::pom:
-        return feature_secant | feature_view_steps;
-    case scene::TechniqueId::cone:
-        return feature_cone;
-    case scene::TechniqueId::exact:
-        return feature_exact;
-    default:
-        return 0U;
-    }
-}
-
-glm::vec4 search_values(const scene::Technique& technique) {
-    glm::vec4 values(0.0F);
-    for (std::size_t i = 0; i < technique.values.size(); ++i) {
-        values[static_cast<int>(i)] = static_cast<float>(technique.values[i]);
-    }
-    return values;
-}
-
 // Draws a list and counts what it sets; what is set already is not set again.
 class Painter {
 public:
@@ -117,10 +88,10 @@ public:
         if (list_.tiles.empty()) {
             return {};
         }
-        if (auto used = use({ShaderKind::terrain, features_}); !used) {
-            return used;
-        }
         for (const TileDraw& draw : list_.tiles) {
+            if (auto used = use_for(*draw.terrain); !used) {
+                return used;
+            }
             draw_tile(draw);
         }
         return {};
@@ -201,6 +172,27 @@ private:
         return {};
     }
 
+    // The program that draws the tiles of a terrain, if it is not in use.
+    Result<void> use_for(const scene::TerrainNode& terrain) {
+        if (tiles_of_ == &terrain) {
+            return {};
+        }
+        const bool warped = terrain.material.technique.id == scene::TechniqueId::prewarp;
+        if (tiles_of_ == nullptr || warped != tiles_warped_) {
+            if (auto used = use({ShaderKind::terrain, features_ | (warped ? feature_warped : 0U)});
+                !used) {
+                return used;
+            }
+            maps_of_ = nullptr;
+        }
+        if (warped) {
+            residency_.warped(terrain).bind(4);
+        }
+        tiles_of_ = &terrain;
+        tiles_warped_ = warped;
+        return {};
+    }
+
     void bind_maps(const scene::TerrainNode& terrain) {
         if (hits_ || maps_of_ == &terrain) {
             return;
@@ -208,6 +200,9 @@ private:
         maps_of_ = &terrain;
         const ResidentMaps& maps = residency_.maps(terrain);
         maps.lit.bind(0);
+        if (maps.sun) {
+            maps.sun->bind(3);
+        }
         program_->set_uniform("lit_from_sample", maps.lit_from_sample);
         ++stats_.state_changes;
     }
@@ -232,8 +227,7 @@ private:
 
     Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {
         const scene::Technique& technique = draw.terrain->material.technique;
-        if (auto used = use({ShaderKind::relief, features_ | search_features(technique.id)});
-            !used) {
+        if (auto used = use({ShaderKind::relief, features_ | relief_features(technique)}); !used) {
             return used;
         }
         maps_of_ = nullptr; // another program
@@ -258,12 +252,11 @@ private:
             program_->set_uniform("top_level", relief.greatest->levels() - 1);
         }
         if (relief.cones) {
-            relief.cones->bind(3);
+            relief.cones->bind(4);
         }
         const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
         const glm::dvec3 eye(local_from_world * glm::dvec4(list_.camera.eye, 1.0));
         const glm::ivec2 samples = relief.heights.size();
-        const auto values = search_values(draw.terrain->material.technique);
         program_->set_uniform("relative_from_local",
                               relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
         program_->set_uniform("box_low", glm::vec3(space.local_box.low));
@@ -280,7 +273,7 @@ private:
         program_->set_uniform("height_texel", 1.0F / glm::vec2(samples));
         program_->set_uniform("last_cell", samples - 2);
         program_->set_uniform("metres_per_unit", space.metres_per_unit);
-        program_->set_uniform("search_values", values);
+        set_relief_options(*program_, draw.terrain->material.technique);
         program_->set_uniform("texels_per_metre_away", texels_per_metre_away(draw, space));
     }
 
@@ -323,8 +316,21 @@ private:
     FrameStats& stats_;
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* maps_of_ = nullptr;
+    const scene::TerrainNode* tiles_of_ = nullptr;
+    bool tiles_warped_ = false;
     bool wireframe_ = false;
 };
+
+std::set<const scene::TerrainNode*> terrains_of(const DrawList& list) {
+    std::set<const scene::TerrainNode*> terrains;
+    for (const TileDraw& draw : list.tiles) {
+        terrains.insert(draw.terrain);
+    }
+    for (const ReliefDraw& draw : list.reliefs) {
+        terrains.insert(draw.terrain);
+    }
+    return terrains;
+}
 
 glm::vec4 channels_of(const Hit& hit) {
     return {hit.col, hit.row, hit.height, hit.depth};
@@ -420,9 +426,8 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
-    for (const ReliefDraw& draw : list.reliefs) {
-        if (auto good =
-                scene::check_technique(draw.terrain->material.technique, *draw.terrain->surface);
+    for (const scene::TerrainNode* terrain : terrains_of(list)) {
+        if (auto good = scene::check_technique(terrain->material.technique, *terrain->surface);
             !good) {
             return good;
         }

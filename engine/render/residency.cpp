@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
 #include "engine/core/grid_triangles.h"
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
+#include "engine/render/prewarp.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
@@ -44,18 +46,34 @@ Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
     return texture;
 }
 
-Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
-                               const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
-    const Image lit = lit_map(surface, light, gl::query_limits().max_texture_size);
-    auto texture = mipmapped({lit.cols(), lit.rows()}, gl::Format::rgba8_srgb,
-                             std::as_bytes(lit.samples()), stats);
-    if (!texture) {
-        return texture.error();
-    }
+Result<gl::Texture2D> map_texture(const Image& map, FrameStats& stats) {
+    return mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb, std::as_bytes(map.samples()),
+                     stats);
+}
+
+Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Texture2D lit,
+                                std::optional<gl::Texture2D> sun) {
     const Grid<float>& heights = surface.heightfield().heights;
     const glm::vec4 lit_from_sample =
-        texture_from_sample({heights.cols(), heights.rows()}, texture->size());
-    return ResidentMaps{std::move(*texture), lit_from_sample};
+        texture_from_sample({heights.cols(), heights.rows()}, lit.size());
+    return ResidentMaps{std::move(lit), std::move(sun), lit_from_sample};
+}
+
+Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
+                               const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
+    auto lit = map_texture(lit_map(surface, light, gl::query_limits().max_texture_size), stats);
+    return lit ? with_place(surface, std::move(*lit), std::nullopt) : lit.error();
+}
+
+Result<ResidentMaps> make_light_parts(const scene::TerrainSurface& surface,
+                                      const scene::TerrainLight& light, FrameStats& stats) {
+    const LightParts parts = light_parts(surface, light, gl::query_limits().max_texture_size);
+    auto sky = map_texture(parts.sky, stats);
+    if (!sky) {
+        return sky.error();
+    }
+    auto sun = map_texture(parts.sun, stats);
+    return sun ? with_place(surface, std::move(*sky), std::move(*sun)) : sun.error();
 }
 
 std::optional<scene::TerrainLight> light_on(const DrawList& list,
@@ -112,6 +130,23 @@ Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& plac
     return {};
 }
 
+// The eye of a camera as Warp takes it.
+glm::dvec4 eye_of(const scene::Camera& camera, const glm::dmat4& world_from_local) {
+    const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective
+                               ? glm::dvec4(camera.eye, 1.0)
+                               : glm::dvec4(-scene::view_axes(camera).forward, 0.0);
+    return glm::inverse(world_from_local) * eye;
+}
+
+// The texture of the last frame where it fits.
+Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before) {
+    if (before.size() == size) {
+        return std::move(before);
+    }
+    return gl::Texture2D::create(
+        {.size = size, .format = gl::Format::rgba32f, .filter = gl::Filter::nearest});
+}
+
 struct MeshVertex {
     glm::vec3 position;
     glm::vec3 normal;
@@ -137,6 +172,9 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
         if (auto done = prepare_all_maps(list, stats); !done) {
             return done;
         }
+    }
+    if (auto done = prepare_warped(list, stats); !done) {
+        return done;
     }
     for (const ReliefDraw& draw : list.reliefs) {
         if (auto done = prepare_relief(draw, stats); !done) {
@@ -268,17 +306,20 @@ Result<std::shared_ptr<const ResidentMaps>>
 Residency::maps_for(const scene::TerrainNode& terrain,
                     const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
     std::vector<LitMaps>& there = surface_of(terrain).maps;
-    const auto found = std::find_if(there.begin(), there.end(),
-                                    [&](const LitMaps& entry) { return entry.light == light; });
+    const bool in_parts = light && terrain.material.technique.options.shadow;
+    const auto found = std::find_if(there.begin(), there.end(), [&](const LitMaps& entry) {
+        return entry.light == light && entry.in_parts == in_parts;
+    });
     if (found != there.end()) {
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
-    auto maps = make_maps(*terrain.surface, light, stats);
+    auto maps = in_parts ? make_light_parts(*terrain.surface, *light, stats)
+                         : make_maps(*terrain.surface, light, stats);
     if (!maps) {
         return maps.error();
     }
-    there.push_back({light, std::make_shared<const ResidentMaps>(std::move(*maps))});
+    there.push_back({light, in_parts, std::make_shared<const ResidentMaps>(std::move(*maps))});
     return there.back().maps;
 }
 
@@ -308,6 +349,27 @@ Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats
     }
     return needs_cones ? keep(cone_texture(surface.terrain(), heights, stats), relief->cones)
                        : Result<void>();
+}
+
+Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) {
+    std::map<const scene::TerrainNode*, gl::Texture2D> before = std::exchange(warped_, {});
+    for (const TileDraw& draw : list.tiles) {
+        const scene::TerrainNode& terrain = *draw.terrain;
+        if (terrain.material.technique.id != scene::TechniqueId::prewarp ||
+            warped_.contains(&terrain)) {
+            continue;
+        }
+        const Grid<glm::vec4> places =
+            warped_places(*terrain.surface, eye_of(list.camera, draw.world_from_local));
+        auto texture = place_texture({places.cols(), places.rows()}, before[&terrain]);
+        if (!texture) {
+            return texture.error();
+        }
+        texture->upload(0, places);
+        count_upload(stats, texture->bytes());
+        warped_.emplace(&terrain, std::move(*texture));
+    }
+    return {};
 }
 
 Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
@@ -373,6 +435,10 @@ const ResidentRelief& Residency::relief(const ReliefDraw& draw) const {
     const auto& relief = surfaces_.at(draw.terrain->surface.get()).relief;
     check(relief.has_value(), "a relief that was not prepared");
     return *relief;
+}
+
+const gl::Texture2D& Residency::warped(const scene::TerrainNode& terrain) const {
+    return warped_.at(&terrain);
 }
 
 const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {

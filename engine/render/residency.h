@@ -26,9 +26,11 @@ struct ResidentMesh {
     glm::vec2 samples_per_vertex{1.0F};
 };
 
-/// A terrain's lit_map, and how sample coordinates become texture coordinates: sample · xy + zw.
+/// A terrain's lit_map, or, where rays cast the shadows, its light_parts; and how sample
+/// coordinates become texture coordinates: sample · xy + zw.
 struct ResidentMaps {
     gl::Texture2D lit;
+    std::optional<gl::Texture2D> sun; ///< the sun's part; lit is then the sky's
     glm::vec4 lit_from_sample{0.0F};
 };
 
@@ -54,10 +56,13 @@ public:
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+    /// What prewarp shows at each sample: warped_places.
+    [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
 private:
     struct LitMaps {
         std::optional<scene::TerrainLight> light;
+        bool in_parts = false;
         std::shared_ptr<const ResidentMaps> maps;
     };
     struct Surface {
@@ -84,11 +89,13 @@ private:
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              FrameStats& stats);
     Result<void> prepare_relief(const ReliefDraw& draw, FrameStats& stats);
+    Result<void> prepare_warped(const DrawList& list, FrameStats& stats);
     Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
+    std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     std::map<const scene::Mesh*, Mesh> meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };

@@ -15,17 +15,24 @@ constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terr
                            std::pair{ShaderKind::relief, std::string_view("relief")},
                            std::pair{ShaderKind::mesh, std::string_view("mesh")},
                            std::pair{ShaderKind::sky, std::string_view("sky")}};
-constexpr std::array features_by_name{std::pair{feature_lit, std::string_view("LIT")},
-                                      std::pair{feature_fog, std::string_view("FOG")},
-                                      std::pair{feature_hit, std::string_view("HIT")},
-                                      std::pair{feature_exact, std::string_view("EXACT")},
-                                      std::pair{feature_parallax, std::string_view("PARALLAX")},
-                                      std::pair{feature_bisect, std::string_view("BISECT")},
-                                      std::pair{feature_secant, std::string_view("SECANT")},
-                                      std::pair{feature_limited, std::string_view("LIMITED")},
-                                      std::pair{feature_iterated, std::string_view("ITERATED")},
-                                      std::pair{feature_view_steps, std::string_view("VIEW_STEPS")},
-                                      std::pair{feature_cone, std::string_view("CONE")}};
+constexpr std::array features_by_name{
+    std::pair{feature_lit, std::string_view("LIT")},
+    std::pair{feature_fog, std::string_view("FOG")},
+    std::pair{feature_hit, std::string_view("HIT")},
+    std::pair{feature_exact, std::string_view("EXACT")},
+    std::pair{feature_parallax, std::string_view("PARALLAX")},
+    std::pair{feature_bisect, std::string_view("BISECT")},
+    std::pair{feature_secant, std::string_view("SECANT")},
+    std::pair{feature_limited, std::string_view("LIMITED")},
+    std::pair{feature_iterated, std::string_view("ITERATED")},
+    std::pair{feature_view_steps, std::string_view("VIEW_STEPS")},
+    std::pair{feature_fade, std::string_view("FADE")},
+    std::pair{feature_hard_shadow, std::string_view("HARD_SHADOW")},
+    std::pair{feature_soft_shadow, std::string_view("SOFT_SHADOW")},
+    std::pair{feature_smooth_edges, std::string_view("SMOOTH_EDGES")},
+    std::pair{feature_write_depth, std::string_view("WRITE_DEPTH")},
+    std::pair{feature_warped, std::string_view("WARPED")},
+    std::pair{feature_cone, std::string_view("CONE")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -146,17 +153,35 @@ std::uint32_t search_of(std::uint32_t features) {
     if ((features & feature_parallax) != 0) {
         return features & (feature_parallax | feature_limited | feature_iterated);
     }
-    if ((features & feature_bisect) != 0) {
-        return feature_bisect;
+    const std::uint32_t narrowing =
+        (features & feature_bisect) != 0 ? feature_bisect : features & feature_secant;
+    return narrowing | (features & feature_view_steps);
+}
+
+// What a relief with that search does beside.
+std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
+    std::uint32_t options = features & (feature_fade | feature_write_depth);
+    const bool follows_rays = (search & feature_parallax) == 0;
+    if (follows_rays && (features & feature_hit) == 0) {
+        options |= features & feature_smooth_edges;
+        const bool hard = (features & feature_hard_shadow) != 0;
+        const auto shadow = hard ? feature_hard_shadow : features & feature_soft_shadow;
+        if (shadow != 0 && (features & feature_lit) != 0) {
+            options |= shadow | feature_lit;
+        }
     }
-    return (features & feature_secant) != 0 ? features & (feature_secant | feature_view_steps) : 0U;
+    return options;
 }
 
 } // namespace
 
 ShaderVariant without_meaningless(ShaderVariant variant) {
-    const std::uint32_t search =
-        variant.kind == ShaderKind::relief ? search_of(variant.features) : 0U;
+    std::uint32_t own =
+        variant.kind == ShaderKind::terrain ? variant.features & feature_warped : 0U;
+    if (variant.kind == ShaderKind::relief) {
+        const std::uint32_t search = search_of(variant.features);
+        own = search | options_of(variant.features, search);
+    }
     variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::sky) {
         variant.features &= feature_lit;
@@ -165,7 +190,7 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
     } else if (variant.kind != ShaderKind::mesh) {
         variant.features &= ~feature_lit; // a terrain's light is in its map
     }
-    variant.features |= search;
+    variant.features |= own;
     return variant;
 }
 

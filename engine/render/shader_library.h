@@ -35,8 +35,15 @@ enum ShaderFeature : std::uint32_t {
     feature_secant = 1U << 6U,     ///< steps, then chords
     feature_limited = 1U << 7U,    ///< parallax: by no more than the height
     feature_iterated = 1U << 8U,   ///< parallax: looked at again
-    feature_view_steps = 1U << 9U, ///< secant: as many steps as the angle of view asks for
-    feature_cone = 1U << 10U,      ///< from cone to cone
+    feature_view_steps = 1U << 9U, ///< equal steps: as many as the angle of view asks for
+    // What a relief does beside.
+    feature_fade = 1U << 10U,         ///< less height at flat angles of view
+    feature_hard_shadow = 1U << 11U,  ///< a ray to the sun: lit or not
+    feature_soft_shadow = 1U << 12U,  ///< a ray to the sun: lit by how deep it goes
+    feature_smooth_edges = 1U << 13U, ///< near misses are blended in
+    feature_write_depth = 1U << 14U,  ///< the depth of the hit, not of the box
+    feature_warped = 1U << 15U,       ///< a terrain: shows the places warped onto it
+    feature_cone = 1U << 16U,         ///< how a relief looks: from cone to cone
 };
 
 struct ShaderVariant {
@@ -47,7 +54,8 @@ struct ShaderVariant {
 };
 
 /// The variant without the features that mean nothing to it: a hit has neither light nor fog, the
-/// sky is not seen through air and is never hit, a terrain's light is in its map.
+/// sky is not seen through air and is never hit, a terrain's light is in its map unless a relief
+/// casts shadows; parallax follows no ray, and a hit has neither shadow nor smooth edges.
 ShaderVariant without_meaningless(ShaderVariant variant);
 
 /// Every variant that means something, each once.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,10 +33,10 @@ constexpr std::array<ParameterInfo, 2> pom_parameters{
 constexpr std::array<ParameterInfo, 4> cone_parameters{
     {{"relaxed", 1.0, 0.0, 1.0, true, "1: cones that a ray may meet the surface in once"},
      {"n", 32.0, 1.0, 4096.0, true, "cones at the most"},
-     {"k", 3.0, 0.0, 32.0, true, "times the bracket is halved before the chord"},
+     {"k", 2.0, 0.0, 32.0, true, "times the bracket is halved before the chord"},
      {"step", 2.0, 0.0, 16.0, false, "samples a step goes at least; 0: passes over nothing"}}};
 
-constexpr std::array<TechniqueInfo, 11> catalogue{
+constexpr std::array<TechniqueInfo, 12> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
@@ -69,6 +67,12 @@ constexpr std::array<TechniqueInfo, 11> catalogue{
       "exact",
       "the ray against the bilinear surface itself: the true first hit",
       "Tevs, Ihrke and Seidel 2008",
+      {}},
+     {TechniqueId::prewarp,
+      "prewarp",
+      "the surface warped forward onto the reference plane, rows and then columns, each frame: "
+      "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
+      "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000",
       {}}}};
 
 std::vector<std::string_view> names_of(const auto& infos) {
@@ -85,21 +89,6 @@ std::pair<std::string_view, std::string_view> split(std::string_view text, char 
                                         : std::pair{text.substr(0, at), text.substr(at + 1)};
 }
 
-Result<double> parse_value(const TechniqueInfo& technique, const ParameterInfo& parameter,
-                           std::string_view text) {
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = code == std::errc{} && end == text.data() + text.size();
-    const bool fits = is_number && value >= parameter.low && value <= parameter.high &&
-                      (!parameter.whole || value == std::round(value));
-    if (!fits) {
-        return Error{fmt::format("technique {}: {}={} found, a {}number from {} to {} was expected",
-                                 technique.name, parameter.name, text,
-                                 parameter.whole ? "whole " : "", parameter.low, parameter.high)};
-    }
-    return value;
-}
-
 Result<void> set_parameter(Technique& technique, std::string_view assignment) {
     const TechniqueInfo& info = technique_info(technique.id);
     const auto [key, text] = split(assignment, '=');
@@ -114,12 +103,41 @@ Result<void> set_parameter(Technique& technique, std::string_view assignment) {
                    : Error{fmt::format("technique {}: parameter '{}' found, one of {} was expected",
                                        info.name, key, fmt::join(names_of(info.parameters), ", "))};
     }
-    const auto value = parse_value(info, *parameter, text);
+    const auto value = parse_number(fmt::format("technique {}", info.name), *parameter, text);
     if (!value) {
         return value.error();
     }
     technique.values[static_cast<std::size_t>(parameter - info.parameters.data())] = *value;
     return {};
+}
+
+// Takes the next assignment off the list: up to a comma, or, of an option, up to the comma before
+// the next '='.
+std::string_view take_assignment(std::string_view& list) {
+    auto end = std::min(list.find(','), list.size());
+    if (is_option(list.substr(0, end)) && end < list.size()) {
+        const auto next = std::min(list.find(',', end + 1), list.size());
+        const bool belongs = list.substr(end, next - end).find('=') == std::string_view::npos;
+        end = belongs ? next : end;
+    }
+    const auto assignment = list.substr(0, end);
+    list = list.substr(std::min(end + 1, list.size()));
+    return assignment;
+}
+
+// Sets a parameter or an option; `seen` are the options set so far.
+Result<void> assign(Technique& technique, std::string_view assignment,
+                    std::vector<std::string_view>& seen) {
+    if (!is_option(assignment)) {
+        return set_parameter(technique, assignment);
+    }
+    const auto name = split(assignment, '=').first;
+    if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
+        return Error{fmt::format("technique {}: option '{}' found twice, once was expected",
+                                 technique_info(technique.id).name, name)};
+    }
+    seen.push_back(name);
+    return set_option(technique.options, technique.id, assignment);
 }
 
 } // namespace
@@ -139,6 +157,7 @@ const TechniqueInfo& technique_info(TechniqueId id) {
 Geometry geometry_of(TechniqueId id) {
     switch (id) {
     case TechniqueId::texture:
+    case TechniqueId::prewarp:
         return Geometry::flat;
     case TechniqueId::polygons:
         return Geometry::full;
@@ -147,8 +166,12 @@ Geometry geometry_of(TechniqueId id) {
     }
 }
 
+bool needs_plane(TechniqueId id) {
+    return geometry_of(id) == Geometry::box || id == TechniqueId::prewarp;
+}
+
 Technique make_technique(TechniqueId id) {
-    Technique technique{id, {}};
+    Technique technique{id, {}, {}};
     for (const ParameterInfo& parameter : technique_info(id).parameters) {
         technique.values.push_back(parameter.default_value);
     }
@@ -168,24 +191,24 @@ Result<Technique> parse_technique(std::string_view text) {
     if (text.ends_with(':') || text.ends_with(',')) {
         return Error{fmt::format("technique '{}' found, key=value was expected at its end", text)};
     }
+    std::vector<std::string_view> seen;
     while (!assignments.empty()) {
-        const auto [first, rest] = split(assignments, ',');
-        if (auto set = set_parameter(technique, first); !set) {
+        if (auto set = assign(technique, take_assignment(assignments), seen); !set) {
             return set.error();
         }
-        assignments = rest;
     }
     return technique;
 }
 
 std::string to_string(const Technique& technique) {
     const TechniqueInfo& info = technique_info(technique.id);
-    std::string text(info.name);
+    std::string list;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-        text += fmt::format("{}{}={}", i == 0 ? ':' : ',', info.parameters[i].name,
-                            technique.values[i]);
+        list += fmt::format(",{}={}", info.parameters[i].name, technique.values[i]);
     }
-    return text;
+    list += to_string(technique.options);
+    return list.empty() ? std::string(info.name)
+                        : fmt::format("{}:{}", info.name, std::string_view(list).substr(1));
 }
 
 } // namespace reljef::scene

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/scene/technique_options.h"
 
 namespace reljef::scene {
 
@@ -22,6 +23,7 @@ enum class TechniqueId {
     pom,               ///< steps by the angle of view, then one chord
     cone,              ///< from empty cone to empty cone
     exact,             ///< the true first hit
+    prewarp,           ///< the surface warped onto the reference plane beforehand
 };
 
 /// What is drawn so that a technique's pixels are reached.
@@ -32,15 +34,8 @@ enum class Geometry {
 };
 Geometry geometry_of(TechniqueId id);
 
-/// One number a technique can be told.
-struct ParameterInfo {
-    std::string_view name;
-    double default_value = 0.0;
-    double low = 0.0;   ///< least value allowed
-    double high = 0.0;  ///< greatest value allowed
-    bool whole = false; ///< whole numbers only
-    std::string_view meaning;
-};
+/// Whether it draws surfaces over a plane only, none that is bent over the Earth.
+bool needs_plane(TechniqueId id);
 
 struct TechniqueInfo {
     TechniqueId id;
@@ -54,19 +49,25 @@ struct TechniqueInfo {
 std::span<const TechniqueInfo> technique_catalogue();
 const TechniqueInfo& technique_info(TechniqueId id);
 
-/// A technique with a value for each of its parameters, in the catalogue's order.
+/// A technique with a value for each of its parameters, in the catalogue's order, and what else it
+/// does.
 struct Technique {
     TechniqueId id = TechniqueId::polygons;
     std::vector<double> values;
+    TechniqueOptions options{};
+
+    friend bool operator==(const Technique&, const Technique&) = default;
 };
 
-/// The technique with its default parameters.
+/// The technique with its default parameters and no options.
 Technique make_technique(TechniqueId id);
 
-/// From "ID" or "ID:key=value,key=value". Errors name what was found and what was expected.
+/// From "ID" or "ID:key=value,key=value", parameters and options in any order; what has no '='
+/// belongs to the option before it. Errors name what was found and what was expected.
 Result<Technique> parse_technique(std::string_view text);
 
-/// "ID:key=value,…" with every parameter: parse_technique gives the same technique back.
+/// "ID:key=value,…" with every parameter and those options it has: parse_technique gives the same
+/// technique back.
 std::string to_string(const Technique& technique);
 
 } // namespace reljef::scene

@@ -61,14 +61,24 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
-    if (geometry_of(technique.id) != Geometry::box ||
-        surface.placement().kind() == terrain::PlacementKind::plane) {
+    const std::string_view name = technique_info(technique.id).name;
+    if (technique.options.two_sided) {
+        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a terrain "
+                                 "is not seen from beneath, detail tiles are",
+                                 name)};
+    }
+    if (technique.options.border && *technique.options.border != BorderRule::discard) {
+        return Error{fmt::format("technique {}: a border other than discard found, discard was "
+                                 "expected: a terrain ends at its border, detail tiles go on",
+                                 name)};
+    }
+    if (!needs_plane(technique.id) || surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};
     }
     return Error{
         fmt::format("technique {}: placement ellipsoid found, plane was expected; polygons "
                     "draws both",
-                    technique_info(technique.id).name)};
+                    name)};
 }
 
 } // namespace reljef::scene

@@ -64,7 +64,8 @@ private:
 };
 
 /// Whether the technique can draw the surface. Those that look for it along rays need a surface
-/// over a plane: fails, and names what works, where it is bent over the Earth.
+/// over a plane: fails, and names what works, where it is bent over the Earth. Fails, too, on
+/// options that only detail tiles have: two sides, a border that goes on.
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface);
 
 /// What makes a node a terrain.

@@ -37,6 +37,16 @@ std::vector<GoldenCase> golden_cases() {
         }
         cases.push_back({terrain + "_truth", terrain, false, {"--truth"}});
     }
+    cases.push_back(
+        {"urban_options",
+         "urban",
+         false,
+         {"--technique", "relief:steps=16..64,fade=0.6..1,2,shadow=soft,0.1,edges=smooth,0.01",
+          "--context", "osmesa"}});
+    cases.push_back({"natural_shadow",
+                     "natural",
+                     false,
+                     {"--technique", "exact:shadow=hard,depth=write", "--context", "osmesa"}});
     cases.push_back({"alps",
                      "natural/srtm3/N45E006.hgt",
                      true,
