@@ -115,15 +115,6 @@ Result<std::optional<platform::ContextKind>> parse_context(const std::string& te
     return kind;
 }
 
-Result<scene::Pose> parse_pose(const std::string& text) {
-    const auto pose = scene::pose_from_string(text);
-    if (!pose) {
-        return Error{fmt::format(
-            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
-    }
-    return *pose;
-}
-
 // Parses a number in [low, high], or above low where `above`.
 auto number_in(std::string option, double low, double high, bool above = false) {
     return [=](const std::string& text) -> Result<double> {
@@ -220,8 +211,9 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
                               "where on Earth it stands and looks, degrees and metres",
                               "LAT,LON,HEIGHT,HEADING,PITCH");
     camera->excludes(eye);
-    auto* pose = add_parsed(command, "--pose", choice.pose, parse_pose,
-                            "overview, oblique, low, grazing or map (overview)", "NAME");
+    auto* pose = add_parsed(
+        command, "--pose", choice.pose, [](const std::string& text) { return parse_pose(text); },
+        "overview, oblique, low, grazing or map (overview)", "NAME");
     pose->excludes(eye)->excludes(camera);
     command
         .add_option(
@@ -238,6 +230,15 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
 }
 
 } // namespace
+
+Result<scene::Pose> parse_pose(std::string_view text) {
+    const auto pose = scene::pose_from_string(text);
+    if (!pose) {
+        return Error{fmt::format(
+            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
+    }
+    return *pose;
+}
 
 Result<glm::ivec2> parse_size(std::string_view text) {
     const auto cross = text.find('x');

@@ -70,6 +70,8 @@ struct ViewChoice {
 /// The largest picture side that may be asked for, pixels.
 inline constexpr int largest_picture_side = 16384;
 
+/// A pose by its name; the error names the option --pose.
+Result<scene::Pose> parse_pose(std::string_view text);
 /// Parses "1024x768". Each side 1 … largest_picture_side.
 Result<glm::ivec2> parse_size(std::string_view text);
 

@@ -254,6 +254,9 @@ private:
             relief.greatest->bind(2);
             program_->set_uniform("top_level", relief.greatest->levels() - 1);
         }
+        if (relief.cones) {
+            relief.cones->bind(4);
+        }
         const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
         const glm::dvec3 eye(local_from_world * glm::dvec4(list_.camera.eye, 1.0));
         const glm::ivec2 samples = relief.heights.size();

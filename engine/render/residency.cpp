@@ -99,6 +99,28 @@ Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, Fr
     return texture;
 }
 
+Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<float>& heights,
+                                   FrameStats& stats) {
+    const Grid<glm::vec2> texels =
+        cone_texels(terrain.cones ? *terrain.cones : *terrain::cone_maps(heights.view()));
+    auto texture = gl::Texture2D::create({.size = {texels.cols(), texels.rows()},
+                                          .format = gl::Format::rg32f,
+                                          .filter = gl::Filter::nearest});
+    if (texture) {
+        texture->upload(0, texels);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
+    if (!made) {
+        return made.error();
+    }
+    place = std::move(*made);
+    return {};
+}
+
 // The eye of a camera as Warp takes it.
 glm::dvec4 eye_of(const scene::Camera& camera, const glm::dmat4& world_from_local) {
     const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective
@@ -295,29 +317,30 @@ Residency::maps_for(const scene::TerrainNode& terrain,
 
 Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const bool exact = draw.terrain->material.technique.id == scene::TechniqueId::exact;
+    const scene::TechniqueId technique = draw.terrain->material.technique.id;
     std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
-    if (relief && (relief->greatest || !exact)) {
+    const bool needs_greatest =
+        technique == scene::TechniqueId::exact && !(relief && relief->greatest);
+    const bool needs_cones = technique == scene::TechniqueId::cone && !(relief && relief->cones);
+    if (relief && !needs_greatest && !needs_cones) {
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const ReliefSpace space = relief_space(surface);
-    const Grid<float> heights = relief_heights(surface, space);
+    const Grid<float> heights = terrain::unit_heights(surface.heightfield().heights.view());
     if (!relief) {
         auto texture = height_texture(heights, stats);
         if (!texture) {
             return texture.error();
         }
-        relief = ResidentRelief{space, std::move(*texture), std::nullopt};
+        relief.emplace();
+        relief->space = relief_space(surface);
+        relief->heights = std::move(*texture);
     }
-    if (exact) {
-        auto texture = pyramid_texture(greatest_heights(heights.view()), stats);
-        if (!texture) {
-            return texture.error();
-        }
-        relief->greatest = std::move(*texture);
+    if (needs_greatest) {
+        return keep(pyramid_texture(greatest_heights(heights.view()), stats), relief->greatest);
     }
-    return {};
+    return needs_cones ? keep(cone_texture(surface.terrain(), heights, stats), relief->cones)
+                       : Result<void>();
 }
 
 Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) {

@@ -26,12 +26,13 @@ struct ResidentMaps {
     glm::vec4 lit_from_sample{0.0F};
 };
 
-/// The heights that pixels look for along their rays, where they lie, and, for the exact technique,
-/// a pyramid of the greatest.
+/// The heights that pixels look for along their rays, where they lie, and what some techniques need
+/// besides: exact a pyramid of the greatest, cone the cones over each cell.
 struct ResidentRelief {
     ReliefSpace space;
     gl::Texture2D heights;
     std::optional<gl::Texture2D> greatest;
+    std::optional<gl::Texture2D> cones;
 };
 
 /// What of the scene is in the driver's memory. Only what is drawn gets there, and stays while the

@@ -35,7 +35,13 @@ constexpr std::array<ParameterInfo, 2> pom_parameters{
     {{"min", 8.0, 1.0, 4096.0, true, "equal steps seen from straight above"},
      {"max", 32.0, 1.0, 4096.0, true, "equal steps seen along the ground"}}};
 
-constexpr std::array<TechniqueInfo, 11> catalogue{
+constexpr std::array<ParameterInfo, 4> cone_parameters{
+    {{"relaxed", 1.0, 0.0, 1.0, true, "1: cones that a ray may meet the surface in once"},
+     {"n", 32.0, 1.0, 4096.0, true, "cones at the most"},
+     {"k", 2.0, 0.0, 32.0, true, "times the bracket is halved before the chord"},
+     {"step", 2.0, 0.0, 16.0, false, "samples a step goes at least; 0: passes over nothing"}}};
+
+constexpr std::array<TechniqueInfo, 12> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
@@ -61,6 +67,8 @@ constexpr std::array<TechniqueInfo, 11> catalogue{
       "Janković 2010 ch. 2.4.9; Risser, Shah and Pattanaik 2006", interval_parameters},
      {TechniqueId::pom, "pom", "steps by the angle of view, then one chord",
       "Janković 2010 ch. 2.3.3; Tatarchuk 2005", pom_parameters},
+     {TechniqueId::cone, "cone", "from cone to cone that holds nothing, or one crossing",
+      "Dummer 2006; Policarpo and Oliveira 2007 (GPU Gems 3 ch. 18)", cone_parameters},
      {TechniqueId::exact,
       "exact",
       "the ray against the bilinear surface itself: the true first hit",

@@ -21,6 +21,7 @@ enum class TechniqueId {
     relief,            ///< equal steps, then halving
     interval,          ///< equal steps, then the chord
     pom,               ///< steps by the angle of view, then one chord
+    cone,              ///< from empty cone to empty cone
     exact,             ///< the true first hit
     prewarp,           ///< the surface warped onto the reference plane beforehand
 };
