@@ -105,6 +105,11 @@ private:
 
 Result<scene::Technique> chosen_technique(const io::SceneDescription& description,
                                           const ViewChoice& view) {
+    if (view.max_error) {
+        return Error{fmt::format("--max-error: {} found, a terrain was expected: its models are "
+                                 "drawn as they are",
+                                 description.name)};
+    }
     if (view.technique) {
         return *view.technique;
     }

@@ -11,6 +11,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/render/error_view.h"
 
 namespace reljef::app {
 namespace {
@@ -114,15 +115,6 @@ Result<std::optional<platform::ContextKind>> parse_context(const std::string& te
     return kind;
 }
 
-Result<scene::Pose> parse_pose(const std::string& text) {
-    const auto pose = scene::pose_from_string(text);
-    if (!pose) {
-        return Error{fmt::format(
-            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
-    }
-    return *pose;
-}
-
 // Parses a number in [low, high], or above low where `above`.
 auto number_in(std::string option, double low, double high, bool above = false) {
     return [=](const std::string& text) -> Result<double> {
@@ -181,6 +173,11 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         [](const std::string& text) { return scene::parse_technique(text); },
         "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: relief)",
         "ID[:key=value,...]");
+    add_parsed(command, "--max-error", choice.max_error,
+               number_in("--max-error", render::least_error, render::most_error),
+               "polygons: no pixel farther from where it belongs, with as few triangles as that "
+               "takes (every sample a vertex)",
+               "PX");
     command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
@@ -214,8 +211,9 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
                               "where on Earth it stands and looks, degrees and metres",
                               "LAT,LON,HEIGHT,HEADING,PITCH");
     camera->excludes(eye);
-    auto* pose = add_parsed(command, "--pose", choice.pose, parse_pose,
-                            "overview, oblique, low, grazing or map (overview)", "NAME");
+    auto* pose = add_parsed(
+        command, "--pose", choice.pose, [](const std::string& text) { return parse_pose(text); },
+        "overview, oblique, low, grazing or map (overview)", "NAME");
     pose->excludes(eye)->excludes(camera);
     command
         .add_option(
@@ -232,6 +230,15 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
 }
 
 } // namespace
+
+Result<scene::Pose> parse_pose(std::string_view text) {
+    const auto pose = scene::pose_from_string(text);
+    if (!pose) {
+        return Error{fmt::format(
+            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
+    }
+    return *pose;
+}
 
 Result<glm::ivec2> parse_size(std::string_view text) {
     const auto cross = text.find('x');
@@ -317,9 +324,22 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
 }
 
+scene::Technique technique_of(const ViewChoice& choice) {
+    const scene::Technique technique =
+        choice.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
+    return choice.max_error ? scene::with_parameter(technique, "error", *choice.max_error)
+                            : technique;
+}
+
 void check_view_options(const ViewChoice& choice) {
     if (choice.eye && choice.look && *choice.eye == *choice.look) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
+    }
+    if (choice.max_error && choice.technique &&
+        choice.technique->id != scene::TechniqueId::polygons) {
+        throw CLI::ValidationError(
+            fmt::format("--max-error: technique {} found, polygons was expected",
+                        scene::technique_info(choice.technique->id).name));
     }
     if (choice.pose == scene::Pose::map && !choice.path.empty()) {
         throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "

@@ -54,7 +54,8 @@ struct ViewChoice {
     std::optional<platform::ContextKind> context; ///< absent: auto
     glm::ivec2 size{1024, 768};
     std::optional<scene::Technique>
-        technique; ///< absent: polygons; the gallery's own on its models
+        technique;                   ///< absent: polygons; the gallery's own on its models
+    std::optional<double> max_error; ///< pixels, of polygons; absent: as the technique says
     bool wireframe = false;
     double vertical_fov = 57.3;
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;
@@ -72,6 +73,8 @@ struct ViewChoice {
 /// The largest picture side that may be asked for, pixels.
 inline constexpr int largest_picture_side = 16384;
 
+/// A pose by its name; the error names the option --pose.
+Result<scene::Pose> parse_pose(std::string_view text);
 /// Parses "1024x768". Each side 1 … largest_picture_side.
 Result<glm::ivec2> parse_size(std::string_view text);
 
@@ -83,6 +86,8 @@ Result<std::array<double, N>> parse_numbers(std::string_view option, std::string
 /// Adds the options of a group to a command; they are checked as they are parsed (CLI::ParseError).
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
+/// The technique with --max-error.
+scene::Technique technique_of(const ViewChoice& choice);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

@@ -166,8 +166,7 @@ void set_projection(scene::Camera& camera, const Box& bounds, const ViewChoice& 
 
 // How the terrain is drawn.
 Result<void> choose_look(TerrainScene& scene, const ViewChoice& view) {
-    const auto technique =
-        view.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
+    const scene::Technique technique = technique_of(view);
     if (auto good = scene.check(technique); !good) {
         return good;
     }

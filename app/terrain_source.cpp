@@ -7,6 +7,7 @@
 
 #include "app/message.h"
 #include "app/progress_line.h"
+#include "engine/io/cone_cache.h"
 #include "engine/io/geoid_file.h"
 #include "engine/io/raster.h"
 #include "terrains/built_in.h"
@@ -244,6 +245,26 @@ Result<void> report_faults(const std::string& terrain, std::size_t faults) {
     return faults == 0 ? Result<void>()
                        : Error{fmt::format("{}: {} of its files could not be read and {} left out",
                                            terrain, faults, faults == 1 ? "is" : "are")};
+}
+
+Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
+                               const TerrainChoice& choice, const std::stop_token& stop) {
+    const Grid<float>& heights = source.terrain.heightfield.heights;
+    if (technique.id != scene::TechniqueId::cone || heights.cols() < 2 || heights.rows() < 2) {
+        return {};
+    }
+    ProgressLine line("cones of " + source.description.name, choice.quiet);
+    io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    options.parallel = {static_cast<unsigned>(choice.threads), stop, line.callback()};
+    auto cached = io::cached_cones(terrain::unit_heights(heights.view()).view(), options);
+    if (!cached) {
+        return Error{fmt::format("{}: stopped while its cones were made", source.terrain.name)};
+    }
+    if (!choice.quiet && !cached->note.empty()) {
+        tell(fmt::format("reljef: note: {}\n", cached->note));
+    }
+    source.terrain.cones = std::move(cached->cones);
+    return {};
 }
 
 } // namespace reljef::app

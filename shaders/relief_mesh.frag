@@ -5,7 +5,7 @@
 #include "relief_surface.glsl"
 #include "tile_surface.glsl"
 #if defined(EXACT)
-#include "relief_exact.glsl"
+#include "relief_exact_tile.glsl"
 #elif defined(PARALLAX)
 #include "relief_parallax.glsl"
 #else

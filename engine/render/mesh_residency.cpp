@@ -69,16 +69,10 @@ std::vector<TexturedVertex> textured_vertices(const scene::Mesh& mesh,
     return vertices;
 }
 
-// The buffers of a mesh, filled.
-struct FilledMesh {
-    ResidentMesh resident;
-    gl::Buffer indices;
-};
-
 template <class Vertex>
-Result<FilledMesh> filled(const std::vector<Vertex>& vertices,
-                          const std::vector<std::uint32_t>& indices,
-                          std::span<const gl::VertexAttribute> attributes, FrameStats& stats) {
+Result<ResidentMesh> filled(const std::vector<Vertex>& vertices,
+                            const std::vector<std::uint32_t>& indices,
+                            std::span<const gl::VertexAttribute> attributes, FrameStats& stats) {
     auto vertex_buffer = gl::Buffer::create(bytes_of(vertices));
     if (!vertex_buffer) {
         return vertex_buffer.error();
@@ -89,14 +83,10 @@ Result<FilledMesh> filled(const std::vector<Vertex>& vertices,
     }
     count_upload(stats, vertex_buffer->size());
     count_upload(stats, index_buffer->size());
-    FilledMesh mesh;
-    mesh.indices = std::move(*index_buffer);
-    mesh.resident.vertices = std::move(*vertex_buffer);
-    mesh.resident.vertex_array = gl::VertexArray::create();
-    mesh.resident.index_count = static_cast<int>(indices.size());
-    mesh.resident.vertex_array.set_vertices(0, mesh.resident.vertices, {.stride = sizeof(Vertex)},
-                                            attributes);
-    mesh.resident.vertex_array.set_indices(mesh.indices);
+    ResidentMesh mesh{std::move(*vertex_buffer), gl::VertexArray::create(), glm::dvec3(0.0),
+                      static_cast<int>(indices.size()), std::move(*index_buffer)};
+    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(Vertex)}, attributes);
+    mesh.vertex_array.set_indices(mesh.indices);
     return mesh;
 }
 
@@ -196,8 +186,7 @@ Result<void> MeshResidency::prepare_triangles(const MeshDraw& draw, FrameStats& 
     if (!made) {
         return made.error();
     }
-    triangles_.emplace(
-        key, Triangles{draw.mesh->mesh, std::move(made->resident), std::move(made->indices)});
+    triangles_.emplace(key, Triangles{draw.mesh->mesh, std::move(*made)});
     return {};
 }
 
@@ -216,8 +205,7 @@ Result<void> MeshResidency::prepare_displaced(const MeshDraw& draw, FrameStats& 
     if (!made) {
         return made.error();
     }
-    displaced_.push_back({draw.mesh->mesh, detail, texels, std::move(made->resident),
-                          std::move(made->indices), true});
+    displaced_.push_back({draw.mesh->mesh, detail, texels, std::move(*made), true});
     return {};
 }
 

@@ -6,26 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include <glm/vec3.hpp>
+#include <glm/vec2.hpp>
 
 #include "engine/core/result.h"
-#include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
-#include "engine/gl/vertex_array.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/frame_stats.h"
+#include "engine/render/resident_mesh.h"
 
 namespace reljef::render {
-
-/// Triangles that are in the driver's memory.
-struct ResidentMesh {
-    gl::Buffer vertices;
-    gl::VertexArray vertex_array;
-    glm::dvec3 origin{0.0}; ///< local metres
-    int index_count = 0;
-    int vertices_per_row = 0;
-    glm::vec2 samples_per_vertex{1.0F};
-};
 
 /// A tile of detail. `greatest` is there for the exact technique: of the cells between the heights,
 /// and, where the tile wraps, of those between the last and the first.
@@ -54,14 +43,12 @@ private:
     struct Triangles {
         std::weak_ptr<const scene::Mesh> owner;
         ResidentMesh resident;
-        gl::Buffer indices;
     };
     struct Displaced {
         std::weak_ptr<const scene::Mesh> owner;
         scene::TextureDetail detail;
         double texels = 0.0;
         ResidentMesh resident;
-        gl::Buffer indices;
         bool drawn = false;
     };
     struct Tile {

@@ -34,6 +34,7 @@ constexpr std::array features_by_name{
     std::pair{feature_smooth_edges, std::string_view("SMOOTH_EDGES")},
     std::pair{feature_write_depth, std::string_view("WRITE_DEPTH")},
     std::pair{feature_warped, std::string_view("WARPED")},
+    std::pair{feature_cone, std::string_view("CONE")},
     std::pair{feature_normal_map, std::string_view("NORMAL_MAP")},
     std::pair{feature_bump, std::string_view("BUMP")},
     std::pair{feature_emboss, std::string_view("EMBOSS")},
@@ -152,6 +153,9 @@ std::uint32_t search_of(std::uint32_t features) {
     if ((features & feature_exact) != 0) {
         return feature_exact;
     }
+    if ((features & feature_cone) != 0) {
+        return feature_cone;
+    }
     if ((features & feature_parallax) != 0) {
         return features & (feature_parallax | feature_limited | feature_iterated);
     }
@@ -196,7 +200,7 @@ std::uint32_t features_that_mean_something(ShaderKind kind) {
     case ShaderKind::terrain:
         return any | feature_warped;
     case ShaderKind::relief:
-        return any | relief;
+        return any | relief | feature_cone;
     case ShaderKind::relief_mesh:
         return any | relief | feature_wrap;
     case ShaderKind::textured_mesh:
@@ -211,7 +215,9 @@ std::uint32_t own_features(ShaderVariant variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
     const bool is_lit = (variant.features & feature_lit) != 0;
     const std::uint32_t wrap = variant.features & feature_wrap;
-    const std::uint32_t search = search_of(variant.features);
+    const bool has_cones = variant.kind == ShaderKind::relief;
+    const std::uint32_t search =
+        search_of(has_cones ? variant.features : variant.features & ~feature_cone);
     switch (variant.kind) {
     case ShaderKind::terrain:
         return variant.features & feature_warped;

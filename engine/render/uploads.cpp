@@ -1,11 +1,8 @@
 #include "engine/render/uploads.h"
 
-namespace reljef::render {
+#include "engine/render/resident_mesh.h"
 
-void count_upload(FrameStats& stats, std::size_t bytes) {
-    ++stats.uploads;
-    stats.upload_bytes += bytes;
-}
+namespace reljef::render {
 
 Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
                                 std::span<const std::byte> texels, FrameStats& stats,

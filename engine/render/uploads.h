@@ -13,12 +13,6 @@
 
 namespace reljef::render {
 
-template <class T> std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-    return std::as_bytes(std::span(values));
-}
-
-void count_upload(FrameStats& stats, std::size_t bytes);
-
 /// A texture with all mip levels, of texels row after row. Fails when the driver has no memory.
 Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
                                 std::span<const std::byte> texels, FrameStats& stats,

@@ -8,19 +8,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "engine/terrain/normal_map.h"
+
 namespace reljef::terrain {
 namespace {
-
-int wrapped_index(int index, int count) {
-    const int rest = index % count;
-    return rest < 0 ? rest + count : rest;
-}
-
-float height_beyond(GridView<const float> heights, int col, int row, TileBorder border) {
-    return border == TileBorder::wrap
-               ? heights(wrapped_index(col, heights.cols()), wrapped_index(row, heights.rows()))
-               : heights.clamped(col, row);
-}
 
 std::optional<Error> fault_of(const TextureSet& set) {
     const auto fault = [&](const std::string& found, const char* expected) {
@@ -99,16 +90,13 @@ template <class At> bool has_seam_along(int lines, int length, const At& at) {
 
 Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, TileBorder border) {
     check(!heights.empty(), "normals of an empty tile");
-    Grid<glm::vec3> normals(heights.cols(), heights.rows());
-    for (int row = 0; row < heights.rows(); ++row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            const auto at = [&](int right, int down) {
-                return height_beyond(heights, col + right, row + down, border);
-            };
-            const glm::vec2 rise(at(1, 0) - at(-1, 0), at(0, 1) - at(0, -1));
-            const glm::vec2 slope = 0.5F * scale * rise * glm::vec2(heights.cols(), heights.rows());
-            normals(col, row) = glm::normalize(glm::vec3(-slope, 1.0F));
-        }
+    NormalOptions options;
+    options.spacing =
+        1.0 / (static_cast<double>(scale) * glm::dvec2(heights.cols(), heights.rows()));
+    options.border = border == TileBorder::wrap ? MapBorder::wrap : MapBorder::clamp;
+    Grid<glm::vec3> normals = normals_from_heights(heights, options);
+    for (glm::vec3& normal : normals.samples()) {
+        normal.y = -normal.y; // v grows along the rows, north against them
     }
     return normals;
 }

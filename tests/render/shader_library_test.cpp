@@ -37,10 +37,10 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
     }
     // terrain: fog or not, or a hit, warped or not; mesh: lit or not too; sky: lit or not. relief,
-    // of four parallaxes: each with and without fade and depth; of seven searches: these, and as
+    // of four parallaxes: each with and without fade and depth; of eight searches: these, and as
     // colour three shadows and smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
-    constexpr std::size_t searches = 7U * (4U + 2U * 4U * 6U);
+    constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
     // A mesh with a tile: lit in four ways; one that searches is that of a relief, lit or not,
     // wrapped or not.
     constexpr std::size_t textured = 4U * 2U + 2U + 2U;
@@ -59,7 +59,8 @@ TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
         EXPECT_FALSE(has(options) && variant.kind != ShaderKind::relief &&
                      variant.kind != ShaderKind::relief_mesh);
         EXPECT_FALSE(has(feature_parallax | feature_hit) && has(shadows | feature_smooth_edges));
-        EXPECT_FALSE(has(feature_parallax | feature_exact) && has(feature_view_steps));
+        EXPECT_FALSE(has(feature_parallax | feature_exact | feature_cone) &&
+                     has(feature_view_steps));
         EXPECT_FALSE(has(feature_hard_shadow) && has(feature_soft_shadow));
         EXPECT_FALSE(has(shadows) && !has(feature_lit)) << "a shadow without a sun";
     }
@@ -69,7 +70,7 @@ TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
     for (const ShaderVariant& variant : all_variants()) {
         int ways = 0;
         for (const std::uint32_t way :
-             {feature_exact, feature_parallax, feature_bisect, feature_secant}) {
+             {feature_exact, feature_cone, feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
         EXPECT_LE(
