@@ -247,11 +247,20 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (auto apart = check_apart(outputs_of(choice, inputs), inputs); !apart) {
         return apart;
     }
+    if (auto ready =
+            prepare_technique(*source, choice.view.technique, choice.terrain, interrupt.token());
+        !ready) {
+        return ready;
+    }
+    const std::size_t faults = source->terrain.faults.size();
     auto scene = make_scene(std::move(*source), choice.terrain, choice.view);
     if (!scene) {
         return scene.error();
     }
-    return draw_outputs(choice, *scene, **maker, interrupt);
+    if (auto drawn = draw_outputs(choice, *scene, **maker, interrupt); !drawn) {
+        return drawn;
+    }
+    return report_faults(choice.terrain.terrain, faults);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -16,7 +17,9 @@ struct SuiteOptions {
     int rounds = 0; ///< of each measurement; 0: as many as fit in the time, at least 5
     /// Done in a minute; fewer rounds than 5 where they would take longer.
     bool quick = false;
-    bool quiet = false;      ///< no progress and no notes on stderr
+    bool quiet = false; ///< no progress and no notes on stderr
+    std::filesystem::path
+        shader_dir;          ///< shader files here come before the built-in ones; may be empty
     bool keep_views = false; ///< fills Row::view
 };
 

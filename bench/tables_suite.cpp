@@ -29,7 +29,10 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
     const std::vector<std::string> built_in{"natural", "urban"};
     std::vector<Group> groups;
     for (const std::string& terrain : options.terrains.empty() ? built_in : options.terrains) {
-        groups.push_back({"", {terrain}, scene::Pose::overview, candidates_of(options.techniques)});
+        groups.push_back({"",
+                          {terrain},
+                          options.pose.value_or(scene::Pose::overview),
+                          candidates_of(options.techniques)});
     }
     return groups;
 }
@@ -37,7 +40,7 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
 } // namespace
 
 Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
-    const bool as_sources = options.terrains.empty() && options.techniques.empty();
+    const bool as_sources = options.terrains.empty() && options.techniques.empty() && !options.pose;
     const Suite suite{"tables",
                       as_sources ? source_groups(options.suite.quick) : terrain_groups(options),
                       !as_sources, !as_sources};

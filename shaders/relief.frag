@@ -3,6 +3,8 @@
 #include "relief_surface.glsl"
 #if defined(EXACT)
 #include "relief_exact.glsl"
+#elif defined(CONE)
+#include "relief_cone.glsl"
 #elif defined(PARALLAX)
 #include "relief_parallax.glsl"
 #else

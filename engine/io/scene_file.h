@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
+#include "engine/io/tile_set.h"
 
 namespace reljef::io {
 
@@ -18,7 +19,8 @@ namespace reljef::io {
 struct SceneDescription {
     std::string name;
 
-    // [terrain]: exactly one of `heights` (a DEM file) and `generator` ("natural", "urban")
+    // [terrain]: exactly one of `heights` (a DEM file, or a folder of them) and `generator`
+    // ("natural", "urban")
     std::filesystem::path heights; ///< relative to the scene file
     std::string generator;
     int size = 1025;        ///< generator only, samples a side, 16 to 4096
@@ -30,8 +32,12 @@ struct SceneDescription {
     double height_scale = 1.0;     ///< file only: metres = value · height_scale + height_offset
     double height_offset = 0.0;    ///< file only
     std::filesystem::path imagery; ///< file only; relative to the scene file; may be empty
+    std::string gaps = "holes";    ///< folder only: "holes" or "sea" where it has no tile
     double exaggeration = 1.0;     ///< (0, 1000]
     std::optional<std::string> placement; ///< "plane" or "ellipsoid"; absent: by the data
+
+    // [area]: south, west, north, east in degrees; a folder's part that is of use
+    std::optional<GeodeticArea> area;
 
     // [sun]: degrees
     double sun_azimuth = 300.0; ///< [-360, 360], clockwise from north, where the light comes from

@@ -1,5 +1,6 @@
 #include "engine/render/driver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -208,20 +209,22 @@ private:
     }
 
     void draw_tile(const TileDraw& draw) {
-        const ResidentMesh& mesh = residency_.tile(draw);
         const scene::TerrainSurface& surface = *draw.terrain->surface;
         const auto& tile = surface.tiles()[static_cast<std::size_t>(draw.tile)];
         bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
-        program_->set_uniform("relative_from_tile",
-                              relative_from(list_.camera, draw.world_from_local, mesh.origin));
-        program_->set_uniform(
-            "tile_samples",
-            glm::vec4(tile.col, tile.row, mesh.samples_per_vertex.x, mesh.samples_per_vertex.y));
-        const auto vertices_per_row = static_cast<float>(mesh.vertices_per_row);
-        program_->set_uniform("vertices_per_row", vertices_per_row);
-        program_->set_uniform("rows_per_vertex", 1.0F / vertices_per_row);
-        draw_resident(mesh, gl::IndexType::uint16);
+        program_->set_uniform("tile_sample", glm::vec2(tile.col, tile.row));
+        const std::size_t before = stats_.triangles;
+        for (const ResidentMesh& mesh : residency_.tile(draw)) {
+            program_->set_uniform("relative_from_tile",
+                                  relative_from(list_.camera, draw.world_from_local, mesh.origin));
+            draw_resident(mesh, gl::IndexType::uint16);
+        }
+        if (draw.coarse) {
+            const std::size_t all =
+                2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
+            stats_.skipped.triangles_under_error += all - std::min(all, stats_.triangles - before);
+        }
         ++stats_.tiles;
     }
 
@@ -250,6 +253,9 @@ private:
         if (relief.greatest) {
             relief.greatest->bind(2);
             program_->set_uniform("top_level", relief.greatest->levels() - 1);
+        }
+        if (relief.cones) {
+            relief.cones->bind(4);
         }
         const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
         const glm::dvec3 eye(local_from_world * glm::dvec4(list_.camera.eye, 1.0));

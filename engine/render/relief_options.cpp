@@ -12,7 +12,8 @@ bool is_parallax(scene::TechniqueId id) {
            id == scene::TechniqueId::parallax_iterated;
 }
 
-// xy: the parameters, in the catalogue's order; zw: steps from straight above and along the ground.
+// The parameters, in the catalogue's order; of equal steps zw: steps from straight above and along
+// the ground.
 glm::vec4 search_values(const scene::Technique& technique) {
     if (technique.id == scene::TechniqueId::pom) { // one chord
         return {0.0F, 1.0F, technique.values[0], technique.values[1]};
@@ -47,6 +48,8 @@ std::uint32_t search_features(scene::TechniqueId id) {
         return feature_secant;
     case scene::TechniqueId::pom:
         return feature_secant | feature_view_steps;
+    case scene::TechniqueId::cone:
+        return feature_cone;
     case scene::TechniqueId::exact:
         return feature_exact;
     default:

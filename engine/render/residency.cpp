@@ -16,15 +16,6 @@
 namespace reljef::render {
 namespace {
 
-template <class T> std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-    return std::as_bytes(std::span(values));
-}
-
-void count_upload(FrameStats& stats, std::size_t bytes) {
-    ++stats.uploads;
-    stats.upload_bytes += bytes;
-}
-
 // Sample coordinates of the heightfield onto texels whose outermost centres are the outermost
 // samples.
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
@@ -108,6 +99,28 @@ Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, Fr
     return texture;
 }
 
+Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<float>& heights,
+                                   FrameStats& stats) {
+    const Grid<glm::vec2> texels =
+        cone_texels(terrain.cones ? *terrain.cones : *terrain::cone_maps(heights.view()));
+    auto texture = gl::Texture2D::create({.size = {texels.cols(), texels.rows()},
+                                          .format = gl::Format::rg32f,
+                                          .filter = gl::Filter::nearest});
+    if (texture) {
+        texture->upload(0, texels);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
+    if (!made) {
+        return made.error();
+    }
+    place = std::move(*made);
+    return {};
+}
+
 // The eye of a camera as Warp takes it.
 glm::dvec4 eye_of(const scene::Camera& camera, const glm::dmat4& world_from_local) {
     const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective
@@ -146,6 +159,9 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
     if (auto done = prepare_tiles(list, stats); !done) {
         return done;
     }
+    if (auto done = coarse_tiles_.prepare(list, stats); !done) {
+        return done;
+    }
     if (with_maps) {
         if (auto done = prepare_all_maps(list, stats); !done) {
             return done;
@@ -169,6 +185,7 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
 
 void Residency::forget_unused() {
     std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
+    coarse_tiles_.forget_unused();
     std::erase_if(meshes_, [](const auto& entry) { return entry.second.owner.expired(); });
 }
 
@@ -183,9 +200,12 @@ Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
     return entry->second;
 }
 
-Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+std::vector<const TileDraw*> Residency::missing_tiles(const DrawList& list, FrameStats& stats) {
     std::vector<const TileDraw*> missing;
     for (const TileDraw& draw : list.tiles) {
+        if (draw.coarse) {
+            continue;
+        }
         Surface& surface = surface_of(*draw.terrain);
         const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
         if (slots[static_cast<std::size_t>(draw.tile)]) {
@@ -194,6 +214,11 @@ Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
             missing.push_back(&draw);
         }
     }
+    return missing;
+}
+
+Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+    const std::vector<const TileDraw*> missing = missing_tiles(list, stats);
     // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the
     // driver's.
     constexpr std::size_t batch = 32;
@@ -229,22 +254,11 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
         return vertices.error();
     }
     count_upload(stats, vertices->size());
-    const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const auto index = static_cast<std::size_t>(draw.tile);
-    const terrain::Tile& tile = draw.flat ? surface.flat_tiles()[index] : surface.tiles()[index];
-    ResidentMesh mesh{
-        std::move(*vertices), gl::VertexArray::create(),
-        grid.origin,          6 * grid.cols * grid.rows,
-        grid.cols + 1,        glm::vec2(tile.cols, tile.rows) / glm::vec2(grid.cols, grid.rows)};
-    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
-                                gl::VertexAttribute{.location = 1,
-                                                    .components = 1,
-                                                    .offset = offsetof(GridVertex, height)}};
-    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
+    ResidentMesh mesh = resident_grid(std::move(*vertices), grid.origin, 6 * grid.cols * grid.rows);
     mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(*draw.terrain);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
-    slots[index] = std::move(mesh);
+    slots[static_cast<std::size_t>(draw.tile)] = std::move(mesh);
     return {};
 }
 
@@ -303,29 +317,30 @@ Residency::maps_for(const scene::TerrainNode& terrain,
 
 Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const bool exact = draw.terrain->material.technique.id == scene::TechniqueId::exact;
+    const scene::TechniqueId technique = draw.terrain->material.technique.id;
     std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
-    if (relief && (relief->greatest || !exact)) {
+    const bool needs_greatest =
+        technique == scene::TechniqueId::exact && !(relief && relief->greatest);
+    const bool needs_cones = technique == scene::TechniqueId::cone && !(relief && relief->cones);
+    if (relief && !needs_greatest && !needs_cones) {
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const ReliefSpace space = relief_space(surface);
-    const Grid<float> heights = relief_heights(surface, space);
+    const Grid<float> heights = terrain::unit_heights(surface.heightfield().heights.view());
     if (!relief) {
         auto texture = height_texture(heights, stats);
         if (!texture) {
             return texture.error();
         }
-        relief = ResidentRelief{space, std::move(*texture), std::nullopt};
+        relief.emplace();
+        relief->space = relief_space(surface);
+        relief->heights = std::move(*texture);
     }
-    if (exact) {
-        auto texture = pyramid_texture(greatest_heights(heights.view()), stats);
-        if (!texture) {
-            return texture.error();
-        }
-        relief->greatest = std::move(*texture);
+    if (needs_greatest) {
+        return keep(pyramid_texture(greatest_heights(heights.view()), stats), relief->greatest);
     }
-    return {};
+    return needs_cones ? keep(cone_texture(surface.terrain(), heights, stats), relief->cones)
+                       : Result<void>();
 }
 
 Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) {
@@ -396,12 +411,15 @@ Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, FrameStats&
     return &grid_indices_.emplace(std::pair{cols, rows}, std::move(*buffer)).first->second;
 }
 
-const ResidentMesh& Residency::tile(const TileDraw& draw) const {
+std::span<const ResidentMesh> Residency::tile(const TileDraw& draw) const {
+    if (draw.coarse) {
+        return coarse_tiles_.tile(draw);
+    }
     const Surface& surface = surfaces_.at(draw.terrain->surface.get());
     const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
     const auto& slot = slots[static_cast<std::size_t>(draw.tile)];
     check(slot.has_value(), "a tile that was not prepared");
-    return *slot;
+    return {&*slot, 1};
 }
 
 const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {

@@ -31,7 +31,8 @@ constexpr std::array features_by_name{
     std::pair{feature_soft_shadow, std::string_view("SOFT_SHADOW")},
     std::pair{feature_smooth_edges, std::string_view("SMOOTH_EDGES")},
     std::pair{feature_write_depth, std::string_view("WRITE_DEPTH")},
-    std::pair{feature_warped, std::string_view("WARPED")}};
+    std::pair{feature_warped, std::string_view("WARPED")},
+    std::pair{feature_cone, std::string_view("CONE")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -145,6 +146,9 @@ namespace {
 std::uint32_t search_of(std::uint32_t features) {
     if ((features & feature_exact) != 0) {
         return feature_exact;
+    }
+    if ((features & feature_cone) != 0) {
+        return feature_cone;
     }
     if ((features & feature_parallax) != 0) {
         return features & (feature_parallax | feature_limited | feature_iterated);

@@ -28,7 +28,7 @@ enum ShaderFeature : std::uint32_t {
     feature_lit = 1U << 0U, ///< there is a sun
     feature_fog = 1U << 1U, ///< there is air
     feature_hit = 1U << 2U, ///< writes the hit instead of the colour
-    // How a relief looks for its surface; steps alone where none of the first five is there.
+    // How a relief looks for its surface; steps alone where none of these is there.
     feature_exact = 1U << 3U,      ///< the true first hit
     feature_parallax = 1U << 4U,   ///< shifted by the height
     feature_bisect = 1U << 5U,     ///< steps, then halving
@@ -43,6 +43,7 @@ enum ShaderFeature : std::uint32_t {
     feature_smooth_edges = 1U << 13U, ///< near misses are blended in
     feature_write_depth = 1U << 14U,  ///< the depth of the hit, not of the box
     feature_warped = 1U << 15U,       ///< a terrain: shows the places warped onto it
+    feature_cone = 1U << 16U,         ///< how a relief looks: from cone to cone
 };
 
 struct ShaderVariant {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +10,12 @@
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<ParameterInfo, 1> polygons_parameters{
-    {{"lods", 1.0, 1.0, 1.0, true, "levels of detail at most; 1: every sample is a vertex"}}};
+constexpr std::array<ParameterInfo, 2> polygons_parameters{
+    {{"lods", 1.0, 1.0, 5.0, true,
+      "levels of detail at most, by distance; 1: every sample is a vertex"},
+     {"error", 0.0, 0.0, 16.0, false,
+      "pixels that no pixel is farther from where it belongs, instead of levels; 0: by levels",
+      true}}};
 
 constexpr ParameterInfo offset_parameter{
     "offset", -0.5,  -1.0,
@@ -30,14 +35,21 @@ constexpr std::array<ParameterInfo, 2> pom_parameters{
     {{"min", 8.0, 1.0, 4096.0, true, "equal steps seen from straight above"},
      {"max", 32.0, 1.0, 4096.0, true, "equal steps seen along the ground"}}};
 
-constexpr std::array<TechniqueInfo, 11> catalogue{
+constexpr std::array<ParameterInfo, 4> cone_parameters{
+    {{"relaxed", 1.0, 0.0, 1.0, true, "1: cones that a ray may meet the surface in once"},
+     {"n", 32.0, 1.0, 4096.0, true, "cones at the most"},
+     {"k", 2.0, 0.0, 32.0, true, "times the bracket is halved before the chord"},
+     {"step", 2.0, 0.0, 16.0, false, "samples a step goes at least; 0: passes over nothing"}}};
+
+constexpr std::array<TechniqueInfo, 12> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
       "GPU surface-detail survey (2008) ch. 1; Janković 2010 ch. 2",
       {}},
-     {TechniqueId::polygons, "polygons", "the heightfield as triangles",
-      "Janković 2010 ch. 2.7 test 4", polygons_parameters},
+     {TechniqueId::polygons, "polygons",
+      "the heightfield as triangles: all, fewer by distance, or as few as an error allows",
+      "Janković 2010 ch. 2.7 test 4; Lindstrom and Pascucci 2001", polygons_parameters},
      {TechniqueId::parallax, "parallax",
       "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
       "Janković 2010 ch. 2.3; Kaneko et al. 2001", parallax_parameters},
@@ -55,6 +67,8 @@ constexpr std::array<TechniqueInfo, 11> catalogue{
       "Janković 2010 ch. 2.4.9; Risser, Shah and Pattanaik 2006", interval_parameters},
      {TechniqueId::pom, "pom", "steps by the angle of view, then one chord",
       "Janković 2010 ch. 2.3.3; Tatarchuk 2005", pom_parameters},
+     {TechniqueId::cone, "cone", "from cone to cone that holds nothing, or one crossing",
+      "Dummer 2006; Policarpo and Oliveira 2007 (GPU Gems 3 ch. 18)", cone_parameters},
      {TechniqueId::exact,
       "exact",
       "the ray against the bilinear surface itself: the true first hit",
@@ -132,6 +146,14 @@ Result<void> assign(Technique& technique, std::string_view assignment,
     return set_option(technique.options, technique.id, assignment);
 }
 
+std::size_t index_of(const TechniqueInfo& info, std::string_view name) {
+    const auto found =
+        std::find_if(info.parameters.begin(), info.parameters.end(),
+                     [&](const ParameterInfo& parameter) { return parameter.name == name; });
+    check(found != info.parameters.end(), "a technique without that parameter");
+    return static_cast<std::size_t>(found - info.parameters.begin());
+}
+
 } // namespace
 
 std::span<const TechniqueInfo> technique_catalogue() {
@@ -160,6 +182,19 @@ Geometry geometry_of(TechniqueId id) {
 
 bool needs_plane(TechniqueId id) {
     return geometry_of(id) == Geometry::box || id == TechniqueId::prewarp;
+}
+
+double parameter(const Technique& technique, std::string_view name) {
+    return technique.values[index_of(technique_info(technique.id), name)];
+}
+
+Technique with_parameter(Technique technique, std::string_view name, double value) {
+    const TechniqueInfo& info = technique_info(technique.id);
+    const std::size_t index = index_of(info, name);
+    check(value >= info.parameters[index].low && value <= info.parameters[index].high,
+          "a parameter out of its range");
+    technique.values[index] = value;
+    return technique;
 }
 
 Technique make_technique(TechniqueId id) {
@@ -196,7 +231,10 @@ std::string to_string(const Technique& technique) {
     const TechniqueInfo& info = technique_info(technique.id);
     std::string list;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-        list += fmt::format(",{}={}", info.parameters[i].name, technique.values[i]);
+        const ParameterInfo& known = info.parameters[i];
+        if (!known.is_tacit || technique.values[i] != known.default_value) {
+            list += fmt::format(",{}={}", known.name, technique.values[i]);
+        }
     }
     list += to_string(technique.options);
     return list.empty() ? std::string(info.name)

@@ -13,7 +13,7 @@ namespace reljef::scene {
 /// How a terrain's surface is drawn.
 enum class TechniqueId {
     texture,           ///< colour over the flat reference surface
-    polygons,          ///< the heightfield as triangles
+    polygons,          ///< the heightfield as triangles, all or as many as it takes
     parallax,          ///< one look at the height shifts the place
     parallax_limited,  ///< the same, by no more than the height
     parallax_iterated, ///< looked at again from where it was shifted to
@@ -21,6 +21,7 @@ enum class TechniqueId {
     relief,            ///< equal steps, then halving
     interval,          ///< equal steps, then the chord
     pom,               ///< steps by the angle of view, then one chord
+    cone,              ///< from empty cone to empty cone
     exact,             ///< the true first hit
     prewarp,           ///< the surface warped onto the reference plane beforehand
 };
@@ -28,7 +29,7 @@ enum class TechniqueId {
 /// What is drawn so that a technique's pixels are reached.
 enum class Geometry {
     flat, ///< the flat reference surface
-    full, ///< every sample a vertex
+    full, ///< triangles over its samples
     box,  ///< the box that holds the surface; each pixel looks for it along its ray
 };
 Geometry geometry_of(TechniqueId id);
@@ -58,6 +59,11 @@ struct Technique {
     friend bool operator==(const Technique&, const Technique&) = default;
 };
 
+/// The value of one of its parameters. Precondition: it has one of that name.
+double parameter(const Technique& technique, std::string_view name);
+/// The same technique with another value. Preconditions: likewise, and the value is allowed.
+Technique with_parameter(Technique technique, std::string_view name, double value);
+
 /// The technique with its default parameters and no options.
 Technique make_technique(TechniqueId id);
 
@@ -65,8 +71,8 @@ Technique make_technique(TechniqueId id);
 /// belongs to the option before it. Errors name what was found and what was expected.
 Result<Technique> parse_technique(std::string_view text);
 
-/// "ID:key=value,…" with every parameter and those options it has: parse_technique gives the same
-/// technique back.
+/// "ID:key=value,…" with every parameter, but tacit ones that are as by default, and those options
+/// it has: parse_technique gives the same technique back.
 std::string to_string(const Technique& technique);
 
 } // namespace reljef::scene

@@ -20,6 +20,7 @@ struct ParameterInfo {
     double high = 0.0;  ///< greatest value allowed
     bool whole = false; ///< whole numbers only
     std::string_view meaning;
+    bool is_tacit = false; ///< named in a technique's text only where it is not the default
 };
 
 /// Equal steps by the angle of view: n = low + (high − low)(1 − cos α), α between the view ray and

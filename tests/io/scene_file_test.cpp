@@ -87,7 +87,7 @@ TEST(SceneFile, UnknownKeysAreRefusedWithTheKnownOnes) {
         error_of("[terrain]\ngenerator = \"urban\"\nsiez = 3\n"),
         HasSubstr("scene.toml:3: [terrain] siez is unknown, one of heights, generator, size"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sea]\nlevel = 1\n"),
-                HasSubstr("sea is unknown, one of name, terrain, sun, air, camera"));
+                HasSubstr("sea is unknown, one of name, terrain, area, sun, air, camera"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sun]\nheight = 3\n"),
                 HasSubstr("[sun] height is unknown, one of azimuth, altitude"));
 }
@@ -201,6 +201,25 @@ TEST(SceneFile, TheOnesThatComeWithReljefAreGood) {
     const auto example = read_scene_file(folder / "example_dem.toml");
     ASSERT_TRUE(example) << example.error().message;
     EXPECT_FALSE(example->heights.empty());
+}
+
+TEST(SceneFile, AnAreaHasAllItsFourSides) {
+    const std::string folder = "[terrain]\nheights = \"tiles\"\ngaps = \"sea\"\n[area]\n";
+    const auto scene =
+        parse_scene(folder + "south = 45\nwest = 6\nnorth = 46\neast = 7.5\n", "s.toml", "data");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->area);
+    EXPECT_EQ(scene->area->east, 7.5);
+    EXPECT_EQ(scene->gaps, "sea");
+    for (const auto& [sides, sentence] :
+         {std::pair("south = 45\nwest = 6\nnorth = 46\n", "east is missing"),
+          std::pair("south = 46\nwest = 6\nnorth = 45\neast = 7\n", "north is not above south"),
+          std::pair("south = 45\nwest = 7\nnorth = 46\neast = 6\n", "east is not east of west")}) {
+        const auto broken = parse_scene(folder + sides, "s.toml", "data");
+        ASSERT_FALSE(broken);
+        EXPECT_NE(broken.error().message.find(sentence), std::string::npos)
+            << broken.error().message;
+    }
 }
 
 } // namespace

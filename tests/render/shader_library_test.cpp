@@ -20,7 +20,7 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     const auto variants = all_variants();
     for (const ShaderKind kind :
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::sky}) {
-        for (std::uint32_t features = 0; features < feature_warped << 1U; ++features) {
+        for (std::uint32_t features = 0; features < feature_cone << 1U; ++features) {
             const ShaderVariant variant = without_meaningless({kind, features});
             ASSERT_EQ(variant.kind, kind);
             ASSERT_TRUE(std::binary_search(variants.begin(), variants.end(), variant));
@@ -36,10 +36,10 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
     }
     // terrain: fog or not, or a hit, warped or not; mesh: lit or not too; sky: lit or not. relief,
-    // of four parallaxes: each with and without fade and depth; of seven searches: these, and as
+    // of four parallaxes: each with and without fade and depth; of eight searches: these, and as
     // colour three shadows and smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
-    constexpr std::size_t searches = 7U * (4U + 2U * 4U * 6U);
+    constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
     EXPECT_EQ(all_variants().size(), 2U * 3U + 5U + 2U + parallax + searches);
 }
 
@@ -51,7 +51,8 @@ TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
                                           feature_write_depth | feature_view_steps;
         EXPECT_FALSE(has(options) && variant.kind != ShaderKind::relief);
         EXPECT_FALSE(has(feature_parallax | feature_hit) && has(shadows | feature_smooth_edges));
-        EXPECT_FALSE(has(feature_parallax | feature_exact) && has(feature_view_steps));
+        EXPECT_FALSE(has(feature_parallax | feature_exact | feature_cone) &&
+                     has(feature_view_steps));
         EXPECT_FALSE(has(feature_hard_shadow) && has(feature_soft_shadow));
         EXPECT_FALSE(has(shadows) && !has(feature_lit)) << "a shadow without a sun";
     }
@@ -61,7 +62,7 @@ TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
     for (const ShaderVariant& variant : all_variants()) {
         int ways = 0;
         for (const std::uint32_t way :
-             {feature_exact, feature_parallax, feature_bisect, feature_secant}) {
+             {feature_exact, feature_cone, feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
         EXPECT_LE(ways, variant.kind == ShaderKind::relief ? 1 : 0);
