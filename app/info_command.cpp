@@ -1,14 +1,17 @@
 #include <array>
 #include <cmath>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
 #include "app/options.h"
 #include "app/terrain_source.h"
 #include "engine/io/raster.h"
+#include "terrains/gallery.h"
 
 namespace reljef::app {
 namespace {
@@ -61,13 +64,60 @@ Json file_info(const io::SceneDescription& description) {
         {"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
 }
 
+// What stands on the gallery's floor, with the tiles it shows.
+Json models_of(const TerrainSource& source, const TerrainChoice& choice) {
+    Json models = Json::array();
+    if (source.description.generator == "gallery") {
+        const std::string asked_for = choice.textures.value_or(source.description.gallery_textures);
+        for (const terrains::GalleryModel& model : terrains::gallery_models()) {
+            models.push_back(
+                {{"name", model.name},
+                 {"textures", asked_for == "mixed" ? std::string(model.textures) : asked_for}});
+        }
+    }
+    return models;
+}
+
+// Samples of the finest tiles in one that was read.
+int reduction_of(const io::TileSet& tiles, const terrain::Heightfield& heightfield) {
+    const auto& georeference = heightfield.georeference;
+    const double steps =
+        georeference ? std::abs(georeference->crs_from_pixel.x_col / tiles.grid().step.x) : 1.0;
+    return static_cast<int>(std::lround(steps));
+}
+
+// A folder: how many files of which format, and the samples of its part at the finest spacing.
+Json tiles_info(const io::TileSet& tiles, const terrain::Heightfield& heightfield) {
+    Json formats = Json::object();
+    std::set<std::string> types;
+    for (const io::TileFile& file : tiles.files()) {
+        formats[file.format] = formats.value(file.format, 0) + 1;
+        types.insert(file.type);
+    }
+    const io::TileFile& finest = tiles.files().front();
+    const int reduction = reduction_of(tiles, heightfield);
+    return {{"format", "tiles"},
+            {"type", fmt::format("{}", fmt::join(types, ", "))},
+            {"cols", heightfield.heights.cols() * reduction},
+            {"rows", heightfield.heights.rows() * reduction},
+            {"files", tiles.files().size()},
+            {"formats", std::move(formats)},
+            {"finest_spacing_m", std::min(finest.spacing.x, finest.spacing.y)}};
+}
+
+Json geoid_info(const geo::Georeference& georeference) {
+    return georeference.geoid ? Json(georeference.geoid->name()) : Json(nullptr);
+}
+
 int reduction_of(const terrain::Heightfield& heightfield, const Json& cols) {
     return std::max(1, cols.get<int>() / heightfield.heights.cols());
 }
 
-Json describe(const TerrainSource& source) {
+Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     const terrain::Heightfield& heightfield = source.terrain.heightfield;
-    const Json file = source.description.generator.empty() ? file_info(source.description) : Json();
+    const Json file = source.tiles ? tiles_info(*source.tiles, heightfield)
+                      : source.description.generator.empty() ? file_info(source.description)
+                                                             : Json();
     Json info;
     info["name"] = source.terrain.name;
     info["cols"] = file.is_null() ? Json(heightfield.heights.cols()) : file["cols"];
@@ -78,9 +128,15 @@ Json describe(const TerrainSource& source) {
         info["crs"] = {{"name", georeference->crs_name},
                        {"code", georeference->crs_code},
                        {"horizontal_unit", georeference->horizontal_unit},
-                       {"vertical_datum", georeference->vertical_datum}};
+                       {"vertical_datum", georeference->vertical_datum},
+                       {"geoid", geoid_info(*georeference)}};
     } else {
         info["crs"] = nullptr;
+    }
+    if (source.tiles) {
+        info["tiles"] = {{"files", file["files"]},
+                         {"formats", file["formats"]},
+                         {"finest_spacing_m", file["finest_spacing_m"]}};
     }
     // What was read within the memory is all or a whole-number part of the file.
     info["read"] = {{"cols", heightfield.heights.cols()},
@@ -93,7 +149,24 @@ Json describe(const TerrainSource& source) {
     info["voids"] = heightfield.void_count;
     info["memory_bytes"] = heightfield.heights.size() * io::bytes_per_sample;
     info["notes"] = source.terrain.notes;
+    info["faults"] = source.terrain.faults;
+    if (const Json models = models_of(source, choice); !models.empty()) {
+        info["models"] = models;
+    }
     return info;
+}
+
+// What heights count from, and whether the geoid is applied.
+void print_vertical(const Json& crs) {
+    if (crs.is_null()) {
+        return;
+    }
+    const auto datum = crs["vertical_datum"].get<std::string>();
+    const std::string geoid =
+        crs["geoid"].is_null()
+            ? "geoid not applied: none given or installed for it"
+            : fmt::format("geoid {} applied on the ellipsoid", crs["geoid"].get<std::string>());
+    fmt::print("  zero     {}; {}\n", datum.empty() ? std::string("unnamed") : datum, geoid);
 }
 
 void print_text(const Json& info) {
@@ -109,6 +182,11 @@ void print_text(const Json& info) {
         const auto code = info["crs"]["code"].get<std::string>();
         fmt::print("  CRS      {}{}\n", info["crs"]["name"].get<std::string>(),
                    code.empty() ? "" : " (" + code + ")");
+    }
+    print_vertical(info["crs"]);
+    if (info.contains("tiles")) {
+        fmt::print("  tiles    {} {}\n", info["tiles"]["files"].get<std::size_t>(),
+                   info["tiles"]["formats"].dump());
     }
     fmt::print("  spacing  {:.4f} x {:.4f} m\n", number("spacing", "x_m"),
                number("spacing", "y_m"));
@@ -129,8 +207,15 @@ void print_text(const Json& info) {
                number("height_range", "high_m"));
     fmt::print("  voids    {}\n", info["voids"].get<std::size_t>());
     fmt::print("  memory   {:.1f} MB when drawn\n", info["memory_bytes"].get<double>() * 1e-6);
+    for (const auto& model : info.value("models", Json::array())) {
+        fmt::print("  model    {}, with a tile of {}\n", model["name"].get<std::string>(),
+                   model["textures"].get<std::string>());
+    }
     for (const auto& note : info["notes"]) {
         fmt::print("  note     {}\n", note.get<std::string>());
+    }
+    for (const auto& fault : info["faults"]) {
+        fmt::print("  left out {}\n", fault.get<std::string>());
     }
 }
 
@@ -139,7 +224,7 @@ Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
     if (!source) {
         return source.error();
     }
-    const Json info = describe(*source);
+    const Json info = describe(*source, choice.terrain);
     if (choice.json) {
         fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));
     } else {

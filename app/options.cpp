@@ -11,6 +11,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/render/error_view.h"
 
 namespace reljef::app {
 namespace {
@@ -90,6 +91,21 @@ Result<glm::dvec2> parse_sun(const std::string& text) {
     return glm::dvec2(azimuth, altitude);
 }
 
+Result<io::GeodeticArea> parse_area(const std::string& text) {
+    const auto numbers = parse_numbers<4>("--area", text, "SOUTH,WEST,NORTH,EAST in degrees");
+    if (!numbers) {
+        return numbers.error();
+    }
+    const auto [south, west, north, east] = *numbers;
+    if (!(south >= -90.0 && south < north && north <= 90.0 && west < east && east - west <= 360.0 &&
+          std::abs(west) <= 360.0)) {
+        return Error{fmt::format("--area: '{}' found, SOUTH below NORTH in -90 to 90 and WEST "
+                                 "below EAST, at most 360 apart, were expected",
+                                 text)};
+    }
+    return io::GeodeticArea{south, west, north, east};
+}
+
 Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
     const auto kind = platform::context_kind_from_string(text);
     if (!kind && text != "auto") {
@@ -97,15 +113,6 @@ Result<std::optional<platform::ContextKind>> parse_context(const std::string& te
             "--context: '{}' found, one of auto, glfw, egl, osmesa was expected", text)};
     }
     return kind;
-}
-
-Result<scene::Pose> parse_pose(const std::string& text) {
-    const auto pose = scene::pose_from_string(text);
-    if (!pose) {
-        return Error{fmt::format(
-            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
-    }
-    return *pose;
 }
 
 // Parses a number in [low, high], or above low where `above`.
@@ -164,8 +171,13 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--technique", choice.technique,
         [](const std::string& text) { return scene::parse_technique(text); },
-        "how the surface is drawn; 'reljef techniques' lists them (polygons)",
+        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: relief)",
         "ID[:key=value,...]");
+    add_parsed(command, "--max-error", choice.max_error,
+               number_in("--max-error", render::least_error, render::most_error),
+               "polygons: no pixel farther from where it belongs, with as few triangles as that "
+               "takes (every sample a vertex)",
+               "PX");
     command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
@@ -199,12 +211,15 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
                               "where on Earth it stands and looks, degrees and metres",
                               "LAT,LON,HEIGHT,HEADING,PITCH");
     camera->excludes(eye);
-    auto* pose = add_parsed(command, "--pose", choice.pose, parse_pose,
-                            "overview, oblique, low, grazing or map (overview)", "NAME");
+    auto* pose = add_parsed(
+        command, "--pose", choice.pose, [](const std::string& text) { return parse_pose(text); },
+        "overview, oblique, low, grazing or map (overview)", "NAME");
     pose->excludes(eye)->excludes(camera);
     command
-        .add_option("--path", choice.path,
-                    "fly: orbit, flyover, or a path file (TOML, [[key]] time, eye, look)")
+        .add_option(
+            "--path", choice.path,
+            "fly: orbit, flyover, a path file (TOML: [[key]] time, eye, look; or time, latitude, "
+            "longitude, height) or the line of a GPX, KML or GeoJSON file")
         ->type_name("NAME|FILE")
         ->excludes(eye)
         ->excludes(camera);
@@ -215,6 +230,15 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
 }
 
 } // namespace
+
+Result<scene::Pose> parse_pose(std::string_view text) {
+    const auto pose = scene::pose_from_string(text);
+    if (!pose) {
+        return Error{fmt::format(
+            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
+    }
+    return *pose;
+}
 
 Result<glm::ivec2> parse_size(std::string_view text) {
     const auto cross = text.find('x');
@@ -255,16 +279,24 @@ template Result<std::array<double, 2>> parse_numbers<2>(std::string_view, std::s
                                                         std::string_view);
 template Result<std::array<double, 3>> parse_numbers<3>(std::string_view, std::string_view,
                                                         std::string_view);
+template Result<std::array<double, 4>> parse_numbers<4>(std::string_view, std::string_view,
+                                                        std::string_view);
 template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::string_view,
                                                         std::string_view);
 
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command
         .add_option("TERRAIN", choice.terrain,
-                    "natural, urban, a scene file (.toml) or a DEM file of any format GDAL reads")
+                    "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
+                    "reads, a folder of them, or the https:// address of one")
         ->required();
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");
+    command
+        .add_option("--textures", choice.textures,
+                    "gallery only: brick, rock, cobble, mixed, or a folder of pictures (colour, "
+                    "height, normal)")
+        ->type_name("NAME|FOLDER");
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
                "of the heights, in the picture only (1)", "X");
@@ -273,6 +305,17 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                                                {{"plane", terrain::PlacementKind::plane},
                                                 {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
                "plane, or ellipsoid: on the curved Earth (georeferenced terrains)", "KIND");
+    add_parsed(command, "--area", choice.area, parse_area,
+               "only this part of a folder of tiles, degrees", "SOUTH,WEST,NORTH,EAST");
+    add_parsed(command, "--gaps", choice.gaps,
+               word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
+               "what lies between the tiles of a folder: holes, or sea at 0 m (holes)", "KIND");
+    command
+        .add_option(
+            "--geoid", choice.geoid,
+            "how far sea level lies above the ellipsoid: a file (.gtx, .tif, .pgm), or none "
+            "(the installed EGM96, for heights above EGM96)")
+        ->type_name("FILE");
     add_parsed(command, "--memory", choice.memory_megabytes,
                whole_number_in("--memory", 1, 1'000'000),
                "for the terrain, megabytes; larger files are read coarser (512)", "MB");
@@ -281,9 +324,22 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
 }
 
+scene::Technique technique_of(const ViewChoice& choice) {
+    const scene::Technique technique =
+        choice.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
+    return choice.max_error ? scene::with_parameter(technique, "error", *choice.max_error)
+                            : technique;
+}
+
 void check_view_options(const ViewChoice& choice) {
     if (choice.eye && choice.look && *choice.eye == *choice.look) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
+    }
+    if (choice.max_error && choice.technique &&
+        choice.technique->id != scene::TechniqueId::polygons) {
+        throw CLI::ValidationError(
+            fmt::format("--max-error: technique {} found, polygons was expected",
+                        scene::technique_info(choice.technique->id).name));
     }
     if (choice.pose == scene::Pose::map && !choice.path.empty()) {
         throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "

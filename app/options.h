@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
+#include "engine/io/tile_set.h"
 #include "engine/platform/context.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/poses.h"
@@ -25,10 +26,15 @@ namespace reljef::app {
 
 /// Which terrain, and how it is read.
 struct TerrainChoice {
-    std::string terrain; ///< a built-in name, a scene file (.toml) or a DEM file
+    std::string terrain; ///< a built-in name, a scene file (.toml), a DEM file or a folder of them
     std::filesystem::path imagery;
+    /// The gallery's tiles: a built-in set, "mixed" or a folder; absent: the scene file's.
+    std::optional<std::string> textures;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
     std::optional<terrain::PlacementKind> placement;
+    std::optional<io::GeodeticArea> area; ///< absent: the scene file's, else all
+    std::optional<io::Gaps> gaps;         ///< absent: the scene file's, else holes
+    std::string geoid;                    ///< a file, "none", or empty: the installed one
     int memory_megabytes = 512;
     int threads = 0; ///< 0: as many as the machine has
     bool quiet = false;
@@ -47,7 +53,9 @@ struct GeodeticView {
 struct ViewChoice {
     std::optional<platform::ContextKind> context; ///< absent: auto
     glm::ivec2 size{1024, 768};
-    scene::Technique technique = scene::make_technique(scene::TechniqueId::polygons);
+    std::optional<scene::Technique>
+        technique;                   ///< absent: polygons; the gallery's own on its models
+    std::optional<double> max_error; ///< pixels, of polygons; absent: as the technique says
     bool wireframe = false;
     double vertical_fov = 57.3;
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;
@@ -65,6 +73,8 @@ struct ViewChoice {
 /// The largest picture side that may be asked for, pixels.
 inline constexpr int largest_picture_side = 16384;
 
+/// A pose by its name; the error names the option --pose.
+Result<scene::Pose> parse_pose(std::string_view text);
 /// Parses "1024x768". Each side 1 … largest_picture_side.
 Result<glm::ivec2> parse_size(std::string_view text);
 
@@ -76,6 +86,8 @@ Result<std::array<double, N>> parse_numbers(std::string_view option, std::string
 /// Adds the options of a group to a command; they are checked as they are parsed (CLI::ParseError).
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
+/// The technique with --max-error.
+scene::Technique technique_of(const ViewChoice& choice);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

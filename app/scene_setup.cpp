@@ -7,7 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/io/scene_file.h"
+#include "app/gallery.h"
+#include "engine/io/flight_file.h"
 
 namespace reljef::app {
 namespace {
@@ -24,7 +25,7 @@ scene::TerrainOptions terrain_options(const TerrainChoice& choice, const ViewCho
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    if (!options.placement && scene::geometry_of(view.technique.id) == scene::Geometry::box) {
+    if (!options.placement && view.technique && scene::needs_plane(view.technique->id)) {
         options.placement = terrain::PlacementKind::plane; // the only one it draws
     }
     return options;
@@ -65,6 +66,89 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
                               scene.bounds, ground);
 }
 
+// A flight whose file tells no heights keeps so far above the ground, and no flight goes lower than
+// the second; metres.
+constexpr double height_over_ground = 300.0;
+constexpr double least_over_ground = 2.0;
+constexpr double look_ahead = 1000.0; // metres
+
+// True metres; nothing outside the terrain.
+std::optional<double> ground_height(const terrain::Heightfield& heightfield,
+                                    const io::GeodeticKey& key) {
+    if (!heightfield.georeference) {
+        return std::nullopt;
+    }
+    const auto sample = heightfield.georeference->geodetic.sample(key.latitude, key.longitude);
+    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    const bool inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
+                        sample->y <= last.y;
+    return inside ? std::optional(terrain::bilinear_height(heightfield.heights.view(), *sample))
+                  : std::nullopt;
+}
+
+// Where a key lies in the scene, its height kept above the ground that is drawn.
+Result<glm::dvec3> eye_of(const scene::TerrainSurface& surface, const io::GeodeticKey& key,
+                          const std::string& name) {
+    const double ground = ground_height(surface.heightfield(), key).value_or(0.0);
+    const double height = key.height ? std::max(*key.height, ground + least_over_ground)
+                                     : ground + height_over_ground;
+    const auto eye = surface.placement().world_from_geodetic({key.latitude, key.longitude, height});
+    return eye ? Result<glm::dvec3>(*eye)
+               : Error{fmt::format("{}: a key at {},{} found, places near {} and a terrain with a "
+                                   "place on Earth were expected",
+                                   name, key.latitude, key.longitude, surface.terrain().name)};
+}
+
+// Where the camera looks from key `index`: by its angles, else to the next key, else as before.
+glm::dvec3 look_of(const TerrainScene& scene, std::span<const io::GeodeticKey> keys,
+                   std::span<const glm::dvec3> eyes, std::size_t index) {
+    const glm::dvec3 eye = eyes[index];
+    if (keys[index].heading) {
+        const auto& placement = scene.terrain->get<scene::TerrainNode>()->surface->placement();
+        const auto camera = scene::camera_from_angles(
+            eye, *keys[index].heading, keys[index].pitch.value_or(0.0), placement.up(eye));
+        return eye + look_ahead * glm::normalize(camera.look - camera.eye);
+    }
+    const std::size_t from =
+        index + 1 < eyes.size() ? index : index - std::min<std::size_t>(index, 1);
+    const std::size_t to = std::min(from + 1, eyes.size() - 1);
+    const glm::dvec3 way = eyes[to] - eyes[from];
+    const double length = glm::length(way);
+    return length > 0.0 ? eye + way * (look_ahead / length)
+                        : eye + glm::dvec3(0.0, look_ahead, 0.0);
+}
+
+Result<std::vector<scene::FlyKey>> fly_keys_on_earth(const TerrainScene& scene,
+                                                     std::span<const io::GeodeticKey> keys,
+                                                     const std::string& name) {
+    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    std::vector<glm::dvec3> eyes;
+    for (const io::GeodeticKey& key : keys) {
+        auto eye = eye_of(surface, key, name);
+        if (!eye) {
+            return eye.error();
+        }
+        eyes.push_back(*eye);
+    }
+    std::vector<scene::FlyKey> fly_keys;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        fly_keys.push_back({keys[i].time, eyes[i], look_of(scene, keys, eyes, i)});
+    }
+    return fly_keys;
+}
+
+Result<std::vector<scene::FlyKey>> fly_keys_of(const TerrainScene& scene, const io::Flight& flight,
+                                               const std::string& name) {
+    if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight)) {
+        return fly_keys_on_earth(scene, *on_earth, name);
+    }
+    std::vector<scene::FlyKey> fly_keys;
+    for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight)) {
+        fly_keys.push_back({key.time, key.eye, key.look});
+    }
+    return fly_keys;
+}
+
 // The nearest depth drawn: so close that nothing in reach of the eye is cut, and far above the
 // smallest normal float.
 constexpr double near_in_widths = 1e-6;
@@ -80,10 +164,39 @@ void set_projection(scene::Camera& camera, const Box& bounds, const ViewChoice& 
     }
 }
 
+// How the terrain is drawn.
+Result<void> choose_look(TerrainScene& scene, const ViewChoice& view) {
+    const scene::Technique technique = technique_of(view);
+    if (auto good = scene.check(technique); !good) {
+        return good;
+    }
+    auto& material = scene.terrain->get<scene::TerrainNode>()->material;
+    material.technique = technique;
+    material.wireframe = view.wireframe;
+    return {};
+}
+
 } // namespace
 
 double TerrainScene::ground(double x, double y) const {
     return scene.height_at(x, y).value_or(bounds.low.z);
+}
+
+std::vector<scene::Material*> TerrainScene::materials() const {
+    std::vector<scene::Material*> materials;
+    for (scene::Node* const model : models) {
+        materials.push_back(&model->get<scene::MeshNode>()->material);
+    }
+    if (materials.empty()) {
+        materials.push_back(&terrain->get<scene::TerrainNode>()->material);
+    }
+    return materials;
+}
+
+Result<void> TerrainScene::check(const scene::Technique& technique) const {
+    return models.empty()
+               ? scene::check_technique(technique, *terrain->get<scene::TerrainNode>()->surface)
+               : scene::check_technique(technique, *models.front()->get<scene::MeshNode>());
 }
 
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
@@ -96,19 +209,23 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     }
     result.terrain = *node;
     result.bounds = result.terrain->world_bounds();
-    auto& material = result.terrain->get<scene::TerrainNode>()->material;
-    if (auto good = scene::check_technique(view.technique,
-                                           *result.terrain->get<scene::TerrainNode>()->surface);
-        !good) {
-        return good.error();
+    if (source.description.generator == "gallery") {
+        auto models = add_gallery(result.scene, source.description, terrain, view);
+        if (!models) {
+            return models.error();
+        }
+        result.models = std::move(*models);
+        if (auto good = result.check(result.materials().front()->technique); !good) {
+            return good.error();
+        }
+    } else if (auto done = choose_look(result, view); !done) {
+        return done.error();
     }
-    material.technique = view.technique;
-    material.wireframe = view.wireframe;
 
     scene::Light sun;
     sun.azimuth = view.sun ? view.sun->x : source.description.sun_azimuth;
     sun.altitude = view.sun ? view.sun->y : source.description.sun_altitude;
-    result.scene.add_light(sun);
+    result.light = &result.scene.add_light(sun);
     scene::Sky sky;
     const glm::dvec3 size = result.bounds.size();
     sky.visibility = source.description.visibility.value_or(visibility_in_widths *
@@ -141,15 +258,15 @@ Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const
         return Error{fmt::format("--path: '{}' found, orbit, flyover or a path file was expected",
                                  view.path)};
     }
-    const auto keys = io::read_path_file(view.path);
-    if (!keys) {
-        return keys.error();
+    const auto flight = io::read_flight(view.path);
+    if (!flight) {
+        return flight.error();
     }
-    std::vector<scene::FlyKey> fly_keys;
-    std::transform(keys->begin(), keys->end(), std::back_inserter(fly_keys), [](const auto& key) {
-        return scene::FlyKey{key.time, key.eye, key.look};
-    });
-    auto path = scene::FlyPath::create(std::move(fly_keys));
+    auto fly_keys = fly_keys_of(scene, *flight, view.path);
+    if (!fly_keys) {
+        return fly_keys.error();
+    }
+    auto path = scene::FlyPath::create(std::move(*fly_keys));
     if (!path) {
         return path.error();
     }

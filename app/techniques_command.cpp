@@ -1,5 +1,10 @@
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
@@ -16,6 +21,16 @@ Json to_json(const scene::ParameterInfo& parameter) {
             {"whole", parameter.whole}, {"meaning", parameter.meaning}};
 }
 
+Json to_json(const scene::OptionInfo& option) {
+    Json numbers = Json::array();
+    for (const scene::ParameterInfo& number : option.numbers) {
+        numbers.push_back(to_json(number));
+    }
+    return {
+        {"name", option.name},       {"form", option.form},     {"default", option.default_value},
+        {"meaning", option.meaning}, {"source", option.source}, {"numbers", numbers}};
+}
+
 Json catalogue_json() {
     Json list = Json::array();
     for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
@@ -23,12 +38,44 @@ Json catalogue_json() {
         for (const scene::ParameterInfo& parameter : technique.parameters) {
             parameters.push_back(to_json(parameter));
         }
+        Json options = Json::array();
+        for (const scene::OptionInfo& option : scene::options_of(technique.id)) {
+            options.push_back(to_json(option));
+        }
         list.push_back({{"id", technique.name},
                         {"meaning", technique.meaning},
                         {"source", technique.source},
-                        {"parameters", parameters}});
+                        {"parameters", parameters},
+                        {"options", options}});
     }
     return list;
+}
+
+// The names of the techniques that take an option.
+std::vector<std::string_view> takers_of(const scene::OptionInfo& option) {
+    std::vector<std::string_view> takers;
+    for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
+        const auto taken = scene::options_of(technique.id);
+        if (std::any_of(taken.begin(), taken.end(),
+                        [&](const auto& info) { return info.name == option.name; })) {
+            takers.push_back(technique.name);
+        }
+    }
+    return takers;
+}
+
+void print_options() {
+    fmt::print("\nOptions, behind the parameters of those that take them: "
+               "relief:n=11,k=8,shadow=soft,0.3\n");
+    for (const scene::OptionInfo& option : scene::option_catalogue()) {
+        fmt::print("{:<12} {}={} ({})\n{:<12} {}\n{:<12} with {}\n", option.name, option.name,
+                   option.form, option.default_value, "", option.meaning, "",
+                   fmt::join(takers_of(option), ", "));
+        for (const scene::ParameterInfo& number : option.numbers) {
+            fmt::print("{:<12}   {}={} ({} to {}): {}\n", "", number.name, number.default_value,
+                       number.low, number.high, number.meaning);
+        }
+    }
 }
 
 void print_text() {
@@ -40,6 +87,7 @@ void print_text() {
                        parameter.default_value, parameter.low, parameter.high, parameter.meaning);
         }
     }
+    print_options();
 }
 
 } // namespace

@@ -1,13 +1,17 @@
 #include "app/terrain_source.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "app/message.h"
 #include "app/progress_line.h"
+#include "engine/io/cone_cache.h"
+#include "engine/io/geoid_file.h"
 #include "engine/io/raster.h"
 #include "terrains/built_in.h"
+#include "terrains/gallery.h"
 #include "terrains/generators.h"
 
 namespace reljef::app {
@@ -36,7 +40,7 @@ Result<io::SceneDescription> describe(const std::string& terrain) {
                         terrain, names)};
     }
     io::SceneDescription description;
-    description.name = path.filename().string();
+    description.name = (path.has_filename() ? path : path.parent_path()).filename().string();
     description.heights = path;
     return description;
 }
@@ -56,22 +60,142 @@ Result<terrain::Terrain> generate(const TerrainChoice& choice,
         return Error{fmt::format("--imagery: {} found, but {} brings its own colours",
                                  choice.imagery.string(), description.name)};
     }
+    if (description.generator == "gallery") {
+        return terrains::generate_gallery(options);
+    }
     return description.generator == "natural" ? terrains::generate_natural(options)
                                               : terrains::generate_urban(options);
 }
 
-Result<terrain::Terrain> read(const TerrainChoice& choice, const io::SceneDescription& description,
-                              const std::stop_token& stop) {
-    ProgressLine line("reading " + description.name, choice.quiet);
+io::RasterOptions raster_options(const TerrainChoice& choice,
+                                 const io::SceneDescription& description,
+                                 const std::stop_token& stop) {
     io::RasterOptions options;
     options.memory_budget = static_cast<std::size_t>(choice.memory_megabytes) << 20U;
     options.spacing = description.spacing;
     options.height_scale = description.height_scale;
     options.height_offset = description.height_offset;
     options.imagery = choice.imagery.empty() ? description.imagery : choice.imagery;
-    options.progress = line.callback();
     options.stop = stop;
+    return options;
+}
+
+// Where the indexes of folders are kept, by the XDG base directory specification; empty where the
+// user has no home.
+fs::path cache_folder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return fs::path(value != nullptr ? value : "");
+    };
+    const fs::path cache = variable("XDG_CACHE_HOME");
+    if (cache.is_absolute()) {
+        return cache / "reljef";
+    }
+    const fs::path home = variable("HOME");
+    return home.is_absolute() ? home / ".cache" / "reljef" : fs::path();
+}
+
+Result<io::TileSet> open_set(const TerrainChoice& choice, const io::SceneDescription& description,
+                             const std::stop_token& stop) {
+    io::TileSetOptions options;
+    options.cache_folder = cache_folder();
+    options.threads = static_cast<unsigned>(choice.threads);
+    options.height_scale = description.height_scale;
+    options.height_offset = description.height_offset;
+    options.stop = stop;
+    return io::TileSet::open(description.heights, options);
+}
+
+Result<terrain::Terrain> read_tiles(const io::TileSet& tiles, const TerrainChoice& choice,
+                                    const io::SceneDescription& description,
+                                    const std::stop_token& stop) {
+    ProgressLine line("reading " + description.name, choice.quiet);
+    io::TileTerrainOptions options;
+    options.raster = raster_options(choice, description, stop);
+    options.raster.progress = line.callback();
+    options.area = choice.area ? choice.area : description.area;
+    options.gaps =
+        choice.gaps.value_or(description.gaps == "sea" ? io::Gaps::sea : io::Gaps::holes);
+    options.threads = static_cast<unsigned>(choice.threads);
+    return tiles.terrain(options);
+}
+
+Result<terrain::Terrain> read(const TerrainChoice& choice, const io::SceneDescription& description,
+                              const std::stop_token& stop) {
+    ProgressLine line("reading " + description.name, choice.quiet);
+    io::RasterOptions options = raster_options(choice, description, stop);
+    options.progress = line.callback();
     return io::read_terrain(description.heights, options);
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+Result<void> refuse_folder_options(const TerrainChoice& choice,
+                                   const io::SceneDescription& description) {
+    const char* option = choice.area ? "--area" : choice.gaps ? "--gaps" : nullptr;
+    if (option == nullptr && !description.area) {
+        return {};
+    }
+    return Error{fmt::format("{}: {} found, but it is no folder of tiles, for which alone that was "
+                             "expected",
+                             description.name, option != nullptr ? option : "[area]")};
+}
+
+Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescription description,
+                                  const std::stop_token& stop) {
+    if (is_folder(description.heights)) {
+        auto tiles = open_set(choice, description, stop);
+        if (!tiles) {
+            return tiles.error();
+        }
+        auto terrain = read_tiles(*tiles, choice, description, stop);
+        return terrain ? Result<TerrainSource>(TerrainSource{
+                             std::move(*terrain), std::move(description), std::move(*tiles)})
+                       : terrain.error();
+    }
+    if (auto fits = refuse_folder_options(choice, description); !fits) {
+        return fits.error();
+    }
+    auto terrain = description.generator.empty() ? read(choice, description, stop)
+                                                 : generate(choice, description, stop);
+    return terrain ? Result<TerrainSource>(
+                         TerrainSource{std::move(*terrain), std::move(description), std::nullopt})
+                   : terrain.error();
+}
+
+// Heights above sea level become heights above the ellipsoid by the geoid that the user names, or
+// by the installed one where it is the terrain's own.
+Result<void> set_geoid(const TerrainChoice& choice, terrain::Terrain& terrain) {
+    auto& georeference = terrain.heightfield.georeference;
+    const bool is_egm96 =
+        georeference && georeference->vertical_datum.find("EGM96") != std::string::npos;
+    std::optional<fs::path> file;
+    if (choice.geoid.empty() && is_egm96) {
+        file = io::installed_geoid();
+    } else if (!choice.geoid.empty() && choice.geoid != "none") {
+        file = choice.geoid;
+    }
+    if (!file || !georeference) {
+        return {};
+    }
+    auto geoid = io::read_geoid(*file);
+    if (!geoid) {
+        return geoid.error();
+    }
+    georeference->geoid = std::move(*geoid);
+    return {};
+}
+
+void tell_notes(const TerrainSource& source) {
+    for (const std::string& note : source.terrain.notes) {
+        tell(fmt::format("reljef: note: {}\n", note));
+    }
+    for (const std::string& fault : source.terrain.faults) {
+        tell(fmt::format("reljef: left out: {}\n", fault));
+    }
 }
 
 } // namespace
@@ -87,17 +211,60 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
 
 Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
                                    const std::stop_token& stop, Notes notes) {
-    auto terrain = description.generator.empty() ? read(choice, description, stop)
-                                                 : generate(choice, description, stop);
-    if (!terrain) {
-        return terrain.error();
+    if (choice.textures && description.generator != "gallery") {
+        return Error{fmt::format("--textures: {} found, but only the gallery shows tiles, not {}",
+                                 *choice.textures, description.name)};
+    }
+    auto source = read_source(choice, std::move(description), stop);
+    if (!source) {
+        return source.error();
+    }
+    if (auto set = set_geoid(choice, source->terrain); !set) {
+        return set.error();
     }
     if (!choice.quiet && notes == Notes::told) {
-        for (const std::string& note : terrain->notes) {
-            tell(fmt::format("reljef: note: {}\n", note));
-        }
+        tell_notes(*source);
     }
-    return TerrainSource{std::move(*terrain), std::move(description)};
+    return source;
+}
+
+Result<io::TileSet> open_tiles(const TerrainChoice& choice, const std::stop_token& stop) {
+    const auto description = describe(choice.terrain);
+    if (!description) {
+        return description.error();
+    }
+    if (!description->generator.empty()) {
+        return Error{fmt::format("{}: has no coordinate system, one was expected for places on "
+                                 "Earth",
+                                 description->name)};
+    }
+    return open_set(choice, *description, stop);
+}
+
+Result<void> report_faults(const std::string& terrain, std::size_t faults) {
+    return faults == 0 ? Result<void>()
+                       : Error{fmt::format("{}: {} of its files could not be read and {} left out",
+                                           terrain, faults, faults == 1 ? "is" : "are")};
+}
+
+Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
+                               const TerrainChoice& choice, const std::stop_token& stop) {
+    const Grid<float>& heights = source.terrain.heightfield.heights;
+    if (technique.id != scene::TechniqueId::cone || heights.cols() < 2 || heights.rows() < 2) {
+        return {};
+    }
+    ProgressLine line("cones of " + source.description.name, choice.quiet);
+    io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    options.parallel = {static_cast<unsigned>(choice.threads), stop, line.callback()};
+    auto cached = io::cached_cones(terrain::unit_heights(heights.view()).view(), options);
+    if (!cached) {
+        return Error{fmt::format("{}: stopped while its cones were made", source.terrain.name)};
+    }
+    if (!choice.quiet && !cached->note.empty()) {
+        tell(fmt::format("reljef: note: {}\n", cached->note));
+    }
+    source.terrain.cones = std::move(cached->cones);
+    return {};
 }
 
 } // namespace reljef::app

@@ -4,6 +4,8 @@
 
 #include "app/options.h"
 #include "engine/io/scene_file.h"
+#include "engine/io/tile_set.h"
+#include "engine/scene/technique.h"
 #include "engine/terrain/heightfield.h"
 
 namespace reljef::app {
@@ -12,6 +14,7 @@ namespace reljef::app {
 struct TerrainSource {
     terrain::Terrain terrain;
     io::SceneDescription description;
+    std::optional<io::TileSet> tiles; ///< where the heights are a folder
 };
 
 /// What becomes of a terrain's notes: told on stderr, or only kept in terrain::Terrain::notes.
@@ -25,5 +28,16 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
 /// The same of a scene that is described already; `choice.terrain` is not looked at.
 Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
                                    const std::stop_token& stop, Notes notes = Notes::told);
+
+/// Makes what the technique needs besides the heights and takes seconds, or reads it from the
+/// cache, with progress and notes on stderr: the cones. Fails when it was stopped.
+Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
+                               const TerrainChoice& choice, const std::stop_token& stop);
+
+/// The files of heights that TERRAIN names, indexed but not read; fails for generated terrains.
+Result<io::TileSet> open_tiles(const TerrainChoice& choice, const std::stop_token& stop);
+
+/// What is told in the end, with exit status 1, where files of the terrain could not be read.
+Result<void> report_faults(const std::string& terrain, std::size_t faults);
 
 } // namespace reljef::app

@@ -191,6 +191,11 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     if (!source) {
         return source.error();
     }
+    if (auto ready =
+            prepare_technique(*source, choice.view.technique, choice.terrain, interrupt.token());
+        !ready) {
+        return ready;
+    }
     auto scene = make_scene(std::move(*source), choice.terrain, choice.view);
     if (!scene) {
         return scene.error();

@@ -36,17 +36,19 @@ bool is_accepted(const scene::Technique& technique) {
 
 // What a technique costs by its kind, about: the first cost the least.
 int cost_rank(const scene::TechniqueInfo& info) {
-    const scene::Geometry geometry = scene::geometry_of(info.id);
-    if (geometry != scene::Geometry::box) {
-        return geometry == scene::Geometry::flat ? 0 : 5;
-    }
-    const auto is_named = [&](std::string_view begin) { return info.name.starts_with(begin); };
-    return is_named("parallax") ? 1 : is_named("exact") ? 3 : is_named("cone") ? 4 : 2;
+    constexpr int searches = 2;
+    constexpr std::array<std::pair<std::string_view, int>, 5> ranks{
+        {{"texture", 0}, {"parallax", 1}, {"exact", 3}, {"prewarp", 4}, {"cone", 5}}};
+    constexpr int triangles = 6;
+    const auto found = std::find_if(ranks.begin(), ranks.end(), [&](const auto& rank) {
+        return info.name.starts_with(rank.first);
+    });
+    const bool is_full = scene::geometry_of(info.id) == scene::Geometry::full;
+    return is_full ? triangles : found == ranks.end() ? searches : found->second;
 }
 
 std::vector<scene::TechniqueInfo> catalogue_by_cost() {
-    const auto catalogue = scene::technique_catalogue();
-    std::vector<scene::TechniqueInfo> infos(catalogue.begin(), catalogue.end());
+    std::vector<scene::TechniqueInfo> infos = scene::terrain_techniques();
     std::stable_sort(infos.begin(), infos.end(),
                      [](const scene::TechniqueInfo& a, const scene::TechniqueInfo& b) {
                          return cost_rank(a) < cost_rank(b);

@@ -24,8 +24,9 @@ inline constexpr int most_values = 5;
 std::vector<double> values_over_range(const scene::ParameterInfo& parameter);
 
 /// Every technique there is as it is by default, the cheapest first by its kind: the flat one,
-/// parallax, searches, exact, cones, triangles; then each with one parameter at a time over its
-/// range, as far as the catalogue takes it, the values next to the default first. None twice.
+/// parallax, searches, exact, what is prepared beforehand, triangles; then each with one parameter
+/// at a time over its range, as far as the catalogue takes it, the values next to the default
+/// first. None twice.
 std::vector<scene::Technique> settings_over_range();
 
 /// Time against error: the settings on each terrain from each of the poses overview, oblique, low

@@ -41,10 +41,18 @@ bool has_sources(std::span<const Row> rows) {
                        [](const Row& row) { return row.source.has_value(); });
 }
 
-std::vector<std::string> columns_of(bool with_sources) {
+// Where triangles are what is chosen, and the greatest error what is promised.
+bool is_of_levels(std::span<const Row> rows) {
+    return rows.front().suite == "lod";
+}
+
+std::vector<std::string> columns_of(bool with_sources, bool with_levels) {
     std::vector<std::string> columns{"technique", "ms", "±", "fps", "1 % low", "ratio", "drop"};
     if (with_sources) {
         columns.insert(columns.end(), {"source", "ratio"});
+    }
+    if (with_levels) {
+        columns.insert(columns.end(), {"triangles", "most px"});
     }
     columns.insert(columns.end(), {"error px", "wrong"});
     return columns;
@@ -87,17 +95,29 @@ std::vector<std::string> source_cells(const Row& row) {
                       : std::vector<std::string>(2, no_figure);
 }
 
+bool has_unbounded(const Row& row) {
+    return row.error && row.error->reprojection_px && row.error->reprojection_px->unbounded > 0;
+}
+
+std::vector<std::string> level_cells(const Row& row) {
+    const bool has_error = row.error && row.error->reprojection_px;
+    return {row.timing ? fmt::format("{}", row.timing->stats.triangles) : std::string(no_figure),
+            !has_error           ? std::string(no_figure)
+            : has_unbounded(row) ? "∞"
+                                 : figure(row.error->reprojection_px->distribution.max)};
+}
+
 std::vector<std::string> error_cells(const Row& row) {
     if (!row.error) {
         return std::vector<std::string>(2, no_figure);
     }
     const auto& error = row.error->reprojection_px;
-    const std::string bound = error && error->unbounded > 0 ? "≥" : "";
+    const std::string bound = has_unbounded(row) ? "≥" : "";
     return {error ? bound + figure(error->distribution.rms) : std::string(no_figure),
             fmt::format("{:.1f} %", row.error->wrong_percent)};
 }
 
-std::vector<std::string> cells_of(const Row& row, bool with_sources) {
+std::vector<std::string> cells_of(const Row& row, bool with_sources, bool with_levels) {
     std::vector<std::string> cells{row.setting.label};
     const auto append = [&](const std::vector<std::string>& more) {
         cells.insert(cells.end(), more.begin(), more.end());
@@ -106,12 +126,11 @@ std::vector<std::string> cells_of(const Row& row, bool with_sources) {
     if (with_sources) {
         append(source_cells(row));
     }
+    if (with_levels) {
+        append(level_cells(row));
+    }
     append(error_cells(row));
     return cells;
-}
-
-bool has_unbounded(const Row& row) {
-    return row.error && row.error->reprojection_px && row.error->reprojection_px->unbounded > 0;
 }
 
 std::string unbounded_text(const Row& row) {
@@ -159,10 +178,11 @@ std::vector<std::string> notes_of(std::span<const Row> rows) {
 
 ReportTable table_of_rows(std::span<const Row> rows) {
     const bool with_sources = has_sources(rows);
-    ReportTable table{heading_of(rows), columns_of(with_sources), {}, notes_of(rows)};
+    const bool with_levels = is_of_levels(rows);
+    ReportTable table{heading_of(rows), columns_of(with_sources, with_levels), {}, notes_of(rows)};
     for (const Row& row : rows) {
         if (!row.null_row) {
-            table.lines.push_back(cells_of(row, with_sources));
+            table.lines.push_back(cells_of(row, with_sources, with_levels));
         }
     }
     return table;

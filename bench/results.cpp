@@ -8,6 +8,9 @@ Setting setting_of(const scene::Technique& technique) {
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
         setting.parameters.push_back({std::string(info.parameters[i].name), technique.values[i]});
     }
+    for (const scene::OptionNumber& number : scene::option_numbers(technique.options)) {
+        setting.parameters.push_back({number.name, number.value});
+    }
     return setting;
 }
 

@@ -66,6 +66,7 @@ Result<app::Device> make_device(const SuiteOptions& options) {
     device.context_options.size = options.size;
     device.context_options.visible = false;
     device.driver.size = options.size;
+    device.driver.shader_dir = options.shader_dir;
     return app::Device::create(device);
 }
 

@@ -69,6 +69,11 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
     command.add_option("--threads", options.threads, "0: as many as the machine has (0)")
         ->type_name("N")
         ->check(whole_number_in(0, 1024));
+    command
+        .add_option("--shader-dir", options.shader_dir,
+                    "shader files here come before the built-in ones")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
     command.add_flag("--quiet", options.quiet, "no progress and no notes on stderr");
 }
 
@@ -103,6 +108,14 @@ void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& tec
             fmt::format("beside texture; may be given again ({})", otherwise))
         ->type_name("ID[:key=value,...]")
         ->allow_extra_args(false);
+}
+
+void add_pose_option(CLI::App& command, std::optional<scene::Pose>& pose) {
+    command
+        .add_option_function<std::string>(
+            "--pose", [&pose](const std::string& text) { pose = checked(app::parse_pose(text)); },
+            "overview, oblique, low, grazing or map (overview)")
+        ->type_name("NAME");
 }
 
 std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains) {

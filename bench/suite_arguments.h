@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "app/output_files.h"
 #include "bench/suite_options.h"
 #include "engine/core/result.h"
+#include "engine/scene/poses.h"
 #include "engine/scene/technique.h"
 
 namespace CLI {
@@ -29,6 +31,9 @@ void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
 /// Adds --technique, which may be given again; `otherwise` says what is measured without it.
 void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& techniques,
                            const std::string& otherwise);
+
+/// Adds --pose.
+void add_pose_option(CLI::App& command, std::optional<scene::Pose>& pose);
 
 /// The terrains as files that no output may replace, and those that their scene files name.
 std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -19,8 +20,10 @@ struct SuiteOptions {
     bool quick = false;
     double quick_seconds = 48.0; ///< of a quick run: the minute, less a slow machine's reserve
     bool quiet = false;          ///< no progress and no notes on stderr
-    bool keep_views = false;     ///< fills Row::view
-    Progress progress;           ///< told beside the line on stderr
+    std::filesystem::path
+        shader_dir;          ///< shader files here come before the built-in ones; may be empty
+    bool keep_views = false; ///< fills Row::view
+    Progress progress;       ///< told beside the line on stderr
 };
 
 } // namespace reljef::bench

@@ -23,6 +23,7 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
                         "the sources' tests on generated terrains; with --technique natural and "
                         "urban");
     add_techniques_option(command, choice.options.techniques, "all of them");
+    add_pose_option(command, choice.options.pose);
     add_suite_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
 }
@@ -47,9 +48,9 @@ app::Command add_tables_command(CLI::App& program, app::Interrupt& interrupt) {
     auto choice = std::make_shared<TablesChoice>();
     add_tables_options(*arguments, *choice);
     arguments->footer(
-        "Without --terrain and --technique the seven tests of the sources, with their figures, "
-        "which are\n"
-        "of 1024x768. With --quick pictures are 512x384 unless --size says otherwise.\n"
+        "Without --terrain, --technique and --pose the seven tests of the sources, with their "
+        "figures,\n"
+        "which are of 1024x768. With --quick pictures are 512x384 unless --size says otherwise.\n"
         "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
         "Examples:\n"
         "  reljef-bench tables --quick\n"

@@ -16,7 +16,7 @@ std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& chosen
     const scene::Technique texture = scene::make_technique(scene::TechniqueId::texture);
     std::vector<scene::Technique> others = chosen;
     if (others.empty()) {
-        for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
             others.push_back(scene::make_technique(info.id));
         }
     }
@@ -33,7 +33,10 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
     const std::vector<std::string> built_in{"natural", "urban"};
     std::vector<Group> groups;
     for (const std::string& terrain : options.terrains.empty() ? built_in : options.terrains) {
-        groups.push_back({"", {terrain}, scene::Pose::overview, candidates_of(options.techniques)});
+        groups.push_back({"",
+                          {terrain},
+                          options.pose.value_or(scene::Pose::overview),
+                          candidates_of(options.techniques)});
     }
     return groups;
 }
@@ -41,7 +44,7 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
 } // namespace
 
 Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
-    const bool as_sources = options.terrains.empty() && options.techniques.empty();
+    const bool as_sources = options.terrains.empty() && options.techniques.empty() && !options.pose;
     const Suite suite{"tables",
                       as_sources ? source_groups(options.suite.quick) : terrain_groups(options),
                       !as_sources, !as_sources};

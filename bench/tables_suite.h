@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -17,11 +18,13 @@ struct TablesOptions {
     /// On the terrains, beside texture, which is always measured; empty: every technique as it is
     /// by default.
     std::vector<scene::Technique> techniques;
+    /// From where; absent: the sources' tests, or overview.
+    std::optional<scene::Pose> pose;
 };
 
 /// The sources' seven tests (source_tests.h), or the techniques on terrains of one's own, the whole
-/// terrain in view. Techniques of the sources that do not exist yet are missing rows. See
-/// run_suite().
+/// terrain in view unless the pose says otherwise. Techniques of the sources that do not exist yet
+/// are missing rows. See run_suite().
 Results run_tables(const TablesOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -3,10 +3,22 @@
 #include "relief_surface.glsl"
 #if defined(EXACT)
 #include "relief_exact.glsl"
+#elif defined(CONE)
+#include "relief_cone.glsl"
 #elif defined(PARALLAX)
 #include "relief_parallax.glsl"
 #else
 #include "relief_linear.glsl"
+#endif
+#ifdef FADE
+#include "relief_fade.glsl"
+#endif
+#if defined(HARD_SHADOW) || defined(SOFT_SHADOW)
+#define SHADOW
+#include "relief_shadow.glsl"
+#endif
+#ifdef SMOOTH_EDGES
+#include "relief_edges.glsl"
 #endif
 
 in vec3 back;
@@ -23,6 +35,9 @@ uniform float texels_per_metre_away; // of a pixel that faces the eye
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
 layout(binding = 0) uniform sampler2D lit_map; // what the surface sends to the eye, linear
+#ifdef SHADOW
+layout(binding = 3) uniform sampler2D sun_map; // of the sun's light alone, lit_map of the rest
+#endif
 
 #ifdef HIT
 layout(location = 0) out vec4 hit; // col, row, height, depth
@@ -51,6 +66,29 @@ float level_of(vec2 coordinate, float distance_to_hit) {
     float most = 8.0 * distance_to_hit * texels_per_metre_away;
     return 0.5 * log2(min(max(dot(across, across), dot(down, down)), most * most));
 }
+
+#ifdef SMOOTH_EDGES
+// The same of a place that is passed by: its neighbours show others.
+float near_level(float level, float distance_to_hit) {
+    return min(level, log2(2.0 * distance_to_hit * texels_per_metre_away));
+}
+#endif
+#endif
+
+#ifndef HIT
+vec3 lit_at(vec2 place, float level) {
+    vec2 coordinate = place * lit_from_sample.xy + lit_from_sample.zw;
+    vec3 lit = textureLod(lit_map, coordinate, level).rgb;
+#ifdef SHADOW
+    vec3 sun_direction = space_from_relative * to_sun.xyz;
+    lit += sun_at(place, sun_direction, box_begin, box_end) * textureLod(sun_map, coordinate, level).rgb;
+#endif
+    return lit;
+}
+
+vec3 color_at(vec2 place, float level, float metres) {
+    return seen_through_air(lit_at(place, level), metres);
+}
 #endif
 
 void main() {
@@ -60,18 +98,38 @@ void main() {
     float entry = entry_before(leave, direction);
     vec3 span = -entry * direction;
     vec3 start = leave - span;
+#ifdef FADE
+    vec2 ends = stretch(box_begin.z, box_end.z, start, span);
+#endif
     float part;
     vec2 place;
     if (!find_hit(start, span, part, place)) {
         discard;
     }
-    vec3 relative = back + entry * (1.0 - part) * along;
+#ifdef FADE
+    float way = mix(ends.x, ends.y, part);
+#else
+    float way = part;
+#endif
+    vec3 relative = back + entry * (1.0 - way) * along;
+#ifdef WRITE_DEPTH
+    vec4 clip = clip_from_relative * vec4(relative, 1.0);
+    gl_FragDepth = clip.z / clip.w;
+#endif
 #ifdef HIT
     float height = range_of_height.x + range_of_height.y * height_at(place);
     hit = vec4(place, height, dot(relative, view_forward.xyz));
 #else
-    vec2 coordinate = place * lit_from_sample.xy + lit_from_sample.zw;
-    vec3 lit = textureLod(lit_map, coordinate, level_of(coordinate, length(relative))).rgb;
-    color = vec4(seen_through_air(lit, length(relative)), 1.0);
+    float metres = length(relative);
+    float level = level_of(place * lit_from_sample.xy + lit_from_sample.zw, metres);
+    vec3 shown = color_at(place, level, metres);
+#ifdef SMOOTH_EDGES
+    vec2 missed;
+    float distance_share = near_miss(start, span, part, missed);
+    if (distance_share < 1.0) {
+        shown = mix(color_at(missed, near_level(level, metres), metres), shown, distance_share);
+    }
+#endif
+    color = vec4(shown, 1.0);
 #endif
 }

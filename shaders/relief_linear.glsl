@@ -1,11 +1,11 @@
 // Equal steps until one lies below the surface, then the bracket is narrowed: by halving (Policarpo,
 // Oliveira and Comba 2005) or by the chord, the bracket kept (Risser, Shah and Pattanaik 2006).
-uniform vec3 metres_per_unit; // of the search space's axes
+#define EQUAL_STEPS
 
 float steps_for(vec3 span) {
 #ifdef VIEW_STEPS
     float upright = abs(normalize(span * metres_per_unit).z);
-    return ceil(mix(search_values.y, search_values.x, upright));
+    return ceil(mix(search_values.w, search_values.z, upright));
 #else
     return search_values.x;
 #endif
@@ -26,11 +26,7 @@ float narrowed(vec3 start, vec3 span, float part, float over, float low_part, fl
     }
     return low_part;
 #elif defined(SECANT)
-#ifdef VIEW_STEPS
-    const float rounds = 0.0;
-#else
     float rounds = search_values.y - 1.0;
-#endif
     for (float i = 0.0; i < rounds; ++i) {
         float guess = mix(part, low_part, over / (over - under));
         vec3 p = start + guess * span;

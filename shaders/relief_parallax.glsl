@@ -1,6 +1,5 @@
 // One look at the height where the ray meets the reference plane shifts the place along the ray
 // (Kaneko et al. 2001); limited (Welsh 2004); or looked at again, the heights averaged.
-uniform vec3 metres_per_unit; // of the search space's axes
 
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     float offset = search_values.x;
@@ -23,6 +22,5 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         place = entry + (height + offset) * shift;
     }
 #endif
-    vec2 last = vec2(textureSize(height_map, 0) - 1);
-    return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, last));
+    return is_on_surface(place);
 }

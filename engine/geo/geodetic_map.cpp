@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/geo/cubic.h"
 #include "engine/geo/georeference.h"
 
 namespace reljef::geo {
@@ -17,29 +18,6 @@ namespace {
 
 constexpr int most_iterations = 40;
 constexpr double converged_samples = 1e-9;
-
-/// Where along one axis to interpolate: the first of four control points, the weights of the four
-/// and the weights' derivatives.
-struct Cubic {
-    int first = 0;
-    std::array<double, 4> weights{};
-    std::array<double, 4> slopes{};
-};
-
-/// Four-point Lagrange interpolation at `position`, in control points.
-Cubic cubic_at(double position, int points) {
-    Cubic cubic;
-    const double last = static_cast<double>(points) - 4.0;
-    cubic.first = static_cast<int>(std::clamp(std::floor(position) - 1.0, 0.0, last));
-    const double u = position - cubic.first;
-    const double a = u - 1.0;
-    const double b = u - 2.0;
-    const double c = u - 3.0;
-    cubic.weights = {-a * b * c / 6.0, u * b * c / 2.0, -u * a * c / 2.0, u * a * b / 6.0};
-    cubic.slopes = {-(b * c + a * c + a * b) / 6.0, (b * c + u * c + u * b) / 2.0,
-                    -(a * c + u * c + u * a) / 2.0, (a * b + u * b + u * a) / 6.0};
-    return cubic;
-}
 
 Grid<glm::dvec3> with_third(const Grid<glm::dvec2>& control) {
     Grid<glm::dvec3> result(control.cols(), control.rows());

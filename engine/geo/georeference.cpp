@@ -5,21 +5,12 @@
 
 #include <GeographicLib/Ellipsoid.hpp>
 #include <GeographicLib/Geocentric.hpp>
-#include <GeographicLib/Geodesic.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/geo/place.h"
+
 namespace reljef::geo {
-namespace {
-
-glm::dvec3 geocentric_from_geodetic(const Geodetic& position) {
-    glm::dvec3 result{0.0};
-    GeographicLib::Geocentric::WGS84().Forward(position.latitude, position.longitude,
-                                               position.height, result.x, result.y, result.z);
-    return result;
-}
-
-} // namespace
 
 LocalFrame::LocalFrame(Geodetic origin)
     : origin_(origin), center_(geocentric_from_geodetic(origin)) {
@@ -42,11 +33,8 @@ glm::dvec3 LocalFrame::local_direction(glm::dvec3 geocentric) const {
 }
 
 Geodetic LocalFrame::geodetic_from_local(glm::dvec3 local) const {
-    const glm::dvec3 point = center_ + local.x * axes_[0] + local.y * axes_[1] + local.z * axes_[2];
-    Geodetic result;
-    GeographicLib::Geocentric::WGS84().Reverse(point.x, point.y, point.z, result.latitude,
-                                               result.longitude, result.height);
-    return result;
+    return geodetic_from_geocentric(center_ + local.x * axes_[0] + local.y * axes_[1] +
+                                    local.z * axes_[2]);
 }
 
 glm::dvec3 normal_from_geodetic(double latitude, double longitude) {
@@ -62,10 +50,7 @@ glm::dvec2 metres_per_degree(double latitude) {
 }
 
 double geodesic_distance(Geodetic from, Geodetic to) {
-    double distance = 0.0;
-    GeographicLib::Geodesic::WGS84().Inverse(from.latitude, from.longitude, to.latitude,
-                                             to.longitude, distance);
-    return distance;
+    return geodesic_between(from, to).distance;
 }
 
 } // namespace reljef::geo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -8,6 +9,7 @@
 
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
+#include "engine/geo/geoid.h"
 
 namespace reljef::geo {
 
@@ -33,6 +35,7 @@ struct PixelAffine {
     [[nodiscard]] glm::dvec2 crs_from_pixel(glm::dvec2 pixel) const {
         return {x0 + pixel.x * x_col + pixel.y * x_row, y0 + pixel.x * y_col + pixel.y * y_row};
     }
+    friend bool operator==(const PixelAffine&, const PixelAffine&) = default;
 };
 
 /// WGS 84 latitude and longitude of any (col, row) of a raster, whatever its CRS: values of the
@@ -92,6 +95,7 @@ struct Georeference {
     std::string horizontal_unit; ///< "metre", "degree", "US survey foot", …
     std::string vertical_datum;  ///< "EGM96 height", …, or empty where unknown
     GeodeticMap geodetic;        ///< WGS 84
+    std::optional<Geoid> geoid;  ///< from which heights count; absent: they are taken as they are
 };
 
 /// A local east-north-up frame tangent to WGS 84. There and back again is within 1e-8 m near the

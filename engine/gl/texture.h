@@ -19,6 +19,7 @@ enum class Format {
     r8,         ///< 1 byte, [0,1]
     r32f,       ///< 1 float
     rg16f,      ///< 2 half floats (glm::packHalf)
+    rg32f,      ///< 2 floats
     rg16_snorm, ///< 2 int16, -32767..32767 for [-1,1]
     rgba32f,    ///< 4 floats
     depth32f    ///< 1 float, [0,1]

@@ -16,6 +16,8 @@ FormatTraits traits(Format format) {
         return {"r32f", GL_R32F, GL_RED, GL_FLOAT, 4};
     case Format::rg16f:
         return {"rg16f", GL_RG16F, GL_RG, GL_HALF_FLOAT, 4};
+    case Format::rg32f:
+        return {"rg32f", GL_RG32F, GL_RG, GL_FLOAT, 8};
     case Format::rg16_snorm:
         return {"rg16_snorm", GL_RG16_SNORM, GL_RG, GL_SHORT, 4};
     case Format::rgba32f:

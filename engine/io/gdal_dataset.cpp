@@ -1,7 +1,9 @@
 #include "engine/io/gdal_dataset.h"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -54,6 +56,10 @@ std::string raster_in_zip(const fs::path& path) {
 }
 
 std::string name_for_gdal(const fs::path& path) {
+    if (is_remote(path)) {
+        const std::string name = path.string();
+        return name.starts_with("/vsi") ? name : "/vsicurl/" + name;
+    }
     const std::string extension = extension_of(path);
     if (extension == ".zip") {
         return raster_in_zip(path);
@@ -69,9 +75,7 @@ Result<void> check_file(const fs::path& path) {
         return Error{fmt::format("{}: does not exist, a raster file was expected", name)};
     }
     if (fs::is_directory(status)) {
-        return Error{fmt::format("{}: is a folder, one raster file was expected (tiles of a folder "
-                                 "are not put together)",
-                                 name)};
+        return Error{fmt::format("{}: is a folder, one raster file was expected", name)};
     }
     if (!fs::is_regular_file(status)) {
         return Error{fmt::format("{}: is no regular file, a raster file was expected", name)};
@@ -101,12 +105,29 @@ Result<void> check_blocks(GDALDataset& dataset, const fs::path& path) {
     return {};
 }
 
+/// Unless the user has set it.
+void set_default(const char* option, const char* value) {
+    if (CPLGetConfigOption(option, nullptr) == nullptr) {
+        CPLSetConfigOption(option, value);
+    }
+}
+
 } // namespace
+
+bool is_remote(const fs::path& path) {
+    const std::string name = path.string();
+    const std::array<std::string_view, 4> beginnings{"http://", "https://", "ftp://", "/vsi"};
+    return std::any_of(beginnings.begin(), beginnings.end(),
+                       [&](std::string_view beginning) { return name.starts_with(beginning); });
+}
 
 void register_drivers() {
     static std::once_flag once;
     std::call_once(once, [] {
         GDALAllRegister();
+        set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds
+        set_default("GDAL_HTTP_TIMEOUT", "60");
+        set_default("GDAL_HTTP_MAX_RETRY", "2");
         GDALSetCacheMax64(std::min(GDALGetCacheMax64(), most_cached_bytes));
     });
 }
@@ -150,11 +171,15 @@ std::string size_text(double bytes) {
 
 Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {
     register_drivers();
-    if (auto file = check_file(path); !file) {
+    const bool remote = is_remote(path);
+    if (auto file = remote ? Result<void>() : check_file(path); !file) {
         return file.error();
     }
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
-    Dataset dataset(GDALDataset::Open(name_for_gdal(path).c_str(), flags));
+    // What lies beside a file on a server is not asked for: it would cost a request for each name.
+    constexpr std::array<const char*, 1> nothing_beside{nullptr};
+    Dataset dataset(GDALDataset::Open(name_for_gdal(path).c_str(), flags, nullptr, nullptr,
+                                      remote ? nothing_beside.data() : nullptr));
     if (dataset == nullptr) {
         return Error{
             fmt::format("{}: cannot be opened as a raster{}, a whole file in one of GDAL's "

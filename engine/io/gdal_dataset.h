@@ -44,6 +44,9 @@ using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 /// "1.5 GB", for sentences.
 std::string size_text(double bytes);
 
+/// Whether GDAL reads it from a server ("https://…") or another of its file systems ("/vsi…").
+bool is_remote(const std::filesystem::path& path);
+
 /// A file's raster, read-only; inside a .zip the first that GDAL opens. At least one band; no band
 /// is stored in blocks so large that reading one would take more than 256 MB.
 Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);

@@ -117,28 +117,6 @@ geo::PixelAffine affine_of_samples(const geo::PixelAffine& affine, const SampleG
     return {origin.x, steps.col.x, steps.row.x, origin.y, steps.col.y, steps.row.y};
 }
 
-std::string vertical_datum_of(GDALDataset& dataset) {
-    const OGRSpatialReference* crs = dataset.GetSpatialRef();
-    if (crs != nullptr && crs->IsVertical() != 0) {
-        const char* name = crs->GetAttrValue("VERT_CS");
-        return name != nullptr ? name : "";
-    }
-    const std::string_view format = dataset.GetDriver()->GetDescription();
-    const char* dted = dataset.GetMetadataItem("DTED_VerticalDatum");
-    const bool is_egm96 =
-        format == "SRTMHGT" || (dted != nullptr && std::string_view(dted) == "E96");
-    return is_egm96 ? "EGM96 height" : "";
-}
-
-std::string wkt_of(const OGRSpatialReference& crs) {
-    char* text = nullptr;
-    const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
-    crs.exportToWkt(&text, options.data());
-    std::string wkt = text != nullptr ? text : "";
-    CPLFree(text);
-    return wkt;
-}
-
 std::optional<geo::Georeference> georeference_of(GDALDataset& dataset,
                                                  const OGRSpatialReference& crs,
                                                  const geo::PixelAffine& affine,
@@ -166,7 +144,8 @@ std::optional<geo::Georeference> georeference_of(GDALDataset& dataset,
         affine_of_samples(affine, grid),
         std::move(words.horizontal_unit),
         vertical_datum_of(dataset),
-        fit->map};
+        fit->map,
+        std::nullopt};
 }
 
 Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
@@ -265,6 +244,28 @@ std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset) {
     const bool identity = t == std::array{0.0, 1.0, 0.0, 0.0, 0.0, 1.0} ||
                           t == std::array{0.0, 1.0, 0.0, 0.0, 0.0, -1.0};
     return identity ? std::nullopt : std::optional(affine);
+}
+
+std::string vertical_datum_of(GDALDataset& dataset) {
+    const OGRSpatialReference* crs = dataset.GetSpatialRef();
+    if (crs != nullptr && crs->IsVertical() != 0) {
+        const char* name = crs->GetAttrValue("VERT_CS");
+        return name != nullptr ? name : "";
+    }
+    const std::string_view format = dataset.GetDriver()->GetDescription();
+    const char* dted = dataset.GetMetadataItem("DTED_VerticalDatum");
+    const bool is_egm96 =
+        format == "SRTMHGT" || (dted != nullptr && std::string_view(dted) == "E96");
+    return is_egm96 ? "EGM96 height" : "";
+}
+
+std::string wkt_of(const OGRSpatialReference& crs) {
+    char* text = nullptr;
+    const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
+    crs.exportToWkt(&text, options.data());
+    std::string wkt = text != nullptr ? text : "";
+    CPLFree(text);
+    return wkt;
 }
 
 Result<void> check_affine(GDALDataset& dataset, const std::string& name) {

@@ -26,6 +26,13 @@ Result<void> check_affine(GDALDataset& dataset, const std::string& name);
 std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
                                                   std::vector<std::string>& notes);
 
+/// The CRS in WKT 2 (2019).
+std::string wkt_of(const OGRSpatialReference& crs);
+
+/// What a raster's heights are counted from ("EGM96 height"), by its CRS or its format; empty where
+/// neither tells.
+std::string vertical_datum_of(GDALDataset& dataset);
+
 /// What a CRS is called: its name, its code ("EPSG:4326", empty where it has none) and its unit.
 struct CrsWords {
     std::string name;

@@ -11,6 +11,7 @@
 #include "engine/io/georeferencing.h"
 #include "engine/io/height_unit.h"
 #include "engine/io/imagery.h"
+#include "engine/io/placed_heightfield.h"
 #include "engine/io/sample_reader.h"
 
 namespace reljef::io {
@@ -37,18 +38,6 @@ Result<void> check_options(const RasterOptions& options, const std::string& name
     return {};
 }
 
-template <class T> void flip(Grid<T>& grid, const Place& place) {
-    if (place.flipped_rows) {
-        for (int row = 0; row < grid.rows() / 2; ++row) {
-            std::swap_ranges(grid.row(row).begin(), grid.row(row).end(),
-                             grid.row(grid.rows() - 1 - row).begin());
-        }
-    }
-    for (int row = 0; place.flipped_cols && row < grid.rows(); ++row) {
-        std::reverse(grid.row(row).begin(), grid.row(row).end());
-    }
-}
-
 // Samples that nobody says how far apart they are: 1 m, or where the relief would then be higher
 // than half the width, what makes it a tenth, to two digits.
 double assumed_spacing(const terrain::Heightfield& heightfield, glm::dvec2 step,
@@ -67,20 +56,6 @@ double assumed_spacing(const terrain::Heightfield& heightfield, glm::dvec2 step,
                                 "relief of {:.6g} m a tenth of the width",
                                 spacing, relief));
     return spacing;
-}
-
-terrain::Heightfield heightfield_of(Samples samples, Place& place) {
-    flip(samples.heights, place);
-    flip(samples.void_mask, place);
-    terrain::Heightfield result;
-    result.range = terrain::height_range(samples.heights, samples.void_mask);
-    terrain::fill_voids(samples.heights, samples.void_mask);
-    result.heights = std::move(samples.heights);
-    result.void_mask = std::move(samples.void_mask);
-    result.void_count = samples.void_count;
-    result.spacing = place.spacing;
-    result.georeference = std::move(place.georeference);
-    return result;
 }
 
 Result<Samples> samples_with_heights(GDALDataset& dataset, const ReadPlan& plan,

@@ -148,4 +148,20 @@ Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
     return plan;
 }
 
+ReadPlan plan_window(GDALDataset& dataset, const Window& window, int reduction) {
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    const int overviews = kind_of_values(dataset) == ValueKind::plain ? band.GetOverviewCount() : 0;
+    Level best{-1, glm::dvec2(1.0), window};
+    for (int i = 0; i < overviews; ++i) {
+        const Level level = level_of(band, i, window);
+        const bool fine_enough = std::max(level.scale.x, level.scale.y) <= reduction + near_whole;
+        if (level.overview >= 0 && fine_enough && level.scale.x > best.scale.x &&
+            level.window.cols >= 1 && level.window.rows >= 1) {
+            best = level;
+        }
+    }
+    const int rest = static_cast<int>(reduction / std::max(best.scale.x, best.scale.y));
+    return plan_of(best, std::clamp(rest, 1, std::min(best.window.cols, best.window.rows)));
+}
+
 } // namespace reljef::io

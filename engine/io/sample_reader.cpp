@@ -117,17 +117,15 @@ double mean_of(GridView<const double> taps) {
     return count == 0 ? void_value : sum / count;
 }
 
-void store(const Tile& tile, std::span<const double> values, int taps, Samples& samples) {
+/// Calls store(col, row, height) for every sample of the tile; void_value at voids.
+template <class Store>
+void store_tile(const Tile& tile, std::span<const double> values, int taps, const Store& store) {
     const int cols = tile.cols * taps;
     const GridView<const double> stored(values.data(), cols, tile.rows * taps, cols);
     for (int row = 0; row < tile.rows; ++row) {
         for (int col = 0; col < tile.cols; ++col) {
-            const double height = mean_of(stored.window(col * taps, row * taps, taps, taps));
-            const bool is_void = std::isnan(height);
-            samples.heights(tile.col + col, tile.row + row) =
-                is_void ? 0.0F : static_cast<float>(height);
-            samples.void_mask(tile.col + col, tile.row + row) = is_void ? 1 : 0;
-            samples.void_count += is_void ? 1 : 0;
+            store(tile.col + col, tile.row + row,
+                  mean_of(stored.window(col * taps, row * taps, taps, taps)));
         }
     }
 }
@@ -136,6 +134,29 @@ Error reading_failed(const std::string& name, const Tile& tile, const ReadPlan& 
                      const GdalMessages& messages) {
     return {fmt::format("{}: cannot be read at row {}{}, a whole file was expected", name,
                         plan.row + tile.row * plan.reduction, messages.reason())};
+}
+
+/// Reads and decodes all of a plan; store(col, row, height) gets each sample.
+template <class Store>
+Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, SampleDecoder& decoder,
+                       const std::string& name, const RasterOptions& options,
+                       const GdalMessages& messages, const Store& store) {
+    TileReader reader(source_of(dataset, plan, decoder.bands()), plan);
+    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps());
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (options.stop.stop_requested()) {
+            return Error{fmt::format("{}: reading was stopped", name)};
+        }
+        if (!reader.read(tiles[i])) {
+            return reading_failed(name, tiles[i], plan, messages);
+        }
+        decoder.decode(reader.first(), reader.others(), reader.mask());
+        store_tile(tiles[i], reader.first(), reader.taps(), store);
+        if (options.progress) {
+            options.progress(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
+        }
+    }
+    return {};
 }
 
 } // namespace
@@ -147,22 +168,16 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
     if (!decoder) {
         return decoder.error();
     }
-    TileReader reader(source_of(dataset, plan, decoder->bands()), plan);
-    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps());
     Samples samples{Grid<float>(plan.grid.cols, plan.grid.rows),
                     Grid<std::uint8_t>(plan.grid.cols, plan.grid.rows), 0};
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        if (options.stop.stop_requested()) {
-            return Error{fmt::format("{}: reading was stopped", name)};
-        }
-        if (!reader.read(tiles[i])) {
-            return reading_failed(name, tiles[i], plan, messages);
-        }
-        decoder->decode(reader.first(), reader.others(), reader.mask());
-        store(tiles[i], reader.first(), reader.taps(), samples);
-        if (options.progress) {
-            options.progress(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
-        }
+    const auto store = [&](int col, int row, double height) {
+        const bool is_void = std::isnan(height);
+        samples.heights(col, row) = is_void ? 0.0F : static_cast<float>(height);
+        samples.void_mask(col, row) = is_void ? 1 : 0;
+        samples.void_count += is_void ? 1 : 0;
+    };
+    if (auto read = read_plan(dataset, plan, *decoder, name, options, messages, store); !read) {
+        return read.error();
     }
     for (std::string note : {decoder->undeclared_voids_note(), decoder->doubtful_heights_note()}) {
         if (!note.empty()) {
@@ -173,6 +188,22 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
         samples.void_mask = {};
     }
     return samples;
+}
+
+Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
+                                  const std::string& name, const RasterOptions& options,
+                                  const GdalMessages& messages) {
+    std::vector<std::string> ignored;
+    auto decoder = SampleDecoder::create(dataset, name, options, ignored);
+    if (!decoder) {
+        return decoder.error();
+    }
+    Grid<double> heights(plan.grid.cols, plan.grid.rows);
+    const auto store = [&](int col, int row, double height) { heights(col, row) = height; };
+    if (auto read = read_plan(dataset, plan, *decoder, name, options, messages, store); !read) {
+        return read.error();
+    }
+    return heights;
 }
 
 } // namespace reljef::io

@@ -30,6 +30,10 @@ struct ReadPlan {
 Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
                               const RasterOptions& options, std::vector<std::string>& notes);
 
+/// Every `reduction`-th part of a window a side, from the coarsest overview that is fine enough;
+/// finer where the window is smaller. Precondition: the window lies inside and is not empty.
+ReadPlan plan_window(GDALDataset& dataset, const RasterOptions::Window& window, int reduction);
+
 struct Samples {
     Grid<float> heights;          ///< metres; 0 at voids
     Grid<std::uint8_t> void_mask; ///< empty when there are none
@@ -41,5 +45,10 @@ struct Samples {
 Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const std::string& name,
                              const RasterOptions& options, const GdalMessages& messages,
                              std::vector<std::string>& notes);
+
+/// The same, with the digits of double: metres, void_value at voids. Without notes.
+Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
+                                  const std::string& name, const RasterOptions& options,
+                                  const GdalMessages& messages);
 
 } // namespace reljef::io

@@ -1,5 +1,6 @@
 #include "engine/io/scene_file.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -21,7 +22,10 @@ constexpr NumberRange seeds{0.0, 4294967295.0, false};
 constexpr NumberRange exaggerations{0.0, terrain::largest_exaggeration, true};
 constexpr NumberRange azimuths{-360.0, 360.0, false};
 constexpr NumberRange altitudes{0.0, 90.0, true};
-constexpr std::array<std::string_view, 2> generators{"natural", "urban"};
+constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
+constexpr NumberRange latitudes{-90.0, 90.0, false};
+constexpr NumberRange longitudes{-360.0, 720.0, false};
+constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
 constexpr std::array<std::string_view, 2> placements{"plane", "ellipsoid"};
 
 /// Keys that only one of the two sources of heights has a use for.
@@ -44,7 +48,7 @@ void check_source(TomlTable& table) {
     } else if (file) {
         refuse(table, {"size", "seed", "tileable"}, "a generator");
     } else {
-        refuse(table, {"imagery", "height_scale", "height_offset"}, "a file of heights");
+        refuse(table, {"imagery", "height_scale", "height_offset", "gaps"}, "a file of heights");
     }
 }
 
@@ -59,6 +63,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("height_scale", scene.height_scale, any_number);
     table.read("height_offset", scene.height_offset, any_number);
     table.read("imagery", scene.imagery, folder);
+    table.read("gaps", scene.gaps, kinds_of_gaps);
     table.read("exaggeration", scene.exaggeration, exaggerations);
     std::string placement;
     table.read("placement", placement, placements);
@@ -71,6 +76,30 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     check_source(table);
 }
 
+void read_area_keys(TomlTable& table, SceneDescription& scene) {
+    constexpr std::array keys{"south", "west", "north", "east"};
+    if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); })) {
+        return;
+    }
+    GeodeticArea area;
+    table.read("south", area.south, latitudes);
+    table.read("west", area.west, longitudes);
+    table.read("north", area.north, latitudes);
+    table.read("east", area.east, longitudes);
+    for (const char* key : keys) {
+        if (!table.has(key)) {
+            table.fail(key, "is missing, south, west, north and east were expected");
+        }
+    }
+    if (!(area.south < area.north)) {
+        table.fail("north", "is not above south, a latitude north of it was expected");
+    }
+    if (!(area.west < area.east && area.east - area.west <= 360.0)) {
+        table.fail("east", "is not east of west, a longitude at most 360 beyond it was expected");
+    }
+    scene.area = area;
+}
+
 void read_camera_keys(TomlTable& table, SceneDescription& scene) {
     table.read("eye", scene.eye);
     table.read("look", scene.look);
@@ -80,6 +109,19 @@ void read_camera_keys(TomlTable& table, SceneDescription& scene) {
     } else if (scene.eye && scene.look && *scene.eye == *scene.look) {
         table.fail("look", "is where eye is, another point was expected");
     }
+}
+
+void read_gallery_keys(TomlTable& table, const std::filesystem::path& folder,
+                       SceneDescription& scene) {
+    if (scene.generator != "gallery") {
+        refuse(table, {"textures", "technique"}, "the generator gallery");
+    }
+    table.read("textures", scene.gallery_textures);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder / scene.gallery_textures, ignored)) {
+        scene.gallery_textures = (folder / scene.gallery_textures).string();
+    }
+    table.read("technique", scene.gallery_technique);
 }
 
 } // namespace
@@ -94,15 +136,19 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     TomlTable root(*document, name, "");
     root.read("name", scene.name);
     TomlTable terrain = root.table("terrain");
+    TomlTable area = root.table("area");
+    TomlTable gallery = root.table("gallery");
     TomlTable sun = root.table("sun");
     TomlTable air = root.table("air");
     TomlTable camera = root.table("camera");
     read_terrain_keys(terrain, folder, scene);
+    read_area_keys(area, scene);
+    read_gallery_keys(gallery, folder, scene);
     sun.read("azimuth", scene.sun_azimuth, azimuths);
     sun.read("altitude", scene.sun_altitude, altitudes);
     air.read("visibility", scene.visibility, positive);
     read_camera_keys(camera, scene);
-    for (const TomlTable* table : {&root, &terrain, &sun, &air, &camera}) {
+    for (const TomlTable* table : {&root, &terrain, &area, &gallery, &sun, &air, &camera}) {
         if (auto good = table->finish(); !good) {
             return good.error();
         }

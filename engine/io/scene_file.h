@@ -10,15 +10,17 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
+#include "engine/io/tile_set.h"
 
 namespace reljef::io {
 
 /// What a scene file (TOML) asks for; everything but where the heights come from has a default.
-/// terrains/natural.toml and terrains/urban.toml show every key.
+/// terrains/natural.toml, urban.toml and gallery.toml show every key.
 struct SceneDescription {
     std::string name;
 
-    // [terrain]: exactly one of `heights` (a DEM file) and `generator` ("natural", "urban")
+    // [terrain]: exactly one of `heights` (a DEM file, or a folder of them) and `generator`
+    // ("natural", "urban", "gallery")
     std::filesystem::path heights; ///< relative to the scene file
     std::string generator;
     int size = 1025;        ///< generator only, samples a side, 16 to 4096
@@ -30,8 +32,17 @@ struct SceneDescription {
     double height_scale = 1.0;     ///< file only: metres = value · height_scale + height_offset
     double height_offset = 0.0;    ///< file only
     std::filesystem::path imagery; ///< file only; relative to the scene file; may be empty
+    std::string gaps = "holes";    ///< folder only: "holes" or "sea" where it has no tile
     double exaggeration = 1.0;     ///< (0, 1000]
     std::optional<std::string> placement; ///< "plane" or "ellipsoid"; absent: by the data
+
+    // [area]: south, west, north, east in degrees; a folder's part that is of use
+    std::optional<GeodeticArea> area;
+
+    // [gallery]: its generator only
+    /// A built-in set, "mixed", or a folder of pictures, relative to the scene file.
+    std::string gallery_textures = "mixed";
+    std::string gallery_technique = "relief"; ///< as --technique has it
 
     // [sun]: degrees
     double sun_azimuth = 300.0; ///< [-360, 360], clockwise from north, where the light comes from

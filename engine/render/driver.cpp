@@ -1,7 +1,9 @@
 #include "engine/render/driver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
@@ -11,6 +13,8 @@
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
 #include "engine/render/frame_block.h"
+#include "engine/render/mesh_painter.h"
+#include "engine/render/relief_options.h"
 
 #include <glad/gl.h>
 
@@ -74,35 +78,6 @@ std::uint32_t features_of(const DrawList& list, bool hits) {
     return features;
 }
 
-std::uint32_t search_features(scene::TechniqueId id) {
-    switch (id) {
-    case scene::TechniqueId::parallax:
-        return feature_parallax;
-    case scene::TechniqueId::parallax_limited:
-        return feature_parallax | feature_limited;
-    case scene::TechniqueId::parallax_iterated:
-        return feature_parallax | feature_iterated;
-    case scene::TechniqueId::relief:
-        return feature_bisect;
-    case scene::TechniqueId::interval:
-        return feature_secant;
-    case scene::TechniqueId::pom:
-        return feature_secant | feature_view_steps;
-    case scene::TechniqueId::exact:
-        return feature_exact;
-    default:
-        return 0U;
-    }
-}
-
-glm::vec4 search_values(const scene::Technique& technique) {
-    glm::vec4 values(0.0F);
-    for (std::size_t i = 0; i < technique.values.size(); ++i) {
-        values[static_cast<int>(i)] = static_cast<float>(technique.values[i]);
-    }
-    return values;
-}
-
 // Draws a list and counts what it sets; what is set already is not set again.
 class Painter {
 public:
@@ -115,10 +90,10 @@ public:
         if (list_.tiles.empty()) {
             return {};
         }
-        if (auto used = use({ShaderKind::terrain, features_}); !used) {
-            return used;
-        }
         for (const TileDraw& draw : list_.tiles) {
+            if (auto used = use_for(*draw.terrain); !used) {
+                return used;
+            }
             draw_tile(draw);
         }
         return {};
@@ -141,16 +116,20 @@ public:
     }
 
     Result<void> draw_meshes() {
-        if (list_.meshes.empty()) {
-            return {};
-        }
-        if (auto used = use({ShaderKind::mesh, features_}); !used) {
-            return used;
-        }
+        std::optional<ShaderVariant> in_use;
         for (const MeshDraw& draw : list_.meshes) {
-            if (!draw.mesh->mesh->indices.empty()) {
-                draw_mesh(draw);
+            if (draw.mesh->mesh->indices.empty()) {
+                continue;
             }
+            const scene::Material& material = draw.mesh->material;
+            const ShaderVariant variant = mesh_variant(material, features_);
+            if (in_use != variant) {
+                if (auto used = use(variant); !used) {
+                    return used;
+                }
+                in_use = variant;
+            }
+            draw_mesh(draw);
         }
         return {};
     }
@@ -199,6 +178,27 @@ private:
         return {};
     }
 
+    // The program that draws the tiles of a terrain, if it is not in use.
+    Result<void> use_for(const scene::TerrainNode& terrain) {
+        if (tiles_of_ == &terrain) {
+            return {};
+        }
+        const bool warped = terrain.material.technique.id == scene::TechniqueId::prewarp;
+        if (tiles_of_ == nullptr || warped != tiles_warped_) {
+            if (auto used = use({ShaderKind::terrain, features_ | (warped ? feature_warped : 0U)});
+                !used) {
+                return used;
+            }
+            maps_of_ = nullptr;
+        }
+        if (warped) {
+            residency_.warped(terrain).bind(4);
+        }
+        tiles_of_ = &terrain;
+        tiles_warped_ = warped;
+        return {};
+    }
+
     void bind_maps(const scene::TerrainNode& terrain) {
         if (hits_ || maps_of_ == &terrain) {
             return;
@@ -206,32 +206,36 @@ private:
         maps_of_ = &terrain;
         const ResidentMaps& maps = residency_.maps(terrain);
         maps.lit.bind(0);
+        if (maps.sun) {
+            maps.sun->bind(3);
+        }
         program_->set_uniform("lit_from_sample", maps.lit_from_sample);
         ++stats_.state_changes;
     }
 
     void draw_tile(const TileDraw& draw) {
-        const ResidentMesh& mesh = residency_.tile(draw);
         const scene::TerrainSurface& surface = *draw.terrain->surface;
         const auto& tile = surface.tiles()[static_cast<std::size_t>(draw.tile)];
         bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
-        program_->set_uniform("relative_from_tile",
-                              relative_from(list_.camera, draw.world_from_local, mesh.origin));
-        program_->set_uniform(
-            "tile_samples",
-            glm::vec4(tile.col, tile.row, mesh.samples_per_vertex.x, mesh.samples_per_vertex.y));
-        const auto vertices_per_row = static_cast<float>(mesh.vertices_per_row);
-        program_->set_uniform("vertices_per_row", vertices_per_row);
-        program_->set_uniform("rows_per_vertex", 1.0F / vertices_per_row);
-        draw_resident(mesh, gl::IndexType::uint16);
+        program_->set_uniform("tile_sample", glm::vec2(tile.col, tile.row));
+        const std::size_t before = stats_.triangles;
+        for (const ResidentMesh& mesh : residency_.tile(draw)) {
+            program_->set_uniform("relative_from_tile",
+                                  relative_from(list_.camera, draw.world_from_local, mesh.origin));
+            draw_resident(mesh, gl::IndexType::uint16);
+        }
+        if (draw.coarse) {
+            const std::size_t all =
+                2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
+            stats_.skipped.triangles_under_error += all - std::min(all, stats_.triangles - before);
+        }
         ++stats_.tiles;
     }
 
     Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {
         const scene::Technique& technique = draw.terrain->material.technique;
-        if (auto used = use({ShaderKind::relief, features_ | search_features(technique.id)});
-            !used) {
+        if (auto used = use({ShaderKind::relief, features_ | relief_features(technique)}); !used) {
             return used;
         }
         maps_of_ = nullptr; // another program
@@ -255,10 +259,12 @@ private:
             relief.greatest->bind(2);
             program_->set_uniform("top_level", relief.greatest->levels() - 1);
         }
+        if (relief.cones) {
+            relief.cones->bind(4);
+        }
         const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
         const glm::dvec3 eye(local_from_world * glm::dvec4(list_.camera.eye, 1.0));
         const glm::ivec2 samples = relief.heights.size();
-        const auto values = search_values(draw.terrain->material.technique);
         program_->set_uniform("relative_from_local",
                               relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
         program_->set_uniform("box_low", glm::vec3(space.local_box.low));
@@ -275,7 +281,8 @@ private:
         program_->set_uniform("height_texel", 1.0F / glm::vec2(samples));
         program_->set_uniform("last_cell", samples - 2);
         program_->set_uniform("metres_per_unit", space.metres_per_unit);
-        program_->set_uniform("search_values", values);
+        const scene::Technique& technique = draw.terrain->material.technique;
+        set_relief_options(*program_, technique, reference_height(technique));
         program_->set_uniform("texels_per_metre_away", texels_per_metre_away(draw, space));
     }
 
@@ -299,7 +306,11 @@ private:
                               relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
         program_->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
         program_->set_uniform("albedo", draw.mesh->material.color);
-        draw_resident(residency_.mesh(draw), gl::IndexType::uint32);
+        if (draw.mesh->material.detail.set != nullptr) {
+            set_tile(*program_, draw, residency_.meshes().tile(draw), list_.camera);
+            ++stats_.state_changes;
+        }
+        draw_resident(residency_.meshes().mesh(draw), gl::IndexType::uint32);
     }
 
     void draw_resident(const ResidentMesh& mesh, gl::IndexType type) {
@@ -318,6 +329,8 @@ private:
     FrameStats& stats_;
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* maps_of_ = nullptr;
+    const scene::TerrainNode* tiles_of_ = nullptr;
+    bool tiles_warped_ = false;
     bool wireframe_ = false;
 };
 
@@ -415,12 +428,8 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
-    for (const ReliefDraw& draw : list.reliefs) {
-        if (auto good =
-                scene::check_technique(draw.terrain->material.technique, *draw.terrain->surface);
-            !good) {
-            return good;
-        }
+    if (auto good = check_techniques(list); !good) {
+        return good;
     }
     const FrameBlock block = frame_block(list);
     frame_block_.write(0, std::as_bytes(std::span(&block, 1)));

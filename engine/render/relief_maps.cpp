@@ -69,12 +69,14 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface) {
     return space;
 }
 
-Grid<float> relief_heights(const scene::TerrainSurface& surface, const ReliefSpace& space) {
-    Grid<float> heights = surface.heightfield().heights;
-    for (float& height : heights.samples()) {
-        height = static_cast<float>((static_cast<double>(height) - space.lowest) / space.range);
+Grid<glm::vec2> cone_texels(const terrain::ConeMaps& cones) {
+    Grid<glm::vec2> texels(cones.plain.cols() + 1, cones.plain.rows() + 1);
+    for (int row = 0; row < texels.rows(); ++row) {
+        for (int col = 0; col < texels.cols(); ++col) {
+            texels(col, row) = {cones.plain.clamped(col, row), cones.relaxed.clamped(col, row)};
+        }
     }
-    return heights;
+    return texels;
 }
 
 std::vector<Grid<float>> greatest_heights(GridView<const float> relief_heights) {

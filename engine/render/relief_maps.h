@@ -3,11 +3,13 @@
 #include <vector>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/core/geometry.h"
 #include "engine/core/grid.h"
 #include "engine/scene/terrain_node.h"
+#include "engine/terrain/cone_map.h"
 
 namespace reljef::render {
 
@@ -25,12 +27,13 @@ struct ReliefSpace {
 /// Precondition: the placement is plane.
 ReliefSpace relief_space(const scene::TerrainSurface& surface);
 
-/// Heights in [0,1] of the range.
-Grid<float> relief_heights(const scene::TerrainSurface& surface, const ReliefSpace& space);
-
 /// Greatest heights, in [0,1] of the range, of blocks of 2^level cells a side: what a texture's mip
 /// chain holds. Level 0 has a power of two of cells a side, at least as many as there are; beyond
 /// the last one is 0.
 std::vector<Grid<float>> greatest_heights(GridView<const float> relief_heights);
+
+/// The plain (x) and the relaxed (y) cone of each cell; the last column and row, where there is no
+/// cell any more, have their neighbours'.
+Grid<glm::vec2> cone_texels(const terrain::ConeMaps& cones);
 
 } // namespace reljef::render

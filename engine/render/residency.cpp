@@ -3,25 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
 #include "engine/core/grid_triangles.h"
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
+#include "engine/render/prewarp.h"
 #include "engine/render/terrain_maps.h"
+#include "engine/render/uploads.h"
 
 namespace reljef::render {
 namespace {
-
-template <class T> std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-    return std::as_bytes(std::span(values));
-}
-
-void count_upload(FrameStats& stats, std::size_t bytes) {
-    ++stats.uploads;
-    stats.upload_bytes += bytes;
-}
 
 // Sample coordinates of the heightfield onto texels whose outermost centres are the outermost
 // samples.
@@ -30,32 +24,34 @@ glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
     return {scale, 0.5F / glm::vec2(texels)};
 }
 
-Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
-                                std::span<const std::byte> texels, FrameStats& stats) {
-    auto texture = gl::Texture2D::create({.size = size,
-                                          .format = format,
-                                          .levels = gl::full_chain,
-                                          .filter = gl::Filter::trilinear});
-    if (texture) {
-        texture->upload(0, texels);
-        texture->generate_mipmaps();
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
+Result<gl::Texture2D> map_texture(const Image& map, FrameStats& stats) {
+    return mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb, std::as_bytes(map.samples()),
+                     stats);
+}
+
+Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Texture2D lit,
+                                std::optional<gl::Texture2D> sun) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    const glm::vec4 lit_from_sample =
+        texture_from_sample({heights.cols(), heights.rows()}, lit.size());
+    return ResidentMaps{std::move(lit), std::move(sun), lit_from_sample};
 }
 
 Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
                                const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
-    const Image lit = lit_map(surface, light, gl::query_limits().max_texture_size);
-    auto texture = mipmapped({lit.cols(), lit.rows()}, gl::Format::rgba8_srgb,
-                             std::as_bytes(lit.samples()), stats);
-    if (!texture) {
-        return texture.error();
+    auto lit = map_texture(lit_map(surface, light, gl::query_limits().max_texture_size), stats);
+    return lit ? with_place(surface, std::move(*lit), std::nullopt) : lit.error();
+}
+
+Result<ResidentMaps> make_light_parts(const scene::TerrainSurface& surface,
+                                      const scene::TerrainLight& light, FrameStats& stats) {
+    const LightParts parts = light_parts(surface, light, gl::query_limits().max_texture_size);
+    auto sky = map_texture(parts.sky, stats);
+    if (!sky) {
+        return sky.error();
     }
-    const Grid<float>& heights = surface.heightfield().heights;
-    const glm::vec4 lit_from_sample =
-        texture_from_sample({heights.cols(), heights.rows()}, texture->size());
-    return ResidentMaps{std::move(*texture), lit_from_sample};
+    auto sun = map_texture(parts.sun, stats);
+    return sun ? with_place(surface, std::move(*sky), std::move(*sun)) : sun.error();
 }
 
 std::optional<scene::TerrainLight> light_on(const DrawList& list,
@@ -66,42 +62,43 @@ std::optional<scene::TerrainLight> light_on(const DrawList& list,
     return scene::TerrainLight{*list.sun, glm::dmat3(world_from_local)};
 }
 
-Result<gl::Texture2D> height_texture(const Grid<float>& heights, FrameStats& stats) {
-    auto texture = gl::Texture2D::create(
-        {.size = {heights.cols(), heights.rows()}, .format = gl::Format::r32f});
-    if (texture) {
-        texture->upload(0, heights);
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
-}
-
-Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, FrameStats& stats) {
-    auto texture = gl::Texture2D::create({.size = {levels.front().cols(), levels.front().rows()},
-                                          .format = gl::Format::r32f,
-                                          .levels = gl::full_chain,
+Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<float>& heights,
+                                   FrameStats& stats) {
+    const Grid<glm::vec2> texels =
+        cone_texels(terrain.cones ? *terrain.cones : *terrain::cone_maps(heights.view()));
+    auto texture = gl::Texture2D::create({.size = {texels.cols(), texels.rows()},
+                                          .format = gl::Format::rg32f,
                                           .filter = gl::Filter::nearest});
     if (texture) {
-        for (std::size_t level = 0; level < levels.size(); ++level) {
-            texture->upload(static_cast<int>(level), levels[level]);
-        }
+        texture->upload(0, texels);
         count_upload(stats, texture->bytes());
     }
     return texture;
 }
 
-struct MeshVertex {
-    glm::vec3 position;
-    glm::vec3 normal;
-};
-
-std::vector<MeshVertex> interleaved(const scene::Mesh& mesh) {
-    std::vector<MeshVertex> vertices;
-    vertices.reserve(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        vertices.push_back({mesh.positions[i], mesh.normals[i]});
+Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
+    if (!made) {
+        return made.error();
     }
-    return vertices;
+    place = std::move(*made);
+    return {};
+}
+
+// The eye of a camera as Warp takes it.
+glm::dvec4 eye_of(const scene::Camera& camera, const glm::dmat4& world_from_local) {
+    const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective
+                               ? glm::dvec4(camera.eye, 1.0)
+                               : glm::dvec4(-scene::view_axes(camera).forward, 0.0);
+    return glm::inverse(world_from_local) * eye;
+}
+
+// The texture of the last frame where it fits.
+Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before) {
+    if (before.size() == size) {
+        return std::move(before);
+    }
+    return gl::Texture2D::create(
+        {.size = size, .format = gl::Format::rgba32f, .filter = gl::Filter::nearest});
 }
 
 } // namespace
@@ -111,27 +108,28 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
     if (auto done = prepare_tiles(list, stats); !done) {
         return done;
     }
+    if (auto done = coarse_tiles_.prepare(list, stats); !done) {
+        return done;
+    }
     if (with_maps) {
         if (auto done = prepare_all_maps(list, stats); !done) {
             return done;
         }
+    }
+    if (auto done = prepare_warped(list, stats); !done) {
+        return done;
     }
     for (const ReliefDraw& draw : list.reliefs) {
         if (auto done = prepare_relief(draw, stats); !done) {
             return done;
         }
     }
-    for (const MeshDraw& draw : list.meshes) {
-        if (auto done = prepare_mesh(draw, stats); !done) {
-            return done;
-        }
-    }
-    return {};
+    return meshes_.prepare(list.meshes, stats);
 }
 
 void Residency::forget_unused() {
     std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
-    std::erase_if(meshes_, [](const auto& entry) { return entry.second.owner.expired(); });
+    coarse_tiles_.forget_unused();
 }
 
 Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
@@ -145,9 +143,12 @@ Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
     return entry->second;
 }
 
-Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+std::vector<const TileDraw*> Residency::missing_tiles(const DrawList& list, FrameStats& stats) {
     std::vector<const TileDraw*> missing;
     for (const TileDraw& draw : list.tiles) {
+        if (draw.coarse) {
+            continue;
+        }
         Surface& surface = surface_of(*draw.terrain);
         const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
         if (slots[static_cast<std::size_t>(draw.tile)]) {
@@ -156,6 +157,11 @@ Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
             missing.push_back(&draw);
         }
     }
+    return missing;
+}
+
+Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+    const std::vector<const TileDraw*> missing = missing_tiles(list, stats);
     // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the
     // driver's.
     constexpr std::size_t batch = 32;
@@ -191,22 +197,11 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
         return vertices.error();
     }
     count_upload(stats, vertices->size());
-    const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const auto index = static_cast<std::size_t>(draw.tile);
-    const terrain::Tile& tile = draw.flat ? surface.flat_tiles()[index] : surface.tiles()[index];
-    ResidentMesh mesh{
-        std::move(*vertices), gl::VertexArray::create(),
-        grid.origin,          6 * grid.cols * grid.rows,
-        grid.cols + 1,        glm::vec2(tile.cols, tile.rows) / glm::vec2(grid.cols, grid.rows)};
-    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
-                                gl::VertexAttribute{.location = 1,
-                                                    .components = 1,
-                                                    .offset = offsetof(GridVertex, height)}};
-    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
+    ResidentMesh mesh = resident_grid(std::move(*vertices), grid.origin, 6 * grid.cols * grid.rows);
     mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(*draw.terrain);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
-    slots[index] = std::move(mesh);
+    slots[static_cast<std::size_t>(draw.tile)] = std::move(mesh);
     return {};
 }
 
@@ -246,78 +241,69 @@ Result<std::shared_ptr<const ResidentMaps>>
 Residency::maps_for(const scene::TerrainNode& terrain,
                     const std::optional<scene::TerrainLight>& light, FrameStats& stats) {
     std::vector<LitMaps>& there = surface_of(terrain).maps;
-    const auto found = std::find_if(there.begin(), there.end(),
-                                    [&](const LitMaps& entry) { return entry.light == light; });
+    const bool in_parts = light && terrain.material.technique.options.shadow;
+    const auto found = std::find_if(there.begin(), there.end(), [&](const LitMaps& entry) {
+        return entry.light == light && entry.in_parts == in_parts;
+    });
     if (found != there.end()) {
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
-    auto maps = make_maps(*terrain.surface, light, stats);
+    auto maps = in_parts ? make_light_parts(*terrain.surface, *light, stats)
+                         : make_maps(*terrain.surface, light, stats);
     if (!maps) {
         return maps.error();
     }
-    there.push_back({light, std::make_shared<const ResidentMaps>(std::move(*maps))});
+    there.push_back({light, in_parts, std::make_shared<const ResidentMaps>(std::move(*maps))});
     return there.back().maps;
 }
 
 Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const bool exact = draw.terrain->material.technique.id == scene::TechniqueId::exact;
+    const scene::TechniqueId technique = draw.terrain->material.technique.id;
     std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
-    if (relief && (relief->greatest || !exact)) {
+    const bool needs_greatest =
+        technique == scene::TechniqueId::exact && !(relief && relief->greatest);
+    const bool needs_cones = technique == scene::TechniqueId::cone && !(relief && relief->cones);
+    if (relief && !needs_greatest && !needs_cones) {
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const ReliefSpace space = relief_space(surface);
-    const Grid<float> heights = relief_heights(surface, space);
+    const Grid<float> heights = terrain::unit_heights(surface.heightfield().heights.view());
     if (!relief) {
         auto texture = height_texture(heights, stats);
         if (!texture) {
             return texture.error();
         }
-        relief = ResidentRelief{space, std::move(*texture), std::nullopt};
+        relief.emplace();
+        relief->space = relief_space(surface);
+        relief->heights = std::move(*texture);
     }
-    if (exact) {
-        auto texture = pyramid_texture(greatest_heights(heights.view()), stats);
+    if (needs_greatest) {
+        return keep(pyramid_texture(greatest_heights(heights.view()), stats), relief->greatest);
+    }
+    return needs_cones ? keep(cone_texture(surface.terrain(), heights, stats), relief->cones)
+                       : Result<void>();
+}
+
+Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) {
+    std::map<const scene::TerrainNode*, gl::Texture2D> before = std::exchange(warped_, {});
+    for (const TileDraw& draw : list.tiles) {
+        const scene::TerrainNode& terrain = *draw.terrain;
+        if (terrain.material.technique.id != scene::TechniqueId::prewarp ||
+            warped_.contains(&terrain)) {
+            continue;
+        }
+        const Grid<glm::vec4> places =
+            warped_places(*terrain.surface, eye_of(list.camera, draw.world_from_local));
+        auto texture = place_texture({places.cols(), places.rows()}, before[&terrain]);
         if (!texture) {
             return texture.error();
         }
-        relief->greatest = std::move(*texture);
+        texture->upload(0, places);
+        count_upload(stats, texture->bytes());
+        warped_.emplace(&terrain, std::move(*texture));
     }
-    return {};
-}
-
-Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
-    const scene::Mesh& mesh = *draw.mesh->mesh;
-    if (meshes_.contains(&mesh) || mesh.indices.empty()) {
-        stats.skipped.uploads_unchanged += meshes_.contains(&mesh) ? 1 : 0;
-        return {};
-    }
-    check(mesh.normals.size() == mesh.positions.size(), "a mesh needs a normal for every position");
-    auto vertices = gl::Buffer::create(bytes_of(interleaved(mesh)));
-    if (!vertices) {
-        return vertices.error();
-    }
-    auto indices = gl::Buffer::create(bytes_of(mesh.indices));
-    if (!indices) {
-        return indices.error();
-    }
-    count_upload(stats, vertices->size());
-    count_upload(stats, indices->size());
-    Mesh entry;
-    entry.owner = draw.mesh->mesh;
-    entry.indices = std::move(*indices);
-    entry.resident.vertices = std::move(*vertices);
-    entry.resident.vertex_array = gl::VertexArray::create();
-    entry.resident.index_count = static_cast<int>(mesh.indices.size());
-    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
-                                gl::VertexAttribute{.location = 1,
-                                                    .components = 3,
-                                                    .offset = offsetof(MeshVertex, normal)}};
-    entry.resident.vertex_array.set_vertices(0, entry.resident.vertices,
-                                             {.stride = sizeof(MeshVertex)}, attributes);
-    entry.resident.vertex_array.set_indices(entry.indices);
-    meshes_.emplace(&mesh, std::move(entry));
     return {};
 }
 
@@ -334,12 +320,15 @@ Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, FrameStats&
     return &grid_indices_.emplace(std::pair{cols, rows}, std::move(*buffer)).first->second;
 }
 
-const ResidentMesh& Residency::tile(const TileDraw& draw) const {
+std::span<const ResidentMesh> Residency::tile(const TileDraw& draw) const {
+    if (draw.coarse) {
+        return coarse_tiles_.tile(draw);
+    }
     const Surface& surface = surfaces_.at(draw.terrain->surface.get());
     const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
     const auto& slot = slots[static_cast<std::size_t>(draw.tile)];
     check(slot.has_value(), "a tile that was not prepared");
-    return *slot;
+    return {&*slot, 1};
 }
 
 const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {
@@ -352,8 +341,8 @@ const ResidentRelief& Residency::relief(const ReliefDraw& draw) const {
     return *relief;
 }
 
-const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {
-    return meshes_.at(draw.mesh->mesh.get()).resident;
+const gl::Texture2D& Residency::warped(const scene::TerrainNode& terrain) const {
+    return warped_.at(&terrain);
 }
 
 } // namespace reljef::render

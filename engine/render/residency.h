@@ -3,41 +3,37 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
-#include "engine/gl/vertex_array.h"
+#include "engine/render/coarse_tiles.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/mesh_residency.h"
 #include "engine/render/relief_maps.h"
+#include "engine/render/resident_mesh.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
 
-/// Triangles that are in the driver's memory.
-struct ResidentMesh {
-    gl::Buffer vertices;
-    gl::VertexArray vertex_array;
-    glm::dvec3 origin{0.0}; ///< local metres
-    int index_count = 0;
-    int vertices_per_row = 0;
-    glm::vec2 samples_per_vertex{1.0F};
-};
-
-/// A terrain's lit_map, and how sample coordinates become texture coordinates: sample · xy + zw.
+/// A terrain's lit_map, or, where rays cast the shadows, its light_parts; and how sample
+/// coordinates become texture coordinates: sample · xy + zw.
 struct ResidentMaps {
     gl::Texture2D lit;
+    std::optional<gl::Texture2D> sun; ///< the sun's part; lit is then the sky's
     glm::vec4 lit_from_sample{0.0F};
 };
 
-/// The heights that pixels look for along their rays, where they lie, and, for the exact technique,
-/// a pyramid of the greatest.
+/// The heights that pixels look for along their rays, where they lie, and what some techniques need
+/// besides: exact a pyramid of the greatest, cone the cones over each cell.
 struct ResidentRelief {
     ReliefSpace space;
     gl::Texture2D heights;
     std::optional<gl::Texture2D> greatest;
+    std::optional<gl::Texture2D> cones;
 };
 
 /// What of the scene is in the driver's memory. Only what is drawn gets there, and stays while the
@@ -49,14 +45,17 @@ public:
     Result<void> prepare(const DrawList& list, bool with_maps, FrameStats& stats);
 
     /// Precondition: prepared.
-    [[nodiscard]] const ResidentMesh& tile(const TileDraw& draw) const;
+    [[nodiscard]] std::span<const ResidentMesh> tile(const TileDraw& draw) const;
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
-    [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+    [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
+    /// What prewarp shows at each sample: warped_places.
+    [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
 private:
     struct LitMaps {
         std::optional<scene::TerrainLight> light;
+        bool in_parts = false;
         std::shared_ptr<const ResidentMaps> maps;
     };
     struct Surface {
@@ -66,14 +65,9 @@ private:
         std::vector<LitMaps> maps; // one for each light that the last frame had for it
         std::optional<ResidentRelief> relief;
     };
-    struct Mesh {
-        std::weak_ptr<const scene::Mesh> owner;
-        ResidentMesh resident;
-        gl::Buffer indices;
-    };
-
     void forget_unused();
     Surface& surface_of(const scene::TerrainNode& terrain);
+    std::vector<const TileDraw*> missing_tiles(const DrawList& list, FrameStats& stats);
     Result<void> prepare_tiles(const DrawList& list, FrameStats& stats);
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
     Result<void> prepare_all_maps(const DrawList& list, FrameStats& stats);
@@ -83,12 +77,14 @@ private:
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              FrameStats& stats);
     Result<void> prepare_relief(const ReliefDraw& draw, FrameStats& stats);
-    Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
+    Result<void> prepare_warped(const DrawList& list, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
+    CoarseTiles coarse_tiles_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
-    std::map<const scene::Mesh*, Mesh> meshes_;
+    std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
+    MeshResidency meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };
 

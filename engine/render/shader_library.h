@@ -21,21 +21,41 @@ struct EmbeddedShader {
 std::span<const EmbeddedShader> embedded_shaders();
 
 /// What is drawn.
-enum class ShaderKind { terrain, relief, mesh, sky };
+enum class ShaderKind {
+    terrain,
+    relief,
+    mesh,          ///< of one colour
+    textured_mesh, ///< with a tile of detail on it
+    relief_mesh,   ///< each pixel looks for the tile's surface
+    sky
+};
 
 /// What a variant of a shader is compiled with; a scene that lacks it never pays for it.
 enum ShaderFeature : std::uint32_t {
     feature_lit = 1U << 0U, ///< there is a sun
     feature_fog = 1U << 1U, ///< there is air
     feature_hit = 1U << 2U, ///< writes the hit instead of the colour
-    // How a relief looks for its surface; steps alone where none of the first five is there.
+    // How a relief looks for its surface; steps alone where none of these is there.
     feature_exact = 1U << 3U,      ///< the true first hit
     feature_parallax = 1U << 4U,   ///< shifted by the height
     feature_bisect = 1U << 5U,     ///< steps, then halving
     feature_secant = 1U << 6U,     ///< steps, then chords
     feature_limited = 1U << 7U,    ///< parallax: by no more than the height
     feature_iterated = 1U << 8U,   ///< parallax: looked at again
-    feature_view_steps = 1U << 9U, ///< secant: as many steps as the angle of view asks for
+    feature_view_steps = 1U << 9U, ///< equal steps: as many as the angle of view asks for
+    // What a relief does beside.
+    feature_fade = 1U << 10U,         ///< less height at flat angles of view
+    feature_hard_shadow = 1U << 11U,  ///< a ray to the sun: lit or not
+    feature_soft_shadow = 1U << 12U,  ///< a ray to the sun: lit by how deep it goes
+    feature_smooth_edges = 1U << 13U, ///< near misses are blended in
+    feature_write_depth = 1U << 14U,  ///< the depth of the hit, not of the box
+    feature_warped = 1U << 15U,       ///< a terrain: shows the places warped onto it
+    feature_cone = 1U << 16U,         ///< how a relief looks: from cone to cone
+    // How a mesh with a tile of detail is lit; by its own normals where none of the three is there.
+    feature_normal_map = 1U << 17U,
+    feature_bump = 1U << 18U,
+    feature_emboss = 1U << 19U,
+    feature_wrap = 1U << 20U, ///< a mesh: the tile goes on in copies of itself
 };
 
 struct ShaderVariant {
@@ -46,7 +66,8 @@ struct ShaderVariant {
 };
 
 /// The variant without the features that mean nothing to it: a hit has neither light nor fog, the
-/// sky is not seen through air and is never hit, a terrain's light is in its map.
+/// sky is not seen through air and is never hit, a terrain's light is in its map unless a relief
+/// casts shadows; parallax follows no ray, and a hit has neither shadow nor smooth edges.
 ShaderVariant without_meaningless(ShaderVariant variant);
 
 /// Every variant that means something, each once.

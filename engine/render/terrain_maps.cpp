@@ -42,6 +42,25 @@ template <class T> glm::ivec2 size_of(const Grid<T>& grid) {
     return {grid.cols(), grid.rows()};
 }
 
+// Visits every texel of a map of the surface: `visit(texel, sample, albedo)`, albedo linear.
+template <class Visit>
+void for_each_texel(const scene::TerrainSurface& surface, const Image& albedo, glm::ivec2 size,
+                    const Visit& visit) {
+    const glm::ivec2 samples = size_of(surface.heightfield().heights);
+    parallel_for(size.y, [&](int row) {
+        for (int col = 0; col < size.x; ++col) {
+            const glm::dvec2 texel = place_on({col, row}, size, size_of(albedo));
+            visit(glm::ivec2(col, row), place_on({col, row}, size, samples),
+                  bilinear(albedo, texel, linear_from_rgba8));
+        }
+    });
+}
+
+glm::ivec2 map_size(const scene::TerrainSurface& surface, const Image& albedo, int largest_side) {
+    return glm::min(glm::max(size_of(albedo), size_of(surface.heightfield().heights)),
+                    glm::ivec2(largest_side));
+}
+
 } // namespace
 
 Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::TerrainLight>& light,
@@ -51,18 +70,28 @@ Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::T
         return albedo;
     }
     const scene::TerrainIrradiance irradiance(surface, *light);
-    const glm::ivec2 samples = size_of(surface.heightfield().heights);
-    const glm::ivec2 size = glm::min(glm::max(size_of(albedo), samples), glm::ivec2(largest_side));
+    const glm::ivec2 size = map_size(surface, albedo, largest_side);
     Image lit(size.x, size.y);
-    parallel_for(size.y, [&](int row) {
-        for (int col = 0; col < size.x; ++col) {
-            const glm::dvec2 texel = place_on({col, row}, size, size_of(albedo));
-            const glm::vec3 reflected = bilinear(albedo, texel, linear_from_rgba8);
-            lit(col, row) =
-                rgba8_from_linear(reflected * irradiance.at(place_on({col, row}, size, samples)));
-        }
-    });
+    for_each_texel(surface, albedo, size,
+                   [&](glm::ivec2 texel, glm::dvec2 sample, glm::vec3 reflected) {
+                       lit(texel.x, texel.y) = rgba8_from_linear(reflected * irradiance.at(sample));
+                   });
     return lit;
+}
+
+LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
+                       int largest_side) {
+    const Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    const scene::TerrainIrradiance irradiance(surface, light);
+    const glm::ivec2 size = map_size(surface, albedo, largest_side);
+    LightParts parts{Image(size.x, size.y), Image(size.x, size.y)};
+    for_each_texel(surface, albedo, size,
+                   [&](glm::ivec2 texel, glm::dvec2 sample, glm::vec3 reflected) {
+                       const scene::IrradianceParts found = irradiance.parts_at(sample);
+                       parts.sky(texel.x, texel.y) = rgba8_from_linear(reflected * found.sky);
+                       parts.sun(texel.x, texel.y) = rgba8_from_linear(reflected * found.sun);
+                   });
+    return parts;
 }
 
 } // namespace reljef::render

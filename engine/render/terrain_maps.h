@@ -14,4 +14,13 @@ namespace reljef::render {
 Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::TerrainLight>& light,
               int largest_side);
 
+/// The same in two parts for those who find out themselves what the sun sees: what the sky lights,
+/// and what the sun would if nothing hid it.
+struct LightParts {
+    Image sky;
+    Image sun;
+};
+LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
+                       int largest_side);
+
 } // namespace reljef::render

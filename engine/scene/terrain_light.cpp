@@ -41,16 +41,26 @@ TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const Terrai
     : gradients_(terrain::scene_gradients(surface.heightfield(), surface.placement())),
       visibility_(visibility_of_sun(surface, light)),
       world_from_normal_(glm::inverseTranspose(light.world_from_local)),
-      to_sun_(to_light(light.sun)), sun_(light.sun.color), sky_(light.sun.ambient) {}
+      to_sun_(to_light(light.sun)), sun_(light.sun.color), sky_(light.sun.ambient),
+      is_day_((glm::inverse(light.world_from_local) * to_light(light.sun)).z > 0.0) {}
+
+glm::vec3 TerrainIrradiance::normal_at(glm::dvec2 sample) const {
+    const glm::vec2 gradient = bilinear(gradients_, sample, std::identity());
+    return glm::normalize(world_from_normal_ * glm::vec3(-gradient.x, -gradient.y, 1.0F));
+}
 
 glm::vec3 TerrainIrradiance::at(glm::dvec2 sample) const {
-    const glm::vec2 gradient = bilinear(gradients_, sample, std::identity());
     const float visibility =
         bilinear(visibility_, sample, [](std::uint8_t share) { return share / 255.0F; });
-    const glm::vec3 normal =
-        glm::normalize(world_from_normal_ * glm::vec3(-gradient.x, -gradient.y, 1.0F));
+    const glm::vec3 normal = normal_at(sample);
     const float sun = std::max(glm::dot(normal, to_sun_), 0.0F) * visibility;
     return sun_ * sun + sky_ * (0.5F + 0.5F * normal.z);
+}
+
+IrradianceParts TerrainIrradiance::parts_at(glm::dvec2 sample) const {
+    const glm::vec3 normal = normal_at(sample);
+    const float sun = is_day_ ? std::max(glm::dot(normal, to_sun_), 0.0F) : 0.0F;
+    return {sky_ * (0.5F + 0.5F * normal.z), sun_ * sun};
 }
 
 } // namespace reljef::scene

@@ -25,6 +25,12 @@ struct TerrainLight {
 /// outermost texels are the outermost samples.
 Image albedo_map(const TerrainSurface& surface);
 
+/// What a place reflects at albedo 1, linear.
+struct IrradianceParts {
+    glm::vec3 sky{0.0F};
+    glm::vec3 sun{0.0F}; ///< as if nothing hid it; nothing from below the terrain's horizon
+};
+
 /// What every place of a terrain reflects at albedo 1, whichever way one looks (Lambert): the sun,
 /// as far as the terrain around does not hide it, and the sky.
 class TerrainIrradiance {
@@ -36,13 +42,19 @@ public:
     /// heightfield.
     [[nodiscard]] glm::vec3 at(glm::dvec2 sample) const;
 
+    /// The same for those who find out themselves what the sun sees.
+    [[nodiscard]] IrradianceParts parts_at(glm::dvec2 sample) const;
+
 private:
+    [[nodiscard]] glm::vec3 normal_at(glm::dvec2 sample) const;
+
     Grid<glm::vec2> gradients_;
     Grid<std::uint8_t> visibility_;
     glm::mat3 world_from_normal_;
     glm::vec3 to_sun_;
     glm::vec3 sun_;
     glm::vec3 sky_;
+    bool is_day_;
 };
 
 } // namespace reljef::scene

@@ -3,6 +3,24 @@
 #include <fmt/format.h>
 
 namespace reljef::scene {
+namespace {
+
+// A terrain's own light is that of its heights already, and its own vertices stand where they are.
+Error for_meshes_only(TechniqueId id) {
+    const bool moves = id == TechniqueId::displacement;
+    return Error{fmt::format("technique {}: a terrain found, a mesh with a tile of detail was "
+                             "expected; {} {} a terrain by its heights",
+                             technique_info(id).name, moves ? "polygons" : "texture",
+                             moves ? "shapes" : "lights")};
+}
+
+} // namespace
+
+TextureDetail shown_detail(const Material& material) {
+    TextureDetail detail = material.detail;
+    detail.border = material.technique.options.border.value_or(detail.border);
+    return detail;
+}
 
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
                                terrain::Placement placement)
@@ -61,14 +79,27 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
-    if (geometry_of(technique.id) != Geometry::box ||
-        surface.placement().kind() == terrain::PlacementKind::plane) {
+    if (!draws_terrain(technique.id)) {
+        return for_meshes_only(technique.id);
+    }
+    const std::string_view name = technique_info(technique.id).name;
+    if (technique.options.two_sided) {
+        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a terrain "
+                                 "is not seen from beneath, detail tiles are",
+                                 name)};
+    }
+    if (technique.options.border && *technique.options.border != BorderRule::discard) {
+        return Error{fmt::format("technique {}: a border other than discard found, discard was "
+                                 "expected: a terrain ends at its border, detail tiles go on",
+                                 name)};
+    }
+    if (!needs_plane(technique.id) || surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};
     }
     return Error{
         fmt::format("technique {}: placement ellipsoid found, plane was expected; polygons "
                     "draws both",
-                    technique_info(technique.id).name)};
+                    name)};
 }
 
 } // namespace reljef::scene

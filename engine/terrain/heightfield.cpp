@@ -107,6 +107,26 @@ HeightRange height_range(const Grid<float>& heights, const Grid<std::uint8_t>& v
     return low <= high ? HeightRange{low, high} : HeightRange{};
 }
 
+Grid<float> unit_heights(GridView<const float> heights) {
+    Grid<float> unit(heights.cols(), heights.rows());
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (const float height : heights.row(row)) {
+            low = std::min(low, height);
+            high = std::max(high, height);
+        }
+    }
+    const double range = high > low ? static_cast<double>(high) - low : 1.0;
+    for (int row = 0; row < heights.rows(); ++row) {
+        std::transform(heights.row(row).begin(), heights.row(row).end(), unit.row(row).begin(),
+                       [&](float height) {
+                           return static_cast<float>((static_cast<double>(height) - low) / range);
+                       });
+    }
+    return unit;
+}
+
 double bilinear_height(GridView<const float> heights, glm::dvec2 sample) {
     check(!heights.empty(), "bilinear_height of an empty grid");
     const Cell cell = cell_at(heights.cols(), heights.rows(), sample);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ struct Heightfield {
     std::optional<geo::Georeference> georeference; ///< absent where the source names no place
 };
 
+struct ConeMaps;
+
 /// A heightfield and what lies on it.
 struct Terrain {
     std::string name; ///< file or built-in name, for messages and titles
@@ -44,10 +47,17 @@ struct Terrain {
     Image color; ///< covers the heightfield edge sample to edge sample; may be empty
     std::vector<std::string>
         notes; ///< what the reader should be told: undeclared voids, a reduced read
+    std::vector<std::string>
+        faults; ///< files that were to be read and failed, a sentence each; the rest is there
+    /// Of the heights from 0 (lowest) to 1 (highest of all samples); null until they are wanted.
+    std::shared_ptr<const ConeMaps> cones = {};
 };
 
 /// Lowest and highest of the samples that are no voids; {0,0} when there is none.
 HeightRange height_range(const Grid<float>& heights, const Grid<std::uint8_t>& void_mask);
+
+/// Heights from 0, the lowest of all samples, to 1, the highest; all 0 where they are level.
+Grid<float> unit_heights(GridView<const float> heights);
 
 /// Bilinear height at (col, row), metres; both are clamped to the grid. Precondition: not empty.
 double bilinear_height(GridView<const float> heights, glm::dvec2 sample);

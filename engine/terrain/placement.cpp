@@ -1,5 +1,6 @@
 #include "engine/terrain/placement.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -29,9 +30,20 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
     }
     if (kind == PlacementKind::ellipsoid) {
         const glm::dvec2 origin = placement.geodetic_->latitude_longitude(placement.center_);
-        placement.frame_ = geo::LocalFrame({origin.x, origin.y, 0.0});
+        placement.geoid_ = heightfield.georeference->geoid;
+        placement.frame_ =
+            geo::LocalFrame({origin.x, origin.y, placement.zero_at({origin.x, origin.y})});
     }
     return placement;
+}
+
+double Placement::zero_at(glm::dvec2 latitude_longitude) const {
+    if (!geoid_) {
+        return 0.0;
+    }
+    const double latitude = std::clamp(latitude_longitude.x, -90.0, 90.0);
+    const double above = geoid_->undulation(latitude, latitude_longitude.y);
+    return std::isnan(above) ? 0.0 : above;
 }
 
 PlacementKind Placement::kind() const {
@@ -44,7 +56,8 @@ glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
                 sample.z * exaggeration_};
     }
     const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(sample));
-    return frame_->local_from_geodetic({position.x, position.y, sample.z * exaggeration_});
+    return frame_->local_from_geodetic(
+        {position.x, position.y, zero_at(position) + sample.z * exaggeration_});
 }
 
 std::optional<glm::dvec3> Placement::sample_from_world(glm::dvec3 world) const {
@@ -57,7 +70,8 @@ std::optional<glm::dvec3> Placement::sample_from_world(glm::dvec3 world) const {
     if (!sample) {
         return std::nullopt;
     }
-    return glm::dvec3(*sample, position.height / exaggeration_);
+    const double zero = zero_at({position.latitude, position.longitude});
+    return glm::dvec3(*sample, (position.height - zero) / exaggeration_);
 }
 
 glm::dvec3 Placement::up(glm::dvec3 world) const {
@@ -75,7 +89,8 @@ std::optional<geo::Geodetic> Placement::geodetic_from_world(glm::dvec3 world) co
     }
     if (frame_) {
         geo::Geodetic position = frame_->geodetic_from_local(world);
-        position.height /= exaggeration_;
+        const double zero = zero_at({position.latitude, position.longitude});
+        position.height = (position.height - zero) / exaggeration_;
         return position;
     }
     const std::optional<glm::dvec3> sample = sample_from_world(world);
@@ -88,7 +103,8 @@ std::optional<glm::dvec3> Placement::world_from_geodetic(geo::Geodetic position)
         return std::nullopt;
     }
     if (frame_) {
-        position.height *= exaggeration_;
+        position.height =
+            zero_at({position.latitude, position.longitude}) + position.height * exaggeration_;
         return frame_->local_from_geodetic(position);
     }
     const Result<glm::dvec2> sample = geodetic_->sample(position.latitude, position.longitude);

@@ -19,7 +19,8 @@ enum class PlacementKind { plane, ellipsoid };
 /// Where the samples of a heightfield stand in the scene frame (metres, x east, y north, z up).
 /// A sample is (col, row, height in true metres). Plane: x = (col − (cols−1)/2)·dx,
 /// y = ((rows−1)/2 − row)·dy, z = height·exaggeration. Ellipsoid: the WGS 84 position, with height·
-/// exaggeration above the ellipsoid, in the local frame at the centre of the heightfield.
+/// exaggeration above the ellipsoid, or above the geoid where the georeference has one, in the
+/// local frame at the centre of the heightfield.
 class Placement {
 public:
     /// Plane, or ellipsoid; fails when an ellipsoid is asked for without a georeference, or the
@@ -43,12 +44,15 @@ public:
 
 private:
     Placement() = default;
+    /// Of the heights' zero above the ellipsoid, metres; 0 where the geoid is not known.
+    [[nodiscard]] double zero_at(glm::dvec2 latitude_longitude) const;
 
     glm::dvec2 center_{0.0};  // col, row
     glm::dvec2 spacing_{1.0}; // metres
     double exaggeration_ = 1.0;
     std::optional<geo::GeodeticMap> geodetic_;
     std::optional<geo::LocalFrame> frame_; // ellipsoid only
+    std::optional<geo::Geoid> geoid_;      // ellipsoid only
 };
 
 } // namespace reljef::terrain

@@ -73,7 +73,7 @@ Result<Picture> draw(const scene::Scene& scene, glm::ivec2 size, const DrawOptio
     if (!caster) {
         return caster.error();
     }
-    return draw(*caster, Shading(scene, *caster), scene.camera(), size, options);
+    return draw(*caster, Shading(scene, *caster, options.shadow), scene.camera(), size, options);
 }
 
 Result<Picture> draw(const SceneCaster& caster, const Shading& shading, const scene::Camera& camera,

@@ -16,6 +16,7 @@ struct DrawOptions {
     /// Rays along each side of a pixel; the colour is the linear mean of all, the hit always that
     /// of the pixel's centre. >= 1.
     int rays_per_side = 1;
+    SunShadow shadow = SunShadow::sweep; ///< where the shading is made from the scene
     ParallelOptions parallel; ///< stopped, drawing fails; the result depends on nothing of it
 };
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
+#include "engine/truth/sun_ray.h"
 
 namespace reljef::truth {
 namespace {
@@ -35,8 +36,8 @@ glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distan
     return glm::mix(sky.horizon, color, static_cast<float>(left));
 }
 
-Shading::Shading(const scene::Scene& scene, const SceneCaster& caster)
-    : sun_(scene.sun()), sky_(scene.sky()) {
+Shading::Shading(const scene::Scene& scene, const SceneCaster& caster, SunShadow shadow)
+    : caster_(shadow == SunShadow::ray ? &caster : nullptr), sun_(scene.sun()), sky_(scene.sky()) {
     for (const PlacedTerrain& terrain : caster.terrains()) {
         maps_.push_back(maps_of(terrain, sun_));
     }
@@ -62,7 +63,15 @@ glm::vec3 Shading::at(const SceneHit& hit) const {
     const glm::dvec2 sample = glm::max(glm::dvec2(hit.surface.sample), glm::dvec2(0.0));
     const glm::vec3 albedo =
         bilinear(maps.albedo, sample * maps.texels_per_sample, linear_from_rgba8);
-    return maps.irradiance ? albedo * maps.irradiance->at(sample) : albedo;
+    return maps.irradiance ? albedo * irradiance(maps, hit, sample) : albedo;
+}
+
+glm::vec3 Shading::irradiance(const Maps& maps, const SceneHit& hit, glm::dvec2 sample) const {
+    if (caster_ == nullptr) {
+        return maps.irradiance->at(sample);
+    }
+    const scene::IrradianceParts parts = maps.irradiance->parts_at(sample);
+    return sees_sun(*caster_, hit, scene::to_light(*sun_)) ? parts.sky + parts.sun : parts.sky;
 }
 
 glm::vec3 Shading::at(const SceneHit& hit, double distance) const {

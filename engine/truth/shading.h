@@ -23,12 +23,19 @@ glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& su
 /// 1924). Linear.
 glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distance);
 
+/// Where shadows come from.
+enum class SunShadow {
+    sweep, ///< found once at the samples, with the sun's penumbra (scene/terrain_light.h)
+    ray,   ///< an exact ray from each hit to the sun (sun_ray.h)
+};
+
 /// What the rays of one scene bring home, linear. Finds albedo, slopes and shadows of all terrains
 /// when it is made; safe to ask from several threads; later changes of the scene are not seen.
 class Shading {
 public:
-    /// Precondition: `caster` was made from `scene`.
-    Shading(const scene::Scene& scene, const SceneCaster& caster);
+    /// Precondition: `caster` was made from `scene`, and lives longer where rays find the shadows.
+    Shading(const scene::Scene& scene, const SceneCaster& caster,
+            SunShadow shadow = SunShadow::sweep);
 
     /// Albedo times irradiance (scene/terrain_light.h) at the hit itself; the albedo alone without
     /// a light.
@@ -45,7 +52,10 @@ private:
         std::optional<scene::TerrainIrradiance> irradiance;
     };
     static Maps maps_of(const PlacedTerrain& terrain, const std::optional<scene::Light>& sun);
+    [[nodiscard]] glm::vec3 irradiance(const Maps& maps, const SceneHit& hit,
+                                       glm::dvec2 sample) const;
 
+    const SceneCaster* caster_; // null: the shadows are in the maps
     std::optional<scene::Light> sun_;
     std::optional<scene::Sky> sky_;
     std::vector<Maps> maps_; // of each terrain

@@ -14,6 +14,11 @@ namespace {
 
 constexpr const char* tile = "natural/srtm3/N45E006.hgt";
 
+constexpr const char* track =
+    "<gpx version=\"1.1\" creator=\"t\" xmlns=\"http://www.topografix.com/GPX/1/1\"><trk><trkseg>"
+    "<trkpt lat=\"45.62\" lon=\"6.6\"><ele>4000</ele></trkpt>"
+    "<trkpt lat=\"45.8\" lon=\"6.8\"><ele>5000</ele></trkpt></trkseg></trk></gpx>";
+
 // The lines of all ```sh blocks, without their comments.
 std::vector<std::string> shell_lines() {
     std::ifstream readme(RELJEF_README);
@@ -69,8 +74,13 @@ TEST(Readme, every_command_works) {
     RELJEF_NEED_DATA(tile);
     const test::TemporaryFolder folder;
     std::filesystem::create_symlink(test::data_path(tile), folder.path() / "N45E006.hgt");
+    std::filesystem::create_directory(folder.path() / "srtm");
+    std::filesystem::create_symlink(test::data_path(tile), folder.path() / "srtm" / "N45E006.hgt");
+    folder.write("track.gpx", track);
+    folder.write("places.csv", "45.8326,6.8652\n");
     test::ProgramOptions options;
     options.folder = folder.path();
+    options.environment["XDG_CACHE_HOME"] = (folder.path() / "cache").string();
     options.timeout = std::chrono::seconds(240);
     const std::string binaries = std::filesystem::path(RELJEF_BINARY).parent_path().string();
     options.environment["PATH"] = binaries + ":/usr/bin:/bin";

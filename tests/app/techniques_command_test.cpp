@@ -21,6 +21,15 @@ TEST(TechniquesCommand, json_lists_the_catalogue_with_ranges) {
             EXPECT_LE(parameter["default"], parameter["high"]);
             EXPECT_FALSE(parameter["meaning"].get<std::string>().empty());
         }
+        ASSERT_EQ(list[i]["options"].size(), scene::options_of(catalogue[i].id).size());
+        for (const auto& option : list[i]["options"]) {
+            for (const char* key : {"name", "form", "default", "meaning"}) {
+                EXPECT_FALSE(option[key].get<std::string>().empty()) << key;
+            }
+            for (const auto& number : option["numbers"]) {
+                EXPECT_LE(number["low"], number["high"]);
+            }
+        }
     }
 }
 

@@ -109,8 +109,8 @@ TEST_P(TextureFormatGlTest, a_part_replaces_only_itself) {
 
 INSTANTIATE_TEST_SUITE_P(all, TextureFormatGlTest,
                          ::testing::Values(Format::rgba8_srgb, Format::rgba8, Format::r8,
-                                           Format::r32f, Format::rg16f, Format::rg16_snorm,
-                                           Format::rgba32f, Format::depth32f),
+                                           Format::r32f, Format::rg16f, Format::rg32f,
+                                           Format::rg16_snorm, Format::rgba32f, Format::depth32f),
                          [](const auto& format) { return std::string(to_string(format.param)); });
 
 TEST_F(TextureGlTest, mipmaps_are_the_mean_of_four) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <random>
 
+#include <cpl_conv.h>
 #include <gdal_alg.h>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
@@ -94,6 +95,10 @@ TEST_F(Georeferencing, PositionsAreWithinATenthOfAMillimetreBetweenControlPoints
         {"EPSG:3413", {-60000.0, 2000.0, 0.0, 40000.0, 0.0, -2000.0}}, // the north pole inside
         {"EPSG:3031", {-300000.0, 2000.0, 100.0, 240000.0, 50.0, -2000.0}},
         {"EPSG:27700", {250000.0, 1000.0, 0.0, 700000.0, 0.0, -1000.0}},
+        {"EPSG:3035", {4000000.0, 1000.0, 0.0, 3000000.0, 0.0, -1000.0}}, // northing is first
+        {"EPSG:2193", {1600000.0, 1000.0, 0.0, 5500000.0, 0.0, -1000.0}}, // here, too
+        {"EPSG:4258", {6.0, 0.02, 0.0, 46.0, 0.0, -0.02}},                // latitude is first
+        {"EPSG:4807", {2.0, 0.01, 0.0, 51.0, 0.0, -0.01}},                // grads from Paris
         {"EPSG:32660", {800000.0, 5000.0, 0.0, 8100000.0, 0.0, -5000.0}}, // across 180°
     };
     for (const Case& c : cases) {
@@ -133,6 +138,42 @@ TEST_F(Georeferencing, DegreesGiveMetresAtTheMiddle) {
     EXPECT_NEAR(heightfield.spacing.x, 0.001 * metres.x, 1e-9);
     EXPECT_NEAR(heightfield.spacing.y, 0.002 * metres.y, 1e-9);
     EXPECT_EQ(heightfield.georeference->horizontal_unit, "degree");
+}
+
+TEST_F(Georeferencing, GradsAreNotDegrees) {
+    const auto heightfield =
+        read(ramp(), "EPSG:4807", {2.0, 0.001, 0.0, 51.0, 0.0, -0.001}).heightfield;
+    const glm::dvec2 metres = geo::metres_per_degree(0.9 * (51.0 - 0.001 * 20.0));
+    // 0.1 %: the ellipsoid of this system is not that of WGS 84.
+    EXPECT_NEAR(heightfield.spacing.x, 0.0009 * metres.x, 0.001 * heightfield.spacing.x);
+    EXPECT_NEAR(heightfield.spacing.y, 0.0009 * metres.y, 0.001 * heightfield.spacing.y);
+    EXPECT_EQ(heightfield.georeference->horizontal_unit, "grad");
+}
+
+// In a GeoTIFF whose pixels are points the tie point is the first sample's centre: half a cell,
+// tens of metres, from where it is in one whose pixels are areas.
+TEST_F(Georeferencing, PixelIsPointAndPixelIsAreaAreHalfACellApart) {
+    auto raster = ramp();
+    raster.crs = "EPSG:32631";
+    raster.geotransform = {500000.0, 30.0, 0.0, 5100000.0, 0.0, -30.0};
+    for (const bool points : {false, true}) {
+        ASSERT_TRUE(test::write(raster, path()));
+        {
+            // What the file itself says: its tie point stays where the area's corner was.
+            const CPLConfigOptionSetter as_it_is("GTIFF_POINT_GEO_IGNORE", "TRUE", false);
+            GDALDatasetUniquePtr file(GDALDataset::Open(path().c_str(), GDAL_OF_UPDATE));
+            ASSERT_NE(file, nullptr);
+            file->SetMetadataItem("AREA_OR_POINT", points ? "Point" : "Area");
+            std::array<double, 6> t = *raster.geotransform;
+            file->SetGeoTransform(t.data());
+        }
+        const auto terrain = read_terrain(path());
+        ASSERT_TRUE(terrain) << terrain.error().message;
+        const glm::dvec2 first =
+            terrain->heightfield.georeference->crs_from_pixel.crs_from_pixel(glm::dvec2(0.0));
+        EXPECT_EQ(first,
+                  points ? glm::dvec2(500000.0, 5100000.0) : glm::dvec2(500015.0, 5099985.0));
+    }
 }
 
 TEST_F(Georeferencing, FeetAreNotMetres) {

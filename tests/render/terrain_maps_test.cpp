@@ -16,7 +16,7 @@ namespace {
 std::shared_ptr<const scene::TerrainSurface> surface(terrain::Heightfield heightfield,
                                                      Image color = {}) {
     auto terrain = std::make_shared<const terrain::Terrain>(
-        terrain::Terrain{"made", std::move(heightfield), std::move(color), {}});
+        terrain::Terrain{"made", std::move(heightfield), std::move(color), {}, {}});
     return std::make_shared<const scene::TerrainSurface>(
         scene::TerrainSurface::create(std::move(terrain)).value());
 }

@@ -149,6 +149,40 @@ TEST_F(TechniquesGlTest, ExactIsFiniteWhateverTheExaggeration) {
     }
 }
 
+// Rays that enter beneath the surface at the border go on in equal steps, and may miss where they
+// come out: that is all that is wrong.
+TEST_F(TechniquesGlTest, RelaxedConesMissNothingButBehindTheBorder) {
+    for (const MadeSurface& surface : hard_surfaces()) {
+        Stage stage(surface.heights);
+        for (const Pose pose : {Pose::overview, Pose::grazing}) {
+            stage.look(pose);
+            EXPECT_LE(errors(stage, "cone:n=300,k=16,step=0").wrong_percent, 0.2)
+                << surface.name << ' ' << to_string(pose);
+        }
+    }
+}
+
+TEST_F(TechniquesGlTest, PlainConesEndAboveTheSurfaceAndCloseToIt) {
+    Stage stage(test::hills(129, 97, 12.0));
+    EXPECT_LE(errors(stage, "cone:relaxed=0,n=300,step=0").wrong_percent, 0.2);
+    EXPECT_GT(errors(stage, "cone:relaxed=0,n=8,step=0").wrong_percent, 1.0);
+}
+
+TEST_F(TechniquesGlTest, ConesAsTheyAreByDefaultAreWrongInFewPixels) {
+    Stage stage(test::hills(129, 97, 12.0));
+    for (const Pose pose : {Pose::overview, Pose::low, Pose::grazing}) {
+        stage.look(pose);
+        EXPECT_LE(errors(stage, "cone").wrong_percent, 1.0) << to_string(pose);
+    }
+}
+
+TEST_F(TechniquesGlTest, ConesShowTheSameHoweverHighTheHeightsAre) {
+    Stage stage(test::hills(65, 65, 12.0), {2.0, 5.0});
+    EXPECT_LE(errors(stage, "cone:n=300,step=0").wrong_percent, 0.2);
+    Stage high(test::hills(65, 65, 1200.0), {2.0, 5.0});
+    EXPECT_LE(errors(high, "cone:n=300,step=0").wrong_percent, 0.2);
+}
+
 // Between the first step below the surface and the true hit lies at most one step, so the error
 // falls with the first power of their number; each halving takes half of it away.
 TEST_F(TechniquesGlTest, StepsConvergeWithTheFirstPowerAndEachHalvingHalves) {
@@ -250,11 +284,31 @@ TEST_F(TechniquesGlTest, ParallaxIsBetterThanNoneSeenFromAboveAndBetterLookedAtA
 
 TEST_F(TechniquesGlTest, AFlatSurfaceIsExactForAllThatLookForIt) {
     Stage stage(Grid<float>(40, 30, 7.0F));
-    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
         if (scene::geometry_of(info.id) == scene::Geometry::box &&
             !info.name.starts_with("parallax") && info.id != scene::TechniqueId::steep) {
             EXPECT_LE(errors(stage, std::string(info.name)).wrong_percent, 0.3) << info.name;
         }
+    }
+}
+
+TEST_F(TechniquesGlTest, ThoseOfMeshesAreRefusedForATerrainWithWhatWorks) {
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        if (scene::draws_terrain(info.id)) {
+            continue;
+        }
+        Stage stage(test::hills(33, 33, 4.0));
+        stage.terrain->get<scene::TerrainNode>()->material.technique =
+            scene::make_technique(info.id);
+        render::Driver driver = test::must(
+            render::Driver::create({.size = picture_size, .shader_dir = {}, .software = true}));
+        const auto drawn = driver.draw(stage.scene);
+        ASSERT_FALSE(drawn) << info.name;
+        EXPECT_NE(drawn.error().message.find("a mesh with a tile of detail was expected"),
+                  std::string::npos);
+        const char* const works =
+            info.id == scene::TechniqueId::displacement ? "polygons" : "texture";
+        EXPECT_NE(drawn.error().message.find(works), std::string::npos);
     }
 }
 

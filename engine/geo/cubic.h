@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace reljef::geo {
+
+/// Four-point Lagrange interpolation along one axis: the first of four control points, the weights
+/// of the four and the weights' derivatives.
+struct Cubic {
+    int first = 0;
+    std::array<double, 4> weights{};
+    std::array<double, 4> slopes{};
+};
+
+/// At `position`, in control points, from the four that begin with `first`.
+inline Cubic cubic_from(double position, int first) {
+    Cubic cubic;
+    cubic.first = first;
+    const double u = position - first;
+    const double a = u - 1.0;
+    const double b = u - 2.0;
+    const double c = u - 3.0;
+    cubic.weights = {-a * b * c / 6.0, u * b * c / 2.0, -u * a * c / 2.0, u * a * b / 6.0};
+    cubic.slopes = {-(b * c + a * c + a * b) / 6.0, (b * c + u * c + u * b) / 2.0,
+                    -(a * c + u * c + u * a) / 2.0, (a * b + u * b + u * a) / 6.0};
+    return cubic;
+}
+
+/// The same from the nearest four of `points` control points.
+inline Cubic cubic_at(double position, int points) {
+    const double last = static_cast<double>(points) - 4.0;
+    return cubic_from(position,
+                      static_cast<int>(std::clamp(std::floor(position) - 1.0, 0.0, last)));
+}
+
+} // namespace reljef::geo

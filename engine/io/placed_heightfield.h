@@ -1,0 +1,13 @@
+#pragma once
+
+#include "engine/io/georeferencing.h"
+#include "engine/io/sample_reader.h"
+#include "engine/terrain/heightfield.h"
+
+namespace reljef::io {
+
+/// Samples as they were read, turned as their place asks for, with voids filled. Takes the place's
+/// georeference.
+terrain::Heightfield heightfield_of(Samples samples, Place& place);
+
+} // namespace reljef::io

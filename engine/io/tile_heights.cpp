@@ -1,0 +1,301 @@
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+#include <unordered_map>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "engine/io/gdal_dataset.h"
+#include "engine/io/sample_decoder.h"
+#include "engine/io/tile_set_state.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr int block_side = 1024;   // lattice points read at a time
+constexpr int least_chunk = 16384; // places that are worth a transform of their own
+// Of a sample: degrees in double tell a ten-thousandth of it, and a place that was computed to be
+// on a sample should have that sample's very value.
+constexpr double on_sample = 1e-7;
+
+using Kind = HeightAnswer::Kind;
+
+// Degrees: a micrometre. PROJ's way back through a grid of datum shifts is iterated, and ends some
+// tens of micrometres from where its way there begins.
+constexpr double inexact = 1e-11;
+constexpr std::size_t probed_places = 64;
+
+bool is_exact_inverse(std::span<const glm::dvec2> places, std::span<const glm::dvec2> points,
+                      const CrsTransform& to_degrees) {
+    std::vector<glm::dvec2> again(points.begin(), points.end());
+    to_degrees.apply(again);
+    for (std::size_t i = 0; i < again.size(); ++i) {
+        const glm::dvec2 miss = again[i] - places[i];
+        if (std::abs(std::remainder(miss.x, 360.0)) > inexact || std::abs(miss.y) > inexact) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Longitudes and latitudes to the CRS of a layer, in place, so that PROJ's way back from there
+/// leads to them: where it does not, one step of correction by what is missing.
+void to_crs(const TileLayer& layer, const CrsTransform& transform, std::span<glm::dvec2> places) {
+    std::vector<glm::dvec2> points(places.begin(), places.end());
+    transform.apply(points);
+    const auto back = CrsTransform::create(layer.crs, wgs84_degrees, layer.box);
+    const std::size_t probed = std::min(places.size(), probed_places);
+    if (back && !is_exact_inverse(places.first(probed), std::span(points).first(probed), *back)) {
+        back->apply(points);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const glm::dvec2 miss = places[i] - points[i];
+            points[i] = places[i] + glm::dvec2(std::remainder(miss.x, 360.0), miss.y);
+        }
+        transform.apply(points);
+    }
+    std::copy(points.begin(), points.end(), places.begin());
+}
+
+/// Where places lie on the lattice of a layer; NaN where they have none.
+std::vector<glm::dvec2> lattice_points(const TileLayer& layer, std::span<const glm::dvec2> places,
+                                       std::span<const int> wanted, unsigned threads) {
+    std::vector<glm::dvec2> points(wanted.size());
+    const auto count = static_cast<int>(wanted.size());
+    const int size = std::max(least_chunk, count / static_cast<int>(thread_count(threads)) + 1);
+    const auto transform_part = [&](int chunk) {
+        const GdalMessages unheard; // of places that a projection does not have
+        const auto begin = static_cast<std::size_t>(chunk) * static_cast<std::size_t>(size);
+        const auto part = std::span(points).subspan(
+            begin, std::min(static_cast<std::size_t>(size), points.size() - begin));
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const glm::dvec2 place = places[static_cast<std::size_t>(wanted[begin + i])];
+            part[i] = {place.y, place.x};
+        }
+        const auto transform = CrsTransform::create(wgs84_degrees, layer.crs, layer.box);
+        if (!transform) {
+            std::fill(part.begin(), part.end(), glm::dvec2(void_value));
+            return;
+        }
+        to_crs(layer, *transform, part);
+        for (glm::dvec2& point : part) {
+            point = layer.lattice_from_turned(point);
+        }
+    };
+    parallel_for((count + size - 1) / size, transform_part,
+                 {.threads = threads, .stop = {}, .progress = {}});
+    return points;
+}
+
+/// The tile whose own samples are all around a point; else the one that reaches within half a step
+/// of it, with the point moved to its edge; nothing where no tile is so near.
+struct OnTile {
+    const LayerTile* tile = nullptr;
+    glm::dvec2 point{0.0}; // on the layer's lattice, as the tile's own corners place it
+};
+
+double snapped(double value) {
+    return std::abs(value - std::round(value)) <= on_sample ? std::round(value) : value;
+}
+
+/// How far a point is outside a tile's outermost samples, in steps; 0 inside.
+double outside_by(const LayerTile& tile, glm::dvec2 point) {
+    const glm::dvec2 low = glm::dvec2(tile.col, tile.row) - point;
+    const glm::dvec2 high = point - glm::dvec2(tile.col + tile.cols - 1, tile.row + tile.rows - 1);
+    return std::max({low.x, low.y, high.x, high.y, 0.0});
+}
+
+glm::dvec2 moved_into(const LayerTile& tile, glm::dvec2 point) {
+    return glm::clamp(point, glm::dvec2(tile.col, tile.row),
+                      glm::dvec2(tile.col + tile.cols - 1, tile.row + tile.rows - 1));
+}
+
+/// Points in one block of a layer's lattice, by their index.
+struct Block {
+    glm::ivec2 first{0};
+    std::vector<int> points;
+};
+
+std::vector<Block> blocks_of(const TileLayer& layer, std::span<const glm::dvec2> points) {
+    std::unordered_map<std::int64_t, std::size_t> numbers;
+    std::vector<Block> blocks;
+    const glm::dvec2 last(layer.cols - 0.5, layer.rows - 0.5);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec2 point = points[i];
+        if (!(point.x >= -0.5 && point.y >= -0.5 && point.x <= last.x && point.y <= last.y)) {
+            continue;
+        }
+        const glm::ivec2 at(glm::max(point, 0.0) / static_cast<double>(block_side));
+        const std::int64_t key = (static_cast<std::int64_t>(at.y) << 32) + at.x;
+        const auto [entry, is_new] = numbers.try_emplace(key, blocks.size());
+        if (is_new) {
+            blocks.push_back({at * block_side, {}});
+        }
+        blocks[entry->second].points.push_back(static_cast<int>(i));
+    }
+    return blocks;
+}
+
+/// Whether a tile answers only between its samples and its neighbours', or to the edge of its
+/// cells.
+enum class Reach { samples, half_a_cell };
+
+/// One layer's answers for the points of one block.
+class BlockHeights {
+public:
+    BlockHeights(const TileLayer& layer, const Block& block, std::span<const glm::dvec2> points,
+                 Reach reach)
+        : layer_(layer), block_(block), points_(points), reach_(reach) {
+        const glm::dvec2 low(block.first - 1);
+        const glm::dvec2 high(block.first + block_side + 1);
+        for (const LayerTile& tile : layer.tiles) {
+            const bool apart = tile.col > high.x || tile.row > high.y ||
+                               tile.col + tile.cols < low.x || tile.row + tile.rows < low.y;
+            if (!apart) {
+                near_.push_back(&tile);
+            }
+        }
+    }
+
+    /// Reads what the points need, then calls answer(index, answer).
+    template <class Answer>
+    void find(const TileReading& reading, std::vector<TileFault>& faults, const Answer& answer) {
+        std::vector<OnTile> found;
+        found.reserve(block_.points.size());
+        for (const int index : block_.points) {
+            found.push_back(locate(points_[static_cast<std::size_t>(index)]));
+        }
+        const CellWindow window = window_of(found);
+        if (window.cols == 0) {
+            return;
+        }
+        const Grid<double> heights = read_cells(layer_, window, reading, faults);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i].tile != nullptr) {
+                answer(block_.points[i],
+                       answer_at(heights, found[i].point - glm::dvec2(window.first)));
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] OnTile locate(glm::dvec2 point) const {
+        OnTile nearest;
+        double least = 0.5 + on_sample;
+        for (const LayerTile* tile : near_) {
+            glm::dvec2 own = point - tile->offset;
+            own = {snapped(own.x), snapped(own.y)};
+            const double outside = outside_by(*tile, own);
+            if (outside < least) {
+                nearest = {tile, own};
+                least = outside;
+            }
+            if (outside == 0.0) {
+                return nearest;
+            }
+        }
+        if (nearest.tile != nullptr && !between_tiles(nearest.point)) {
+            return reach_ == Reach::half_a_cell
+                       ? OnTile{nearest.tile, moved_into(*nearest.tile, nearest.point)}
+                       : OnTile{};
+        }
+        return nearest;
+    }
+    /// Whether all four samples around a point are some tile's.
+    [[nodiscard]] bool between_tiles(glm::dvec2 point) const {
+        const glm::dvec2 low = glm::floor(point);
+        const glm::dvec2 high = glm::ceil(point);
+        const std::array samples{low, glm::dvec2(high.x, low.y), glm::dvec2(low.x, high.y), high};
+        return std::all_of(samples.begin(), samples.end(), [&](glm::dvec2 sample) {
+            return std::any_of(near_.begin(), near_.end(), [&](const LayerTile* tile) {
+                return outside_by(*tile, sample) == 0.0;
+            });
+        });
+    }
+    static CellWindow window_of(std::span<const OnTile> found) {
+        glm::dvec2 low(std::numeric_limits<double>::infinity());
+        glm::dvec2 high = -low;
+        for (const OnTile& place : found) {
+            if (place.tile != nullptr) {
+                low = glm::min(low, glm::floor(place.point));
+                high = glm::max(high, glm::ceil(place.point));
+            }
+        }
+        CellWindow window;
+        if (low.x <= high.x) {
+            window.first = glm::ivec2(low);
+            window.cols = static_cast<int>(high.x - low.x) + 1;
+            window.rows = static_cast<int>(high.y - low.y) + 1;
+        }
+        return window;
+    }
+    static HeightAnswer answer_at(const Grid<double>& heights, glm::dvec2 at) {
+        const glm::ivec2 low(glm::floor(at));
+        const glm::ivec2 high(glm::ceil(at));
+        const glm::dvec2 part = at - glm::dvec2(low);
+        const double north = glm::mix(heights(low.x, low.y), heights(high.x, low.y), part.x);
+        const double south = glm::mix(heights(low.x, high.y), heights(high.x, high.y), part.x);
+        const double height = glm::mix(north, south, part.y);
+        return std::isnan(height) ? HeightAnswer{Kind::in_void, 0.0}
+                                  : HeightAnswer{Kind::height, height};
+    }
+
+    const TileLayer& layer_;
+    const Block& block_;
+    std::span<const glm::dvec2> points_;
+    Reach reach_;
+    std::vector<const LayerTile*> near_;
+};
+
+/// The places that a layer may still answer: at first all without a height, to the edges of cells
+/// only those that no tile has.
+std::vector<int> unanswered(std::span<const HeightAnswer> answers, Reach reach) {
+    std::vector<int> wanted;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        const Kind kind = answers[i].kind;
+        if (kind == Kind::outside || (kind == Kind::in_void && reach == Reach::samples)) {
+            wanted.push_back(static_cast<int>(i));
+        }
+    }
+    return wanted;
+}
+
+void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach reach,
+               const TileReading& reading, unsigned threads, TileSet::Heights& result) {
+    const std::vector<int> wanted = unanswered(result.answers, reach);
+    if (wanted.empty()) {
+        return;
+    }
+    const auto points = lattice_points(layer, places, wanted, threads);
+    const std::vector<Block> blocks = blocks_of(layer, points);
+    std::mutex mutex;
+    const auto answer_block = [&](int number) {
+        std::vector<TileFault> faults;
+        BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach);
+        heights.find(reading, faults, [&](int index, HeightAnswer answer) {
+            const auto place = static_cast<std::size_t>(wanted[static_cast<std::size_t>(index)]);
+            result.answers[place] = answer;
+        });
+        const std::lock_guard lock(mutex);
+        result.faults.insert(result.faults.end(), faults.begin(), faults.end());
+    };
+    parallel_for(static_cast<int>(blocks.size()), answer_block,
+                 {.threads = threads, .stop = {}, .progress = {}});
+}
+
+} // namespace
+
+TileSet::Heights TileSet::heights(std::span<const glm::dvec2> places) const {
+    Heights result;
+    result.answers.resize(places.size());
+    for (const Reach reach : {Reach::samples, Reach::half_a_cell}) {
+        for (const TileLayer& layer : state_->layers) {
+            ask_layer(layer, places, reach, state_->reading({}), state_->options.threads, result);
+        }
+    }
+    keep_each_once(result.faults);
+    return result;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,280 @@
+#include "engine/io/tile_index.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/core/atomic_file.h"
+#include "engine/core/worker_pool.h"
+#include "engine/io/gdal_dataset.h"
+#include "engine/io/georeferencing.h"
+#include "engine/io/sample_decoder.h"
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_tiles = 1'000'000;
+constexpr std::size_t largest_index = std::size_t{1} << 30; // bytes
+// What lies beside rasters and is none, or belongs to one.
+constexpr std::array<std::string_view, 18> side_files{
+    ".xml", ".prj", ".hdr",  ".ovr", ".msk", ".tfw", ".wld", ".txt",     ".toml",
+    ".md",  ".csv", ".json", ".gpx", ".kml", ".log", ".pdf", ".geojson", ".html"};
+// Rasters by their name, also where their content is cut or empty.
+constexpr std::array<std::string_view, 18> raster_files{
+    ".tif", ".tiff", ".vrt", ".hgt", ".dem", ".asc", ".dt0", ".dt1", ".dt2",
+    ".img", ".bil",  ".ter", ".hf2", ".flt", ".adf", ".xyz", ".zip", ".gz"};
+
+template <class List> bool holds(const List& list, std::string_view word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+std::string lower_extension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return extension;
+}
+
+bool may_be_raster(const fs::path& path) {
+    const std::string extension = lower_extension(path);
+    if (holds(side_files, extension) || path.filename().string().starts_with('.')) {
+        return false;
+    }
+    return holds(raster_files, extension) ||
+           GDALIdentifyDriver(path.string().c_str(), nullptr) != nullptr;
+}
+
+/// A file as it is now; nothing else of it is known yet.
+IndexedFile found_file(const fs::path& path, std::string name) {
+    IndexedFile file;
+    std::error_code ignored;
+    file.path = std::move(name);
+    file.bytes = fs::file_size(path, ignored);
+    file.modified = fs::last_write_time(path, ignored).time_since_epoch().count();
+    return file;
+}
+
+Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::stop_token& stop) {
+    std::vector<IndexedFile> files;
+    std::error_code code;
+    fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied,
+                                           code);
+    for (; !code && entry != fs::recursive_directory_iterator(); entry.increment(code)) {
+        std::error_code gone;
+        if (stop.stop_requested() || files.size() > most_tiles) {
+            return Error{fmt::format("{}: reading was stopped", folder.string())};
+        }
+        if (entry->is_regular_file(gone)) {
+            files.push_back(found_file(entry->path(),
+                                       entry->path().lexically_relative(folder).generic_string()));
+        }
+    }
+    if (code) {
+        return Error{fmt::format("{}: cannot be read ({}), a folder of rasters was expected",
+                                 folder.string(), code.message())};
+    }
+    std::sort(files.begin(), files.end(),
+              [](const IndexedFile& a, const IndexedFile& b) { return a.path < b.path; });
+    return files;
+}
+
+/// A file's entry and the WKT that its number of a coordinate system will stand for.
+struct Described {
+    IndexedFile file;
+    std::string wkt;
+    bool is_raster = true;
+};
+
+Described with_fault(Described described, std::string message) {
+    described.file.use = TileUse::fault;
+    described.file.fault = std::move(message);
+    return described;
+}
+
+/// Why the samples of a raster cannot be a tile; empty where they can, and then its place is set.
+std::string set_place(GDALDataset& dataset, const std::string& name, Described& described) {
+    IndexedFile& file = described.file;
+    if (file.cols < 2 || file.rows < 2) {
+        return fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name, file.cols,
+                           file.rows);
+    }
+    if (auto good = check_affine(dataset, name); !good) {
+        return good.error().message;
+    }
+    std::vector<std::string> ignored;
+    const auto affine = affine_of(dataset);
+    const auto crs = affine ? horizontal_crs(dataset, ignored) : std::nullopt;
+    if (!crs || crs->IsLocal() != 0) {
+        return name + ": names no place on Earth, a coordinate system and a position in it were "
+                      "expected of a tile";
+    }
+    file.crs_from_pixel = *affine;
+    described.wkt = wkt_of(*crs);
+    return {};
+}
+
+Described describe_dataset(GDALDataset& dataset, const std::string& name, Described described) {
+    IndexedFile& file = described.file;
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    file.cols = dataset.GetRasterXSize();
+    file.rows = dataset.GetRasterYSize();
+    file.format = dataset.GetDriver()->GetDescription();
+    file.type = GDALGetDataTypeName(band.GetRasterDataType());
+    file.vertical_datum = vertical_datum_of(dataset);
+    int declares = 0;
+    band.GetNoDataValue(&declares);
+    file.declares_voids = declares != 0;
+    std::string fault = set_place(dataset, name, described);
+    if (kind_of_values(dataset) != ValueKind::plain) {
+        file.use = TileUse::picture;
+        file.fault = std::move(fault); // of use only where the picture is asked for as heights
+        return described;
+    }
+    file.use = TileUse::heights;
+    return fault.empty() ? described : with_fault(std::move(described), std::move(fault));
+}
+
+Described describe_file(const fs::path& path, IndexedFile file) {
+    Described described{std::move(file), {}, true};
+    const GdalMessages messages;
+    const auto dataset = open_raster(path, messages);
+    return dataset ? describe_dataset(**dataset, path.string(), std::move(described))
+                   : with_fault(std::move(described), dataset.error().message);
+}
+
+Described describe_if_raster(const fs::path& path, IndexedFile file) {
+    const GdalMessages unheard;
+    return may_be_raster(path) ? describe_file(path, std::move(file))
+                               : Described{std::move(file), {}, false};
+}
+
+/// Gives every distinct WKT its number.
+TileIndex numbered(std::vector<Described> all) {
+    TileIndex index;
+    std::map<std::string, int> numbers;
+    for (Described& described : all) {
+        if (!described.is_raster) {
+            continue;
+        }
+        if (described.file.use == TileUse::heights) {
+            const auto [entry, is_new] =
+                numbers.try_emplace(described.wkt, static_cast<int>(index.crs.size()));
+            if (is_new) {
+                index.crs.push_back(described.wkt);
+            }
+            described.file.crs = entry->second;
+        }
+        index.files.push_back(std::move(described.file));
+    }
+    return index;
+}
+
+fs::path cache_file(const fs::path& folder, const TileSetOptions& options) {
+    std::error_code ignored;
+    const std::string whole = fs::weakly_canonical(folder, ignored).string();
+    std::uint64_t hash = 14695981039346656037ULL; // FNV-1a
+    for (const char byte : whole) {
+        hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+    }
+    return options.cache_folder / fmt::format("tiles-{:016x}.index", hash);
+}
+
+TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) {
+        return {};
+    }
+    const auto bytes = read_text_file(file, largest_index);
+    auto index = bytes ? index_from_bytes(*bytes) : Result<TileIndex>(bytes.error());
+    if (index) {
+        return std::move(*index);
+    }
+    notes.push_back(bytes ? fmt::format("{} {}: the tiles are indexed anew", file.string(),
+                                        index.error().message)
+                          : index.error().message + ": the tiles are indexed anew");
+    return {};
+}
+
+/// Without it the next time takes longer, which is no failure.
+void write_cache(const fs::path& file, const TileIndex& index) {
+    std::error_code ignored;
+    fs::create_directories(file.parent_path(), ignored);
+    static_cast<void>(write_text_file(file, bytes_of(index)));
+}
+
+/// What the cache knows of files that are still the same.
+class Known {
+public:
+    explicit Known(const TileIndex& index) : index_(index) {
+        for (const IndexedFile& file : index.files) {
+            files_.emplace(file.path, &file);
+        }
+    }
+    [[nodiscard]] std::optional<Described> find(const IndexedFile& now) const {
+        const auto entry = files_.find(now.path);
+        if (entry == files_.end() || entry->second->bytes != now.bytes ||
+            entry->second->modified != now.modified) {
+            return std::nullopt;
+        }
+        const IndexedFile& file = *entry->second;
+        const bool placed = file.use == TileUse::heights;
+        return Described{file, placed ? index_.crs[static_cast<std::size_t>(file.crs)] : "", true};
+    }
+
+private:
+    const TileIndex& index_;
+    std::map<std::string_view, const IndexedFile*> files_;
+};
+
+Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& options,
+                               std::vector<std::string>& notes) {
+    auto files = list_files(folder, options.stop);
+    if (!files) {
+        return files.error();
+    }
+    const bool cached = !options.cache_folder.empty();
+    const TileIndex old = cached ? read_cache(cache_file(folder, options), notes) : TileIndex{};
+    const Known known(old);
+    std::vector<Described> all(files->size());
+    const auto describe = [&](int i) {
+        IndexedFile& file = (*files)[static_cast<std::size_t>(i)];
+        auto same = known.find(file);
+        const fs::path path = folder / file.path;
+        all[static_cast<std::size_t>(i)] =
+            same ? std::move(*same) : describe_if_raster(path, std::move(file));
+    };
+    if (!parallel_for(static_cast<int>(files->size()), describe,
+                      {.threads = options.threads, .stop = options.stop, .progress = {}})) {
+        return Error{fmt::format("{}: reading was stopped", folder.string())};
+    }
+    TileIndex index = numbered(std::move(all));
+    if (cached && !(index == old)) {
+        write_cache(cache_file(folder, options), index);
+    }
+    return index;
+}
+
+} // namespace
+
+Result<TileIndex> index_tiles(const fs::path& path, const TileSetOptions& options,
+                              std::vector<std::string>& notes) {
+    register_drivers();
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+        return index_folder(path, options, notes);
+    }
+    Described only = describe_file(path, found_file(path, path.string()));
+    if (!only.file.fault.empty()) {
+        return Error{only.file.fault};
+    }
+    only.file.use = TileUse::heights; // of a picture the luminance, as for any single raster
+    return numbered({std::move(only)});
+}
+
+} // namespace reljef::io

@@ -1,0 +1,146 @@
+#include <array>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "engine/io/tile_index.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr std::string_view index_magic = "reljef tile index 1\n";
+constexpr std::size_t checksum_bytes = 8;
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo).
+std::uint64_t checksum_of(std::string_view bytes) {
+    std::uint64_t hash = 14695981039346656037ULL;
+    for (const char byte : bytes) {
+        hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+    }
+    return hash;
+}
+
+class IndexWriter {
+public:
+    template <class T> void put(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::array<char, sizeof(T)> raw{};
+        std::memcpy(raw.data(), &value, sizeof(T));
+        bytes_.append(raw.data(), raw.size());
+    }
+    void put(const std::string& text) {
+        put(static_cast<std::uint32_t>(text.size()));
+        bytes_ += text;
+    }
+    [[nodiscard]] std::string bytes() && { return std::move(bytes_); }
+
+private:
+    std::string bytes_;
+};
+
+/// Reads what IndexWriter wrote; past the end everything is 0 and good() false.
+class IndexReader {
+public:
+    explicit IndexReader(std::string_view bytes) : rest_(bytes) {}
+
+    template <class T> void get(T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        if (const std::string_view raw = take(sizeof(T)); !raw.empty()) {
+            std::memcpy(&value, raw.data(), sizeof(T));
+        }
+    }
+    void get(std::string& text) {
+        std::uint32_t size = 0;
+        get(size);
+        text = std::string(take(size));
+    }
+    [[nodiscard]] bool good() const { return good_; }
+    [[nodiscard]] bool at_end() const { return good_ && rest_.empty(); }
+
+private:
+    std::string_view take(std::size_t count) {
+        if (!good_ || rest_.size() < count) {
+            good_ = false;
+            return {};
+        }
+        const std::string_view taken = rest_.substr(0, count);
+        rest_.remove_prefix(count);
+        return taken;
+    }
+
+    std::string_view rest_;
+    bool good_ = true;
+};
+
+/// Every field once, for reading and writing alike.
+template <class File, class Visit> void visit_fields(File& file, const Visit& visit) {
+    visit(file.path);
+    visit(file.bytes);
+    visit(file.modified);
+    visit(file.use);
+    visit(file.fault);
+    visit(file.cols);
+    visit(file.rows);
+    visit(file.crs_from_pixel);
+    visit(file.crs);
+    visit(file.format);
+    visit(file.type);
+    visit(file.vertical_datum);
+    visit(file.declares_voids);
+}
+
+bool is_consistent(const TileIndex& index) {
+    const int systems = static_cast<int>(index.crs.size());
+    return std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
+        return file.use != TileUse::heights ||
+               (file.crs >= 0 && file.crs < systems && file.cols >= 2 && file.rows >= 2);
+    });
+}
+
+} // namespace
+
+std::string bytes_of(const TileIndex& index) {
+    IndexWriter writer;
+    writer.put(static_cast<std::uint32_t>(index.crs.size()));
+    for (const std::string& crs : index.crs) {
+        writer.put(crs);
+    }
+    writer.put(static_cast<std::uint32_t>(index.files.size()));
+    for (const IndexedFile& file : index.files) {
+        visit_fields(file, [&](const auto& field) { writer.put(field); });
+    }
+    const std::string content = std::move(writer).bytes();
+    IndexWriter head;
+    head.put(checksum_of(content));
+    return std::string(index_magic) + std::move(head).bytes() + content;
+}
+
+Result<TileIndex> index_from_bytes(std::string_view bytes) {
+    if (!bytes.starts_with(index_magic)) {
+        return Error{"is of another version"};
+    }
+    bytes.remove_prefix(index_magic.size());
+    std::uint64_t checksum = 0;
+    IndexReader(bytes).get(checksum);
+    bytes.remove_prefix(std::min(checksum_bytes, bytes.size()));
+    if (checksum_of(bytes) != checksum) {
+        return Error{"is cut or was changed"};
+    }
+    IndexReader reader(bytes);
+    TileIndex index;
+    std::uint32_t count = 0;
+    reader.get(count);
+    for (std::uint32_t i = 0; i < count && reader.good(); ++i) {
+        reader.get(index.crs.emplace_back());
+    }
+    reader.get(count);
+    for (std::uint32_t i = 0; i < count && reader.good(); ++i) {
+        visit_fields(index.files.emplace_back(), [&](auto& field) { reader.get(field); });
+    }
+    if (!reader.at_end() || !is_consistent(index)) {
+        return Error{"is cut or was changed"};
+    }
+    return index;
+}
+
+} // namespace reljef::io

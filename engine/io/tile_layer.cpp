@@ -1,0 +1,251 @@
+#include "engine/io/tile_layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/io/gdal_dataset.h"
+#include "engine/io/sample_decoder.h"
+#include "engine/io/sample_reader.h"
+
+namespace reljef::io {
+namespace {
+
+// In samples. Tiles whose corners are written with few digits still share a lattice; their offset
+// from it is kept.
+constexpr double same_phase = 1e-2;
+// Over a whole tile, in samples: what a size of pixel written with 12 digits may be wrong by.
+constexpr double same_step = 1e-5;
+constexpr int taps_a_side = 4;         // values that a cell is averaged from, at least
+constexpr double closing_share = 0.75; // of a cell: no older tile adds to it
+constexpr double same_fineness = 1.01; // ratio of spacings
+
+glm::dmat2 steps_matrix(const geo::PixelAffine& affine) {
+    return {affine.x_col, affine.y_col, affine.x_row, affine.y_row};
+}
+
+bool on_lattice(const TileLayer& layer, const PlacedFile& file, const IndexedFile& indexed) {
+    if (layer.crs != file.crs) {
+        return false;
+    }
+    const glm::dmat2 in_steps = layer.lattice_steps * steps_matrix(file.crs_from_sample);
+    const double side = std::max(indexed.cols, indexed.rows);
+    const glm::dmat2 drift = (in_steps - glm::dmat2(1.0)) * side;
+    const glm::dvec2 origin =
+        layer.lattice_from_crs(file.crs_from_sample.crs_from_pixel(glm::dvec2(0.0)));
+    const glm::dvec2 phase = origin - glm::round(origin);
+    const double most_drift = std::max(
+        {std::abs(drift[0].x), std::abs(drift[0].y), std::abs(drift[1].x), std::abs(drift[1].y)});
+    return most_drift <= same_step && std::abs(phase.x) <= same_phase &&
+           std::abs(phase.y) <= same_phase && glm::length(origin) < 1e9;
+}
+
+void add_to(TileLayer& layer, const PlacedFile& file, const IndexedFile& indexed) {
+    const glm::dvec2 origin =
+        layer.lattice_from_crs(file.crs_from_sample.crs_from_pixel(glm::dvec2(0.0)));
+    const glm::ivec2 first(glm::round(origin));
+    layer.tiles.push_back(
+        {file.file, first.x, first.y, indexed.cols, indexed.rows, origin - glm::dvec2(first)});
+    layer.modified = std::max(layer.modified, indexed.modified);
+    layer.box = {std::min(layer.box[0], file.box[0]), std::min(layer.box[1], file.box[1]),
+                 std::max(layer.box[2], file.box[2]), std::max(layer.box[3], file.box[3])};
+}
+
+TileLayer layer_from(const PlacedFile& file, const IndexedFile& indexed) {
+    TileLayer layer;
+    layer.crs = file.crs;
+    layer.crs_from_lattice = file.crs_from_sample;
+    layer.lattice_steps = glm::inverse(steps_matrix(file.crs_from_sample));
+    layer.spacing = file.spacing;
+    layer.box = file.box;
+    layer.period = file.period;
+    add_to(layer, file, indexed);
+    return layer;
+}
+
+/// Moves the lattice's origin to the first sample of all.
+void finish(TileLayer& layer, std::span<const IndexedFile> files) {
+    glm::ivec2 low(layer.tiles.front().col, layer.tiles.front().row);
+    glm::ivec2 high = low;
+    for (const LayerTile& tile : layer.tiles) {
+        low = glm::min(low, glm::ivec2(tile.col, tile.row));
+        high = glm::max(high, glm::ivec2(tile.col + tile.cols, tile.row + tile.rows));
+    }
+    const glm::dvec2 origin = layer.crs_from_lattice.crs_from_pixel(glm::dvec2(low));
+    layer.crs_from_lattice.x0 = origin.x;
+    layer.crs_from_lattice.y0 = origin.y;
+    layer.cols = high.x - low.x;
+    layer.rows = high.y - low.y;
+    for (LayerTile& tile : layer.tiles) {
+        tile.col -= low.x;
+        tile.row -= low.y;
+    }
+    std::stable_sort(layer.tiles.begin(), layer.tiles.end(),
+                     [&](const LayerTile& a, const LayerTile& b) {
+                         return files[static_cast<std::size_t>(a.file)].modified >
+                                files[static_cast<std::size_t>(b.file)].modified;
+                     });
+}
+
+/// Spacings that differ by less than same_fineness are the same step.
+double fineness(const TileLayer& layer) {
+    return std::round(0.5 * std::log(layer.spacing.x * layer.spacing.y) / std::log(same_fineness));
+}
+
+/// A half-open rectangle of lattice points.
+struct Rectangle {
+    glm::ivec2 low{0};
+    glm::ivec2 high{0};
+    [[nodiscard]] bool empty() const { return low.x >= high.x || low.y >= high.y; }
+};
+
+Rectangle overlap(const LayerTile& tile, const CellWindow& window) {
+    const glm::ivec2 low = window.anchor + window.first * window.reduction;
+    const glm::ivec2 high = low + glm::ivec2(window.cols, window.rows) * window.reduction;
+    const glm::ivec2 corner(tile.col, tile.row);
+    return {glm::max(low, corner), glm::min(high, corner + glm::ivec2(tile.cols, tile.rows))};
+}
+
+/// Sums over cells, and the number of samples they rest on.
+class CellSums {
+public:
+    explicit CellSums(const CellWindow& window)
+        : window_(window), sum_(window.cols, window.rows), weight_(window.cols, window.rows),
+          closed_(window.cols, window.rows) {}
+
+    /// `values` lie at plan.grid in the tile's own pixels.
+    void add(const LayerTile& tile, const ReadPlan& plan, const Grid<double>& values) {
+        const double weight = plan.grid.step.x * plan.grid.step.y;
+        const glm::dvec2 corner(tile.col, tile.row);
+        for (int row = 0; row < values.rows(); ++row) {
+            for (int col = 0; col < values.cols(); ++col) {
+                const double value = values(col, row);
+                const glm::dvec2 pixel = plan.grid.pixel_from_sample(glm::dvec2(col, row));
+                const glm::ivec2 cell = cell_of(corner + pixel - 0.5);
+                if (!std::isnan(value) && inside(cell) && closed_(cell.x, cell.y) == 0) {
+                    sum_(cell.x, cell.y) += weight * value;
+                    weight_(cell.x, cell.y) += weight;
+                }
+            }
+        }
+    }
+    /// No other tile adds to what is well covered now.
+    void close_covered() {
+        const double full = static_cast<double>(window_.reduction) * window_.reduction;
+        for (std::size_t i = 0; i < weight_.size(); ++i) {
+            closed_.samples()[i] = weight_.samples()[i] >= closing_share * full ? 1 : 0;
+        }
+    }
+    [[nodiscard]] Grid<double> averages() && {
+        for (std::size_t i = 0; i < sum_.size(); ++i) {
+            const double weight = weight_.samples()[i];
+            sum_.samples()[i] = weight > 0.0 ? sum_.samples()[i] / weight : void_value;
+        }
+        return std::move(sum_);
+    }
+
+private:
+    [[nodiscard]] glm::ivec2 cell_of(glm::dvec2 point) const {
+        const glm::dvec2 from_first = point + 0.5 - glm::dvec2(window_.anchor) -
+                                      glm::dvec2(window_.first * window_.reduction);
+        return glm::ivec2(glm::floor(from_first / static_cast<double>(window_.reduction)));
+    }
+    [[nodiscard]] bool inside(glm::ivec2 cell) const {
+        return cell.x >= 0 && cell.y >= 0 && cell.x < window_.cols && cell.y < window_.rows;
+    }
+
+    CellWindow window_;
+    Grid<double> sum_;
+    Grid<double> weight_;
+    Grid<std::uint8_t> closed_;
+};
+
+struct TileValues {
+    ReadPlan plan;
+    Grid<double> values;
+};
+
+/// The part of a tile that lies in `part`, lattice points.
+Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int reduction,
+                             const TileReading& reading) {
+    const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
+    const std::filesystem::path path = reading.folder / file.path;
+    GdalMessages messages;
+    const auto dataset = open_raster(path, messages);
+    if (!dataset) {
+        return dataset.error();
+    }
+    if ((*dataset)->GetRasterXSize() != file.cols || (*dataset)->GetRasterYSize() != file.rows) {
+        return Error{fmt::format("{}: was replaced while it was read, the same {}×{} samples were "
+                                 "expected",
+                                 path.string(), file.cols, file.rows)};
+    }
+    const RasterOptions::Window window{part.low.x - tile.col, part.low.y - tile.row,
+                                       part.high.x - part.low.x, part.high.y - part.low.y};
+    TileValues result;
+    result.plan = plan_window(**dataset, window, std::max(1, reduction / taps_a_side));
+    auto values = read_heights(**dataset, result.plan, path.string(), reading.options, messages);
+    if (!values) {
+        return values.error();
+    }
+    result.values = std::move(*values);
+    return result;
+}
+
+} // namespace
+
+glm::dvec2 TileLayer::lattice_from_turned(glm::dvec2 point) const {
+    if (period > 0.0) {
+        const double middle =
+            crs_from_lattice.crs_from_pixel(0.5 * glm::dvec2(cols - 1, rows - 1)).x;
+        point.x -= period * std::round((point.x - middle) / period);
+    }
+    return lattice_from_crs(point);
+}
+
+std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
+                                 std::span<const IndexedFile> files) {
+    std::vector<TileLayer> layers;
+    for (const PlacedFile& file : placed) {
+        const IndexedFile& indexed = files[static_cast<std::size_t>(file.file)];
+        const auto fits = [&](const TileLayer& layer) { return on_lattice(layer, file, indexed); };
+        const auto layer = std::find_if(layers.begin(), layers.end(), fits);
+        if (layer == layers.end()) {
+            layers.push_back(layer_from(file, indexed));
+        } else {
+            add_to(*layer, file, indexed);
+        }
+    }
+    for (TileLayer& layer : layers) {
+        finish(layer, files);
+    }
+    std::stable_sort(layers.begin(), layers.end(), [](const TileLayer& a, const TileLayer& b) {
+        return fineness(a) != fineness(b) ? fineness(a) < fineness(b) : a.modified > b.modified;
+    });
+    return layers;
+}
+
+Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
+                        const TileReading& reading, std::vector<TileFault>& faults) {
+    CellSums sums(window);
+    for (const LayerTile& tile : layer.tiles) {
+        const Rectangle part = overlap(tile, window);
+        if (part.empty() || reading.options.stop.stop_requested()) {
+            continue;
+        }
+        const auto read = read_part(tile, part, window.reduction, reading);
+        if (read) {
+            sums.add(tile, read->plan, read->values);
+            sums.close_covered();
+        } else {
+            faults.push_back(
+                {reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path,
+                 read.error().message});
+        }
+    }
+    return std::move(sums).averages();
+}
+
+} // namespace reljef::io

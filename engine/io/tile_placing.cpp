@@ -1,0 +1,201 @@
+#include "engine/io/tile_placing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include "engine/io/georeferencing.h"
+
+namespace reljef::io {
+namespace {
+
+/// A coordinate system of the index, and the way from it to degrees.
+struct IndexedCrs {
+    std::string wkt; ///< of the first that is the same
+    double period = 0.0;
+    std::optional<CrsTransform> to_degrees;
+};
+
+IndexedCrs indexed_crs(const std::string& wkt, std::vector<OGRSpatialReference>& known,
+                       std::vector<std::string>& texts) {
+    OGRSpatialReference crs = crs_from_text(wkt);
+    const auto same = std::find_if(known.begin(), known.end(),
+                                   [&](const auto& other) { return crs.IsSame(&other) != 0; });
+    IndexedCrs result;
+    result.wkt = same == known.end() ? wkt : texts[static_cast<std::size_t>(same - known.begin())];
+    result.period = crs.IsGeographic() != 0 ? 360.0 / glm::degrees(crs.GetAngularUnits()) : 0.0;
+    result.to_degrees = CrsTransform::create(wkt, wgs84_degrees);
+    if (same == known.end()) {
+        known.push_back(std::move(crs));
+        texts.push_back(wkt);
+    }
+    return result;
+}
+
+std::vector<IndexedCrs> indexed_systems(const TileIndex& index) {
+    std::vector<OGRSpatialReference> known;
+    std::vector<std::string> texts;
+    std::vector<IndexedCrs> systems;
+    systems.reserve(index.crs.size());
+    for (const std::string& wkt : index.crs) {
+        systems.push_back(indexed_crs(wkt, known, texts));
+    }
+    return systems;
+}
+
+geo::PixelAffine at_sample_centres(geo::PixelAffine affine) {
+    const glm::dvec2 first = affine.crs_from_pixel(glm::dvec2(0.5));
+    affine.x0 = first.x;
+    affine.y0 = first.y;
+    return affine;
+}
+
+/// Longitude and latitude of the corners and the middles between them, longitudes running on; then
+/// of the middle sample and its neighbours east and south.
+std::vector<glm::dvec2> degrees_of(const PlacedFile& file, const IndexedFile& indexed,
+                                   const CrsTransform& to_degrees) {
+    std::vector<glm::dvec2> points;
+    const glm::dvec2 last(indexed.cols - 1, indexed.rows - 1);
+    for (int j = 0; j <= 2; ++j) {
+        for (int i = 0; i <= 2; ++i) {
+            points.push_back(file.crs_from_sample.crs_from_pixel(0.5 * last * glm::dvec2(i, j)));
+        }
+    }
+    const glm::dvec2 middle = 0.5 * last;
+    points.push_back(file.crs_from_sample.crs_from_pixel(middle + glm::dvec2(1.0, 0.0)));
+    points.push_back(file.crs_from_sample.crs_from_pixel(middle + glm::dvec2(0.0, 1.0)));
+    to_degrees.apply(points);
+    // A geographic file tells its own longitudes, a whole turn of the Earth included.
+    for (glm::dvec2& point : points) {
+        point.x += 360.0 * std::round((points[4].x - point.x) / 360.0);
+    }
+    return points;
+}
+
+constexpr std::size_t outline_points = 9;
+
+bool all_known(const std::vector<glm::dvec2>& points) {
+    return std::none_of(points.begin(), points.end(), [](glm::dvec2 p) {
+        return std::isnan(p.x) || std::abs(p.y) > 90.0 + 1e-9;
+    });
+}
+
+DegreeBox box_of(std::span<const glm::dvec2> points) {
+    DegreeBox box{points[0].x, points[0].y, points[0].x, points[0].y};
+    for (const glm::dvec2 point : points) {
+        box = {std::min(box[0], point.x), std::min(box[1], point.y), std::max(box[2], point.x),
+               std::max(box[3], point.y)};
+    }
+    return box;
+}
+
+double metres_between(glm::dvec2 a, glm::dvec2 b) {
+    const auto latitude = [](double degrees) { return std::clamp(degrees, -90.0, 90.0); };
+    return geo::geodesic_distance({latitude(a.y), a.x, 0.0}, {latitude(b.y), b.x, 0.0});
+}
+
+/// Of degrees the box comes from the numbers themselves: a whole globe is 360 wide.
+DegreeBox box_in_degrees(const PlacedFile& file, const IndexedFile& indexed,
+                         std::span<const glm::dvec2> outline) {
+    DegreeBox box = box_of(outline);
+    if (file.period > 0.0) {
+        const double half_width =
+            0.5 * std::abs(file.crs_from_sample.x_col) * (indexed.cols - 1) * 360.0 / file.period;
+        box[0] = outline[4].x - half_width;
+        box[2] = outline[4].x + half_width;
+    }
+    return box;
+}
+
+std::optional<PlacedFile> placed(int number, const IndexedFile& indexed, const IndexedCrs& crs) {
+    if (!crs.to_degrees) {
+        return std::nullopt;
+    }
+    PlacedFile file;
+    file.file = number;
+    file.crs = crs.wkt;
+    file.period = crs.period;
+    file.crs_from_sample = at_sample_centres(indexed.crs_from_pixel);
+    const auto points = degrees_of(file, indexed, *crs.to_degrees);
+    if (!all_known(points)) {
+        return std::nullopt;
+    }
+    file.box = box_in_degrees(file, indexed, std::span(points).first(outline_points));
+    file.spacing = {metres_between(points[4], points[outline_points]),
+                    metres_between(points[4], points[outline_points + 1])};
+    return file;
+}
+
+/// The longitude at which the widest strip without a tile ends, going east.
+double west_of_all(std::span<const PlacedFile> files) {
+    std::vector<glm::dvec2> spans; // west in [-180, 180), east
+    for (const PlacedFile& file : files) {
+        const double west = file.box[0] - 360.0 * std::floor((file.box[0] + 180.0) / 360.0);
+        spans.emplace_back(west, west + file.box[2] - file.box[0]);
+    }
+    std::sort(spans.begin(), spans.end(), [](glm::dvec2 a, glm::dvec2 b) { return a.x < b.x; });
+    double reached = spans.front().y;
+    double widest = 0.0;
+    double start = spans.front().x;
+    for (std::size_t i = 1; i < spans.size(); ++i) {
+        if (spans[i].x - reached > widest) {
+            widest = spans[i].x - reached;
+            start = spans[i].x;
+        }
+        reached = std::max(reached, spans[i].y);
+    }
+    return spans.front().x + 360.0 - reached >= widest ? spans.front().x : start;
+}
+
+void run_on(std::vector<PlacedFile>& files, std::span<const IndexedFile> indexed) {
+    constexpr double rounding = 1e-9; // degrees
+    const double west = west_of_all(files);
+    for (PlacedFile& file : files) {
+        const double turns = std::ceil((west - rounding - file.box[0]) / 360.0);
+        file.box[0] += 360.0 * turns;
+        file.box[2] += 360.0 * turns;
+        if (file.period > 0.0) {
+            const double last = indexed[static_cast<std::size_t>(file.file)].cols - 1.0;
+            const double x = std::min(file.crs_from_sample.crs_from_pixel({0.0, 0.0}).x,
+                                      file.crs_from_sample.crs_from_pixel({last, 0.0}).x);
+            const double degrees = x * 360.0 / file.period; // from its own prime meridian
+            const double own_turns = std::round((file.box[0] - degrees) / 360.0);
+            file.crs_from_sample.x0 += own_turns * file.period;
+        }
+    }
+}
+
+} // namespace
+
+std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
+                                    std::vector<TileFault>& faults) {
+    const std::vector<IndexedCrs> systems = indexed_systems(index);
+    std::vector<PlacedFile> files;
+    for (std::size_t i = 0; i < index.files.size(); ++i) {
+        const IndexedFile& file = index.files[i];
+        const std::filesystem::path path = folder / file.path;
+        if (file.use == TileUse::fault) {
+            faults.push_back({path, file.fault});
+        }
+        if (file.use != TileUse::heights) {
+            continue;
+        }
+        auto place = placed(static_cast<int>(i), file, systems[static_cast<std::size_t>(file.crs)]);
+        if (place) {
+            files.push_back(std::move(*place));
+        } else {
+            faults.push_back({path, fmt::format("{}: lies where its coordinate system has no "
+                                                "position on Earth, a tile on Earth was expected",
+                                                path.string())});
+        }
+    }
+    if (!files.empty()) {
+        run_on(files, index.files);
+    }
+    return files;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/io/tile_layer.h"
+
+namespace reljef::io {
+
+/// Where the usable files of an index lie. Those that have no place on Earth are told in `faults`.
+/// Across the antimeridian longitudes run on, so that the set is as narrow as it can be.
+std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
+                                    std::vector<TileFault>& faults);
+
+} // namespace reljef::io

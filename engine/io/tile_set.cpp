@@ -1,0 +1,272 @@
+#include "engine/io/tile_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/io/gdal_dataset.h"
+#include "engine/io/georeferencing.h"
+#include "engine/io/tile_placing.h"
+#include "engine/io/tile_set_state.h"
+
+namespace reljef::io {
+namespace {
+
+/// x and y of all samples, in the coordinate system of the layers.
+struct CrsBox {
+    glm::dvec2 low{std::numeric_limits<double>::infinity()};
+    glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+    void add(glm::dvec2 point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+};
+
+CrsBox box_of_layers(std::span<const TileLayer> layers) {
+    CrsBox box;
+    for (const TileLayer& layer : layers) {
+        for (const int i : {0, layer.cols - 1}) {
+            for (const int j : {0, layer.rows - 1}) {
+                box.add(layer.crs_from_lattice.crs_from_pixel(glm::dvec2(i, j)));
+            }
+        }
+    }
+    return box;
+}
+
+int count_of(double low, double high, double step) {
+    const double steps = std::floor((high - low) / step + near_sample);
+    return static_cast<int>(std::min(steps, 2e9)) + 1;
+}
+
+/// On the samples of the finest layer where it is not turned, else with its step.
+TileGrid grid_in_shared_crs(std::span<const TileLayer> layers) {
+    const geo::PixelAffine& finest = layers.front().crs_from_lattice;
+    const CrsBox box = box_of_layers(layers);
+    TileGrid grid;
+    const double step_x = std::hypot(finest.x_col, finest.y_col);
+    const double step_y = std::hypot(finest.x_row, finest.y_row);
+    grid.step = {step_x, -step_y};
+    const glm::dvec2 steps(std::floor((finest.x0 - box.low.x) / step_x + near_sample),
+                           std::floor((box.high.y - finest.y0) / step_y + near_sample));
+    grid.first = {finest.x0 - steps.x * step_x, finest.y0 + steps.y * step_y};
+    grid.cols = count_of(grid.first.x, box.high.x, step_x);
+    grid.rows = count_of(box.low.y, grid.first.y, step_y);
+    return grid;
+}
+
+/// Degrees, in steps of the finest spacing at the middle.
+TileGrid grid_in_degrees(std::span<const TileLayer> layers, const DegreeBox& box) {
+    const auto& [west, south, east, north] = box;
+    const double middle = std::clamp(0.5 * (south + north), -89.0, 89.0);
+    const glm::dvec2 metres = geo::metres_per_degree(middle);
+    const double spacing = std::min(layers.front().spacing.x, layers.front().spacing.y);
+    const glm::dvec2 step = spacing / metres;
+    return {{west, north},
+            {step.x, -step.y},
+            count_of(west, east, step.x),
+            count_of(south, north, step.y)};
+}
+
+DegreeBox box_around(std::span<const TileLayer> layers) {
+    DegreeBox box = layers.front().box;
+    for (const TileLayer& layer : layers) {
+        box = {std::min(box[0], layer.box[0]), std::min(box[1], layer.box[1]),
+               std::max(box[2], layer.box[2]), std::max(box[3], layer.box[3])};
+    }
+    return box;
+}
+
+std::vector<TileFile> files_of(std::span<const TileLayer> layers,
+                               std::span<const PlacedFile> placed,
+                               std::span<const IndexedFile> indexed,
+                               const std::filesystem::path& folder) {
+    std::map<int, const PlacedFile*> place_of_file;
+    for (const PlacedFile& file : placed) {
+        place_of_file.emplace(file.file, &file);
+    }
+    std::vector<TileFile> files;
+    for (const TileLayer& layer : layers) {
+        const std::string crs_name = words_of(crs_from_text(layer.crs)).name;
+        for (const LayerTile& tile : layer.tiles) {
+            const PlacedFile& place = *place_of_file.at(tile.file);
+            const IndexedFile& file = indexed[static_cast<std::size_t>(tile.file)];
+            const auto& [west, south, east, north] = place.box;
+            files.push_back({folder / file.path, file.cols, file.rows, file.format, file.type,
+                             crs_name, place.spacing, south, west, north, east,
+                             file.declares_voids});
+        }
+    }
+    return files;
+}
+
+std::string shared_vertical_datum(std::span<const TileLayer> layers,
+                                  std::span<const IndexedFile> indexed,
+                                  std::vector<std::string>& notes) {
+    std::set<std::string> datums;
+    for (const TileLayer& layer : layers) {
+        for (const LayerTile& tile : layer.tiles) {
+            datums.insert(indexed[static_cast<std::size_t>(tile.file)].vertical_datum);
+        }
+    }
+    if (datums.size() == 1) {
+        return *datums.begin();
+    }
+    datums.erase("");
+    notes.push_back(fmt::format("the tiles' heights count from different zeros ({}{}): they are "
+                                "taken as they are",
+                                fmt::join(datums, ", "), datums.size() == 1 ? ", unknown" : ""));
+    return "";
+}
+
+void note_pictures(const TileIndex& index, std::vector<std::string>& notes) {
+    const auto pictures =
+        std::count_if(index.files.begin(), index.files.end(),
+                      [](const IndexedFile& file) { return file.use == TileUse::picture; });
+    if (pictures > 0) {
+        notes.push_back(fmt::format("{} {} in colour: not taken for heights (--imagery drapes one)",
+                                    pictures, pictures == 1 ? "picture" : "pictures"));
+    }
+}
+
+Error nothing_usable(const std::string& name, std::span<const TileFault> faults) {
+    return {faults.empty()
+                ? fmt::format("{}: holds no raster of heights, at least one was expected", name)
+                : fmt::format("{}: none of its {} rasters can be used, at least one was expected; "
+                              "the first: {}",
+                              name, faults.size(), faults.front().message)};
+}
+
+/// The outline of an area, longitude and latitude.
+std::vector<glm::dvec2> outline_of(const GeodeticArea& area) {
+    constexpr int steps = 32;
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i <= steps; ++i) {
+        const double t = static_cast<double>(i) / steps;
+        const double x = glm::mix(area.west, area.east, t);
+        const double y = glm::mix(area.south, area.north, t);
+        points.insert(points.end(),
+                      {{x, area.south}, {x, area.north}, {area.west, y}, {area.east, y}});
+    }
+    return points;
+}
+
+} // namespace
+
+void keep_each_once(std::vector<TileFault>& faults) {
+    const auto by_file = [](const TileFault& a, const TileFault& b) { return a.file < b.file; };
+    std::stable_sort(faults.begin(), faults.end(), by_file);
+    const auto same = [](const TileFault& a, const TileFault& b) { return a.file == b.file; };
+    faults.erase(std::unique(faults.begin(), faults.end(), same), faults.end());
+}
+
+TileReading TileSet::State::reading(const std::stop_token& stop) const {
+    TileReading reading{indexed, folder, {}};
+    reading.options.height_scale = options.height_scale;
+    reading.options.height_offset = options.height_offset;
+    reading.options.stop = stop;
+    return reading;
+}
+
+Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOptions& options) {
+    auto state = std::make_shared<State>();
+    state->name = path.string();
+    state->options = options;
+    auto index = index_tiles(path, options, state->notes);
+    if (!index) {
+        return index.error();
+    }
+    std::error_code ignored;
+    state->folder = std::filesystem::is_directory(path, ignored) ? path : std::filesystem::path();
+    const GdalMessages unheard; // what is wrong is told as a fault
+    const std::vector<PlacedFile> placed = place_files(*index, state->folder, state->faults);
+    if (placed.empty()) {
+        return nothing_usable(state->name, state->faults);
+    }
+    note_pictures(*index, state->notes);
+    state->indexed = std::move(index->files);
+    state->layers = layers_of(placed, state->indexed);
+    state->files = files_of(state->layers, placed, state->indexed, state->folder);
+    state->vertical_datum = shared_vertical_datum(state->layers, state->indexed, state->notes);
+    state->box = box_around(state->layers);
+    const bool shared =
+        std::all_of(state->layers.begin(), state->layers.end(),
+                    [&](const TileLayer& layer) { return layer.crs == state->layers.front().crs; });
+    state->crs = shared ? state->layers.front().crs : wgs84_degrees;
+    state->crs_name = words_of(crs_from_text(state->crs)).name;
+    state->grid =
+        shared ? grid_in_shared_crs(state->layers) : grid_in_degrees(state->layers, state->box);
+    return TileSet(std::move(state));
+}
+
+const std::string& TileSet::name() const {
+    return state_->name;
+}
+std::span<const TileFile> TileSet::files() const {
+    return state_->files;
+}
+std::span<const TileFault> TileSet::faults() const {
+    return state_->faults;
+}
+std::span<const std::string> TileSet::notes() const {
+    return state_->notes;
+}
+const std::string& TileSet::crs_name() const {
+    return state_->crs_name;
+}
+TileGrid TileSet::grid() const {
+    return state_->grid;
+}
+
+Result<TileGrid> TileSet::part(const TileGrid& grid, const GeodeticArea& area) const {
+    const auto nothing = [&] {
+        return Error{fmt::format("{}: has nothing from {} to {} north, {} to {} east, an area that "
+                                 "overlaps its tiles was expected",
+                                 state_->name, area.south, area.north, area.west, area.east)};
+    };
+    const GdalMessages unheard;
+    std::vector<glm::dvec2> points = outline_of(area);
+    const double middle = 0.5 * (state_->box[0] + state_->box[2]);
+    const double turns = std::round((middle - 0.5 * (area.west + area.east)) / 360.0);
+    for (glm::dvec2& point : points) {
+        point.x += 360.0 * turns;
+    }
+    if (state_->crs != wgs84_degrees) {
+        const auto transform = CrsTransform::create(wgs84_degrees, state_->crs, state_->box);
+        if (!transform) {
+            return nothing();
+        }
+        transform->apply(points);
+        const TileLayer& layer = state_->layers.front();
+        for (glm::dvec2& point : points) {
+            point = layer.crs_from_lattice.crs_from_pixel(layer.lattice_from_turned(point));
+        }
+    }
+    CrsBox box;
+    for (const glm::dvec2 point : points) {
+        box.add((point - grid.first) / grid.step);
+    }
+    const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
+    const glm::dvec2 low = glm::clamp(glm::floor(box.low + near_sample), glm::dvec2(0.0), last);
+    const glm::dvec2 high = glm::clamp(glm::ceil(box.high - near_sample), glm::dvec2(0.0), last);
+    if (!(high.x - low.x >= 1.0 && high.y - low.y >= 1.0)) {
+        return nothing();
+    }
+    return TileGrid{grid.first + grid.step * low, grid.step, static_cast<int>(high.x - low.x) + 1,
+                    static_cast<int>(high.y - low.y) + 1};
+}
+
+TileGrid TileSet::reduced(const TileGrid& grid, int reduction) {
+    check(reduction >= 1, "TileSet::reduced needs a reduction of at least 1");
+    const double k = reduction;
+    return {grid.first + 0.5 * (k - 1.0) * grid.step, k * grid.step,
+            std::max(1, grid.cols / reduction), std::max(1, grid.rows / reduction)};
+}
+
+} // namespace reljef::io

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+
+#include "engine/io/tile_layer.h"
+#include "engine/io/tile_set.h"
+
+namespace reljef::io {
+
+/// Of a sample: what coordinates of millions of metres lose by rounding.
+inline constexpr double near_sample = 1e-6;
+
+/// What a tile set knows; never changed once it is open.
+struct TileSet::State {
+    std::string name;
+    std::filesystem::path folder; ///< the files' paths begin here; empty for a single raster
+    TileSetOptions options;
+    std::vector<IndexedFile> indexed;
+    std::vector<TileLayer> layers; ///< finest first
+    std::vector<TileFile> files;
+    std::vector<TileFault> faults;
+    std::vector<std::string> notes;
+    std::string crs; ///< of the grid: WKT, or WGS 84
+    std::string crs_name;
+    std::string vertical_datum; ///< empty where the tiles differ
+    TileGrid grid;
+    DegreeBox box{}; ///< around all tiles
+
+    [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
+};
+
+/// Sorted by file, of each file the first.
+void keep_each_once(std::vector<TileFault>& faults);
+
+} // namespace reljef::io

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "engine/io/gdal_dataset.h"
+#include "engine/io/imagery.h"
+#include "engine/io/placed_heightfield.h"
+#include "engine/io/tile_set_state.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr int read_block = 512; // samples a side that one thread reads at a time
+
+/// The last word of a path, which may end with a slash.
+std::string name_of(const std::filesystem::path& path) {
+    return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+double samples_of(const TileGrid& grid) {
+    return static_cast<double>(grid.cols) * grid.rows;
+}
+
+Result<int> fitting_reduction(const TileGrid& grid, const std::string& name, std::size_t budget) {
+    const double most = static_cast<double>(budget) / bytes_per_sample;
+    int reduction = std::max(1, static_cast<int>(std::sqrt(samples_of(grid) / most)));
+    while (samples_of(TileSet::reduced(grid, reduction)) > most) {
+        ++reduction;
+    }
+    if (grid.cols / reduction < 2 || grid.rows / reduction < 2) {
+        return Error{fmt::format("{}: {}×{} samples do not fit {} of memory, at least 2×2 of them "
+                                 "were expected to",
+                                 name, grid.cols, grid.rows,
+                                 size_text(static_cast<double>(budget)))};
+    }
+    return reduction;
+}
+
+/// A raster without values that lies where the grid does.
+Dataset frame_of(const TileGrid& grid, const std::string& crs) {
+    auto* driver = GetGDALDriverManager()->GetDriverByName("MEM");
+    Dataset frame(driver->Create("", grid.cols, grid.rows, 0, GDT_Float32, nullptr));
+    if (frame != nullptr) {
+        const glm::dvec2 corner = grid.first - 0.5 * grid.step;
+        std::array<double, 6> t{corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
+        frame->SetGeoTransform(t.data());
+        const OGRSpatialReference system = crs_from_text(crs);
+        frame->SetSpatialRef(&system);
+    }
+    return frame;
+}
+
+/// The blocks of a grid, each a grid of its own.
+struct GridBlock {
+    int col = 0;
+    int row = 0;
+    TileGrid grid;
+};
+
+std::vector<GridBlock> blocks_of_grid(const TileGrid& grid) {
+    std::vector<GridBlock> blocks;
+    for (int row = 0; row < grid.rows; row += read_block) {
+        for (int col = 0; col < grid.cols; col += read_block) {
+            blocks.push_back(
+                {col,
+                 row,
+                 {grid.first + grid.step * glm::dvec2(col, row), grid.step,
+                  std::min(read_block, grid.cols - col), std::min(read_block, grid.rows - row)}});
+        }
+    }
+    return blocks;
+}
+
+void store_block(const GridBlock& block, const Grid<double>& heights, Samples& samples) {
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            const double height = heights(col, row);
+            const bool is_void = std::isnan(height);
+            samples.heights(block.col + col, block.row + row) =
+                is_void ? 0.0F : static_cast<float>(height);
+            samples.void_mask(block.col + col, block.row + row) = is_void ? 1 : 0;
+        }
+    }
+}
+
+struct SetSamples {
+    Samples samples;
+    std::vector<TileFault> faults;
+};
+
+Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid,
+                            const TileTerrainOptions& options) {
+    SetSamples result;
+    result.samples.heights = Grid<float>(grid.cols, grid.rows);
+    result.samples.void_mask = Grid<std::uint8_t>(grid.cols, grid.rows);
+    const std::vector<GridBlock> blocks = blocks_of_grid(grid);
+    std::mutex mutex;
+    const auto read_one = [&](int number) {
+        const GridBlock& block = blocks[static_cast<std::size_t>(number)];
+        const TileWindow window = tiles.read(block.grid, options.gaps, options.raster.stop);
+        store_block(block, window.heights, result.samples);
+        const std::lock_guard lock(mutex);
+        result.faults.insert(result.faults.end(), window.faults.begin(), window.faults.end());
+    };
+    if (!parallel_for(static_cast<int>(blocks.size()), read_one,
+                      {.threads = options.threads,
+                       .stop = options.raster.stop,
+                       .progress = options.raster.progress})) {
+        return Error{fmt::format("{}: reading was stopped", tiles.name())};
+    }
+    keep_each_once(result.faults);
+    auto& mask = result.samples.void_mask;
+    result.samples.void_count = static_cast<std::size_t>(
+        std::count(mask.samples().begin(), mask.samples().end(), std::uint8_t{1}));
+    if (result.samples.void_count == 0) {
+        mask = {};
+    }
+    return result;
+}
+
+void note_grid(const TileSet& tiles, const TileGrid& grid, int reduction, glm::dvec2 spacing,
+               std::vector<std::string>& notes) {
+    const std::size_t count = tiles.files().size();
+    notes.push_back(fmt::format("{} {} drawn as one in {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
+                                count, count == 1 ? "tile" : "tiles", tiles.crs_name(), grid.cols,
+                                grid.rows, spacing.x, spacing.y,
+                                reduction == 1 ? ""
+                                               : fmt::format(": 1/{} of the finest tiles', to fit "
+                                                             "the memory",
+                                                             reduction)));
+}
+
+void note_faults(const TileSet& tiles, std::span<const TileFault> faults,
+                 terrain::Terrain& terrain) {
+    for (const auto& some : {tiles.faults(), faults}) {
+        for (const TileFault& fault : some) {
+            terrain.faults.push_back(fault.message);
+        }
+    }
+}
+
+} // namespace
+
+Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) const {
+    const auto whole = options.area ? part(grid(), *options.area) : Result<TileGrid>(grid());
+    if (!whole) {
+        return whole.error();
+    }
+    const auto reduction = fitting_reduction(*whole, name(), options.raster.memory_budget);
+    if (!reduction) {
+        return reduction.error();
+    }
+    const TileGrid samples_grid = TileSet::reduced(*whole, *reduction);
+    terrain::Terrain result;
+    result.name = name_of(name());
+    result.notes.assign(notes().begin(), notes().end());
+    const GdalMessages messages;
+    const Dataset frame = frame_of(samples_grid, state_->crs);
+    RasterOptions placing = options.raster;
+    placing.spacing = {};
+    auto place =
+        place_of(*frame, {glm::dvec2(0.5), glm::dvec2(1.0), samples_grid.cols, samples_grid.rows},
+                 name(), placing, result.notes);
+    if (!place) {
+        return place.error();
+    }
+    if (place->georeference) {
+        place->georeference->vertical_datum = state_->vertical_datum;
+    }
+    auto read = read_all(*this, samples_grid, options);
+    if (!read) {
+        return read.error();
+    }
+    note_faults(*this, read->faults, result);
+    if (read->samples.void_count == read->samples.heights.size()) {
+        return Error{fmt::format("{}: all {}×{} samples are voids, at least one height was "
+                                 "expected{}",
+                                 name(), samples_grid.cols, samples_grid.rows,
+                                 result.faults.empty() ? "" : "; " + result.faults.front())};
+    }
+    note_grid(*this, samples_grid, *reduction, place->spacing, result.notes);
+    result.heightfield = heightfield_of(std::move(read->samples), *place);
+    if (!options.raster.imagery.empty()) {
+        auto color = read_imagery(*frame, place->grid, options.raster, result.notes);
+        if (!color) {
+            return color.error();
+        }
+        result.color = std::move(*color);
+    }
+    return result;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,48 @@
+// The place that a ray narrowly misses on its way to its hit (GPU surface-detail survey 2008 ch.
+// 3.6.7): where the same search, so much lower, meets the surface, and then where the ray is nearest.
+uniform float edge_distance; // of the range of heights
+
+float clearance(vec3 point) {
+    return point.z - height_at(point.xy);
+}
+
+// Where between two parts of a way the surface is nearest, to a sixtieth of what lies between them.
+float nearest_part(vec3 start, vec3 way, float low, float high) {
+    for (float i = 0.0; i < 10.0; ++i) {
+        float third = (high - low) / 3.0;
+        bool earlier = clearance(start + (low + third) * way) <
+                       clearance(start + (high - third) * way);
+        low += earlier ? 0.0 : third;
+        high -= earlier ? third : 0.0;
+    }
+    return 0.5 * (low + high);
+}
+
+// How far the ray is from the surface there, over edge_distance, and the place; 1 where it misses
+// nothing on its way to `part`.
+float near_miss(vec3 start, vec3 span, float part, out vec2 place) {
+    const float most_steps = 64.0;
+    vec3 way = part * span;
+    float at;
+    place = start.xy;
+    if (!find_hit(start - vec3(0.0, 0.0, edge_distance), way, at, place)) {
+        return 1.0;
+    }
+    // On from there, a sample at a time, as long as the surface comes nearer.
+    float samples = max(max(abs(way.x), abs(way.y)), 1.0);
+    float stride = max(1.0 / samples, (1.0 - at) / most_steps);
+    float distance = edge_distance;
+    bool nearing = true;
+    while (nearing && at < 1.0) {
+        at += stride;
+        float now = clearance(start + min(at, 1.0) * way);
+        nearing = now <= distance;
+        distance = nearing ? now : distance;
+    }
+    if (nearing) {
+        return 1.0;
+    }
+    vec3 nearest = start + nearest_part(start, way, max(at - 2.0 * stride, 0.0), min(at, 1.0)) * way;
+    place = nearest.xy;
+    return clamp(clearance(nearest) / edge_distance, 0.0, 1.0);
+}

@@ -1,0 +1,26 @@
+// Heights that are less the flatter one looks (GPU surface-detail survey 2008 ch. 3.6.4):
+// low + (high - low)(1 - (1 - cos a)^power) of them is left, about the height of the reference
+// plane. That is the same surface met by a ray that is stretched along z.
+uniform vec4 fade_values; // low, high, power, height of the reference plane
+
+float share_of_heights(vec3 span) {
+    const float flattest = 1.0 / 4096.0; // as far as the box reaches beyond the heights
+    float upright = abs(normalize(span * metres_per_unit).z);
+    float share = 1.0 - pow(1.0 - min(upright, 1.0), fade_values.z);
+    return max(mix(fade_values.x, fade_values.y, share), flattest);
+}
+
+// Stretches a ray and cuts it to what lies between two heights; what of it is left, as parts.
+vec2 stretch(float low, float high, inout vec3 start, inout vec3 span) {
+    float share = share_of_heights(span);
+    float begin_height = fade_values.w + (start.z - fade_values.w) / share;
+    float rise = span.z / share;
+    vec2 ends = vec2(0.0, 1.0);
+    if (rise != 0.0) {
+        vec2 reached = (vec2(low, high) - begin_height) / rise;
+        ends = clamp(vec2(min(reached.x, reached.y), max(reached.x, reached.y)), 0.0, 1.0);
+    }
+    start = vec3(start.xy + ends.x * span.xy, begin_height + ends.x * rise);
+    span = (ends.y - ends.x) * vec3(span.xy, rise);
+    return ends;
+}

@@ -1,0 +1,150 @@
+// A folder of tiles in the program: info, height, render, and what it does about broken ones.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/command_line.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class TileFolder : public testing::Test {
+protected:
+    TileFolder() {
+        options_.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
+        options_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
+        tile("tiles/west.asc", 10.0, 1.0);
+        tile("tiles/below/east.asc", 10.08, 9.0);
+    }
+    /// 9×9 samples 0.01° apart, from a longitude on; heights fall by 1 m a row from `top`.
+    void tile(const std::string& name, double west, double top) const {
+        std::string text = "ncols 9\nnrows 9\nxllcenter " + std::to_string(west) +
+                           "\nyllcenter 40\ncellsize 0.01\nNODATA_value -9999\n";
+        for (int row = 0; row < 9; ++row) {
+            for (int col = 0; col < 9; ++col) {
+                text += std::to_string(top == 9.0 && col == 0 ? 1.0 + row : top + row) + " ";
+            }
+            text += "\n";
+        }
+        folder_.write(name, text);
+        folder_.write(name.substr(0, name.size() - 3) + "prj",
+                      "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+                      "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\","
+                      "0.0174532925199433]]");
+    }
+    [[nodiscard]] test::ProgramResult run(std::vector<std::string> arguments) const {
+        arguments.emplace_back("--quiet");
+        return test::reljef(arguments, options_);
+    }
+    [[nodiscard]] std::string path(const std::string& name) const {
+        return (folder_.path() / name).string();
+    }
+
+    test::TemporaryFolder folder_;
+    test::ProgramOptions options_;
+};
+
+TEST_F(TileFolder, info_tells_the_tiles_and_their_sum) {
+    const auto result = run({"info", path("tiles"), "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto info = nlohmann::json::parse(result.out);
+    EXPECT_EQ(info["tiles"]["files"], 2);
+    EXPECT_EQ(info["tiles"]["formats"]["AAIGrid"], 2);
+    EXPECT_EQ(info["cols"], 17);
+    EXPECT_EQ(info["rows"], 9);
+    EXPECT_EQ(info["voids"], 0);
+    EXPECT_NEAR(info["extent"]["east"], 10.16, 1e-9);
+    EXPECT_TRUE(info["faults"].empty());
+}
+
+TEST_F(TileFolder, heights_come_from_the_tile_that_has_them) {
+    const auto result = run({"height", path("tiles"), "--at", "40.08,10.01", "--at", "40.07,10.12",
+                             "--at", "40.075,10.085"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "40.08,10.01,1.000000\n40.07,10.12,10.000000\n"
+                          "40.075,10.085,5.500000\n");
+}
+
+TEST_F(TileFolder, many_places_are_read_from_a_file) {
+    const std::string points =
+        folder_.write("points.csv", "latitude,longitude\n40.08,10.01\n\n40.07, 10.12,name\n50,10\n")
+            .string();
+    const auto result = run({"height", path("tiles"), "--points", points});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "40.08,10.01,1.000000\n40.07, 10.12,10.000000\n50,10,nan\n");
+    const std::string bad = folder_.write("bad.csv", "40.08,10.01\nhere\n").string();
+    test::expect_refusal(run({"height", path("tiles"), "--points", bad}), 1,
+                         {"--points: line 2: 'here' found"});
+    test::expect_refusal(run({"height", path("tiles"), "--points", path("none.csv")}), 1,
+                         {"none.csv"});
+    test::expect_refusal(run({"height", path("tiles")}), 2, {"--points FILE was expected"});
+}
+
+TEST_F(TileFolder, a_broken_tile_is_left_out_told_and_shows_in_the_exit_status) {
+    folder_.write("tiles/broken.tif", "II*");
+    const auto result = test::reljef(
+        {"render", path("tiles"), "-o", path("out.png"), "--size", "64x48", "--context", "osmesa"},
+        options_);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("left out: "));
+    EXPECT_THAT(result.err, HasSubstr("broken.tif"));
+    EXPECT_THAT(result.err, HasSubstr("1 of its files could not be read and is left out"));
+    EXPECT_GT(test::read_bytes(path("out.png")).size(), 100U);
+    std::filesystem::remove(path("tiles/broken.tif"));
+    const auto whole = run({"render", path("tiles"), "-o", path("out.png"), "--size", "64x48",
+                            "--context", "osmesa", "--camera", "40.0,10.08,5000,0,-20"});
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+}
+
+TEST_F(TileFolder, area_and_gaps_are_for_folders) {
+    const auto part = run({"info", path("tiles"), "--json", "--area", "40.02,10.03,40.05,10.06"});
+    ASSERT_EQ(part.exit_code, 0) << part.err;
+    EXPECT_EQ(nlohmann::json::parse(part.out)["cols"], 4); // 10.03 to 10.06
+    test::expect_refusal(run({"info", path("tiles"), "--area", "1,2,3,4"}), 1, {"has nothing"});
+    test::expect_refusal(run({"info", path("tiles"), "--area", "3,2,1,4"}), 2,
+                         {"--area: '3,2,1,4'"});
+    test::expect_refusal(run({"info", "natural", "--gaps", "sea"}), 1, {"--gaps", "no folder"});
+}
+
+TEST_F(TileFolder, the_example_scene_shows_a_folder) {
+    const auto example =
+        std::filesystem::path(RELJEF_README).parent_path() / "terrains" / "example_tiles.toml";
+    std::string text = test::read_bytes(example);
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        const auto at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+    };
+    replace("south = 45.0", "south = 39.0");
+    replace("west = 6.0", "west = 9.0");
+    replace("north = 46.0", "north = 41.0");
+    replace("east = 7.5", "east = 11.0");
+    const auto result = run({"info", folder_.write("scene.toml", text).string(), "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out)["cols"], 17);
+}
+
+TEST_F(TileFolder, a_track_is_flown_over_it) {
+    const std::string track =
+        folder_
+            .write("track.geojson",
+                   "{\"type\":\"LineString\",\"coordinates\":[[10.02,40.02],[10.12,40.06]]}")
+            .string();
+    const auto result = run({"render", path("tiles"), "--path", track, "--frames", "2", "-o",
+                             path("f%d.png"), "--size", "64x48", "--context", "osmesa"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(test::read_bytes(path("f0.png")), test::read_bytes(path("f1.png")));
+    const std::string empty = folder_.write("empty.gpx", "<gpx></gpx>").string();
+    test::expect_refusal(
+        run({"render", path("tiles"), "--path", empty, "-o", path("x.png"), "--context", "osmesa"}),
+        1, {"empty.gpx"});
+}
+
+} // namespace
+} // namespace reljef
