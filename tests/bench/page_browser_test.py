@@ -110,8 +110,8 @@ class PageTest(unittest.TestCase):
             points = [point for point in self.points() if point['plot'] == plot]
             by_x = sorted(points, key=lambda point: point['x'])
             self.assertEqual(by_x, sorted(points, key=lambda point: rows[point['row']]['ms']['median']))
-            by_y = sorted(points, key=lambda point: -point['y'])
-            self.assertEqual(by_y, sorted(points, key=error))
+            by_y = sorted(points, key=lambda point: -round(point['y'], 2))
+            self.assertEqual([error(point) for point in by_y], sorted(map(error, points)))
 
     def test_zero_error_lies_in_the_lane(self):
         point = next(point for point in self.points()
@@ -148,7 +148,7 @@ class PageTest(unittest.TestCase):
         before = self.points()
         self.browser.script("const choice = document.getElementById('measure'); choice.value = 'Wrong surface'; choice.dispatchEvent(new Event('change'))")
         after = self.points()
-        self.assertEqual(sorted(p['row'] for p in before), sorted(p['row'] for p in after))
+        self.assertLess({p['row'] for p in before}, {p['row'] for p in after}) # and what shows nothing
         self.assertNotEqual({p['row']: p['y'] for p in before}, {p['row']: p['y'] for p in after})
 
     def test_point_is_a_link_where_it_leads_to_pictures(self):
