@@ -137,8 +137,7 @@ function summaryOf(point, measure) {
   const lines = [
     labelOf(row),
     figure(point.time) + ' ms' + (isNumber(low) ? ' (' + figure(low) + '–' + figure(high) + ')' : ''),
-    measure.title + ': ' + (error === 0 ? 'exactly 0' : figure(error) + (measure.unit ? ' ' + measure.unit : '')) +
-      (measure.path.startsWith('reprojection_px') ? unboundedText(row) : ''),
+    measure.title + ': ' + (error === 0 ? 'exactly 0' : figure(error) + (measure.unit ? ' ' + measure.unit : '')) + point.beyond,
   ];
   if (isNumber(row.ratio_to_texture)) lines.push(fixed(row.ratio_to_texture, 2) + ' × texture');
   if (point.isOnFront) lines.push('on the Pareto front');
@@ -189,7 +188,7 @@ function namesOf(points, layout) {
   const names = svg('g', {class: 'names', 'aria-hidden': 'true'});
   for (const point of points.filter(point => points.length <= mostNames || point.isOnFront)) {
     const [x, y] = layout.place(point);
-    const text = labelOf(point.row);
+    const text = labelOf(point.row) + point.beyond;
     const width = 6.9 * text.length;
     const beside = point.isOnFront ? [['start', x + 11, y - 9, x + 11]] : []; // off the front's line
     const choices = [...beside, ['start', x + 12, y + 4, x + 12], ['end', x - 12, y + 4, x - 12 - width],
@@ -224,6 +223,7 @@ function pointsOf(plot, techniques) {
   return plot.group.rows
     .map(({row, index}) => ({
       row, index, time: at(row, 'ms.median'), error: at(row, 'error.' + plot.measure.path),
+      beyond: plot.measure.path.startsWith('reprojection_px') ? unboundedText(row) : '',
       series: techniques.indexOf(row.technique),
       isOnFront: Boolean(front && (front.front || []).includes(labelOf(row))),
       isDominated: dominated.has(labelOf(row)), dominatedBy: dominated.get(labelOf(row)),
