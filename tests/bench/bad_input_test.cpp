@@ -56,7 +56,7 @@ TEST(BenchBadInput, unknown_terrain) {
 TEST(BenchBadInput, name_that_steers_a_terminal_is_told_in_plain_letters) {
     const auto result = test::reljef_bench(
         {"tables", "--terrain", "a\n\x1b[31mb.tif", "--context", "osmesa", "--quiet"});
-    expect_refusal(result, 1, {"a\\x0a\\x1b[31mb.tif"});
+    expect_refusal(result, 1, {"a; \\x1b[31mb.tif"});
     EXPECT_EQ(result.err.find('\x1b'), result.err.npos);
 }
 
