@@ -39,13 +39,15 @@ std::string DeviceFrames::stats() const {
         "renderer: {}\n"
         "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
         "uploads: {} ({:.1f} MB)\n"
+        "tiles cut: {}\n"
         "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the frustum, {} "
-        "uploads that were there\n"
+        "triangles under the error, {} cuts and {} uploads that were there\n"
         "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
         device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles, stats_.draws,
         stats_.state_changes, stats_.uploads, static_cast<double>(stats_.upload_bytes) * 1e-6,
-        stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
+        stats_.tiles_cut, stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
         stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
+        stats_.skipped.triangles_under_error, stats_.skipped.cuts_unchanged,
         stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
 }
 

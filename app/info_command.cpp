@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/terrain_source.h"
 #include "engine/io/raster.h"
+#include "terrains/gallery.h"
 
 namespace reljef::app {
 namespace {
@@ -63,6 +64,20 @@ Json file_info(const io::SceneDescription& description) {
         {"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
 }
 
+// What stands on the gallery's floor, with the tiles it shows.
+Json models_of(const TerrainSource& source, const TerrainChoice& choice) {
+    Json models = Json::array();
+    if (source.description.generator == "gallery") {
+        const std::string asked_for = choice.textures.value_or(source.description.gallery_textures);
+        for (const terrains::GalleryModel& model : terrains::gallery_models()) {
+            models.push_back(
+                {{"name", model.name},
+                 {"textures", asked_for == "mixed" ? std::string(model.textures) : asked_for}});
+        }
+    }
+    return models;
+}
+
 // Samples of the finest tiles in one that was read.
 int reduction_of(const io::TileSet& tiles, const terrain::Heightfield& heightfield) {
     const auto& georeference = heightfield.georeference;
@@ -98,7 +113,7 @@ int reduction_of(const terrain::Heightfield& heightfield, const Json& cols) {
     return std::max(1, cols.get<int>() / heightfield.heights.cols());
 }
 
-Json describe(const TerrainSource& source) {
+Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     const terrain::Heightfield& heightfield = source.terrain.heightfield;
     const Json file = source.tiles ? tiles_info(*source.tiles, heightfield)
                       : source.description.generator.empty() ? file_info(source.description)
@@ -135,6 +150,9 @@ Json describe(const TerrainSource& source) {
     info["memory_bytes"] = heightfield.heights.size() * io::bytes_per_sample;
     info["notes"] = source.terrain.notes;
     info["faults"] = source.terrain.faults;
+    if (const Json models = models_of(source, choice); !models.empty()) {
+        info["models"] = models;
+    }
     return info;
 }
 
@@ -189,6 +207,10 @@ void print_text(const Json& info) {
                number("height_range", "high_m"));
     fmt::print("  voids    {}\n", info["voids"].get<std::size_t>());
     fmt::print("  memory   {:.1f} MB when drawn\n", info["memory_bytes"].get<double>() * 1e-6);
+    for (const auto& model : info.value("models", Json::array())) {
+        fmt::print("  model    {}, with a tile of {}\n", model["name"].get<std::string>(),
+                   model["textures"].get<std::string>());
+    }
     for (const auto& note : info["notes"]) {
         fmt::print("  note     {}\n", note.get<std::string>());
     }
@@ -202,7 +224,7 @@ Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
     if (!source) {
         return source.error();
     }
-    const Json info = describe(*source);
+    const Json info = describe(*source, choice.terrain);
     if (choice.json) {
         fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));
     } else {

@@ -11,6 +11,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/render/error_view.h"
 
 namespace reljef::app {
 namespace {
@@ -170,8 +171,13 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--technique", choice.technique,
         [](const std::string& text) { return scene::parse_technique(text); },
-        "how the surface is drawn; 'reljef techniques' lists them (polygons)",
+        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: relief)",
         "ID[:key=value,...]");
+    add_parsed(command, "--max-error", choice.max_error,
+               number_in("--max-error", render::least_error, render::most_error),
+               "polygons: no pixel farther from where it belongs, with as few triangles as that "
+               "takes (every sample a vertex)",
+               "PX");
     command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
@@ -281,11 +287,16 @@ template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::s
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command
         .add_option("TERRAIN", choice.terrain,
-                    "natural, urban, a scene file (.toml), a DEM file of any format GDAL reads, a "
-                    "folder of them, or the https:// address of one")
+                    "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
+                    "reads, a folder of them, or the https:// address of one")
         ->required();
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");
+    command
+        .add_option("--textures", choice.textures,
+                    "gallery only: brick, rock, cobble, mixed, or a folder of pictures (colour, "
+                    "height, normal)")
+        ->type_name("NAME|FOLDER");
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
                "of the heights, in the picture only (1)", "X");
@@ -313,9 +324,22 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
 }
 
+scene::Technique technique_of(const ViewChoice& choice) {
+    const scene::Technique technique =
+        choice.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
+    return choice.max_error ? scene::with_parameter(technique, "error", *choice.max_error)
+                            : technique;
+}
+
 void check_view_options(const ViewChoice& choice) {
     if (choice.eye && choice.look && *choice.eye == *choice.look) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
+    }
+    if (choice.max_error && choice.technique &&
+        choice.technique->id != scene::TechniqueId::polygons) {
+        throw CLI::ValidationError(
+            fmt::format("--max-error: technique {} found, polygons was expected",
+                        scene::technique_info(choice.technique->id).name));
     }
     if (choice.pose == scene::Pose::map && !choice.path.empty()) {
         throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "

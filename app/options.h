@@ -28,6 +28,8 @@ namespace reljef::app {
 struct TerrainChoice {
     std::string terrain; ///< a built-in name, a scene file (.toml), a DEM file or a folder of them
     std::filesystem::path imagery;
+    /// The gallery's tiles: a built-in set, "mixed" or a folder; absent: the scene file's.
+    std::optional<std::string> textures;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
     std::optional<terrain::PlacementKind> placement;
     std::optional<io::GeodeticArea> area; ///< absent: the scene file's, else all
@@ -51,7 +53,9 @@ struct GeodeticView {
 struct ViewChoice {
     std::optional<platform::ContextKind> context; ///< absent: auto
     glm::ivec2 size{1024, 768};
-    scene::Technique technique = scene::make_technique(scene::TechniqueId::polygons);
+    std::optional<scene::Technique>
+        technique;                   ///< absent: polygons; the gallery's own on its models
+    std::optional<double> max_error; ///< pixels, of polygons; absent: as the technique says
     bool wireframe = false;
     double vertical_fov = 57.3;
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;
@@ -82,6 +86,8 @@ Result<std::array<double, N>> parse_numbers(std::string_view option, std::string
 /// Adds the options of a group to a command; they are checked as they are parsed (CLI::ParseError).
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
+/// The technique with --max-error.
+scene::Technique technique_of(const ViewChoice& choice);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

@@ -247,8 +247,8 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (auto apart = check_apart(outputs_of(choice, inputs), inputs); !apart) {
         return apart;
     }
-    if (auto ready =
-            prepare_technique(*source, choice.view.technique, choice.terrain, interrupt.token());
+    if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
+                                       interrupt.token());
         !ready) {
         return ready;
     }
@@ -256,6 +256,11 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     auto scene = make_scene(std::move(*source), choice.terrain, choice.view);
     if (!scene) {
         return scene.error();
+    }
+    if (choice.truth && !scene->models.empty()) {
+        return Error{fmt::format("--truth: {} found, whose models the exact picture does not know; "
+                                 "a terrain was expected, or --technique exact",
+                                 choice.terrain.terrain)};
     }
     if (auto drawn = draw_outputs(choice, *scene, **maker, interrupt); !drawn) {
         return drawn;
@@ -309,6 +314,7 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
         "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
         "  reljef render dem.tif --technique texture --hit hit.exr\n"
+        "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
         "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr");
     return {arguments, [choice, &interrupt] { return render(*choice, interrupt); }};
 }

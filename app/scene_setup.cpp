@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/gallery.h"
 #include "engine/io/flight_file.h"
 
 namespace reljef::app {
@@ -24,7 +25,7 @@ scene::TerrainOptions terrain_options(const TerrainChoice& choice, const ViewCho
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    if (!options.placement && scene::needs_plane(view.technique.id)) {
+    if (!options.placement && view.technique && scene::needs_plane(view.technique->id)) {
         options.placement = terrain::PlacementKind::plane; // the only one it draws
     }
     return options;
@@ -163,10 +164,39 @@ void set_projection(scene::Camera& camera, const Box& bounds, const ViewChoice& 
     }
 }
 
+// How the terrain is drawn.
+Result<void> choose_look(TerrainScene& scene, const ViewChoice& view) {
+    const scene::Technique technique = technique_of(view);
+    if (auto good = scene.check(technique); !good) {
+        return good;
+    }
+    auto& material = scene.terrain->get<scene::TerrainNode>()->material;
+    material.technique = technique;
+    material.wireframe = view.wireframe;
+    return {};
+}
+
 } // namespace
 
 double TerrainScene::ground(double x, double y) const {
     return scene.height_at(x, y).value_or(bounds.low.z);
+}
+
+std::vector<scene::Material*> TerrainScene::materials() const {
+    std::vector<scene::Material*> materials;
+    for (scene::Node* const model : models) {
+        materials.push_back(&model->get<scene::MeshNode>()->material);
+    }
+    if (materials.empty()) {
+        materials.push_back(&terrain->get<scene::TerrainNode>()->material);
+    }
+    return materials;
+}
+
+Result<void> TerrainScene::check(const scene::Technique& technique) const {
+    return models.empty()
+               ? scene::check_technique(technique, *terrain->get<scene::TerrainNode>()->surface)
+               : scene::check_technique(technique, *models.front()->get<scene::MeshNode>());
 }
 
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
@@ -179,19 +209,23 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     }
     result.terrain = *node;
     result.bounds = result.terrain->world_bounds();
-    auto& material = result.terrain->get<scene::TerrainNode>()->material;
-    if (auto good = scene::check_technique(view.technique,
-                                           *result.terrain->get<scene::TerrainNode>()->surface);
-        !good) {
-        return good.error();
+    if (source.description.generator == "gallery") {
+        auto models = add_gallery(result.scene, source.description, terrain, view);
+        if (!models) {
+            return models.error();
+        }
+        result.models = std::move(*models);
+        if (auto good = result.check(result.materials().front()->technique); !good) {
+            return good.error();
+        }
+    } else if (auto done = choose_look(result, view); !done) {
+        return done.error();
     }
-    material.technique = view.technique;
-    material.wireframe = view.wireframe;
 
     scene::Light sun;
     sun.azimuth = view.sun ? view.sun->x : source.description.sun_azimuth;
     sun.altitude = view.sun ? view.sun->y : source.description.sun_altitude;
-    result.scene.add_light(sun);
+    result.light = &result.scene.add_light(sun);
     scene::Sky sky;
     const glm::dvec3 size = result.bounds.size();
     sky.visibility = source.description.visibility.value_or(visibility_in_widths *

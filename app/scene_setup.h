@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "app/options.h"
 #include "app/terrain_source.h"
@@ -12,12 +13,19 @@ namespace reljef::app {
 /// A terrain under a sun and a sky, with a camera.
 struct TerrainScene {
     scene::Scene scene;
-    scene::Node* terrain = nullptr; ///< owned by the scene
-    scene::Node* camera = nullptr;  ///< owned by the scene
-    Box bounds;                     ///< of the terrain, scene metres
+    scene::Node* terrain = nullptr;   ///< owned by the scene
+    scene::Node* camera = nullptr;    ///< owned by the scene
+    scene::Node* light = nullptr;     ///< owned by the scene
+    std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
+    Box bounds;                       ///< of the terrain, scene metres
 
     /// z of the ground at x, y; the lowest of the terrain where there is none.
     [[nodiscard]] double ground(double x, double y) const;
+
+    /// What a technique is chosen for: the models where there are some, else the terrain.
+    [[nodiscard]] std::vector<scene::Material*> materials() const;
+    /// Whether they can be drawn so. Fails as scene::check_technique.
+    [[nodiscard]] Result<void> check(const scene::Technique& technique) const;
 };
 
 /// Builds the scene. Fails where the placement or the camera does not fit the terrain.

@@ -11,6 +11,7 @@
 #include "engine/io/geoid_file.h"
 #include "engine/io/raster.h"
 #include "terrains/built_in.h"
+#include "terrains/gallery.h"
 #include "terrains/generators.h"
 
 namespace reljef::app {
@@ -58,6 +59,9 @@ Result<terrain::Terrain> generate(const TerrainChoice& choice,
     if (!choice.imagery.empty()) {
         return Error{fmt::format("--imagery: {} found, but {} brings its own colours",
                                  choice.imagery.string(), description.name)};
+    }
+    if (description.generator == "gallery") {
+        return terrains::generate_gallery(options);
     }
     return description.generator == "natural" ? terrains::generate_natural(options)
                                               : terrains::generate_urban(options);
@@ -207,6 +211,10 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
 
 Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
                                    const std::stop_token& stop, Notes notes) {
+    if (choice.textures && description.generator != "gallery") {
+        return Error{fmt::format("--textures: {} found, but only the gallery shows tiles, not {}",
+                                 *choice.textures, description.name)};
+    }
     auto source = read_source(choice, std::move(description), stop);
     if (!source) {
         return source.error();

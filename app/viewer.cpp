@@ -81,12 +81,12 @@ scene::Camera perspective_start(const TerrainScene& scene) {
     return camera;
 }
 
-// The catalogue's that can draw the surface, with the parameters that were asked for.
+// The catalogue's that can draw what is shown, with the parameters that were asked for.
 std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
-                                              const scene::TerrainSurface& surface) {
+                                              const TerrainScene& scene) {
     std::vector<scene::Technique> techniques;
     for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
-        if (!scene::check_technique(scene::make_technique(info.id), surface)) {
+        if (!scene.check(scene::make_technique(info.id))) {
             continue;
         }
         techniques.push_back(info.id == asked_for.id ? asked_for : scene::make_technique(info.id));
@@ -111,13 +111,14 @@ struct Viewer::Binding {
 };
 
 std::span<const Viewer::Binding> Viewer::bindings() {
-    static constexpr std::array<Binding, 10> all{
+    static constexpr std::array<Binding, 11> all{
         {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
          {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
           "keep the height above the ground, or fly where you look"},
          {Key::o, Key::unknown, &Viewer::toggle_map, "O", "map from straight above, and back"},
          {Key::t, Key::unknown, &Viewer::next_technique, "T, 1 2 ...",
           "next technique, or a certain one"},
+         {Key::l, Key::unknown, &Viewer::turn_light, "L", "move the light on by 15 degrees"},
          {Key::f, Key::unknown, &Viewer::toggle_wireframe, "F",
           "the triangles' edges only, or filled"},
          {Key::m, Key::unknown, &Viewer::toggle_mouse_look, "M",
@@ -142,8 +143,7 @@ std::string Viewer::keys() {
 
 Viewer::Viewer(TerrainScene& scene, scene::FlyPath path, glm::ivec2 size)
     : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
-      techniques_(techniques_with(material().technique,
-                                  *scene.terrain->get<scene::TerrainNode>()->surface)),
+      techniques_(techniques_with(material().technique, scene)),
       flight_(make_flight(scene, start_)) {
     if (camera().projection == scene::ProjectionKind::orthographic) {
         map_.emplace(camera(), scene_.bounds, size_);
@@ -152,8 +152,8 @@ Viewer::Viewer(TerrainScene& scene, scene::FlyPath path, glm::ivec2 size)
     }
 }
 
-scene::Material& Viewer::material() const {
-    return scene_.terrain->get<scene::TerrainNode>()->material;
+const scene::Material& Viewer::material() const {
+    return *scene_.materials().front();
 }
 
 void Viewer::receive(const Event& event) {
@@ -273,7 +273,17 @@ void Viewer::toggle_map() {
 }
 
 void Viewer::toggle_wireframe() {
-    material().wireframe = !material().wireframe;
+    const bool wireframe = !material().wireframe;
+    for (scene::Material* const shown : scene_.materials()) {
+        shown->wireframe = wireframe;
+    }
+    redraw_ = true;
+}
+
+void Viewer::turn_light() {
+    constexpr double step = 15.0; // degrees
+    auto& light = *scene_.light->get<scene::Light>();
+    light.azimuth = std::fmod(light.azimuth + step, 360.0);
     redraw_ = true;
 }
 
@@ -297,7 +307,9 @@ void Viewer::next_technique() {
 
 void Viewer::choose_technique(std::size_t index) {
     if (index < techniques_.size() && techniques_[index].id != material().technique.id) {
-        material().technique = techniques_[index];
+        for (scene::Material* const shown : scene_.materials()) {
+            shown->technique = techniques_[index];
+        }
         redraw_ = true;
     }
 }

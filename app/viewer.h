@@ -69,6 +69,7 @@ private:
     void go_to_start();
     void toggle_map();
     void toggle_wireframe();
+    void turn_light();
     void toggle_mouse_look();
     void toggle_follow_ground();
     void next_technique();
@@ -81,7 +82,7 @@ private:
     [[nodiscard]] const scene::Camera& camera() const {
         return *scene_.camera->get<scene::Camera>();
     }
-    [[nodiscard]] scene::Material& material() const;
+    [[nodiscard]] const scene::Material& material() const;
 
     TerrainScene& scene_;
     scene::FlyPath path_;

@@ -1,5 +1,6 @@
 #include "app/program.h"
 #include "bench/compare_command.h"
+#include "bench/lod_command.h"
 #include "bench/pareto_command.h"
 #include "bench/tables_command.h"
 
@@ -13,9 +14,10 @@ int main(int argc, char** argv) {
          .footer = "Examples:\n"
                    "  reljef-bench tables --quick --json tables.json\n"
                    "  reljef-bench pareto --terrain natural\n"
+                   "  reljef-bench lod --terrain natural\n"
                    "  reljef-bench compare before.json after.json\n"
                    "'reljef-bench SUITE --help' says more.",
-         .commands = {bench::add_tables_command, bench::add_pareto_command,
+         .commands = {bench::add_tables_command, bench::add_pareto_command, bench::add_lod_command,
                       bench::add_compare_command}},
         argc, argv);
 }

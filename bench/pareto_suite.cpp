@@ -84,10 +84,10 @@ std::vector<double> values_over_range(const scene::ParameterInfo& parameter) {
 
 std::vector<scene::Technique> settings_over_range() {
     std::vector<scene::Technique> all;
-    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
         all.push_back(scene::make_technique(info.id));
     }
-    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
         const std::vector<scene::Technique> settings = settings_of(info);
         all.insert(all.end(), settings.begin(), settings.end());
     }

@@ -72,9 +72,18 @@ Setting read_setting(const JsonObject& json) {
 }
 
 render::FrameStats::Skipped read_skipped(const JsonObject& json) {
-    return {json.whole("invisible_nodes"),       json.whole("nodes_outside_frustum"),
-            json.whole("tiles_outside_frustum"), json.count("triangles_outside_frustum"),
-            json.whole("uploads_unchanged"),     json.whole("sky")};
+    render::FrameStats::Skipped skipped;
+    skipped.invisible_nodes = json.whole("invisible_nodes");
+    skipped.nodes_outside_frustum = json.whole("nodes_outside_frustum");
+    skipped.tiles_outside_frustum = json.whole("tiles_outside_frustum");
+    skipped.triangles_outside_frustum = json.count("triangles_outside_frustum");
+    if (json.has("triangles_under_error")) { // older reports have none
+        skipped.triangles_under_error = json.count("triangles_under_error");
+        skipped.cuts_unchanged = json.whole("cuts_unchanged");
+    }
+    skipped.uploads_unchanged = json.whole("uploads_unchanged");
+    skipped.sky = json.whole("sky");
+    return skipped;
 }
 
 Timing read_timing(const JsonObject& json) {

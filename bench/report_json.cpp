@@ -26,6 +26,8 @@ Json to_json(const render::FrameStats::Skipped& skipped) {
             {"nodes_outside_frustum", skipped.nodes_outside_frustum},
             {"tiles_outside_frustum", skipped.tiles_outside_frustum},
             {"triangles_outside_frustum", skipped.triangles_outside_frustum},
+            {"triangles_under_error", skipped.triangles_under_error},
+            {"cuts_unchanged", skipped.cuts_unchanged},
             {"uploads_unchanged", skipped.uploads_unchanged},
             {"sky", skipped.sky}};
 }

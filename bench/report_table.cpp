@@ -37,10 +37,18 @@ bool has_sources(std::span<const Row> rows) {
                        [](const Row& row) { return row.source.has_value(); });
 }
 
-std::vector<std::string> columns_of(bool with_sources) {
+// Where triangles are what is chosen, and the greatest error what is promised.
+bool is_of_levels(std::span<const Row> rows) {
+    return rows.front().suite == "lod";
+}
+
+std::vector<std::string> columns_of(bool with_sources, bool with_levels) {
     std::vector<std::string> columns{"technique", "ms", "±", "fps", "1 % low", "ratio", "drop"};
     if (with_sources) {
         columns.insert(columns.end(), {"source", "ratio"});
+    }
+    if (with_levels) {
+        columns.insert(columns.end(), {"triangles", "most px"});
     }
     columns.insert(columns.end(), {"error px", "wrong"});
     return columns;
@@ -75,6 +83,13 @@ std::vector<std::string> source_cells(const Row& row) {
                       : std::vector<std::string>(2, no_figure);
 }
 
+std::vector<std::string> level_cells(const Row& row) {
+    const bool has_error = row.error && row.error->reprojection_px;
+    return {row.timing ? fmt::format("{}", row.timing->stats.triangles) : std::string(no_figure),
+            has_error ? figure(row.error->reprojection_px->distribution.max)
+                      : std::string(no_figure)};
+}
+
 std::vector<std::string> error_cells(const Row& row) {
     if (!row.error) {
         return std::vector<std::string>(2, no_figure);
@@ -84,7 +99,7 @@ std::vector<std::string> error_cells(const Row& row) {
             fmt::format("{:.1f} %", row.error->wrong_percent)};
 }
 
-std::vector<std::string> cells_of(const Row& row, bool with_sources) {
+std::vector<std::string> cells_of(const Row& row, bool with_sources, bool with_levels) {
     std::vector<std::string> cells{row.setting.label};
     const auto append = [&](const std::vector<std::string>& more) {
         cells.insert(cells.end(), more.begin(), more.end());
@@ -92,6 +107,9 @@ std::vector<std::string> cells_of(const Row& row, bool with_sources) {
     append(time_cells(row));
     if (with_sources) {
         append(source_cells(row));
+    }
+    if (with_levels) {
+        append(level_cells(row));
     }
     append(error_cells(row));
     return cells;
@@ -121,10 +139,11 @@ std::vector<std::string> notes_of(std::span<const Row> rows) {
 
 ReportTable table_of_rows(std::span<const Row> rows) {
     const bool with_sources = has_sources(rows);
-    ReportTable table{heading_of(rows), columns_of(with_sources), {}, notes_of(rows)};
+    const bool with_levels = is_of_levels(rows);
+    ReportTable table{heading_of(rows), columns_of(with_sources, with_levels), {}, notes_of(rows)};
     for (const Row& row : rows) {
         if (!row.null_row) {
-            table.lines.push_back(cells_of(row, with_sources));
+            table.lines.push_back(cells_of(row, with_sources, with_levels));
         }
     }
     return table;

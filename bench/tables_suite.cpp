@@ -12,7 +12,7 @@ std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& chosen
     const scene::Technique texture = scene::make_technique(scene::TechniqueId::texture);
     std::vector<scene::Technique> others = chosen;
     if (others.empty()) {
-        for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
             others.push_back(scene::make_technique(info.id));
         }
     }

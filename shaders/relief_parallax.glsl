@@ -22,6 +22,5 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         place = entry + (height + offset) * shift;
     }
 #endif
-    vec2 last = vec2(textureSize(height_map, 0) - 1);
-    return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, last));
+    return is_on_surface(place);
 }

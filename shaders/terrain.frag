@@ -6,7 +6,7 @@ in vec2 tile_place;
 in vec2 height_and_depth;
 #endif
 
-uniform vec4 tile_samples;
+uniform vec2 tile_sample;     // col, row of the tile's first sample
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
 layout(binding = 0) uniform sampler2D lit_map; // what the surface sends to the eye, linear
@@ -22,7 +22,7 @@ layout(location = 0) out vec4 color;
 #endif
 
 void main() {
-    vec2 place = tile_samples.xy + tile_place;
+    vec2 place = tile_sample + tile_place;
 #ifdef WARPED
     vec2 coordinate = place * lit_from_sample.xy;
     vec2 across = dFdx(coordinate);

@@ -11,7 +11,7 @@ struct BuiltInScene {
     std::string_view text; ///< the scene file
 };
 
-/// natural and urban.
+/// gallery, natural and urban.
 std::span<const BuiltInScene> built_in_scenes();
 
 } // namespace reljef::terrains

@@ -22,7 +22,7 @@ constexpr NumberRange seeds{0.0, 4294967295.0, false};
 constexpr NumberRange exaggerations{0.0, terrain::largest_exaggeration, true};
 constexpr NumberRange azimuths{-360.0, 360.0, false};
 constexpr NumberRange altitudes{0.0, 90.0, true};
-constexpr std::array<std::string_view, 2> generators{"natural", "urban"};
+constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
@@ -111,6 +111,19 @@ void read_camera_keys(TomlTable& table, SceneDescription& scene) {
     }
 }
 
+void read_gallery_keys(TomlTable& table, const std::filesystem::path& folder,
+                       SceneDescription& scene) {
+    if (scene.generator != "gallery") {
+        refuse(table, {"textures", "technique"}, "the generator gallery");
+    }
+    table.read("textures", scene.gallery_textures);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder / scene.gallery_textures, ignored)) {
+        scene.gallery_textures = (folder / scene.gallery_textures).string();
+    }
+    table.read("technique", scene.gallery_technique);
+}
+
 } // namespace
 
 Result<SceneDescription> parse_scene(std::string_view text, const std::string& name,
@@ -124,16 +137,18 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     root.read("name", scene.name);
     TomlTable terrain = root.table("terrain");
     TomlTable area = root.table("area");
+    TomlTable gallery = root.table("gallery");
     TomlTable sun = root.table("sun");
     TomlTable air = root.table("air");
     TomlTable camera = root.table("camera");
     read_terrain_keys(terrain, folder, scene);
     read_area_keys(area, scene);
+    read_gallery_keys(gallery, folder, scene);
     sun.read("azimuth", scene.sun_azimuth, azimuths);
     sun.read("altitude", scene.sun_altitude, altitudes);
     air.read("visibility", scene.visibility, positive);
     read_camera_keys(camera, scene);
-    for (const TomlTable* table : {&root, &terrain, &area, &sun, &air, &camera}) {
+    for (const TomlTable* table : {&root, &terrain, &area, &gallery, &sun, &air, &camera}) {
         if (auto good = table->finish(); !good) {
             return good.error();
         }

@@ -15,12 +15,12 @@
 namespace reljef::io {
 
 /// What a scene file (TOML) asks for; everything but where the heights come from has a default.
-/// terrains/natural.toml and terrains/urban.toml show every key.
+/// terrains/natural.toml, urban.toml and gallery.toml show every key.
 struct SceneDescription {
     std::string name;
 
     // [terrain]: exactly one of `heights` (a DEM file, or a folder of them) and `generator`
-    // ("natural", "urban")
+    // ("natural", "urban", "gallery")
     std::filesystem::path heights; ///< relative to the scene file
     std::string generator;
     int size = 1025;        ///< generator only, samples a side, 16 to 4096
@@ -38,6 +38,11 @@ struct SceneDescription {
 
     // [area]: south, west, north, east in degrees; a folder's part that is of use
     std::optional<GeodeticArea> area;
+
+    // [gallery]: its generator only
+    /// A built-in set, "mixed", or a folder of pictures, relative to the scene file.
+    std::string gallery_textures = "mixed";
+    std::string gallery_technique = "relief"; ///< as --technique has it
 
     // [sun]: degrees
     double sun_azimuth = 300.0; ///< [-360, 360], clockwise from north, where the light comes from

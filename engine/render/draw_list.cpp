@@ -1,11 +1,15 @@
 #include "engine/render/draw_list.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
+#include "engine/render/error_view.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/terrain/patch_mesh.h"
 
 namespace reljef::render {
 namespace {
@@ -24,6 +28,27 @@ std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Til
     const int quads = flat_quads(terrain.surface->placement().kind());
     return 2U * static_cast<std::size_t>(flat ? quads : tile.cols) *
            static_cast<std::size_t>(flat ? quads : tile.rows);
+}
+
+// How coarse a terrain may be; nothing where every sample is a vertex.
+std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
+                                        const scene::Camera& camera, glm::ivec2 size,
+                                        const glm::dmat4& world_from_local) {
+    const scene::Technique& technique = terrain.material.technique;
+    if (technique.id != scene::TechniqueId::polygons) {
+        return std::nullopt;
+    }
+    const scene::TerrainSurface& surface = *terrain.surface;
+    if (const double error = scene::parameter(technique, "error"); error > 0.0) {
+        return error_view(camera, size, world_from_local, surface.placement().kind(),
+                          std::max(error, least_error));
+    }
+    const int levels = static_cast<int>(scene::parameter(technique, "lods"));
+    if (levels == 1) {
+        return std::nullopt;
+    }
+    const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
+    return terrain::patch_levels(surface.heightfield(), surface.placement(), eye, levels);
 }
 
 double distance_to(glm::dvec3 point, const Box& box) {
@@ -73,18 +98,24 @@ private:
             scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
         const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
         const std::size_t before = list_.tiles.size();
+        auto coarseness = coarseness_of(terrain, list_.camera, list_.size, world_from_local);
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Box bounds = transformed(world_from_local, tiles[i].bounds);
             if (frustum_.may_see(bounds)) {
                 list_.tiles.push_back({&terrain, world_from_local, static_cast<int>(i), flat,
-                                       distance_to(list_.camera.eye, bounds)});
+                                       distance_to(list_.camera.eye, bounds),
+                                       coarseness.has_value()});
             } else {
                 ++list_.stats.skipped.tiles_outside_frustum;
                 list_.stats.skipped.triangles_outside_frustum +=
                     triangle_count(terrain, tiles[i], flat);
             }
         }
-        list_.stats.skipped.nodes_outside_frustum += list_.tiles.size() == before ? 1 : 0;
+        if (list_.tiles.size() == before) {
+            ++list_.stats.skipped.nodes_outside_frustum;
+        } else if (coarseness) {
+            list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
+        }
     }
 
     DrawList& list_;
@@ -116,6 +147,32 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size) {
     list.stats.skipped.invisible_nodes = list.stats.nodes - visited;
     list.stats.skipped.sky = list.sky ? 0 : 1;
     return list;
+}
+
+Result<void> check_techniques(const DrawList& list) {
+    const scene::TerrainNode* checked = nullptr;
+    const auto check_node = [&](const scene::TerrainNode& terrain) -> Result<void> {
+        if (std::exchange(checked, &terrain) == &terrain) {
+            return {};
+        }
+        return scene::check_technique(terrain.material.technique, *terrain.surface);
+    };
+    for (const TileDraw& draw : list.tiles) {
+        if (auto good = check_node(*draw.terrain); !good) {
+            return good;
+        }
+    }
+    for (const ReliefDraw& draw : list.reliefs) {
+        if (auto good = check_node(*draw.terrain); !good) {
+            return good;
+        }
+    }
+    for (const MeshDraw& draw : list.meshes) {
+        if (auto good = scene::check_technique(draw.mesh->material.technique, *draw.mesh); !good) {
+            return good;
+        }
+    }
+    return {};
 }
 
 } // namespace reljef::render

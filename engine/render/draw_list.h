@@ -1,15 +1,23 @@
 #pragma once
 
+#include <cstdint>
+#include <variant>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/core/result.h"
 #include "engine/render/frame_stats.h"
 #include "engine/scene/scene.h"
+#include "engine/terrain/bisection_mesh.h"
 
 namespace reljef::render {
+
+/// How coarse a terrain's tiles may be: as coarse as the view allows, or patches by their level
+/// (terrain/patch_mesh.h).
+using Coarseness = std::variant<terrain::ErrorView, Grid<std::uint8_t>>;
 
 /// One terrain tile to draw.
 struct TileDraw {
@@ -18,6 +26,13 @@ struct TileDraw {
     int tile = 0;          ///< index into the surface's tiles
     bool flat = false;     ///< the reference surface instead of the heightfield
     double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+    bool coarse = false;   ///< as DrawList::coarse_terrains says, instead of every sample
+};
+
+/// One terrain whose tiles need not have every sample as a vertex.
+struct CoarseTerrain {
+    const scene::TerrainNode* terrain = nullptr;
+    Coarseness coarseness;
 };
 
 /// One terrain whose surface each pixel looks for along its ray.
@@ -38,7 +53,8 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::vector<TileDraw> tiles;     ///< front to back
+    std::vector<TileDraw> tiles; ///< front to back
+    std::vector<CoarseTerrain> coarse_terrains;
     std::vector<ReliefDraw> reliefs; ///< front to back
     std::vector<MeshDraw> meshes;
     FrameStats stats; ///< nodes and what was skipped, so far
@@ -47,5 +63,9 @@ struct DrawList {
 /// Looks at the scene through its camera: leaves out what is hidden or outside the frustum and
 /// orders the rest. An orthographic camera's depth range is fitted to the scene.
 DrawList select(const scene::Scene& scene, glm::ivec2 size);
+
+/// Whether each terrain and mesh can be drawn as it is asked to be; fails as
+/// scene::check_technique.
+Result<void> check_techniques(const DrawList& list);
 
 } // namespace reljef::render

@@ -1,8 +1,9 @@
 #include "engine/render/driver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
+#include <optional>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
@@ -12,6 +13,7 @@
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
 #include "engine/render/frame_block.h"
+#include "engine/render/mesh_painter.h"
 #include "engine/render/relief_options.h"
 
 #include <glad/gl.h>
@@ -114,16 +116,20 @@ public:
     }
 
     Result<void> draw_meshes() {
-        if (list_.meshes.empty()) {
-            return {};
-        }
-        if (auto used = use({ShaderKind::mesh, features_}); !used) {
-            return used;
-        }
+        std::optional<ShaderVariant> in_use;
         for (const MeshDraw& draw : list_.meshes) {
-            if (!draw.mesh->mesh->indices.empty()) {
-                draw_mesh(draw);
+            if (draw.mesh->mesh->indices.empty()) {
+                continue;
             }
+            const scene::Material& material = draw.mesh->material;
+            const ShaderVariant variant = mesh_variant(material, features_);
+            if (in_use != variant) {
+                if (auto used = use(variant); !used) {
+                    return used;
+                }
+                in_use = variant;
+            }
+            draw_mesh(draw);
         }
         return {};
     }
@@ -208,20 +214,22 @@ private:
     }
 
     void draw_tile(const TileDraw& draw) {
-        const ResidentMesh& mesh = residency_.tile(draw);
         const scene::TerrainSurface& surface = *draw.terrain->surface;
         const auto& tile = surface.tiles()[static_cast<std::size_t>(draw.tile)];
         bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
-        program_->set_uniform("relative_from_tile",
-                              relative_from(list_.camera, draw.world_from_local, mesh.origin));
-        program_->set_uniform(
-            "tile_samples",
-            glm::vec4(tile.col, tile.row, mesh.samples_per_vertex.x, mesh.samples_per_vertex.y));
-        const auto vertices_per_row = static_cast<float>(mesh.vertices_per_row);
-        program_->set_uniform("vertices_per_row", vertices_per_row);
-        program_->set_uniform("rows_per_vertex", 1.0F / vertices_per_row);
-        draw_resident(mesh, gl::IndexType::uint16);
+        program_->set_uniform("tile_sample", glm::vec2(tile.col, tile.row));
+        const std::size_t before = stats_.triangles;
+        for (const ResidentMesh& mesh : residency_.tile(draw)) {
+            program_->set_uniform("relative_from_tile",
+                                  relative_from(list_.camera, draw.world_from_local, mesh.origin));
+            draw_resident(mesh, gl::IndexType::uint16);
+        }
+        if (draw.coarse) {
+            const std::size_t all =
+                2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
+            stats_.skipped.triangles_under_error += all - std::min(all, stats_.triangles - before);
+        }
         ++stats_.tiles;
     }
 
@@ -273,7 +281,8 @@ private:
         program_->set_uniform("height_texel", 1.0F / glm::vec2(samples));
         program_->set_uniform("last_cell", samples - 2);
         program_->set_uniform("metres_per_unit", space.metres_per_unit);
-        set_relief_options(*program_, draw.terrain->material.technique);
+        const scene::Technique& technique = draw.terrain->material.technique;
+        set_relief_options(*program_, technique, reference_height(technique));
         program_->set_uniform("texels_per_metre_away", texels_per_metre_away(draw, space));
     }
 
@@ -297,7 +306,11 @@ private:
                               relative_from(list_.camera, draw.world_from_local, glm::dvec3(0.0)));
         program_->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
         program_->set_uniform("albedo", draw.mesh->material.color);
-        draw_resident(residency_.mesh(draw), gl::IndexType::uint32);
+        if (draw.mesh->material.detail.set != nullptr) {
+            set_tile(*program_, draw, residency_.meshes().tile(draw), list_.camera);
+            ++stats_.state_changes;
+        }
+        draw_resident(residency_.meshes().mesh(draw), gl::IndexType::uint32);
     }
 
     void draw_resident(const ResidentMesh& mesh, gl::IndexType type) {
@@ -320,17 +333,6 @@ private:
     bool tiles_warped_ = false;
     bool wireframe_ = false;
 };
-
-std::set<const scene::TerrainNode*> terrains_of(const DrawList& list) {
-    std::set<const scene::TerrainNode*> terrains;
-    for (const TileDraw& draw : list.tiles) {
-        terrains.insert(draw.terrain);
-    }
-    for (const ReliefDraw& draw : list.reliefs) {
-        terrains.insert(draw.terrain);
-    }
-    return terrains;
-}
 
 glm::vec4 channels_of(const Hit& hit) {
     return {hit.col, hit.row, hit.height, hit.depth};
@@ -426,11 +428,8 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
-    for (const scene::TerrainNode* terrain : terrains_of(list)) {
-        if (auto good = scene::check_technique(terrain->material.technique, *terrain->surface);
-            !good) {
-            return good;
-        }
+    if (auto good = check_techniques(list); !good) {
+        return good;
     }
     const FrameBlock block = frame_block(list);
     frame_block_.write(0, std::as_bytes(std::span(&block, 1)));

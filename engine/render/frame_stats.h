@@ -9,6 +9,7 @@ struct FrameStats {
     int nodes = 0; ///< in the scene, visible or not
     int tiles = 0; ///< terrain tiles drawn
     std::size_t triangles = 0;
+    int tiles_cut = 0;     ///< whose triangles were chosen anew for this frame
     int draws = 0;         ///< draw calls, the sky's included
     int state_changes = 0; ///< programs, vertex arrays, textures and modes set
     int uploads = 0;       ///< buffers and textures filled
@@ -19,6 +20,8 @@ struct FrameStats {
         int nodes_outside_frustum = 0;
         int tiles_outside_frustum = 0;
         std::size_t triangles_outside_frustum = 0;
+        std::size_t triangles_under_error = 0; ///< that the samples have more than was drawn
+        int cuts_unchanged = 0;    ///< tiles whose triangles are those of the frame before
         int uploads_unchanged = 0; ///< tiles and maps already where they are drawn from
         int sky = 0;               ///< 1: the scene has none
     };

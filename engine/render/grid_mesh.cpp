@@ -19,7 +19,8 @@ GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& til
             const glm::dvec2 sample{tile.col + col * step.x, tile.row + row * step.y};
             const double height = height_at(sample);
             const glm::dvec3 world = placement.world_from_sample({sample.x, sample.y, height});
-            mesh.vertices.push_back({glm::vec3(world - mesh.origin), static_cast<float>(height)});
+            mesh.vertices.push_back({glm::vec3(world - mesh.origin), static_cast<float>(height),
+                                     glm::vec2(sample - glm::dvec2(tile.col, tile.row))});
         }
     }
     return mesh;
@@ -33,6 +34,24 @@ GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Place
         return static_cast<double>(
             heightfield.heights(static_cast<int>(sample.x), static_cast<int>(sample.y)));
     });
+}
+
+std::vector<GridVertex> placed_vertices(const terrain::Heightfield& heightfield,
+                                        const terrain::Placement& placement,
+                                        const terrain::Tile& tile,
+                                        const terrain::Triangulation& part) {
+    const glm::dvec3 origin = tile.bounds.center();
+    std::vector<GridVertex> vertices;
+    vertices.reserve(part.vertices.size());
+    for (const glm::ivec2 steps : part.vertices) {
+        const glm::dvec2 sample =
+            glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
+        const double height = terrain::bilinear_height(heightfield.heights.view(), sample);
+        const glm::dvec3 world = placement.world_from_sample({sample, height});
+        vertices.push_back({glm::vec3(world - origin), static_cast<float>(height),
+                            glm::vec2(sample - glm::dvec2(tile.col, tile.row))});
+    }
+    return vertices;
 }
 
 int flat_quads(terrain::PlacementKind kind) {

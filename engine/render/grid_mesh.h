@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/terrain/bisection_mesh.h"
 #include "engine/terrain/heightfield.h"
 #include "engine/terrain/placement.h"
 #include "engine/terrain/tile_layout.h"
@@ -15,8 +17,9 @@ namespace reljef::render {
 struct GridVertex {
     glm::vec3 position; ///< metres from the tile's origin
     float height;       ///< true metres
+    glm::vec2 place;    ///< samples from the tile's first
 };
-static_assert(sizeof(GridVertex) == 16);
+static_assert(sizeof(GridVertex) == 24);
 
 /// A tile as a regular grid of vertices, row after row.
 struct GridMesh {
@@ -29,6 +32,12 @@ struct GridMesh {
 /// Every sample of the tile a vertex.
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile);
+
+/// The vertices of a part of a tile, relative to the middle of its bounds.
+std::vector<GridVertex> placed_vertices(const terrain::Heightfield& heightfield,
+                                        const terrain::Placement& placement,
+                                        const terrain::Tile& tile,
+                                        const terrain::Triangulation& part);
 
 /// Quads along a side of a tile of the flat reference surface: one on a plane, a few on an
 /// ellipsoid.

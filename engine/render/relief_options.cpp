@@ -7,11 +7,6 @@
 namespace reljef::render {
 namespace {
 
-bool is_parallax(scene::TechniqueId id) {
-    return id == scene::TechniqueId::parallax || id == scene::TechniqueId::parallax_limited ||
-           id == scene::TechniqueId::parallax_iterated;
-}
-
 // The parameters, in the catalogue's order; of equal steps zw: steps from straight above and along
 // the ground.
 glm::vec4 search_values(const scene::Technique& technique) {
@@ -27,11 +22,6 @@ glm::vec4 search_values(const scene::Technique& technique) {
         values.w = static_cast<float>(steps->high);
     }
     return values;
-}
-
-// The height in [0,1] that stays where it is: of parallax its reference plane, else the middle.
-double reference_height(const scene::Technique& technique) {
-    return is_parallax(technique.id) ? -technique.values.front() : 0.5;
 }
 
 std::uint32_t search_features(scene::TechniqueId id) {
@@ -75,13 +65,21 @@ std::uint32_t relief_features(const scene::Technique& technique) {
     return search_features(technique.id) | option_features(technique.options);
 }
 
-void set_relief_options(gl::Program& program, const scene::Technique& technique) {
+bool is_parallax(scene::TechniqueId id) {
+    return id == scene::TechniqueId::parallax || id == scene::TechniqueId::parallax_limited ||
+           id == scene::TechniqueId::parallax_iterated;
+}
+
+double reference_height(const scene::Technique& technique) {
+    return is_parallax(technique.id) ? -technique.values.front() : 0.5;
+}
+
+void set_relief_options(gl::Program& program, const scene::Technique& technique, double reference) {
     const scene::TechniqueOptions& options = technique.options;
     program.set_uniform("search_values", search_values(technique));
     if (options.fade) {
-        program.set_uniform("fade_values",
-                            glm::vec4(options.fade->low, options.fade->high, options.fade->power,
-                                      reference_height(technique)));
+        program.set_uniform("fade_values", glm::vec4(options.fade->low, options.fade->high,
+                                                     options.fade->power, reference));
     }
     if (options.shadow) {
         program.set_uniform("shadow_depth", static_cast<float>(options.shadow->depth));

@@ -11,7 +11,14 @@ namespace reljef::render {
 /// (shader_library.h).
 std::uint32_t relief_features(const scene::Technique& technique);
 
-/// Sets the uniforms that say a relief's parameters and options.
-void set_relief_options(gl::Program& program, const scene::Technique& technique);
+/// The height in [0,1] that stays where it is when heights fade: of parallax its reference plane,
+/// else the middle.
+double reference_height(const scene::Technique& technique);
+
+/// Sets the uniforms that say a relief's parameters and options. `reference` is the height in [0,1]
+/// that stays where it is when heights fade.
+void set_relief_options(gl::Program& program, const scene::Technique& technique, double reference);
+
+bool is_parallax(scene::TechniqueId id);
 
 } // namespace reljef::render

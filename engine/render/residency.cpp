@@ -12,38 +12,16 @@
 #include "engine/gl/limits.h"
 #include "engine/render/prewarp.h"
 #include "engine/render/terrain_maps.h"
+#include "engine/render/uploads.h"
 
 namespace reljef::render {
 namespace {
-
-template <class T> std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-    return std::as_bytes(std::span(values));
-}
-
-void count_upload(FrameStats& stats, std::size_t bytes) {
-    ++stats.uploads;
-    stats.upload_bytes += bytes;
-}
 
 // Sample coordinates of the heightfield onto texels whose outermost centres are the outermost
 // samples.
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
     const glm::vec2 scale = glm::vec2(texels - 1) / (glm::vec2(samples - 1) * glm::vec2(texels));
     return {scale, 0.5F / glm::vec2(texels)};
-}
-
-Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
-                                std::span<const std::byte> texels, FrameStats& stats) {
-    auto texture = gl::Texture2D::create({.size = size,
-                                          .format = format,
-                                          .levels = gl::full_chain,
-                                          .filter = gl::Filter::trilinear});
-    if (texture) {
-        texture->upload(0, texels);
-        texture->generate_mipmaps();
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
 }
 
 Result<gl::Texture2D> map_texture(const Image& map, FrameStats& stats) {
@@ -82,30 +60,6 @@ std::optional<scene::TerrainLight> light_on(const DrawList& list,
         return std::nullopt;
     }
     return scene::TerrainLight{*list.sun, glm::dmat3(world_from_local)};
-}
-
-Result<gl::Texture2D> height_texture(const Grid<float>& heights, FrameStats& stats) {
-    auto texture = gl::Texture2D::create(
-        {.size = {heights.cols(), heights.rows()}, .format = gl::Format::r32f});
-    if (texture) {
-        texture->upload(0, heights);
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
-}
-
-Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, FrameStats& stats) {
-    auto texture = gl::Texture2D::create({.size = {levels.front().cols(), levels.front().rows()},
-                                          .format = gl::Format::r32f,
-                                          .levels = gl::full_chain,
-                                          .filter = gl::Filter::nearest});
-    if (texture) {
-        for (std::size_t level = 0; level < levels.size(); ++level) {
-            texture->upload(static_cast<int>(level), levels[level]);
-        }
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
 }
 
 Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<float>& heights,
@@ -147,25 +101,14 @@ Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before) {
         {.size = size, .format = gl::Format::rgba32f, .filter = gl::Filter::nearest});
 }
 
-struct MeshVertex {
-    glm::vec3 position;
-    glm::vec3 normal;
-};
-
-std::vector<MeshVertex> interleaved(const scene::Mesh& mesh) {
-    std::vector<MeshVertex> vertices;
-    vertices.reserve(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        vertices.push_back({mesh.positions[i], mesh.normals[i]});
-    }
-    return vertices;
-}
-
 } // namespace
 
 Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
     forget_unused();
     if (auto done = prepare_tiles(list, stats); !done) {
+        return done;
+    }
+    if (auto done = coarse_tiles_.prepare(list, stats); !done) {
         return done;
     }
     if (with_maps) {
@@ -181,17 +124,12 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
             return done;
         }
     }
-    for (const MeshDraw& draw : list.meshes) {
-        if (auto done = prepare_mesh(draw, stats); !done) {
-            return done;
-        }
-    }
-    return {};
+    return meshes_.prepare(list.meshes, stats);
 }
 
 void Residency::forget_unused() {
     std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
-    std::erase_if(meshes_, [](const auto& entry) { return entry.second.owner.expired(); });
+    coarse_tiles_.forget_unused();
 }
 
 Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
@@ -205,9 +143,12 @@ Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
     return entry->second;
 }
 
-Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+std::vector<const TileDraw*> Residency::missing_tiles(const DrawList& list, FrameStats& stats) {
     std::vector<const TileDraw*> missing;
     for (const TileDraw& draw : list.tiles) {
+        if (draw.coarse) {
+            continue;
+        }
         Surface& surface = surface_of(*draw.terrain);
         const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
         if (slots[static_cast<std::size_t>(draw.tile)]) {
@@ -216,6 +157,11 @@ Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
             missing.push_back(&draw);
         }
     }
+    return missing;
+}
+
+Result<void> Residency::prepare_tiles(const DrawList& list, FrameStats& stats) {
+    const std::vector<const TileDraw*> missing = missing_tiles(list, stats);
     // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the
     // driver's.
     constexpr std::size_t batch = 32;
@@ -251,22 +197,11 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
         return vertices.error();
     }
     count_upload(stats, vertices->size());
-    const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const auto index = static_cast<std::size_t>(draw.tile);
-    const terrain::Tile& tile = draw.flat ? surface.flat_tiles()[index] : surface.tiles()[index];
-    ResidentMesh mesh{
-        std::move(*vertices), gl::VertexArray::create(),
-        grid.origin,          6 * grid.cols * grid.rows,
-        grid.cols + 1,        glm::vec2(tile.cols, tile.rows) / glm::vec2(grid.cols, grid.rows)};
-    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
-                                gl::VertexAttribute{.location = 1,
-                                                    .components = 1,
-                                                    .offset = offsetof(GridVertex, height)}};
-    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
+    ResidentMesh mesh = resident_grid(std::move(*vertices), grid.origin, 6 * grid.cols * grid.rows);
     mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(*draw.terrain);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
-    slots[index] = std::move(mesh);
+    slots[static_cast<std::size_t>(draw.tile)] = std::move(mesh);
     return {};
 }
 
@@ -372,40 +307,6 @@ Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) 
     return {};
 }
 
-Result<void> Residency::prepare_mesh(const MeshDraw& draw, FrameStats& stats) {
-    const scene::Mesh& mesh = *draw.mesh->mesh;
-    if (meshes_.contains(&mesh) || mesh.indices.empty()) {
-        stats.skipped.uploads_unchanged += meshes_.contains(&mesh) ? 1 : 0;
-        return {};
-    }
-    check(mesh.normals.size() == mesh.positions.size(), "a mesh needs a normal for every position");
-    auto vertices = gl::Buffer::create(bytes_of(interleaved(mesh)));
-    if (!vertices) {
-        return vertices.error();
-    }
-    auto indices = gl::Buffer::create(bytes_of(mesh.indices));
-    if (!indices) {
-        return indices.error();
-    }
-    count_upload(stats, vertices->size());
-    count_upload(stats, indices->size());
-    Mesh entry;
-    entry.owner = draw.mesh->mesh;
-    entry.indices = std::move(*indices);
-    entry.resident.vertices = std::move(*vertices);
-    entry.resident.vertex_array = gl::VertexArray::create();
-    entry.resident.index_count = static_cast<int>(mesh.indices.size());
-    const std::array attributes{gl::VertexAttribute{.location = 0, .components = 3},
-                                gl::VertexAttribute{.location = 1,
-                                                    .components = 3,
-                                                    .offset = offsetof(MeshVertex, normal)}};
-    entry.resident.vertex_array.set_vertices(0, entry.resident.vertices,
-                                             {.stride = sizeof(MeshVertex)}, attributes);
-    entry.resident.vertex_array.set_indices(entry.indices);
-    meshes_.emplace(&mesh, std::move(entry));
-    return {};
-}
-
 Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, FrameStats& stats) {
     const auto found = grid_indices_.find({cols, rows});
     if (found != grid_indices_.end()) {
@@ -419,12 +320,15 @@ Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, FrameStats&
     return &grid_indices_.emplace(std::pair{cols, rows}, std::move(*buffer)).first->second;
 }
 
-const ResidentMesh& Residency::tile(const TileDraw& draw) const {
+std::span<const ResidentMesh> Residency::tile(const TileDraw& draw) const {
+    if (draw.coarse) {
+        return coarse_tiles_.tile(draw);
+    }
     const Surface& surface = surfaces_.at(draw.terrain->surface.get());
     const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
     const auto& slot = slots[static_cast<std::size_t>(draw.tile)];
     check(slot.has_value(), "a tile that was not prepared");
-    return *slot;
+    return {&*slot, 1};
 }
 
 const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {
@@ -439,10 +343,6 @@ const ResidentRelief& Residency::relief(const ReliefDraw& draw) const {
 
 const gl::Texture2D& Residency::warped(const scene::TerrainNode& terrain) const {
     return warped_.at(&terrain);
-}
-
-const ResidentMesh& Residency::mesh(const MeshDraw& draw) const {
-    return meshes_.at(draw.mesh->mesh.get()).resident;
 }
 
 } // namespace reljef::render

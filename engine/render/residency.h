@@ -3,28 +3,21 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
-#include "engine/gl/vertex_array.h"
+#include "engine/render/coarse_tiles.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/mesh_residency.h"
 #include "engine/render/relief_maps.h"
+#include "engine/render/resident_mesh.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
-
-/// Triangles that are in the driver's memory.
-struct ResidentMesh {
-    gl::Buffer vertices;
-    gl::VertexArray vertex_array;
-    glm::dvec3 origin{0.0}; ///< local metres
-    int index_count = 0;
-    int vertices_per_row = 0;
-    glm::vec2 samples_per_vertex{1.0F};
-};
 
 /// A terrain's lit_map, or, where rays cast the shadows, its light_parts; and how sample
 /// coordinates become texture coordinates: sample · xy + zw.
@@ -52,10 +45,10 @@ public:
     Result<void> prepare(const DrawList& list, bool with_maps, FrameStats& stats);
 
     /// Precondition: prepared.
-    [[nodiscard]] const ResidentMesh& tile(const TileDraw& draw) const;
+    [[nodiscard]] std::span<const ResidentMesh> tile(const TileDraw& draw) const;
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
-    [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+    [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     /// What prewarp shows at each sample: warped_places.
     [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
@@ -72,14 +65,9 @@ private:
         std::vector<LitMaps> maps; // one for each light that the last frame had for it
         std::optional<ResidentRelief> relief;
     };
-    struct Mesh {
-        std::weak_ptr<const scene::Mesh> owner;
-        ResidentMesh resident;
-        gl::Buffer indices;
-    };
-
     void forget_unused();
     Surface& surface_of(const scene::TerrainNode& terrain);
+    std::vector<const TileDraw*> missing_tiles(const DrawList& list, FrameStats& stats);
     Result<void> prepare_tiles(const DrawList& list, FrameStats& stats);
     Result<void> upload_tile(const TileDraw& draw, const GridMesh& grid, FrameStats& stats);
     Result<void> prepare_all_maps(const DrawList& list, FrameStats& stats);
@@ -90,13 +78,13 @@ private:
              FrameStats& stats);
     Result<void> prepare_relief(const ReliefDraw& draw, FrameStats& stats);
     Result<void> prepare_warped(const DrawList& list, FrameStats& stats);
-    Result<void> prepare_mesh(const MeshDraw& draw, FrameStats& stats);
     Result<const gl::Buffer*> indices_for(int cols, int rows, FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
+    CoarseTiles coarse_tiles_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
-    std::map<const scene::Mesh*, Mesh> meshes_;
+    MeshResidency meshes_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };
 

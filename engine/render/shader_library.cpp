@@ -14,6 +14,8 @@ namespace {
 constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terrain")},
                            std::pair{ShaderKind::relief, std::string_view("relief")},
                            std::pair{ShaderKind::mesh, std::string_view("mesh")},
+                           std::pair{ShaderKind::textured_mesh, std::string_view("textured_mesh")},
+                           std::pair{ShaderKind::relief_mesh, std::string_view("relief_mesh")},
                            std::pair{ShaderKind::sky, std::string_view("sky")}};
 constexpr std::array features_by_name{
     std::pair{feature_lit, std::string_view("LIT")},
@@ -32,7 +34,11 @@ constexpr std::array features_by_name{
     std::pair{feature_smooth_edges, std::string_view("SMOOTH_EDGES")},
     std::pair{feature_write_depth, std::string_view("WRITE_DEPTH")},
     std::pair{feature_warped, std::string_view("WARPED")},
-    std::pair{feature_cone, std::string_view("CONE")}};
+    std::pair{feature_cone, std::string_view("CONE")},
+    std::pair{feature_normal_map, std::string_view("NORMAL_MAP")},
+    std::pair{feature_bump, std::string_view("BUMP")},
+    std::pair{feature_emboss, std::string_view("EMBOSS")},
+    std::pair{feature_wrap, std::string_view("WRAP")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -173,21 +179,74 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
     return options;
 }
 
+// One way to be lit by heights.
+std::uint32_t look_of(std::uint32_t features) {
+    for (const std::uint32_t look : {feature_normal_map, feature_bump, feature_emboss}) {
+        if ((features & look) != 0) {
+            return look;
+        }
+    }
+    return 0U;
+}
+
+// Whatever may mean something to a kind, alone or with others.
+std::uint32_t features_that_mean_something(ShaderKind kind) {
+    constexpr std::uint32_t any = feature_lit | feature_fog | feature_hit;
+    constexpr std::uint32_t relief =
+        feature_exact | feature_parallax | feature_bisect | feature_secant | feature_limited |
+        feature_iterated | feature_view_steps | feature_fade | feature_hard_shadow |
+        feature_soft_shadow | feature_smooth_edges | feature_write_depth;
+    switch (kind) {
+    case ShaderKind::terrain:
+        return any | feature_warped;
+    case ShaderKind::relief:
+        return any | relief | feature_cone;
+    case ShaderKind::relief_mesh:
+        return any | relief | feature_wrap;
+    case ShaderKind::textured_mesh:
+        return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap;
+    default:
+        return any;
+    }
+}
+
+// What a kind of shader has beside light, fog and hit.
+std::uint32_t own_features(ShaderVariant variant) {
+    const bool is_hit = (variant.features & feature_hit) != 0;
+    const bool is_lit = (variant.features & feature_lit) != 0;
+    const std::uint32_t wrap = variant.features & feature_wrap;
+    const bool has_cones = variant.kind == ShaderKind::relief;
+    const std::uint32_t search =
+        search_of(has_cones ? variant.features : variant.features & ~feature_cone);
+    switch (variant.kind) {
+    case ShaderKind::terrain:
+        return variant.features & feature_warped;
+    case ShaderKind::relief:
+        return search | options_of(variant.features, search);
+    case ShaderKind::relief_mesh:
+        return search | options_of(variant.features, search) | wrap;
+    case ShaderKind::textured_mesh:
+        return is_hit ? wrap : is_lit ? look_of(variant.features) : 0U;
+    default:
+        return 0U;
+    }
+}
+
+bool is_mesh(ShaderKind kind) {
+    return kind == ShaderKind::mesh || kind == ShaderKind::textured_mesh ||
+           kind == ShaderKind::relief_mesh;
+}
+
 } // namespace
 
 ShaderVariant without_meaningless(ShaderVariant variant) {
-    std::uint32_t own =
-        variant.kind == ShaderKind::terrain ? variant.features & feature_warped : 0U;
-    if (variant.kind == ShaderKind::relief) {
-        const std::uint32_t search = search_of(variant.features);
-        own = search | options_of(variant.features, search);
-    }
+    const std::uint32_t own = own_features(variant);
     variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::sky) {
         variant.features &= feature_lit;
     } else if ((variant.features & feature_hit) != 0) {
         variant.features = feature_hit;
-    } else if (variant.kind != ShaderKind::mesh) {
+    } else if (!is_mesh(variant.kind)) {
         variant.features &= ~feature_lit; // a terrain's light is in its map
     }
     variant.features |= own;
@@ -197,7 +256,11 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
 std::vector<ShaderVariant> all_variants() {
     std::set<ShaderVariant> variants;
     for (const auto& [kind, name] : kinds) {
-        for (std::uint32_t features = 0; features < 1U << features_by_name.size(); ++features) {
+        const std::uint32_t all = features_that_mean_something(kind);
+        std::uint32_t features = all;
+        variants.insert(without_meaningless({kind, features}));
+        while (features != 0) {
+            features = (features - 1) & all; // the next subset
             variants.insert(without_meaningless({kind, features}));
         }
     }

@@ -21,7 +21,14 @@ struct EmbeddedShader {
 std::span<const EmbeddedShader> embedded_shaders();
 
 /// What is drawn.
-enum class ShaderKind { terrain, relief, mesh, sky };
+enum class ShaderKind {
+    terrain,
+    relief,
+    mesh,          ///< of one colour
+    textured_mesh, ///< with a tile of detail on it
+    relief_mesh,   ///< each pixel looks for the tile's surface
+    sky
+};
 
 /// What a variant of a shader is compiled with; a scene that lacks it never pays for it.
 enum ShaderFeature : std::uint32_t {
@@ -44,6 +51,11 @@ enum ShaderFeature : std::uint32_t {
     feature_write_depth = 1U << 14U,  ///< the depth of the hit, not of the box
     feature_warped = 1U << 15U,       ///< a terrain: shows the places warped onto it
     feature_cone = 1U << 16U,         ///< how a relief looks: from cone to cone
+    // How a mesh with a tile of detail is lit; by its own normals where none of the three is there.
+    feature_normal_map = 1U << 17U,
+    feature_bump = 1U << 18U,
+    feature_emboss = 1U << 19U,
+    feature_wrap = 1U << 20U, ///< a mesh: the tile goes on in copies of itself
 };
 
 struct ShaderVariant {

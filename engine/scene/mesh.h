@@ -22,11 +22,27 @@ struct Mesh {
 /// The box around the positions.
 Box bounds_of(const Mesh& mesh);
 
-/// A box centred at the origin; `size` in metres along x, y, z.
+// The shapes' texture coordinates: a picture whose row 0 is at v = 0 stands upright and is not
+// mirrored, seen from outside.
+
+/// A level rectangle around the origin, seen from above: `size` in metres along x and y; u grows
+/// with x, v against y, 0 to 1.
+Mesh plane_mesh(glm::vec2 size);
+
+/// A box centred at the origin; `size` in metres along x, y, z; each side u and v from 0 to 1.
 Mesh box_mesh(glm::vec3 size);
 
 /// A sphere centred at the origin, `segments` around and half as many from pole to pole (at least
-/// 3).
+/// 3); u once around, v from the upper pole to the lower.
 Mesh sphere_mesh(float radius, int segments = 48);
+
+/// A torus around the z axis: its tube of `tube_radius` runs `ring_radius` away from the origin.
+/// `segments` around the axis and half as many around the tube (at least 3); u once around the
+/// axis, v once around the tube, from inside over the top.
+Mesh torus_mesh(float ring_radius, float tube_radius, int segments = 64);
+
+/// A closed cylinder around the z axis, centred at the origin; `segments` around (at least 3). On
+/// the wall u goes once around and v from the top down; on the ends they go as far a metre.
+Mesh cylinder_mesh(float radius, float height, int segments = 48);
 
 } // namespace reljef::scene

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -66,6 +67,24 @@ Light turned(Light light, const glm::dmat4& world_from_local) {
     return light;
 }
 
+Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
+    const std::string_view name = technique_info(technique.id).name;
+    if (mesh.material.detail.set == nullptr) {
+        return {};
+    }
+    if (!draws_meshes(technique.id)) {
+        return Error{fmt::format("technique {}: a mesh found, a terrain over a plane was expected; "
+                                 "relief draws both",
+                                 name)};
+    }
+    if (technique.options.two_sided) {
+        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a mesh "
+                                 "shows its outside only",
+                                 name)};
+    }
+    return {};
+}
+
 double extinction(const Sky& sky) {
     constexpr double contrast_left = 0.02;
     return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
@@ -107,7 +126,12 @@ Box Node::local_bounds() const {
         return terrain->surface->bounds();
     }
     if (const auto* mesh = get<MeshNode>()) {
-        return bounds_of(*mesh->mesh);
+        Box bounds = bounds_of(*mesh->mesh);
+        if (mesh->material.detail.set != nullptr && !bounds.empty()) {
+            const double raised = raised_above(*mesh->mesh, mesh->material.detail);
+            bounds = {bounds.low - raised, bounds.high + raised};
+        }
+        return bounds;
     }
     return {};
 }

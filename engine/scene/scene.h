@@ -51,6 +51,11 @@ struct MeshNode {
     Material material;
 };
 
+/// Whether the technique can draw the mesh; one of a single colour is drawn by any. Fails, with the
+/// reason and the name of what works, where it is one for terrains, and where the mesh would have
+/// to be seen from behind.
+Result<void> check_technique(const Technique& technique, const MeshNode& mesh);
+
 class Node;
 
 /// Changes a node as time goes by; `time` in seconds since the scene began.

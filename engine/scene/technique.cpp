@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,12 +11,20 @@
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<ParameterInfo, 1> polygons_parameters{
-    {{"lods", 1.0, 1.0, 1.0, true, "levels of detail at most; 1: every sample is a vertex"}}};
+constexpr std::array<ParameterInfo, 2> polygons_parameters{
+    {{"lods", 1.0, 1.0, 5.0, true,
+      "levels of detail at most, by distance; 1: every sample is a vertex"},
+     {"error", 0.0, 0.0, 16.0, false,
+      "pixels that no pixel is farther from where it belongs, instead of levels; 0: by levels",
+      true}}};
 
 constexpr ParameterInfo offset_parameter{
-    "offset", -0.5,  -1.0,
-    0.0,      false, "where the reference plane lies: 0 lowest, -1 highest height of the surface"};
+    "offset",
+    -0.5,
+    -1.0,
+    0.0,
+    false,
+    "where the reference plane lies: 0 lowest, -1 highest height; a mesh lies at its material's"};
 constexpr std::array<ParameterInfo, 1> parallax_parameters{offset_parameter};
 constexpr std::array<ParameterInfo, 2> iterated_parameters{
     offset_parameter, {"k", 3.0, 1.0, 64.0, true, "times the height is looked at again"}};
@@ -29,6 +39,10 @@ constexpr std::array<ParameterInfo, 2> interval_parameters{
 constexpr std::array<ParameterInfo, 2> pom_parameters{
     {{"min", 8.0, 1.0, 4096.0, true, "equal steps seen from straight above"},
      {"max", 32.0, 1.0, 4096.0, true, "equal steps seen along the ground"}}};
+constexpr std::array<ParameterInfo, 1> displacement_parameters{
+    {{"texels", 4.0, 1.0, 256.0, false, "of the heights between two vertices, at most"}}};
+constexpr std::array<ParameterInfo, 1> emboss_parameters{
+    {{"delta", 1.5, 0.25, 64.0, false, "texels towards the light to the second height"}}};
 
 constexpr std::array<ParameterInfo, 4> cone_parameters{
     {{"relaxed", 1.0, 0.0, 1.0, true, "1: cones that a ray may meet the surface in once"},
@@ -36,14 +50,31 @@ constexpr std::array<ParameterInfo, 4> cone_parameters{
      {"k", 2.0, 0.0, 32.0, true, "times the bracket is halved before the chord"},
      {"step", 2.0, 0.0, 16.0, false, "samples a step goes at least; 0: passes over nothing"}}};
 
-constexpr std::array<TechniqueInfo, 12> catalogue{
+constexpr std::array<TechniqueInfo, 16> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
       "GPU surface-detail survey (2008) ch. 1; Janković 2010 ch. 2",
       {}},
-     {TechniqueId::polygons, "polygons", "the heightfield as triangles",
-      "Janković 2010 ch. 2.7 test 4", polygons_parameters},
+     {TechniqueId::polygons, "polygons",
+      "the heightfield as triangles: all, fewer by distance, or as few as an error allows",
+      "Janković 2010 ch. 2.7 test 4; Lindstrom and Pascucci 2001", polygons_parameters},
+     {TechniqueId::displacement, "displacement",
+      "a mesh cut fine, its vertices moved along the normal by the height",
+      "GPU surface-detail survey (2008) ch. 3.1; Cook 1984", displacement_parameters},
+     {TechniqueId::bump,
+      "bump",
+      "a mesh lit by the height's derivatives: N + F_u (N x P_v) - F_v (N x P_u)",
+      "Janković 2010 ch. 2.2; Blinn 1978",
+      {}},
+     {TechniqueId::emboss, "emboss",
+      "h(t) - h(t + delta l.xy) added to a mesh's diffuse light; nothing shines",
+      "GPU surface-detail survey (2008) ch. 3.3; Schlag 1994", emboss_parameters},
+     {TechniqueId::normal,
+      "normal",
+      "a mesh lit by its normal map, with half vector and ambient light",
+      "GPU surface-detail survey (2008) ch. 3.4; Cohen, Olano and Manocha 1998",
+      {}},
      {TechniqueId::parallax, "parallax",
       "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
       "Janković 2010 ch. 2.3; Kaneko et al. 2001", parallax_parameters},
@@ -140,6 +171,14 @@ Result<void> assign(Technique& technique, std::string_view assignment,
     return set_option(technique.options, technique.id, assignment);
 }
 
+std::size_t index_of(const TechniqueInfo& info, std::string_view name) {
+    const auto found =
+        std::find_if(info.parameters.begin(), info.parameters.end(),
+                     [&](const ParameterInfo& parameter) { return parameter.name == name; });
+    check(found != info.parameters.end(), "a technique without that parameter");
+    return static_cast<std::size_t>(found - info.parameters.begin());
+}
+
 } // namespace
 
 std::span<const TechniqueInfo> technique_catalogue() {
@@ -154,20 +193,53 @@ const TechniqueInfo& technique_info(TechniqueId id) {
     return *found;
 }
 
+std::vector<TechniqueInfo> terrain_techniques() {
+    std::vector<TechniqueInfo> infos;
+    std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(infos),
+                 [](const TechniqueInfo& info) { return draws_terrain(info.id); });
+    return infos;
+}
+
 Geometry geometry_of(TechniqueId id) {
     switch (id) {
     case TechniqueId::texture:
+    case TechniqueId::bump:
+    case TechniqueId::emboss:
+    case TechniqueId::normal:
     case TechniqueId::prewarp:
         return Geometry::flat;
     case TechniqueId::polygons:
+    case TechniqueId::displacement:
         return Geometry::full;
     default:
         return Geometry::box;
     }
 }
 
+bool draws_terrain(TechniqueId id) {
+    return id != TechniqueId::displacement && id != TechniqueId::bump &&
+           id != TechniqueId::emboss && id != TechniqueId::normal;
+}
+
+bool draws_meshes(TechniqueId id) {
+    return id != TechniqueId::prewarp && id != TechniqueId::cone;
+}
+
 bool needs_plane(TechniqueId id) {
     return geometry_of(id) == Geometry::box || id == TechniqueId::prewarp;
+}
+
+double parameter(const Technique& technique, std::string_view name) {
+    return technique.values[index_of(technique_info(technique.id), name)];
+}
+
+Technique with_parameter(Technique technique, std::string_view name, double value) {
+    const TechniqueInfo& info = technique_info(technique.id);
+    const std::size_t index = index_of(info, name);
+    check(value >= info.parameters[index].low && value <= info.parameters[index].high,
+          "a parameter out of its range");
+    technique.values[index] = value;
+    return technique;
 }
 
 Technique make_technique(TechniqueId id) {
@@ -204,7 +276,10 @@ std::string to_string(const Technique& technique) {
     const TechniqueInfo& info = technique_info(technique.id);
     std::string list;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-        list += fmt::format(",{}={}", info.parameters[i].name, technique.values[i]);
+        const ParameterInfo& known = info.parameters[i];
+        if (!known.is_tacit || technique.values[i] != known.default_value) {
+            list += fmt::format(",{}={}", known.name, technique.values[i]);
+        }
     }
     list += to_string(technique.options);
     return list.empty() ? std::string(info.name)

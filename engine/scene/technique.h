@@ -13,7 +13,7 @@ namespace reljef::scene {
 /// How a terrain's surface is drawn.
 enum class TechniqueId {
     texture,           ///< colour over the flat reference surface
-    polygons,          ///< the heightfield as triangles
+    polygons,          ///< the heightfield as triangles, all or as many as it takes
     parallax,          ///< one look at the height shifts the place
     parallax_limited,  ///< the same, by no more than the height
     parallax_iterated, ///< looked at again from where it was shifted to
@@ -23,16 +23,27 @@ enum class TechniqueId {
     pom,               ///< steps by the angle of view, then one chord
     cone,              ///< from empty cone to empty cone
     exact,             ///< the true first hit
+    displacement,      ///< the vertices of a mesh cut fine, moved by the height
+    bump,              ///< lit by the height's derivatives
+    emboss,            ///< lit by the difference of two heights
+    normal,            ///< lit by a normal map
     prewarp,           ///< the surface warped onto the reference plane beforehand
 };
 
 /// What is drawn so that a technique's pixels are reached.
 enum class Geometry {
     flat, ///< the flat reference surface
-    full, ///< every sample a vertex
+    full, ///< triangles over its samples
     box,  ///< the box that holds the surface; each pixel looks for it along its ray
 };
 Geometry geometry_of(TechniqueId id);
+
+/// Whether it draws terrains.
+bool draws_terrain(TechniqueId id);
+
+/// Whether it draws meshes with a tile of detail: there `polygons` shows the mesh as it is, as
+/// `texture` does.
+bool draws_meshes(TechniqueId id);
 
 /// Whether it draws surfaces over a plane only, none that is bent over the Earth.
 bool needs_plane(TechniqueId id);
@@ -48,6 +59,8 @@ struct TechniqueInfo {
 /// Every technique there is, in the order of the sources.
 std::span<const TechniqueInfo> technique_catalogue();
 const TechniqueInfo& technique_info(TechniqueId id);
+/// Those that draw terrains.
+std::vector<TechniqueInfo> terrain_techniques();
 
 /// A technique with a value for each of its parameters, in the catalogue's order, and what else it
 /// does.
@@ -59,6 +72,11 @@ struct Technique {
     friend bool operator==(const Technique&, const Technique&) = default;
 };
 
+/// The value of one of its parameters. Precondition: it has one of that name.
+double parameter(const Technique& technique, std::string_view name);
+/// The same technique with another value. Preconditions: likewise, and the value is allowed.
+Technique with_parameter(Technique technique, std::string_view name, double value);
+
 /// The technique with its default parameters and no options.
 Technique make_technique(TechniqueId id);
 
@@ -66,8 +84,8 @@ Technique make_technique(TechniqueId id);
 /// belongs to the option before it. Errors name what was found and what was expected.
 Result<Technique> parse_technique(std::string_view text);
 
-/// "ID:key=value,…" with every parameter and those options it has: parse_technique gives the same
-/// technique back.
+/// "ID:key=value,…" with every parameter, but tacit ones that are as by default, and those options
+/// it has: parse_technique gives the same technique back.
 std::string to_string(const Technique& technique);
 
 } // namespace reljef::scene

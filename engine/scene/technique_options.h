@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/terrain/texture_set.h"
 
 namespace reljef::scene {
 
@@ -20,6 +21,7 @@ struct ParameterInfo {
     double high = 0.0;  ///< greatest value allowed
     bool whole = false; ///< whole numbers only
     std::string_view meaning;
+    bool is_tacit = false; ///< named in a technique's text only where it is not the default
 };
 
 /// Equal steps by the angle of view: n = low + (high − low)(1 − cos α), α between the view ray and
@@ -46,9 +48,8 @@ struct Shadow {
     friend bool operator==(const Shadow&, const Shadow&) = default;
 };
 
-/// What lies beyond the border of a detail tile: its own copies; its border, drawn out for ever;
-/// nothing.
-enum class BorderRule { wrap, clamp, discard };
+/// What lies beyond the border of a detail tile.
+using BorderRule = terrain::TileBorder;
 
 /// What a technique does beside looking for its surface. As made: nothing of it.
 struct TechniqueOptions {

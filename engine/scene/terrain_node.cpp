@@ -3,6 +3,24 @@
 #include <fmt/format.h>
 
 namespace reljef::scene {
+namespace {
+
+// A terrain's own light is that of its heights already, and its own vertices stand where they are.
+Error for_meshes_only(TechniqueId id) {
+    const bool moves = id == TechniqueId::displacement;
+    return Error{fmt::format("technique {}: a terrain found, a mesh with a tile of detail was "
+                             "expected; {} {} a terrain by its heights",
+                             technique_info(id).name, moves ? "polygons" : "texture",
+                             moves ? "shapes" : "lights")};
+}
+
+} // namespace
+
+TextureDetail shown_detail(const Material& material) {
+    TextureDetail detail = material.detail;
+    detail.border = material.technique.options.border.value_or(detail.border);
+    return detail;
+}
 
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
                                terrain::Placement placement)
@@ -61,6 +79,9 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
+    if (!draws_terrain(technique.id)) {
+        return for_meshes_only(technique.id);
+    }
     const std::string_view name = technique_info(technique.id).name;
     if (technique.options.two_sided) {
         return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a terrain "

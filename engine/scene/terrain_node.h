@@ -7,6 +7,7 @@
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/scene/technique.h"
+#include "engine/scene/texture_detail.h"
 #include "engine/terrain/heightfield.h"
 #include "engine/terrain/min_max_pyramid.h"
 #include "engine/terrain/placement.h"
@@ -20,7 +21,11 @@ struct Material {
     Technique technique = make_technique(TechniqueId::polygons);
     bool wireframe = false;
     glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain brings its own
+    TextureDetail detail;  ///< meshes only; without a set the mesh is of one colour
 };
+
+/// The tile of detail as it is drawn: what the technique says of its border comes first.
+TextureDetail shown_detail(const Material& material);
 
 struct TerrainOptions {
     /// Absent: ellipsoid for georeferenced heights, else plane.
@@ -63,9 +68,10 @@ private:
     Box bounds_;
 };
 
-/// Whether the technique can draw the surface. Those that look for it along rays need a surface
-/// over a plane: fails, and names what works, where it is bent over the Earth. Fails, too, on
-/// options that only detail tiles have: two sides, a border that goes on.
+/// Whether the technique can draw the surface. Fails, with the reason and the name of what works,
+/// where a technique is one for meshes, where one that looks for the surface along rays finds it
+/// bent over the Earth, and on options that only detail tiles have: two sides, a border that goes
+/// on.
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface);
 
 /// What makes a node a terrain.

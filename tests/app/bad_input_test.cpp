@@ -38,7 +38,7 @@ TEST_F(BadInput, missing_file) {
 }
 
 TEST_F(BadInput, unknown_name) {
-    expect_refusal(render("atlantis"), 1, {"atlantis", "natural, urban"});
+    expect_refusal(render("atlantis"), 1, {"atlantis", "gallery, natural, urban"});
 }
 
 TEST_F(BadInput, empty_file) {
@@ -172,6 +172,11 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"render", "natural", "--technique", "magic", "-o", "a.png"}, "magic"},
         Misuse{{"render", "natural", "--technique", "polygons:lods=9", "-o", "a.png"}, "lods=9"},
         Misuse{{"render", "natural", "--technique", "polygons:lods=x", "-o", "a.png"}, "lods=x"},
+        Misuse{{"render", "natural", "--max-error", "0", "-o", "a.png"}, "--max-error: '0'"},
+        Misuse{{"render", "natural", "--max-error", "-1", "-o", "a.png"}, "--max-error: '-1'"},
+        Misuse{{"render", "natural", "--max-error", "nan", "-o", "a.png"}, "--max-error: 'nan'"},
+        Misuse{{"render", "natural", "--max-error", "1", "--technique", "texture", "-o", "a.png"},
+               "polygons was expected"},
         Misuse{{"render", "natural", "--technique", "texture:k=1", "-o", "a.png"}, "k"},
         Misuse{{"render", "natural", "--size", "0x768", "-o", "a.png"}, "0x768"},
         Misuse{{"render", "natural", "--size", "100000x100000", "-o", "a.png"}, "16384"},

@@ -88,6 +88,37 @@ TEST(RenderCommand, sequence_and_contact_sheet) {
     EXPECT_TRUE(io::read_image(folder.path() / "sheet.png"));
 }
 
+TEST(RenderCommand, the_gallery_shows_its_tiles_by_any_technique) {
+    const test::TemporaryFolder folder;
+    const auto render = [&](const char* name, std::vector<std::string> options) {
+        const auto file = (folder.path() / name).string();
+        std::vector<std::string> arguments{"render", "gallery", "--size",    "96x72", "--quiet",
+                                           "-o",     file,      "--context", "osmesa"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto result = test::reljef(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return io::read_image(file).value();
+    };
+    const Image usual = render("a.png", {});
+    EXPECT_EQ(render("b.png", {"--technique", "relief"}), usual);
+    EXPECT_NE(render("c.png", {"--technique", "emboss"}), usual);
+    EXPECT_NE(render("d.png", {"--textures", "cobble"}), usual);
+}
+
+TEST(RenderCommand, tiles_are_refused_where_there_are_none_and_where_they_are_unknown) {
+    const auto refused = [](std::vector<std::string> arguments, const char* words) {
+        arguments.insert(arguments.begin(), "render");
+        arguments.insert(arguments.end(), {"-o", "never.png", "--context", "osmesa", "--quiet"});
+        const auto result = test::reljef(arguments);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+        EXPECT_FALSE(std::filesystem::exists("never.png"));
+    };
+    refused({"urban", "--textures", "rock"}, "only the gallery shows tiles, not urban");
+    refused({"gallery", "--textures", "wood"}, "one of mixed, brick, rock, cobble or a folder");
+    refused({"urban", "--technique", "emboss"}, "a mesh with a tile of detail was expected");
+}
+
 TEST(RenderCommand, same_command_same_bits) {
     const test::TemporaryFolder folder;
     for (const char* name : {"a.png", "b.png"}) {

@@ -235,7 +235,7 @@ TEST_F(ViewerTest, TimeThatIsNoTimeChangesNothing) {
 }
 
 TEST_F(ViewerTest, TAndDigitsSwitchTechniques) {
-    const auto catalogue = scene::technique_catalogue();
+    const auto catalogue = scene::terrain_techniques();
     const auto first = material().technique.id;
     for (std::size_t i = 1; i <= catalogue.size(); ++i) {
         viewer.take_redraw();

@@ -38,7 +38,7 @@ TEST(SettingsOverRange, hold_every_technique_as_it_is_none_twice_and_none_refuse
         EXPECT_TRUE(scene::parse_technique(label)) << label;
         EXPECT_TRUE(labels.insert(label).second) << label;
     }
-    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
         EXPECT_EQ(labels.count(scene::to_string(scene::make_technique(info.id))), 1U);
     }
 }

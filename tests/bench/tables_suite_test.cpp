@@ -31,7 +31,7 @@ protected:
 TEST_F(TablesSuite, has_every_technique_and_the_null_row_of_every_terrain) {
     const Results results = run_tables(small_options(), {});
     ASSERT_FALSE(results.stopped) << results.stopped->message;
-    const std::size_t techniques = scene::technique_catalogue().size();
+    const std::size_t techniques = scene::terrain_techniques().size();
     ASSERT_EQ(results.rows.size(), 2 * (techniques + 1));
     for (std::size_t i = 0; i < results.rows.size(); ++i) {
         const Row& row = results.rows[i];
@@ -39,7 +39,7 @@ TEST_F(TablesSuite, has_every_technique_and_the_null_row_of_every_terrain) {
         EXPECT_EQ(row.scene, i <= techniques ? "a.asc" : "b.asc");
         EXPECT_EQ(row.null_row, place == techniques);
         EXPECT_EQ(row.setting.technique,
-                  row.null_row ? "texture" : scene::technique_catalogue()[place].name);
+                  row.null_row ? "texture" : scene::terrain_techniques()[place].name);
         ASSERT_TRUE(row.timing);
         EXPECT_EQ(row.timing->frames, 6U);
         EXPECT_GT(row.timing->ms.median, 0.0);
@@ -176,7 +176,7 @@ TEST(BenchProgram, prints_the_table_and_writes_the_json) {
     }
     const json report = json::parse(test::read_bytes(file));
     EXPECT_EQ(report.at("schema"), "reljef-bench/1");
-    EXPECT_EQ(report.at("rows").size(), scene::technique_catalogue().size() + 1);
+    EXPECT_EQ(report.at("rows").size(), scene::terrain_techniques().size() + 1);
     EXPECT_EQ(report.at("rows").at(0).at("frames"), 5);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"dem.asc", "t.json"}));
 }

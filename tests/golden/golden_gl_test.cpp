@@ -25,17 +25,22 @@ void PrintTo(const GoldenCase& golden, std::ostream* stream) {
     *stream << golden.name;
 }
 
-// Each technique and the exact picture on each built-in terrain, and real elevation data.
+// Each technique and the exact picture on each built-in terrain, what tiles on meshes add, and real
+// elevation data.
 std::vector<GoldenCase> golden_cases() {
     std::vector<GoldenCase> cases;
     for (const std::string terrain : {"natural", "urban"}) {
-        for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
+        for (const scene::TechniqueInfo& technique : scene::terrain_techniques()) {
             const std::string id(technique.name);
             std::string name = terrain + "_" + id;
             std::replace(name.begin(), name.end(), '-', '_');
             cases.push_back({name, terrain, false, {"--technique", id, "--context", "osmesa"}});
         }
         cases.push_back({terrain + "_truth", terrain, false, {"--truth"}});
+    }
+    for (const std::string id : {"displacement", "bump", "emboss", "normal", "relief"}) {
+        cases.push_back(
+            {"gallery_" + id, "gallery", false, {"--technique", id, "--context", "osmesa"}});
     }
     cases.push_back(
         {"urban_options",

@@ -56,12 +56,16 @@ TEST(Gie, RastersLieWhereProjsOwnPointsAre) {
     RELJEF_NEED_DATA("geodesy/proj_gie/builtins.gie");
     const test::TemporaryFolder folder;
     int checked = 0;
-    std::string last; // one point an operation: a coordinate system costs 50 ms to set up
+    int operations = 0;
+    std::string last; // to set up a coordinate system costs 50 ms: one point of every third
     for (const GiePoint& point : test::read_gie(test::data_path("geodesy/proj_gie/builtins.gie"))) {
         if (!is_projection(point) || !is_exact(point) || point.operation == last) {
             continue;
         }
         last = point.operation;
+        if (operations++ % 3 != 0) {
+            continue;
+        }
         const auto found = found_place(point, folder.path() / "point.tif");
         if (!found) {
             continue;
@@ -73,7 +77,7 @@ TEST(Gie, RastersLieWhereProjsOwnPointsAre) {
             << point.operation << " line " << point.line;
         ++checked;
     }
-    EXPECT_GE(checked, 30);
+    EXPECT_GE(checked, 20);
 }
 
 } // namespace

@@ -75,6 +75,27 @@ TEST(SceneFile, AGeneratorNeedsNothingElse) {
     EXPECT_TRUE(full->tileable);
 }
 
+TEST(SceneFile, OnlyTheGalleryHasTexturesAndATechnique) {
+    const auto scene = parse("[terrain]\ngenerator = \"gallery\"\n[gallery]\ntextures = \"rock\"\n"
+                             "technique = \"relief:n=8\"");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->gallery_textures, "rock");
+    EXPECT_EQ(scene->gallery_technique, "relief:n=8");
+    EXPECT_EQ(parse("[terrain]\ngenerator = \"gallery\"")->gallery_textures, "mixed");
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[gallery]\ntextures = \"rock\""),
+                HasSubstr("belongs to the generator gallery"));
+}
+
+TEST(SceneFile, ATextureFolderIsRelativeToTheSceneFile) {
+    const test::TemporaryFolder folder;
+    folder.write("wall/color.txt", "");
+    const auto scene =
+        parse_scene("[terrain]\ngenerator = \"gallery\"\n[gallery]\ntextures = \"wall\"", "s.toml",
+                    folder.path());
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->gallery_textures, (folder.path() / "wall").string());
+}
+
 TEST(SceneFile, BrokenTomlIsNamedWithItsLine) {
     EXPECT_THAT(error_of("[terrain]\ngenerator = \n"), HasSubstr("scene.toml:2: is no TOML"));
     EXPECT_THAT(error_of("[terrain\n"), HasSubstr("scene.toml:1"));
@@ -87,7 +108,7 @@ TEST(SceneFile, UnknownKeysAreRefusedWithTheKnownOnes) {
         error_of("[terrain]\ngenerator = \"urban\"\nsiez = 3\n"),
         HasSubstr("scene.toml:3: [terrain] siez is unknown, one of heights, generator, size"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sea]\nlevel = 1\n"),
-                HasSubstr("sea is unknown, one of name, terrain, area, sun, air, camera"));
+                HasSubstr("sea is unknown, one of name, terrain, area, gallery, sun, air, camera"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sun]\nheight = 3\n"),
                 HasSubstr("[sun] height is unknown, one of azimuth, altitude"));
 }
@@ -120,7 +141,8 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {urban + "exaggeration = -2.0",
          "exaggeration is -2.0, a number above 0 and at most 1000000"},
         {urban + "placement = \"sphere\"", "is \"sphere\", one of plane, ellipsoid was expected"},
-        {"[terrain]\ngenerator = \"moon\"", "is \"moon\", one of natural, urban was expected"},
+        {"[terrain]\ngenerator = \"moon\"",
+         "is \"moon\", one of natural, urban, gallery was expected"},
         {"[terrain]\nheights = \"\"", "heights is ''"},
         {"[terrain]\nheights = 3", "heights is 3"},
         {"[terrain]\nheights = \"a.tif\"\nheight_scale = 0", "height_scale is 0"},

@@ -30,7 +30,9 @@ std::vector<ShaderVariant> covering_variants() {
     std::vector<ShaderVariant> variants = all_variants();
     std::erase_if(variants, [](const ShaderVariant& variant) {
         const int count = std::popcount(variant.features & options);
-        return variant.kind == ShaderKind::relief && count > 1 && count < 5;
+        const bool searches =
+            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh;
+        return searches && count > 1 && count < 5;
     });
     return variants;
 }

@@ -19,8 +19,9 @@ TEST(ShaderVariants, AreEachThereOnceAndMeanSomething) {
 TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     const auto variants = all_variants();
     for (const ShaderKind kind :
-         {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::sky}) {
-        for (std::uint32_t features = 0; features < feature_cone << 1U; ++features) {
+         {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
+          ShaderKind::relief_mesh, ShaderKind::sky}) {
+        for (std::uint32_t features = 0; features < feature_wrap << 1U; features += 7U) {
             const ShaderVariant variant = without_meaningless({kind, features});
             ASSERT_EQ(variant.kind, kind);
             ASSERT_TRUE(std::binary_search(variants.begin(), variants.end(), variant));
@@ -40,7 +41,13 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // colour three shadows and smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
-    EXPECT_EQ(all_variants().size(), 2U * 3U + 5U + 2U + parallax + searches);
+    // A mesh with a tile: lit in four ways; one that searches is that of a relief, lit or not,
+    // wrapped or not.
+    constexpr std::size_t textured = 4U * 2U + 2U + 2U;
+    constexpr std::size_t mesh_parallax = 2U * 4U * (4U + 1U) * 4U;
+    constexpr std::size_t mesh_searches = 2U * 7U * (4U + 4U * 2U * 2U * (3U + 1U));
+    EXPECT_EQ(all_variants().size(),
+              2U * 3U + 5U + 2U + parallax + searches + textured + mesh_parallax + mesh_searches);
 }
 
 TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
@@ -49,7 +56,8 @@ TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
         const auto has = [&](std::uint32_t features) { return (variant.features & features) != 0; };
         constexpr std::uint32_t options = shadows | feature_fade | feature_smooth_edges |
                                           feature_write_depth | feature_view_steps;
-        EXPECT_FALSE(has(options) && variant.kind != ShaderKind::relief);
+        EXPECT_FALSE(has(options) && variant.kind != ShaderKind::relief &&
+                     variant.kind != ShaderKind::relief_mesh);
         EXPECT_FALSE(has(feature_parallax | feature_hit) && has(shadows | feature_smooth_edges));
         EXPECT_FALSE(has(feature_parallax | feature_exact | feature_cone) &&
                      has(feature_view_steps));
@@ -65,7 +73,9 @@ TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
              {feature_exact, feature_cone, feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
-        EXPECT_LE(ways, variant.kind == ShaderKind::relief ? 1 : 0);
+        EXPECT_LE(
+            ways,
+            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh ? 1 : 0);
     }
 }
 

@@ -34,6 +34,19 @@ void expect_closed(const Mesh& mesh) {
     }
 }
 
+// Each triangle is turned as its vertices' normals are.
+void expect_facing_their_normals(const Mesh& mesh) {
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::vec3 a = mesh.positions[mesh.indices[i]];
+        const glm::vec3 b = mesh.positions[mesh.indices[i + 1]];
+        const glm::vec3 c = mesh.positions[mesh.indices[i + 2]];
+        for (std::size_t k = 0; k < 3; ++k) {
+            ASSERT_GE(glm::dot(glm::cross(b - a, c - a), mesh.normals[mesh.indices[i + k]]),
+                      -1e-6F);
+        }
+    }
+}
+
 void expect_outward(const Mesh& mesh) {
     ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
     ASSERT_EQ(mesh.texture_coordinates.size(), mesh.positions.size());
@@ -43,7 +56,8 @@ void expect_outward(const Mesh& mesh) {
         const glm::vec3 b = mesh.positions[mesh.indices[i + 1]];
         const glm::vec3 c = mesh.positions[mesh.indices[i + 2]];
         const glm::vec3 normal = glm::cross(b - a, c - a);
-        // Both shapes are convex around the origin; triangles at a sphere's poles may have no area.
+        // These shapes are convex around the origin; triangles at a sphere's poles may have no
+        // area.
         ASSERT_GE(glm::dot(normal, a + b + c), -1e-6F);
     }
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
@@ -69,6 +83,43 @@ TEST(SphereMesh, IsClosedOutwardAndRound) {
         for (const glm::vec3& position : mesh.positions) {
             ASSERT_NEAR(glm::length(position), 5.0F, 1e-5F);
         }
+    }
+}
+
+TEST(CylinderMesh, IsClosedOutwardAndAsLargeAsAsked) {
+    for (const int segments : {-1, 3, 4, 7, 48}) {
+        const Mesh mesh = cylinder_mesh(2.0F, 6.0F, segments);
+        expect_closed(mesh);
+        expect_outward(mesh);
+        expect_facing_their_normals(mesh);
+        EXPECT_EQ(bounds_of(mesh).high.z, 3.0);
+        EXPECT_EQ(bounds_of(mesh).low.z, -3.0);
+        EXPECT_NEAR(bounds_of(mesh).high.x, 2.0, 1e-6);
+    }
+}
+
+TEST(TorusMesh, IsClosedAndATubeAroundItsRing) {
+    for (const int segments : {-1, 3, 7, 48}) {
+        const Mesh mesh = torus_mesh(3.0F, 0.75F, segments);
+        expect_closed(mesh);
+        if (segments > 7) {
+            expect_facing_their_normals(mesh);
+        }
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const glm::vec3 p = mesh.positions[i];
+            const glm::vec3 ring = 3.0F * glm::normalize(glm::vec3(p.x, p.y, 0.0F));
+            ASSERT_LT(glm::distance(p - ring, 0.75F * mesh.normals[i]), 1e-5F);
+        }
+    }
+}
+
+TEST(PlaneMesh, FacesUpWithThePicturesFirstRowInTheNorth) {
+    const Mesh mesh = plane_mesh({4.0F, 2.0F});
+    expect_facing_their_normals(mesh);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_EQ(mesh.positions[i].x, 4.0F * (mesh.texture_coordinates[i].x - 0.5F));
+        EXPECT_EQ(mesh.positions[i].y, 2.0F * (0.5F - mesh.texture_coordinates[i].y));
+        EXPECT_EQ(mesh.normals[i], glm::vec3(0.0F, 0.0F, 1.0F));
     }
 }
 

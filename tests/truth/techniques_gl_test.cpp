@@ -284,11 +284,31 @@ TEST_F(TechniquesGlTest, ParallaxIsBetterThanNoneSeenFromAboveAndBetterLookedAtA
 
 TEST_F(TechniquesGlTest, AFlatSurfaceIsExactForAllThatLookForIt) {
     Stage stage(Grid<float>(40, 30, 7.0F));
-    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
         if (scene::geometry_of(info.id) == scene::Geometry::box &&
             !info.name.starts_with("parallax") && info.id != scene::TechniqueId::steep) {
             EXPECT_LE(errors(stage, std::string(info.name)).wrong_percent, 0.3) << info.name;
         }
+    }
+}
+
+TEST_F(TechniquesGlTest, ThoseOfMeshesAreRefusedForATerrainWithWhatWorks) {
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        if (scene::draws_terrain(info.id)) {
+            continue;
+        }
+        Stage stage(test::hills(33, 33, 4.0));
+        stage.terrain->get<scene::TerrainNode>()->material.technique =
+            scene::make_technique(info.id);
+        render::Driver driver = test::must(
+            render::Driver::create({.size = picture_size, .shader_dir = {}, .software = true}));
+        const auto drawn = driver.draw(stage.scene);
+        ASSERT_FALSE(drawn) << info.name;
+        EXPECT_NE(drawn.error().message.find("a mesh with a tile of detail was expected"),
+                  std::string::npos);
+        const char* const works =
+            info.id == scene::TechniqueId::displacement ? "polygons" : "texture";
+        EXPECT_NE(drawn.error().message.find(works), std::string::npos);
     }
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "app/options.h"
+#include "engine/io/scene_file.h"
+#include "engine/scene/scene.h"
+
+namespace reljef::app {
+
+/// Puts the gallery's models into the scene, each with its tile of detail; returns their nodes,
+/// which the scene owns. Fails on a texture set that is unknown or cannot be read, and on a
+/// technique of the scene file that is none.
+Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
+                                              const io::SceneDescription& description,
+                                              const TerrainChoice& terrain, const ViewChoice& view);
+
+} // namespace reljef::app

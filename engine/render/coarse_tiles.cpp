@@ -1,0 +1,171 @@
+#include "engine/render/coarse_tiles.h"
+
+#include <utility>
+
+#include "engine/core/worker_pool.h"
+#include "engine/render/grid_mesh.h"
+#include "engine/terrain/patch_mesh.h"
+
+namespace reljef::render {
+namespace {
+
+// A tile's triangles and their vertices, part by part; without vertices where the triangles are
+// those it had.
+struct NewCut {
+    std::vector<terrain::Triangulation> parts;
+    std::vector<std::vector<GridVertex>> vertices;
+};
+
+// `bisection` is there where the coarseness is an error.
+NewCut cut_tile(const terrain::Bisection* bisection, const Coarseness& coarseness,
+                const scene::TerrainSurface& surface, const terrain::Tile& tile,
+                const std::vector<terrain::Triangulation>& before) {
+    NewCut cut;
+    if (const auto* view = std::get_if<terrain::ErrorView>(&coarseness)) {
+        cut.parts = terrain::triangulate(*bisection, tile, *view);
+    } else {
+        cut.parts = {terrain::triangulate_patches(std::get<Grid<std::uint8_t>>(coarseness), tile)};
+    }
+    if (cut.parts != before) {
+        for (const terrain::Triangulation& part : cut.parts) {
+            cut.vertices.push_back(
+                placed_vertices(surface.heightfield(), surface.placement(), tile, part));
+        }
+    }
+    return cut;
+}
+
+Result<ResidentMesh> uploaded(const terrain::Triangulation& part,
+                              const std::vector<GridVertex>& vertices, glm::dvec3 origin,
+                              FrameStats& stats) {
+    auto vertex_buffer = gl::Buffer::create(bytes_of(vertices));
+    if (!vertex_buffer) {
+        return vertex_buffer.error();
+    }
+    auto index_buffer = gl::Buffer::create(bytes_of(part.indices));
+    if (!index_buffer) {
+        return index_buffer.error();
+    }
+    count_upload(stats, vertex_buffer->size());
+    count_upload(stats, index_buffer->size());
+    ResidentMesh mesh =
+        resident_grid(std::move(*vertex_buffer), origin, static_cast<int>(part.indices.size()));
+    mesh.indices = std::move(*index_buffer);
+    mesh.vertex_array.set_indices(mesh.indices);
+    return mesh;
+}
+
+Result<std::vector<ResidentMesh>> uploaded(const NewCut& cut, glm::dvec3 origin,
+                                           FrameStats& stats) {
+    std::vector<ResidentMesh> meshes;
+    for (std::size_t i = 0; i < cut.parts.size(); ++i) {
+        auto mesh = uploaded(cut.parts[i], cut.vertices[i], origin, stats);
+        if (!mesh) {
+            return mesh.error();
+        }
+        meshes.push_back(std::move(*mesh));
+    }
+    return meshes;
+}
+
+} // namespace
+
+std::span<const ResidentMesh> CoarseTiles::tile(const TileDraw& draw) const {
+    const Cut& cut = cuts_.at({draw.terrain, draw.terrain->material.technique.values});
+    return cut.tiles[static_cast<std::size_t>(draw.tile)].meshes;
+}
+
+Result<void> CoarseTiles::prepare(const DrawList& list, FrameStats& stats) {
+    for (const CoarseTerrain& terrain : list.coarse_terrains) {
+        if (auto done = prepare(list, terrain, stats); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+void CoarseTiles::forget_unused() {
+    constexpr int kept_frames = 32;
+    ++frame_;
+    std::erase_if(cuts_, [&](const auto& entry) {
+        return entry.second.owner.expired() || frame_ - entry.second.frame > kept_frames;
+    });
+    std::erase_if(bisections_, [](const auto& entry) { return entry.second.owner.expired(); });
+}
+
+Result<void> CoarseTiles::prepare(const DrawList& list, const CoarseTerrain& terrain,
+                                  FrameStats& stats) {
+    const scene::TerrainSurface& surface = *terrain.terrain->surface;
+    Cut& cut = cut_of(terrain);
+    const auto outdated = outdated_tiles(list, *terrain.terrain, cut, stats);
+    const bool by_error = std::holds_alternative<terrain::ErrorView>(cut.coarseness);
+    const terrain::Bisection* bisection =
+        by_error && !outdated.empty() ? &bisection_of(*terrain.terrain) : nullptr;
+    std::vector<NewCut> cuts(outdated.size());
+    parallel_for(static_cast<int>(outdated.size()), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        cuts[at] = cut_tile(bisection, cut.coarseness, surface, surface.tiles()[outdated[at]],
+                            cut.tiles[outdated[at]].parts);
+    });
+    for (std::size_t i = 0; i < outdated.size(); ++i) {
+        CutTile& tile = cut.tiles[outdated[i]];
+        tile.choice = cut.choice;
+        if (cuts[i].parts == tile.parts) {
+            ++stats.skipped.uploads_unchanged;
+            continue;
+        }
+        auto meshes = uploaded(cuts[i], surface.tiles()[outdated[i]].bounds.center(), stats);
+        if (!meshes) {
+            return meshes.error();
+        }
+        tile.meshes = std::move(*meshes);
+        tile.parts = std::move(cuts[i].parts);
+    }
+    return {};
+}
+
+CoarseTiles::Cut& CoarseTiles::cut_of(const CoarseTerrain& terrain) {
+    const auto& surface = terrain.terrain->surface;
+    Cut& cut = cuts_[{terrain.terrain, terrain.terrain->material.technique.values}];
+    cut.frame = frame_;
+    if (cut.owner.lock() != surface) {
+        cut = {surface, terrain.coarseness, 0, frame_, {}};
+        cut.tiles.resize(surface->tiles().size());
+    } else if (cut.coarseness != terrain.coarseness) {
+        cut.coarseness = terrain.coarseness;
+        ++cut.choice;
+    }
+    return cut;
+}
+
+const terrain::Bisection& CoarseTiles::bisection_of(const scene::TerrainNode& terrain) {
+    const auto [entry, is_new] = bisections_.try_emplace(terrain.surface.get());
+    if (is_new) {
+        entry->second = {terrain.surface,
+                         std::make_unique<const terrain::Bisection>(terrain.surface->heightfield(),
+                                                                    terrain.surface->placement())};
+    }
+    return *entry->second.bisection;
+}
+
+std::vector<std::size_t> CoarseTiles::outdated_tiles(const DrawList& list,
+                                                     const scene::TerrainNode& terrain,
+                                                     const Cut& cut, FrameStats& stats) {
+    std::vector<std::size_t> outdated;
+    for (const TileDraw& draw : list.tiles) {
+        const auto index = static_cast<std::size_t>(draw.tile);
+        if (draw.terrain != &terrain) {
+            continue;
+        }
+        if (cut.tiles[index].choice == cut.choice) {
+            ++stats.skipped.cuts_unchanged;
+            ++stats.skipped.uploads_unchanged;
+        } else {
+            outdated.push_back(index);
+        }
+    }
+    stats.tiles_cut += static_cast<int>(outdated.size());
+    return outdated;
+}
+
+} // namespace reljef::render

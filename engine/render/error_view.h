@@ -1,0 +1,27 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/scene/camera.h"
+#include "engine/terrain/bisection_mesh.h"
+#include "engine/terrain/placement.h"
+
+namespace reljef::render {
+
+/// Rasterizers move vertices onto a grid, of 1/256 pixel in practice: by so much of the error that
+/// may be shown, pixels, a triangle may be off by itself.
+inline constexpr double rasterizer_error = 1.0 / 128.0;
+
+/// The least and the greatest error that can be asked for, pixels.
+inline constexpr double least_error = 0.02;
+inline constexpr double most_error = 16.0;
+
+/// How a picture of `size` pixels shows displacements of a terrain placed as `kind` in a node: at
+/// most `most_error` pixels from where they belong, the rasterizer's own error included.
+/// Precondition: most_error > rasterizer_error, world_from_local is affine.
+terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
+                              const glm::dmat4& world_from_local, terrain::PlacementKind kind,
+                              double most_error);
+
+} // namespace reljef::render

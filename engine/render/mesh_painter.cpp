@@ -1,0 +1,85 @@
+#include "engine/render/mesh_painter.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/matrix.hpp>
+
+#include "engine/render/relief_options.h"
+
+namespace reljef::render {
+namespace {
+
+std::uint32_t look_features(scene::TechniqueId id) {
+    switch (id) {
+    case scene::TechniqueId::bump:
+        return feature_bump;
+    case scene::TechniqueId::emboss:
+        return feature_emboss;
+    case scene::TechniqueId::normal:
+    case scene::TechniqueId::displacement:
+        return feature_normal_map;
+    default:
+        return 0U;
+    }
+}
+
+bool looks_for_surface(scene::TechniqueId id) {
+    return scene::geometry_of(id) == scene::Geometry::box;
+}
+
+// Metres that a height of 1 lifts a point; the shaders divide by it.
+float lift_of(const MeshDraw& draw) {
+    const double lift = scene::relief_height(*draw.mesh->mesh, draw.mesh->material.detail);
+    return std::max(static_cast<float>(lift), std::numeric_limits<float>::min());
+}
+
+// The mesh is the reference plane of parallax.
+scene::Technique on_mesh(scene::Technique technique, const scene::TextureDetail& detail) {
+    if (is_parallax(technique.id)) {
+        technique.values.front() = static_cast<double>(detail.offset);
+    }
+    return technique;
+}
+
+} // namespace
+
+ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
+    if (material.detail.set == nullptr) {
+        return {ShaderKind::mesh, features};
+    }
+    const bool wraps = scene::shown_detail(material).border == terrain::TileBorder::wrap;
+    features |= wraps ? feature_wrap : 0U;
+    return looks_for_surface(material.technique.id)
+               ? ShaderVariant{ShaderKind::relief_mesh,
+                               features | relief_features(material.technique)}
+               : ShaderVariant{ShaderKind::textured_mesh,
+                               features | look_features(material.technique.id)};
+}
+
+void set_tile(gl::Program& program, const MeshDraw& draw, const ResidentTile& tile,
+              const scene::Camera& camera) {
+    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    tile.color.bind(0);
+    tile.heights.bind(1);
+    if (tile.greatest) {
+        tile.greatest->bind(2);
+        program.set_uniform("top_level", tile.greatest->levels() - 1);
+    }
+    tile.normals.bind(4);
+    const bool is_perspective = camera.projection == scene::ProjectionKind::perspective;
+    const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
+    program.set_uniform("local_from_relative", glm::mat3(local_from_world));
+    program.set_uniform("perspective", is_perspective ? 1.0F : 0.0F);
+    program.set_uniform("repeats", detail.repeats);
+    program.set_uniform("lift", lift_of(draw));
+    program.set_uniform("mesh_height", -detail.offset);
+    program.set_uniform("bounded", detail.border == terrain::TileBorder::discard ? 1.0F : 0.0F);
+    program.set_uniform("height_texel", 1.0F / glm::vec2(tile.heights.size()));
+    program.set_uniform("last_cell", tile.cells - 1);
+    program.set_uniform("normal_scale", detail.set->scale);
+    program.set_uniform("shine", glm::vec2(detail.set->specular, detail.set->shininess));
+    set_relief_options(program, on_mesh(draw.mesh->material.technique, detail), -detail.offset);
+}
+
+} // namespace reljef::render

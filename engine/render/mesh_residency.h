@@ -1,0 +1,72 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/result.h"
+#include "engine/gl/texture.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/frame_stats.h"
+#include "engine/render/resident_mesh.h"
+
+namespace reljef::render {
+
+/// A tile of detail. `greatest` is there for the exact technique: of the cells between the heights,
+/// and, where the tile wraps, of those between the last and the first.
+struct ResidentTile {
+    gl::Texture2D color;
+    gl::Texture2D heights;
+    gl::Texture2D normals;
+    std::optional<gl::Texture2D> greatest;
+    glm::ivec2 cells{1}; ///< that a ray crosses
+};
+
+/// What of the meshes is in the driver's memory: triangles, tiles of detail, displaced triangles.
+/// Only what is drawn gets there, and stays while the scene holds it; displaced triangles while
+/// they are drawn. Needs a current context; destroy while it is current.
+class MeshResidency {
+public:
+    /// Fails when the driver has no memory left.
+    Result<void> prepare(const std::vector<MeshDraw>& draws, FrameStats& stats);
+
+    /// Precondition: prepared.
+    [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
+    [[nodiscard]] const ResidentTile& tile(const MeshDraw& draw) const;
+
+private:
+    enum class Look { plain, textured }; // which attributes its vertices have
+    struct Triangles {
+        std::weak_ptr<const scene::Mesh> owner;
+        ResidentMesh resident;
+    };
+    struct Displaced {
+        std::weak_ptr<const scene::Mesh> owner;
+        scene::TextureDetail detail;
+        double texels = 0.0;
+        ResidentMesh resident;
+        bool drawn = false;
+    };
+    struct Tile {
+        std::weak_ptr<const terrain::TextureSet> owner;
+        ResidentTile resident;
+    };
+    using TileKey = std::pair<const terrain::TextureSet*, bool>; // whether it wraps
+
+    static TileKey key_of(const scene::TextureDetail& detail);
+    [[nodiscard]] const Displaced* displaced(const MeshDraw& draw) const;
+    void forget_unused(const std::vector<MeshDraw>& draws);
+    Result<void> prepare_triangles(const MeshDraw& draw, FrameStats& stats);
+    Result<void> prepare_displaced(const MeshDraw& draw, FrameStats& stats);
+    Result<void> prepare_tile(const MeshDraw& draw, FrameStats& stats);
+
+    std::map<std::pair<const scene::Mesh*, Look>, Triangles> triangles_;
+    std::vector<Displaced> displaced_;
+    std::map<TileKey, Tile> tiles_;
+};
+
+} // namespace reljef::render

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/grid.h"
+#include "engine/core/result.h"
+#include "engine/gl/texture.h"
+#include "engine/render/frame_stats.h"
+
+namespace reljef::render {
+
+/// A texture with all mip levels, of texels row after row. Fails when the driver has no memory.
+Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
+                                std::span<const std::byte> texels, FrameStats& stats,
+                                gl::Wrap wrap = gl::Wrap::clamp);
+
+/// Heights as 32-bit floats, bilinear, of one level.
+Result<gl::Texture2D> height_texture(const Grid<float>& heights, FrameStats& stats);
+
+/// The same of a tile that may repeat, with coarser levels for what is seen from afar.
+Result<gl::Texture2D> tile_height_texture(const Grid<float>& heights, gl::Wrap wrap,
+                                          FrameStats& stats);
+
+/// One level after the other, as greatest_heights() gives them.
+Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, FrameStats& stats);
+
+} // namespace reljef::render

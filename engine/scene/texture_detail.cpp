@@ -1,0 +1,160 @@
+#include "engine/scene/texture_detail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace reljef::scene {
+namespace {
+
+// Twice the areas of a mesh's triangles: in metres², and of texture coordinates.
+struct Areas {
+    double surface = 0.0;
+    double texture = 0.0;
+};
+
+Areas areas_of(const Mesh& mesh) {
+    Areas areas;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t a = mesh.indices[i];
+        const std::uint32_t b = mesh.indices[i + 1];
+        const std::uint32_t c = mesh.indices[i + 2];
+        const glm::dvec3 origin(mesh.positions[a]);
+        const glm::dvec3 p = glm::dvec3(mesh.positions[b]) - origin;
+        const glm::dvec3 q = glm::dvec3(mesh.positions[c]) - origin;
+        const glm::dvec2 corner(mesh.texture_coordinates[a]);
+        const glm::dvec2 s = glm::dvec2(mesh.texture_coordinates[b]) - corner;
+        const glm::dvec2 t = glm::dvec2(mesh.texture_coordinates[c]) - corner;
+        areas.surface += glm::length(glm::cross(p, q));
+        areas.texture += std::abs(s.x * t.y - s.y * t.x);
+    }
+    return areas;
+}
+
+// The lengths of a triangle's edges in texels of the heights, the longest.
+double longest_edge(const Mesh& mesh, std::size_t first, glm::dvec2 texels_per_coordinate) {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec2 from(mesh.texture_coordinates[mesh.indices[first + k]]);
+        const glm::dvec2 to(mesh.texture_coordinates[mesh.indices[first + (k + 1) % 3]]);
+        longest = std::max(longest, glm::length((to - from) * texels_per_coordinate));
+    }
+    return longest;
+}
+
+// A vertex i, j, k n-ths between three: the same bits whichever triangle asks, for an edge's two
+// corners are multiplied exactly and added in either order.
+template <class V>
+V between(const std::vector<V>& values, std::span<const std::uint32_t, 3> corners,
+          glm::ivec3 parts) {
+    glm::vec<V::length(), double> sum(0.0);
+    for (int k = 0; k < 3; ++k) {
+        sum += static_cast<double>(parts[k]) *
+               glm::vec<V::length(), double>(values[corners[static_cast<std::size_t>(k)]]);
+    }
+    return V(sum / static_cast<double>(parts.x + parts.y + parts.z));
+}
+
+void add_cut_triangle(const Mesh& mesh, std::size_t index, int n, Mesh& fine) {
+    const std::span<const std::uint32_t, 3> corners(&mesh.indices[index], 3);
+    const auto first = static_cast<std::uint32_t>(fine.positions.size());
+    for (int row = 0; row <= n; ++row) {
+        for (int col = 0; col <= row; ++col) {
+            const glm::ivec3 parts(n - row, row - col, col);
+            fine.positions.push_back(between(mesh.positions, corners, parts));
+            fine.normals.push_back(glm::normalize(between(mesh.normals, corners, parts)));
+            fine.texture_coordinates.push_back(between(mesh.texture_coordinates, corners, parts));
+        }
+    }
+    const auto vertex = [&](int row, int col) {
+        return first + static_cast<std::uint32_t>(row * (row + 1) / 2 + col);
+    };
+    for (int row = 0; row < n; ++row) {
+        for (int col = 0; col <= row; ++col) {
+            fine.indices.insert(fine.indices.end(),
+                                {vertex(row, col), vertex(row + 1, col), vertex(row + 1, col + 1)});
+            if (col < row) {
+                fine.indices.insert(fine.indices.end(), {vertex(row, col), vertex(row + 1, col + 1),
+                                                         vertex(row, col + 1)});
+            }
+        }
+    }
+}
+
+int index_on_tile(int index, int count, terrain::TileBorder border) {
+    const int rest = index % count;
+    return border == terrain::TileBorder::wrap ? (rest < 0 ? rest + count : rest)
+                                               : std::clamp(index, 0, count - 1);
+}
+
+} // namespace
+
+double tile_width(const Mesh& mesh, glm::vec2 repeats) {
+    const Areas areas = areas_of(mesh);
+    const double tiles = areas.texture * static_cast<double>(repeats.x) * repeats.y;
+    return tiles > 0.0 ? std::sqrt(areas.surface / tiles) : 0.0;
+}
+
+double relief_height(const Mesh& mesh, const TextureDetail& detail) {
+    return static_cast<double>(detail.scale) * tile_width(mesh, detail.repeats);
+}
+
+double raised_above(const Mesh& mesh, const TextureDetail& detail) {
+    return (1.0 + detail.offset) * relief_height(mesh, detail);
+}
+
+Mesh tessellated(const Mesh& mesh, int n) {
+    check(n >= 1, "a mesh cut into no parts");
+    Mesh fine;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        add_cut_triangle(mesh, i, n, fine);
+    }
+    return fine;
+}
+
+int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels) {
+    const Grid<float>& heights = detail.set->heights;
+    const glm::dvec2 texels_per_coordinate =
+        glm::dvec2(detail.repeats) * glm::dvec2(heights.cols(), heights.rows());
+    double longest = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        longest = std::max(longest, longest_edge(mesh, i, texels_per_coordinate));
+    }
+    const std::size_t triangles = std::max<std::size_t>(mesh.indices.size() / 3, 1);
+    const double most =
+        std::sqrt(static_cast<double>(most_displaced_triangles) / static_cast<double>(triangles));
+    return static_cast<int>(std::clamp(std::ceil(longest / texels), 1.0, std::max(most, 1.0)));
+}
+
+std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail& detail) {
+    const double lift = relief_height(mesh, detail);
+    std::vector<glm::vec3> positions = mesh.positions;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const glm::dvec2 coordinate =
+            glm::dvec2(mesh.texture_coordinates[i]) * glm::dvec2(detail.repeats);
+        const double height = tile_height(*detail.set, coordinate, detail.border);
+        positions[i] += static_cast<float>((height + detail.offset) * lift) * mesh.normals[i];
+    }
+    return positions;
+}
+
+double tile_height(const terrain::TextureSet& set, glm::dvec2 coordinate,
+                   terrain::TileBorder border) {
+    const Grid<float>& heights = set.heights;
+    const glm::ivec2 size(heights.cols(), heights.rows());
+    const glm::dvec2 place = coordinate * glm::dvec2(size) - 0.5;
+    const glm::ivec2 cell(glm::floor(place));
+    const glm::dvec2 part = place - glm::dvec2(cell);
+    const auto at = [&](int right, int down) {
+        return static_cast<double>(heights(index_on_tile(cell.x + right, size.x, border),
+                                           index_on_tile(cell.y + down, size.y, border)));
+    };
+    return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
+                    part.y);
+}
+
+} // namespace reljef::scene

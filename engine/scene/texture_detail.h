@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/scene/mesh.h"
+#include "engine/terrain/texture_set.h"
+
+namespace reljef::scene {
+
+/// A tile of detail on a mesh: how often, how high, and what lies beyond it.
+struct TextureDetail {
+    std::shared_ptr<const terrain::TextureSet> set; ///< as completed() gave it
+    glm::vec2 repeats{1.0F}; ///< tiles along texture coordinates 0 … 1; > 0
+    float scale = 0.05F;     ///< a height of 1 lifts a point so many tile widths; > 0
+    /// Of the heights against the mesh, in [−1, 0]: −1 sinks all below it, 0 lifts all above.
+    float offset = -1.0F;
+    terrain::TileBorder border = terrain::TileBorder::wrap;
+
+    friend bool operator==(const TextureDetail&, const TextureDetail&) = default;
+};
+
+/// Side of the square as large as one tile is on the mesh, on average, metres; 0 where the texture
+/// coordinates cover nothing.
+double tile_width(const Mesh& mesh, glm::vec2 repeats);
+
+/// Metres that a height of 1 lifts a point of the mesh.
+double relief_height(const Mesh& mesh, const TextureDetail& detail);
+
+/// Metres that the highest points lie above the mesh, the most that displacement adds to its
+/// bounds.
+double raised_above(const Mesh& mesh, const TextureDetail& detail);
+
+/// The mesh with every triangle cut into n², its vertices' normals unit vectors between the
+/// corners'. Edges that two triangles share stay shared. Precondition: n >= 1.
+Mesh tessellated(const Mesh& mesh, int n);
+
+/// Into how many parts each edge is cut so that vertices lie no more than `texels` of the heights
+/// apart, and there are no more than most_displaced_triangles. Precondition: a set is there.
+int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels);
+inline constexpr std::size_t most_displaced_triangles = 1'000'000;
+
+/// The positions moved along the normals to the heights at their texture coordinates.
+std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail& detail);
+
+/// Height in [0,1] at a tile's coordinate, bilinear between texel centres, as GL samples; beyond
+/// the tile (discard) the border's.
+double tile_height(const terrain::TextureSet& set, glm::dvec2 coordinate,
+                   terrain::TileBorder border);
+
+} // namespace reljef::scene

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/grid.h"
+#include "engine/core/worker_pool.h"
+#include "engine/terrain/heightfield.h"
+#include "engine/terrain/placement.h"
+
+namespace reljef::terrain {
+
+/// Places of vertices are counted in steps: so many to a sample, for triangles smaller than cells.
+inline constexpr int steps_per_sample = 64;
+
+/// What hangs on splitting the two triangles whose common longest edge has its middle here.
+struct Split {
+    /// Metres of the scene from any point of the unsplit triangles, or of any below them, to where
+    /// it belongs on the surface; infinity where they must be split.
+    double error = 0.0;
+    /// A ball, scene metres, that holds those triangles and the surface where they are.
+    glm::dvec3 center{0.0};
+    double radius = 0.0;
+};
+
+/// The longest-edge bisection of a placed heightfield (Lindstrom and Pascucci 2001): each tile
+/// begins with four triangles around its middle, and a triangle is halved at the middle of its
+/// longest edge. Splits are nested: none has a smaller error or a smaller ball than one that needs
+/// it, so that any choice "error and ball are too much for the view", made for each split by
+/// itself, gives triangles that meet edge to edge, across tiles too. Below the samples bisection
+/// goes on into the bilinear cells.
+class Bisection {
+public:
+    /// Precondition: at least 2×2 samples; both outlive the bisection.
+    Bisection(const Heightfield& heightfield, const Placement& placement,
+              const ParallelOptions& parallel = {});
+
+    /// Last sample, steps.
+    [[nodiscard]] glm::ivec2 end() const { return end_; }
+
+    /// The split at `place` of triangles in a square of `size` steps: at its middle, or with
+    /// `on_side` in the middle of one of its sides. Precondition: on the heightfield.
+    [[nodiscard]] Split split(glm::ivec2 place, int size, bool on_side) const;
+
+    /// Height of the surface, metres.
+    [[nodiscard]] double height(glm::ivec2 place) const;
+    /// Where that lies, scene metres.
+    [[nodiscard]] glm::dvec3 world(glm::ivec2 place) const;
+
+private:
+    // How the placement bends the ground, see bisection.cpp.
+    struct Bending {
+        double stretch = 0.0;   // metres from any place to another a sample away in col and row
+        double curvature = 0.0; // metres/sample², second derivative in any direction
+        double turn = 0.0;      // radians/sample, of the vertical
+    };
+    // What splits inside a cell need of it, metres.
+    struct CellBend {
+        double middle = 0.0; // error before a split at the middle of a square of size s: × s²/4
+        double side = 0.0;   // the same on a side
+        double reach = 0.0;  // metres between places a sample away in col and row
+    };
+    class LevelBuilder;
+
+    static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
+    void keep_places(const ParallelOptions& parallel);
+    [[nodiscard]] glm::dvec3 place_of(int col, int row) const;
+    [[nodiscard]] glm::dvec3 place_in_cell(glm::ivec2 place) const;
+    [[nodiscard]] CellBend bend_of_cell(int col, int row) const;
+    [[nodiscard]] Split split_in_cell(glm::ivec2 place, int size, bool on_side) const;
+
+    GridView<const float> heights_;
+    const Placement* placement_;
+    glm::ivec2 end_{0};
+    Bending bending_;
+    Grid<float> errors_; // of the split at each sample; unset where a tile's middle or corner is
+    Grid<float> radii_;
+    Grid<glm::vec3> offsets_;  // of samples on an ellipsoid, from their tile's origin
+    Grid<glm::dvec3> origins_; // of tiles
+};
+
+} // namespace reljef::terrain

@@ -1,0 +1,161 @@
+#include "engine/terrain/bisection_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace reljef::terrain {
+namespace {
+
+// A right triangle, counter-clockwise from above; its longest edge runs from left to right.
+struct BisectionTriangle {
+    glm::ivec2 apex;
+    glm::ivec2 left;
+    glm::ivec2 right;
+};
+
+constexpr std::uint16_t no_vertex = std::numeric_limits<std::uint16_t>::max();
+// Three vertices more must fit.
+constexpr std::size_t most_vertices = no_vertex - 3;
+
+// Numbers the vertices that triangles name.
+class TriangulationWriter {
+public:
+    explicit TriangulationWriter(const Tile& tile)
+        : first_(steps_per_sample * glm::ivec2(tile.col, tile.row)),
+          at_samples_(tile.cols + 1, tile.rows + 1, no_vertex) {}
+
+    void add(const BisectionTriangle& triangle) {
+        if (parts_.empty() || parts_.back().vertices.size() > most_vertices) {
+            begin_part();
+        }
+        for (const glm::ivec2 corner : {triangle.apex, triangle.left, triangle.right}) {
+            const std::uint16_t number = number_of(corner);
+            parts_.back().indices.push_back(number);
+        }
+    }
+
+    std::vector<Triangulation> take() { return std::move(parts_); }
+
+private:
+    void begin_part() {
+        std::fill(at_samples_.samples().begin(), at_samples_.samples().end(), no_vertex);
+        between_.clear();
+        parts_.emplace_back();
+    }
+
+    std::uint16_t number_of(glm::ivec2 place) {
+        const glm::ivec2 sample = (place - first_) / steps_per_sample;
+        if (first_ + steps_per_sample * sample == place) {
+            std::uint16_t& number = at_samples_(sample.x, sample.y);
+            number = number == no_vertex ? add_vertex(place) : number;
+            return number;
+        }
+        const auto key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.x)) << 32U) |
+                         static_cast<std::uint32_t>(place.y);
+        const auto [entry, is_new] = between_.try_emplace(key, no_vertex);
+        if (is_new) {
+            entry->second = add_vertex(place);
+        }
+        return entry->second;
+    }
+
+    std::uint16_t add_vertex(glm::ivec2 place) {
+        parts_.back().vertices.push_back(place);
+        return static_cast<std::uint16_t>(parts_.back().vertices.size() - 1);
+    }
+
+    glm::ivec2 first_;
+    Grid<std::uint16_t> at_samples_;
+    std::unordered_map<std::uint64_t, std::uint16_t> between_;
+    std::vector<Triangulation> parts_;
+};
+
+class TileBisector {
+public:
+    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
+        : bisection_(bisection), view_(view), writer_(tile) {}
+
+    void add(const BisectionTriangle& triangle) {
+        const Reach reach = reach_of(triangle);
+        if (reach == Reach::outside) {
+            return;
+        }
+        const glm::ivec2 middle = (triangle.left + triangle.right) / 2;
+        if (reach == Reach::across || is_split(triangle, middle)) {
+            add({middle, triangle.apex, triangle.left});
+            add({middle, triangle.right, triangle.apex});
+        } else {
+            writer_.add(triangle);
+        }
+    }
+
+    std::vector<Triangulation> take() { return writer_.take(); }
+
+private:
+    enum class Reach { inside, across, outside }; // of the heightfield
+
+    [[nodiscard]] Reach reach_of(const BisectionTriangle& triangle) const {
+        const glm::ivec2 high = glm::max(triangle.apex, glm::max(triangle.left, triangle.right));
+        const glm::ivec2 end = bisection_.end();
+        if (high.x <= end.x && high.y <= end.y) {
+            return Reach::inside;
+        }
+        const glm::ivec2 low = glm::min(triangle.apex, glm::min(triangle.left, triangle.right));
+        return low.x < end.x && low.y < end.y ? Reach::across : Reach::outside;
+    }
+
+    [[nodiscard]] bool is_split(const BisectionTriangle& triangle, glm::ivec2 middle) const {
+        const glm::ivec2 edge = glm::abs(triangle.right - triangle.left);
+        const int size = std::max(edge.x, edge.y);
+        constexpr int least_size = 2; // steps: their middle is a step
+        return size >= least_size &&
+               exceeds(view_, bisection_.split(middle, size, edge.x != edge.y));
+    }
+
+    const Bisection& bisection_;
+    const ErrorView& view_;
+    TriangulationWriter writer_;
+};
+
+} // namespace
+
+bool exceeds(const ErrorView& view, const Split& split) {
+    if (std::isinf(split.error)) {
+        return true;
+    }
+    const auto is_beyond = [&](const glm::dvec4& side) {
+        return glm::dot(glm::dvec3(side), split.center) + side.w < -split.radius;
+    };
+    if (split.error <= 0.0 || std::any_of(view.sides.begin(), view.sides.end(), is_beyond)) {
+        return false;
+    }
+    if (!view.perspective) {
+        return view.scale * split.error > view.most_error;
+    }
+    const double reach = view.stretch * split.radius;
+    const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
+    const double lateral =
+        glm::length(view.lateral_axes * split.center + view.lateral_origin) + reach;
+    return depth <= 0.0 || view.scale * split.error * lateral > view.most_error * depth * depth;
+}
+
+std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,
+                                       const ErrorView& view) {
+    const glm::ivec2 first = steps_per_sample * glm::ivec2(tile.col, tile.row);
+    const int side = steps_per_sample * tile_cells;
+    const glm::ivec2 middle = first + side / 2;
+    const std::array corners{first, first + glm::ivec2(0, side), first + side,
+                             first + glm::ivec2(side, 0)};
+    TileBisector bisector(bisection, tile, view);
+    for (std::size_t i = 0; i < 4; ++i) {
+        bisector.add({middle, corners[i], corners[(i + 1) % 4]});
+    }
+    return bisector.take();
+}
+
+} // namespace reljef::terrain

@@ -1,0 +1,2 @@
+#include "frame_block.glsl"
+#include "tile_vertex.glsl"

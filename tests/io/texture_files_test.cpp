@@ -1,0 +1,188 @@
+#include "engine/io/texture_files.h"
+
+#include <cmath>
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/io/image.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace reljef::io {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+namespace fs = std::filesystem;
+
+// `at(col, row, channel)` in [0,1].
+template <class At>
+void write_channels(const fs::path& path, glm::ivec2 size, int channels, OIIO::TypeDesc type,
+                    const At& at) {
+    std::vector<float> values;
+    for (int row = 0; row < size.y; ++row) {
+        for (int col = 0; col < size.x; ++col) {
+            for (int channel = 0; channel < channels; ++channel) {
+                values.push_back(at(col, row, channel));
+            }
+        }
+    }
+    OIIO::ImageSpec spec(size.x, size.y, channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    const auto output = OIIO::ImageOutput::create(path.string());
+    ASSERT_TRUE(output && output->open(path.string(), spec));
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    ASSERT_TRUE(output->close());
+}
+
+float wave_height(int col, int row) {
+    return 0.5F + 0.25F * std::sin(0.19635F * static_cast<float>(col)) +
+           0.25F * std::sin(0.3927F * static_cast<float>(row));
+}
+
+class TextureFilesTest : public testing::Test {
+protected:
+    fs::path file(const char* name) { return folder_.path() / name; }
+    TextureFiles written(OIIO::TypeDesc height_type) {
+        write_channels(file("a_color.png"), {32, 32}, 3, OIIO::TypeDesc::UINT8,
+                       [](int, int, int) { return 0.5F; });
+        write_channels(file("a_height.png"), {32, 32}, 1, height_type,
+                       [](int col, int row, int) { return wave_height(col, row); });
+        return {file("a_color.png"), file("a_height.png"), {}};
+    }
+    // Normals of the waves at scale 1, with y as the rows run or against them.
+    void write_normals(const char* name, float sign) {
+        Grid<float> heights(32, 32);
+        for (int row = 0; row < 32; ++row) {
+            for (int col = 0; col < 32; ++col) {
+                heights(col, row) = wave_height(col, row);
+            }
+        }
+        const auto normals =
+            terrain::tile_normals(heights.view(), 0.05F, terrain::TileBorder::wrap);
+        write_channels(file(name), {32, 32}, 3, OIIO::TypeDesc::UINT16,
+                       [&](int col, int row, int channel) {
+                           const float value = normals(col, row)[channel];
+                           return 0.5F + 0.5F * (channel == 1 ? sign * value : value);
+                       });
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(TextureFilesTest, HeightsOf16BitsComeAsTheyAreAndWithoutANote) {
+    const auto set = read_texture_set(written(OIIO::TypeDesc::UINT16));
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_THAT(set->notes, IsEmpty());
+    for (int i = 0; i < 32; ++i) {
+        ASSERT_NEAR(set->heights(i, 7), wave_height(i, 7), 0.5 / 65535.0 + 1e-7);
+    }
+    EXPECT_EQ(set->normals.cols(), 32);
+}
+
+TEST_F(TextureFilesTest, HeightsOf8BitsAreToldOnceWithTheirQuantum) {
+    const auto set =
+        read_texture_set(written(OIIO::TypeDesc::UINT8), {.scale = 0.1F, .width = 25.5});
+    ASSERT_TRUE(set);
+    EXPECT_THAT(set->notes,
+                testing::ElementsAre(AllOf(HasSubstr("8 bits"), HasSubstr("in steps of 0.01 m"))));
+}
+
+TEST_F(TextureFilesTest, NormalsOfEitherConventionFollowTheHeights) {
+    TextureFiles files = written(OIIO::TypeDesc::UINT16);
+    write_normals("down_normal.png", 1.0F);
+    write_normals("up_normal.png", -1.0F);
+    files.normals = file("down_normal.png");
+    const auto down = read_texture_set(files);
+    files.normals = file("up_normal.png");
+    const auto up = read_texture_set(files);
+    ASSERT_TRUE(down && up);
+    const auto expected =
+        terrain::tile_normals(down->heights.view(), 0.05F, terrain::TileBorder::wrap);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_LT(glm::distance(down->normals.samples()[i], expected.samples()[i]), 1e-3F);
+        ASSERT_LT(glm::distance(up->normals.samples()[i], expected.samples()[i]), 1e-3F);
+    }
+}
+
+TEST_F(TextureFilesTest, HeightsMayStandInTheNormalsAlpha) {
+    TextureFiles files = written(OIIO::TypeDesc::UINT8);
+    write_channels(file("both_normal.png"), {32, 32}, 4, OIIO::TypeDesc::UINT16,
+                   [](int col, int row, int channel) {
+                       return channel == 3 ? wave_height(col, row) : channel == 2 ? 1.0F : 0.5F;
+                   });
+    files.heights.clear();
+    files.normals = file("both_normal.png");
+    const auto set = read_texture_set(files);
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_NEAR(set->heights(5, 9), wave_height(5, 9), 1e-4);
+    EXPECT_NEAR(set->normals(5, 9).z, 1.0F, 1e-4);
+}
+
+TEST_F(TextureFilesTest, BadFilesAreOneSentence) {
+    TextureFiles files = written(OIIO::TypeDesc::UINT16);
+    const auto message = [](const TextureFiles& bad) {
+        const auto set = read_texture_set(bad);
+        EXPECT_FALSE(set);
+        return set ? std::string() : set.error().message;
+    };
+    TextureFiles bad = files;
+    bad.heights = file("none.png");
+    EXPECT_THAT(message(bad), HasSubstr("none.png"));
+    bad = files;
+    bad.color.clear();
+    EXPECT_THAT(message(bad), Not(IsEmpty()));
+    bad = files;
+    bad.normals = files.heights; // one channel
+    EXPECT_THAT(message(bad), AllOf(HasSubstr("1 channels found"), HasSubstr("3 were expected")));
+    bad = files;
+    bad.heights.clear();
+    EXPECT_THAT(message(bad), HasSubstr("no heights found"));
+}
+
+TEST_F(TextureFilesTest, FoundByTheirNames) {
+    written(OIIO::TypeDesc::UINT16);
+    const auto files = find_texture_files(folder_.path());
+    ASSERT_TRUE(files);
+    EXPECT_EQ(files->color.filename(), "a_color.png");
+    EXPECT_EQ(files->heights.filename(), "a_height.png");
+    EXPECT_TRUE(files->normals.empty());
+    fs::remove(file("a_height.png"));
+    const auto missing = find_texture_files(folder_.path());
+    ASSERT_FALSE(missing);
+    EXPECT_THAT(missing.error().message, HasSubstr("no heights found among 1 pictures"));
+    EXPECT_FALSE(find_texture_files(file("nowhere")));
+}
+
+class RealTextures : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealTextures, AreReadWithNormalsThatAgreeWithTheHeights) {
+    const std::string name = std::string("textures/") + GetParam();
+    RELJEF_NEED_DATA(name);
+    const auto files = find_texture_files(test::data_path(name));
+    ASSERT_TRUE(files) << files.error().message;
+    const auto set = read_texture_set(*files);
+    ASSERT_TRUE(set) << set.error().message;
+    const auto made =
+        terrain::tile_normals(set->heights.view(), set->scale, terrain::TileBorder::wrap);
+    glm::dvec2 agreement(0.0);
+    for (std::size_t i = 0; i < made.size() && made.size() == set->normals.size(); ++i) {
+        agreement +=
+            glm::dvec2(glm::vec2(made.samples()[i]) * glm::vec2(set->normals.samples()[i]));
+    }
+    EXPECT_GT(agreement.x, 0.0);
+    EXPECT_GT(agreement.y, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, RealTextures,
+                         testing::Values("bricks", "rock20", "rubble", "irrlicht_rockwall"));
+
+} // namespace
+} // namespace reljef::io

@@ -1,0 +1,159 @@
+// The promise of polygons:error=PX, held against the definition of the error itself.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/render/driver.h"
+#include "engine/truth/draw.h"
+#include "engine/truth/geometric_error.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/render/made_scene.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+#include "tests/terrain/chance.h"
+
+namespace reljef::truth {
+namespace {
+
+constexpr glm::ivec2 picture{160, 120};
+constexpr const char* alps = "natural/srtm3/N45E006.hgt";
+
+class PolygonsErrorGlTest : public test::GlTest {};
+
+struct Promise {
+    int pixels = 0;
+    int violations = 0;
+    int holes = 0;
+    double worst = 0.0; ///< share of the error that was asked for
+};
+
+// A hole shows no terrain though the exact rays around it all meet some: farther from a silhouette
+// than the error that is allowed.
+bool is_hole(const scene::TerrainSurface& surface, const scene::Camera& camera, glm::dvec2 center,
+             double error) {
+    const double reach = error + 1.0;
+    for (int i = 0; i < 9; ++i) {
+        const glm::dvec2 place = center + reach * glm::dvec2(i % 3 - 1, i / 3 - 1);
+        if (!surface.pick(scene::view_ray(camera, picture, place))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void judge(const scene::Scene& scene, const scene::Node& node, const HitBuffer& hits, double error,
+           Promise& promise) {
+    const auto& surface = test::surface_of(node);
+    const SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
+                           node.world_from_local(), scene.camera()};
+    for (int y = 0; y < picture.y; ++y) {
+        for (int x = 0; x < picture.x; ++x) {
+            const Hit& hit = hits(x, y);
+            if (!shows_terrain(hit)) {
+                const bool is_sampled = (x * 7 + y * 13) % 23 == 0;
+                promise.holes +=
+                    is_sampled && is_hole(surface, scene.camera(), {x + 0.5, y + 0.5}, error) ? 1
+                                                                                              : 0;
+                continue;
+            }
+            const double found = reprojection_error(view, picture, {x, y}, hit);
+            ++promise.pixels;
+            promise.violations += found > error ? 1 : 0;
+            promise.worst = std::max(promise.worst, found / error);
+        }
+    }
+}
+
+scene::Camera chance_camera(test::Chance& chance, const scene::TerrainSurface& surface) {
+    const Box& bounds = surface.bounds();
+    const glm::dvec3 size = bounds.size();
+    scene::Camera camera;
+    const double x = chance.between(bounds.low.x - 0.2 * size.x, bounds.high.x + 0.2 * size.x);
+    const double y = chance.between(bounds.low.y - 0.2 * size.y, bounds.high.y + 0.2 * size.y);
+    const double above = 0.02 * size.x * std::exp(chance.between(-1.0, 3.0));
+    camera.eye = {x, y, surface.height_at(x, y).value_or(bounds.high.z) + above};
+    camera.look = {chance.between(bounds.low.x, bounds.high.x),
+                   chance.between(bounds.low.y, bounds.high.y), bounds.center().z};
+    camera.vertical_fov = chance.one_in(3) ? chance.between(10.0, 120.0) : 57.3;
+    camera.near = 1e-5 * size.x;
+    return camera;
+}
+
+Promise promise_over(terrain::Heightfield heightfield, int poses, unsigned seed,
+                     const scene::TerrainOptions& options = {}) {
+    test::Chance chance(seed);
+    scene::Scene scene;
+    scene::Node& node = test::add_terrain(scene, std::move(heightfield), {}, options);
+    scene::Node& camera = scene.add_camera();
+    render::Driver driver =
+        test::must(render::Driver::create({.size = picture, .shader_dir = {}, .software = true}));
+    Promise promise;
+    for (int i = 0; i < poses; ++i) {
+        const double error = std::exp(chance.between(-1.4, 1.4));
+        *camera.get<scene::Camera>() = chance_camera(chance, test::surface_of(node));
+        node.get<scene::TerrainNode>()->material.technique =
+            scene::parse_technique(fmt::format("polygons:error={}", error)).value();
+        judge(scene, node, test::must(driver.draw_hits(scene)), error, promise);
+    }
+    return promise;
+}
+
+void expect_kept(const Promise& promise) {
+    EXPECT_GT(promise.pixels, 20000);
+    EXPECT_EQ(promise.violations, 0) << "worst " << promise.worst << " of the error asked for";
+    EXPECT_EQ(promise.holes, 0);
+}
+
+TEST_F(PolygonsErrorGlTest, NoPixelOfAnyPoseIsFartherOffThanAskedFor) {
+    expect_kept(
+        promise_over(test::plane_heightfield(test::hills(200, 161, 60.0), {10, 10}), 40, 1));
+    expect_kept(promise_over(
+        test::plane_heightfield(test::random_heights(65, 65, 0.0F, 8.0F, 3), {5, 7}), 40, 2));
+}
+
+TEST_F(PolygonsErrorGlTest, NorOverTheCurvedEarth) {
+    expect_kept(promise_over(
+        test::geographic_heightfield(test::hills(161, 140, 600.0), 46.0, 7.0, 0.004), 30, 3));
+}
+
+TEST_F(PolygonsErrorGlTest, NorExaggerated) {
+    expect_kept(promise_over(test::plane_heightfield(test::hills(131, 90, 6.0), {10, 10}), 20, 4,
+                             {.placement = {}, .exaggeration = 20.0}));
+}
+
+// A window of an SRTM tile: 1201 rows of 1201 heights, 16 bits, the high byte first.
+Grid<float> real_heights(glm::ivec2 first, int side) {
+    constexpr int tile_side = 1201;
+    const std::string bytes = test::read_bytes(test::data_path(alps));
+    return test::made_heights(side, side, [&](int col, int row) {
+        const auto at = 2U * static_cast<std::size_t>((first.y + row) * tile_side + first.x + col);
+        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+        return static_cast<std::int16_t>(byte(at) << 8U | byte(at + 1));
+    });
+}
+
+TEST_F(PolygonsErrorGlTest, NorOnARealTerrain) {
+    RELJEF_NEED_DATA(alps);
+    expect_kept(
+        promise_over(test::plane_heightfield(real_heights({700, 100}, 400), {65.0, 92.6}), 40, 5));
+}
+
+TEST_F(PolygonsErrorGlTest, ALevelSurfaceTakesTheFewestTriangles) {
+    scene::Scene scene;
+    scene::Node& node =
+        test::add_terrain(scene, test::plane_heightfield(Grid<float>(257, 257, 3.0F)));
+    scene.add_camera(test::camera_at({0.0, -200.0, 80.0}, {0.0, 0.0, 0.0}));
+    node.get<scene::TerrainNode>()->material.technique =
+        scene::parse_technique("polygons:error=0.1").value();
+    render::Driver driver =
+        test::must(render::Driver::create({.size = picture, .shader_dir = {}, .software = true}));
+    EXPECT_EQ(test::must(driver.draw(scene)).triangles, 16U);
+}
+
+} // namespace
+} // namespace reljef::truth
