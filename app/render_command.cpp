@@ -247,8 +247,8 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (auto apart = check_apart(outputs_of(choice, inputs), inputs); !apart) {
         return apart;
     }
-    if (auto ready =
-            prepare_technique(*source, choice.view.technique, choice.terrain, interrupt.token());
+    if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
+                                       interrupt.token());
         !ready) {
         return ready;
     }

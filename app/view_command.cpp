@@ -191,8 +191,8 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     if (!source) {
         return source.error();
     }
-    if (auto ready =
-            prepare_technique(*source, choice.view.technique, choice.terrain, interrupt.token());
+    if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
+                                       interrupt.token());
         !ready) {
         return ready;
     }

@@ -111,7 +111,7 @@ Grid<glm::vec4> warped_places(const scene::TerrainSurface& surface, glm::dvec4 l
     const ReliefSpace space = relief_space(surface);
     const double plane = terrain::reference_height(surface.heightfield());
     const auto above_plane = static_cast<float>((plane - space.lowest) / space.range);
-    Grid<float> above = relief_heights(surface, space);
+    Grid<float> above = terrain::unit_heights(heights.view());
     for (float& height : above.samples()) {
         height -= above_plane;
     }

@@ -47,8 +47,8 @@ struct Terrain {
     Image color; ///< covers the heightfield edge sample to edge sample; may be empty
     std::vector<std::string>
         notes; ///< what the reader should be told: undeclared voids, a reduced read
-    std::vector<std::string>
-        faults; ///< files that were to be read and failed, a sentence each; the rest is there
+    std::vector<std::string> faults =
+        {}; ///< files that were to be read and failed, a sentence each; the rest is there
     /// Of the heights from 0 (lowest) to 1 (highest of all samples); null until they are wanted.
     std::shared_ptr<const ConeMaps> cones = {};
 };
