@@ -68,8 +68,19 @@ void check_verb(std::span<char*> texts, const Program& program,
             : fmt::format("{} '{}' found, one of {} was expected", program.verb, found, expected));
 }
 
+// One line of all, as what a shader's compiler has to say may have many.
+std::string one_line(std::string_view message) {
+    std::string line;
+    for (std::size_t begin = 0; begin < message.size();) {
+        const std::size_t end = std::min(message.find('\n', begin), message.size());
+        line += (begin > 0 ? "; " : "") + printable(message.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return line;
+}
+
 int fail(const Program& program, std::string_view message) {
-    tell(fmt::format("{}: {}\n", program.name, message));
+    tell(fmt::format("{}: {}\n", program.name, one_line(message)));
     return failed;
 }
 
@@ -88,7 +99,7 @@ int explain(const Program& program, const CLI::App& parser, const CLI::ParseErro
     }
     std::string message = error.what();
     std::replace(message.begin(), message.end(), '\n', ' ');
-    tell(fmt::format("{}: {} (see --help)\n", program.name, message));
+    tell(fmt::format("{}: {} (see --help)\n", program.name, printable(message)));
     return misused;
 }
 

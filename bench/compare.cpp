@@ -1,15 +1,17 @@
 #include "bench/compare.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
+#include "app/message.h"
+
 namespace reljef::bench {
 namespace {
-
-// Of errors, pixels and percent: below it lies rounding.
-constexpr double least_error_change = 1e-3;
 
 std::string row_name(const Row& row) {
     return fmt::format("{}, {}{}, {}, {}, {}x{}", row.suite,
@@ -26,17 +28,24 @@ bool counts(const Row& row) {
     return !row.null_row && !row.missing();
 }
 
-const Row* row_named(const std::vector<Row>& rows, const std::string& name) {
-    const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
-        return counts(row) && row_name(row) == name;
-    });
-    return found == rows.end() ? nullptr : &*found;
+// Of rows that are alike the first.
+using RowsByName = std::unordered_map<std::string, const Row*>;
+
+RowsByName rows_by_name(const std::vector<Row>& rows) {
+    RowsByName named;
+    for (const Row& row : rows) {
+        if (counts(row)) {
+            named.emplace(row_name(row), &row);
+        }
+    }
+    return named;
 }
 
-std::vector<std::string> names_only_in(const Results& here, const Results& there) {
+// In the order of the rows.
+std::vector<std::string> names_only_in(const Results& here, const RowsByName& there) {
     std::vector<std::string> names;
     for (const Row& row : here.rows) {
-        if (counts(row) && row_named(there.rows, row_name(row)) == nullptr) {
+        if (counts(row) && !there.contains(row_name(row))) {
             names.push_back(row_name(row));
         }
     }
@@ -58,49 +67,110 @@ ConfidenceInterval scaled(const ConfidenceInterval& interval, double factor) {
     return {factor * interval.low, factor * interval.high};
 }
 
-// Times, or their ratios to texture.
-Change time_change(const Row& a, const Row& b, bool as_ratio, double threshold) {
-    const auto unit = [&](const Timing& timing) {
-        return as_ratio ? timing.ratio_to_texture / timing.ms.median : 1.0;
-    };
-    const double unit_a = unit(*a.timing);
-    const double unit_b = unit(*b.timing);
-    Change change{row_name(a), as_ratio ? "ratio to texture" : "median ms",
-                  unit_a * a.timing->ms.median, unit_b * b.timing->ms.median};
-    change.noise = std::max(
-        {threshold, a.timing->noise_floor.value_or(0.0), b.timing->noise_floor.value_or(0.0)});
-    const bool is_beyond =
-        relative_distance(change.before, change.after) > change.noise &&
-        !overlap(scaled(a.timing->interval, unit_a), scaled(b.timing->interval, unit_b));
+// A time, or its ratio to texture.
+struct Pace {
+    double value = 0.0;
+    ConfidenceInterval interval;
+    double noise = 0.0;
+};
+
+// Absent where it says nothing.
+std::optional<Pace> pace_of(const Timing& timing, bool as_ratio) {
+    if (!timing.interval || timing.frames < least_frames) {
+        return std::nullopt;
+    }
+    const double noise = timing.noise_floor.value_or(0.0);
+    if (!as_ratio) {
+        return Pace{timing.ms.median, *timing.interval, noise};
+    }
+    if (!timing.ratio_to_texture) {
+        return std::nullopt;
+    }
+    const double ratio = *timing.ratio_to_texture;
+    return Pace{ratio, scaled(*timing.interval, ratio / timing.ms.median), noise};
+}
+
+std::optional<Change> time_change(const Row& a, const Row& b, bool as_ratio, double threshold) {
+    const auto before = pace_of(*a.timing, as_ratio);
+    const auto after = pace_of(*b.timing, as_ratio);
+    if (!before || !after) {
+        return std::nullopt;
+    }
+    Change change{row_name(a), as_ratio ? "ratio to texture" : "median ms", before->value,
+                  after->value, std::max({threshold, before->noise, after->noise})};
+    const bool is_beyond = relative_distance(change.before, change.after) > change.noise &&
+                           !overlap(before->interval, after->interval);
     change.verdict = verdict_of(change, is_beyond);
     return change;
 }
 
-Change error_change(const std::string& row, const std::string& figure, double before, double after,
+// One error of a row; infinite: it is not there.
+struct ErrorFigure {
+    const char* name = "";
+    double value = 0.0;
+    double rounding = 0.0; ///< a difference up to it is none, in the error's unit
+};
+
+constexpr double hit_rounding = 0x1p-10;    // texels
+constexpr double pixel_share = 1e-4;        // of all pixels
+constexpr double flip_rounding = 1.0 / 510; // half a step of 8 bits
+
+double rms_of(const std::optional<RowError::Geometric>& error) {
+    return error ? error->distribution.rms : std::numeric_limits<double>::infinity();
+}
+
+std::array<ErrorFigure, 6> figures_of(const RowError& error, glm::ivec2 size) {
+    const double pixels = static_cast<double>(size.x) * size.y;
+    const double few_pixels = std::max(1.0, pixel_share * pixels);
+    const std::size_t unbounded = error.reprojection_px ? error.reprojection_px->unbounded : 0;
+    return {{{"error px", rms_of(error.reprojection_px), hit_rounding},
+             {"pixels without bound", static_cast<double>(unbounded), 0.0},
+             {"hit texels", rms_of(error.hit_texels), hit_rounding},
+             {"wrong %", error.wrong_percent, 100.0 * few_pixels / pixels},
+             {"holes", static_cast<double>(error.holes), few_pixels},
+             {"FLIP", error.flip, flip_rounding}}};
+}
+
+Change error_change(const std::string& row, const ErrorFigure& before, const ErrorFigure& after,
                     double threshold) {
-    Change change{row, figure, before, after, threshold};
-    const double distance = std::abs(after - before);
-    const bool is_beyond = before != after && distance > least_error_change &&
-                           (std::isinf(distance) || distance > threshold * std::min(before, after));
+    Change change{row, before.name, before.value, after.value, threshold};
+    const double distance = std::abs(after.value - before.value);
+    const bool is_beyond =
+        before.value != after.value && distance > before.rounding &&
+        (std::isinf(distance) || distance > threshold * std::min(before.value, after.value));
     change.verdict = verdict_of(change, is_beyond);
     return change;
 }
 
-double reprojection_of(const RowError& error) {
-    return error.reprojection_px && error.reprojection_px->unbounded == 0
-               ? error.reprojection_px->distribution.rms
-               : std::numeric_limits<double>::infinity();
+// Where only one run held the row against the truth.
+Change lost_error(const Row& a, const Row& b) {
+    const auto value_in = [](const Row& row) {
+        return row.error ? rms_of(row.error->reprojection_px)
+                         : std::numeric_limits<double>::infinity();
+    };
+    Change change{row_name(a), "error px", value_in(a), value_in(b)};
+    change.verdict = a.error ? Verdict::worse : Verdict::better;
+    return change;
 }
 
-std::vector<Change> changes_of(const Row& a, const Row& b, bool as_ratio, double threshold) {
-    std::vector<Change> changes{time_change(a, b, as_ratio, threshold)};
-    if (a.error && b.error) {
-        changes.push_back(error_change(row_name(a), "error px", reprojection_of(*a.error),
-                                       reprojection_of(*b.error), threshold));
-        changes.push_back(error_change(row_name(a), "wrong %", a.error->wrong_percent,
-                                       b.error->wrong_percent, threshold));
+std::vector<Change> error_changes(const Row& a, const Row& b, double threshold) {
+    if (!a.error && !b.error) {
+        return {};
+    }
+    if (!a.error || !b.error) {
+        return {lost_error(a, b)};
+    }
+    const auto before = figures_of(*a.error, a.size);
+    const auto after = figures_of(*b.error, b.size);
+    std::vector<Change> changes;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        changes.push_back(error_change(row_name(a), before[i], after[i], threshold));
     }
     return changes;
+}
+
+std::string figure_text(double figure) {
+    return std::isfinite(figure) ? fmt::format("{:.4g}", figure) : "none";
 }
 
 // "3.20" to "4.80" as "+50 %"; from nothing, or to no bound, nothing to tell in percent.
@@ -114,8 +184,9 @@ std::string changes_text(const std::vector<Change>& changes, Verdict verdict,
     std::string text;
     for (const Change& change : changes) {
         if (change.verdict == verdict) {
-            text += fmt::format("  {}: {} {:.4g} -> {:.4g}{}\n", change.row, change.figure,
-                                change.before, change.after, percent_text(change));
+            text += fmt::format("  {}: {} {} -> {}{}\n", app::printable(change.row), change.figure,
+                                figure_text(change.before), figure_text(change.after),
+                                percent_text(change));
         }
     }
     return text.empty() ? "" : fmt::format("{}:\n{}", title, text);
@@ -124,9 +195,21 @@ std::string changes_text(const std::vector<Change>& changes, Verdict verdict,
 std::string names_text(const std::vector<std::string>& names, std::string_view title) {
     std::string text;
     for (const std::string& name : names) {
-        text += fmt::format("  {}\n", name);
+        text += fmt::format("  {}\n", app::printable(name));
     }
     return text.empty() ? "" : fmt::format("{}:\n{}", title, text);
+}
+
+// Why a run has not all rows.
+std::vector<std::string> incompleteness(const Results& results, std::string_view run) {
+    std::vector<std::string> notes;
+    if (results.stopped) {
+        notes.push_back(fmt::format("The {} run ended early: {}.", run, results.stopped->message));
+    }
+    if (!results.left_out.empty()) {
+        notes.push_back(fmt::format("The {} run left settings out, for want of time.", run));
+    }
+    return notes;
 }
 
 std::ptrdiff_t count_of(const std::vector<Change>& changes, Verdict verdict) {
@@ -137,23 +220,34 @@ std::ptrdiff_t count_of(const std::vector<Change>& changes, Verdict verdict) {
 } // namespace
 
 std::size_t Comparison::regressions() const {
-    return static_cast<std::size_t>(count_of(changes, Verdict::worse));
+    return static_cast<std::size_t>(count_of(changes, Verdict::worse)) + only_a.size();
 }
 
 Comparison compare(const Results& a, const Results& b, const CompareOptions& options) {
     check(options.threshold >= 0.0, "a threshold below 0");
     Comparison comparison;
     comparison.same_environment = is_same_environment(a.environment, b.environment);
-    comparison.only_a = names_only_in(a, b);
-    comparison.only_b = names_only_in(b, a);
+    const RowsByName rows_a = rows_by_name(a.rows);
+    const RowsByName rows_b = rows_by_name(b.rows);
+    comparison.only_a = names_only_in(a, rows_b);
+    comparison.only_b = names_only_in(b, rows_a);
+    comparison.notes = incompleteness(a, "first");
+    const auto notes_b = incompleteness(b, "second");
+    comparison.notes.insert(comparison.notes.end(), notes_b.begin(), notes_b.end());
     for (const Row& row : a.rows) {
-        const std::string name = row_name(row);
-        const Row* after = row_named(b.rows, name);
-        if (row_named(a.rows, name) == &row && after != nullptr) {
-            const auto changes =
-                changes_of(row, *after, !comparison.same_environment, options.threshold);
-            comparison.changes.insert(comparison.changes.end(), changes.begin(), changes.end());
+        const auto first = rows_a.find(row_name(row));
+        const auto after = rows_b.find(row_name(row));
+        if (after == rows_b.end() || first == rows_a.end() || first->second != &row) {
+            continue;
         }
+        const bool as_ratio = !comparison.same_environment;
+        if (auto time = time_change(row, *after->second, as_ratio, options.threshold)) {
+            comparison.changes.push_back(std::move(*time));
+        } else {
+            comparison.untimed.push_back(after->first);
+        }
+        const auto errors = error_changes(row, *after->second, options.threshold);
+        comparison.changes.insert(comparison.changes.end(), errors.begin(), errors.end());
     }
     return comparison;
 }
@@ -163,14 +257,21 @@ std::string comparison_report(const Comparison& comparison) {
         comparison.same_environment
             ? ""
             : "The environments differ: times are told as ratios to texture, of each run.\n";
-    return environment + changes_text(comparison.changes, Verdict::worse, "worse") +
+    std::string notes;
+    for (const std::string& note : comparison.notes) {
+        notes += app::printable(note) + "\n";
+    }
+    return environment + notes + changes_text(comparison.changes, Verdict::worse, "worse") +
            changes_text(comparison.changes, Verdict::better, "better") +
-           names_text(comparison.only_a, "only in the first") +
+           names_text(comparison.only_a, "gone, only in the first") +
            names_text(comparison.only_b, "only in the second") +
-           fmt::format("{} worse, {} better, {} the same within the noise\n",
+           names_text(comparison.untimed,
+                      fmt::format("no verdict of time, under {} frames or no ratio to texture",
+                                  least_frames)) +
+           fmt::format("{} worse, {} better, {} the same within the noise, {} gone\n",
                        count_of(comparison.changes, Verdict::worse),
                        count_of(comparison.changes, Verdict::better),
-                       count_of(comparison.changes, Verdict::same));
+                       count_of(comparison.changes, Verdict::same), comparison.only_a.size());
 }
 
 } // namespace reljef::bench

@@ -2,12 +2,15 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/message.h"
 #include "bench/compare.h"
 #include "bench/report_json.h"
 
@@ -43,7 +46,14 @@ void add_compare_options(CLI::App& command, CompareChoice& choice) {
         ->type_name("PERCENT");
 }
 
-Result<void> run_compare(const CompareChoice& choice) {
+// Reading and comparing leave nothing to tidy up.
+void end_at_once() {
+    app::tell("reljef-bench: interrupted\n");
+    std::_Exit(1);
+}
+
+Result<void> run_compare(const CompareChoice& choice, const app::Interrupt& interrupt) {
+    const std::stop_callback ending(interrupt.token(), end_at_once);
     const auto before = read_json_report(choice.before);
     if (!before) {
         return before.error();
@@ -54,7 +64,7 @@ Result<void> run_compare(const CompareChoice& choice) {
     }
     const Comparison comparison =
         compare(*before, *after, {.threshold = 0.01 * choice.threshold_percent});
-    if (comparison.changes.empty()) {
+    if (comparison.changes.empty() && comparison.untimed.empty()) {
         return Error{fmt::format("{} and {}: no row found in both, some were expected",
                                  choice.before.string(), choice.after.string())};
     }
@@ -62,14 +72,14 @@ Result<void> run_compare(const CompareChoice& choice) {
     const std::size_t regressions = comparison.regressions();
     return regressions == 0
                ? Result<void>()
-               : Error{fmt::format("{}: {} figure{} worse than in {}", choice.after.string(),
-                                   regressions, regressions == 1 ? "" : "s",
+               : Error{fmt::format("{}: {} figure{} worse or gone, against {}",
+                                   choice.after.string(), regressions, regressions == 1 ? "" : "s",
                                    choice.before.string())};
 }
 
 } // namespace
 
-app::Command add_compare_command(CLI::App& program, app::Interrupt& /*interrupt*/) {
+app::Command add_compare_command(CLI::App& program, app::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
         "compare", "what is faster, slower, more or less accurate than before");
     auto choice = std::make_shared<CompareChoice>();
@@ -77,11 +87,11 @@ app::Command add_compare_command(CLI::App& program, app::Interrupt& /*interrupt*
     arguments->footer(
         "Changes count beyond the threshold and the noise of both runs. The exit status is 1 where "
         "anything\n"
-        "got worse.\n"
+        "got worse or a row is gone. Rows of under 5 frames get no verdict of time.\n"
         "Examples:\n"
         "  reljef-bench compare before.json after.json\n"
         "  reljef-bench compare before.json after.json --threshold 5");
-    return {arguments, [choice] { return run_compare(*choice); }};
+    return {arguments, [choice, &interrupt] { return run_compare(*choice, interrupt); }};
 }
 
 } // namespace reljef::bench

@@ -1,5 +1,6 @@
 #include "bench/json_object.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,11 +17,17 @@ const json& no_object() {
     return empty;
 }
 
+bool holds_plain_values(const json& array) {
+    return std::all_of(array.begin(), array.end(),
+                       [](const json& value) { return value.is_primitive(); });
+}
+
 std::string found_text(const json& value) {
     if (value.is_object()) {
         return "an object";
     }
-    if (value.is_array()) {
+    constexpr std::size_t short_array = 4;
+    if (value.is_array() && (value.size() > short_array || !holds_plain_values(value))) {
         return "an array";
     }
     constexpr std::size_t longest = 60;
@@ -150,14 +157,12 @@ const json* JsonObject::find_array(std::string_view key) const {
     return value;
 }
 
-std::vector<JsonObject> JsonObject::objects(std::string_view key) const {
-    std::vector<JsonObject> objects;
-    if (const json* array = find_array(key)) {
-        for (std::size_t i = 0; i < array->size(); ++i) {
-            objects.emplace_back((*array)[i], fmt::format("{}[{}]", place_of(key), i), *fault_);
-        }
+void JsonObject::each(std::string_view key,
+                      const std::function<void(const JsonObject&)>& read) const {
+    const json* array = find_array(key);
+    for (std::size_t i = 0; array != nullptr && i < array->size() && !fault_->error(); ++i) {
+        read({(*array)[i], fmt::format("{}[{}]", place_of(key), i), *fault_});
     }
-    return objects;
 }
 
 std::vector<std::string> JsonObject::texts(std::string_view key) const {

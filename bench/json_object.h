@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -55,7 +56,8 @@ public:
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] bool is_null(std::string_view key) const;
     [[nodiscard]] JsonObject object(std::string_view key) const;
-    [[nodiscard]] std::vector<JsonObject> objects(std::string_view key) const;
+    /// Gives the objects of an array to `read`, one after the other, until there is a fault.
+    void each(std::string_view key, const std::function<void(const JsonObject&)>& read) const;
     [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
     [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count) const;
     [[nodiscard]] std::vector<std::string> keys() const;

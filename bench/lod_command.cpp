@@ -11,19 +11,22 @@
 namespace reljef::bench {
 namespace {
 
+constexpr glm::ivec2 lod_quick_size{512, 384};
+
 struct LodChoice {
     SuiteOptions suite;
     std::vector<std::string> terrains; // empty: the default ones
     OutputChoice outputs;
 };
 
-Result<void> run_lod_command(const LodChoice& choice, const app::Interrupt& interrupt) {
+Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
+                             const app::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
     }
     LodOptions options;
-    options.suite = choice.suite;
+    options.suite = with_quick_size(choice.suite, command, lod_quick_size);
     options.suite.keep_views = !choice.outputs.html.empty();
     if (!choice.terrains.empty()) {
         options.terrains = choice.terrains;
@@ -42,12 +45,14 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
     add_output_options(*arguments, choice->outputs);
     arguments->footer(
         "Each terrain is seen from the poses overview, oblique, low and grazing, with a still "
-        "camera.\n"
+        "camera. With --quick pictures are 512x384 unless --size says otherwise.\n"
         "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
         "Examples:\n"
         "  reljef-bench lod --quick\n"
         "  reljef-bench lod --terrain N45E006.hgt --json lod.json");
-    return {arguments, [choice, &interrupt] { return run_lod_command(*choice, interrupt); }};
+    return {arguments, [arguments, choice, &interrupt] {
+                return run_lod_command(*choice, *arguments, interrupt);
+            }};
 }
 
 } // namespace reljef::bench

@@ -29,6 +29,16 @@ std::vector<app::NamedFile> outputs_of(const OutputChoice& choice) {
     return outputs;
 }
 
+// The page and its folder are no files of others.
+std::vector<app::NamedFile> with_page(std::vector<app::NamedFile> outputs,
+                                      const std::filesystem::path& html) {
+    if (!html.empty()) {
+        outputs.push_back({"--html", html});
+        outputs.push_back({"--html", page_file(html)});
+    }
+    return outputs;
+}
+
 std::string output_text(const std::string& option, const Results& results) {
     if (option == "--json") {
         return json_report(results);
@@ -36,8 +46,18 @@ std::string output_text(const std::string& option, const Results& results) {
     return option == "--csv" ? csv_report(results) : markdown_report(results);
 }
 
-// All are written before the first takes its place.
-Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
+std::vector<RowPictures> pictures_of(const Results& results) {
+    std::vector<RowPictures> pictures;
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        if (const auto& view = results.rows[i].view) {
+            pictures.push_back({i, view});
+        }
+    }
+    return pictures;
+}
+
+Result<std::vector<AtomicFile>> prepare_outputs(const Results& results,
+                                                const OutputChoice& choice) {
     std::vector<AtomicFile> files;
     for (const app::NamedFile& output : outputs_of(choice)) {
         const std::string text = output_text(output.option, results);
@@ -47,6 +67,10 @@ Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
         }
         files.push_back(std::move(*file));
     }
+    return files;
+}
+
+Result<void> commit_all(std::vector<AtomicFile>& files) {
     for (AtomicFile& file : files) {
         if (auto committed = file.commit(); !committed) {
             return committed;
@@ -55,14 +79,18 @@ Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
     return {};
 }
 
-std::vector<RowPictures> pictures_of(const Results& results) {
-    std::vector<RowPictures> pictures;
-    for (std::size_t i = 0; i < results.rows.size(); ++i) {
-        if (const auto& view = results.rows[i].view) {
-            pictures.push_back({i, view->shown, *view->truth, heat_map(view->reprojection)});
-        }
+// All are written before the first takes its place.
+Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
+    auto files = prepare_outputs(results, choice);
+    if (!files || choice.html.empty()) {
+        return files ? commit_all(*files) : files.error();
     }
-    return pictures;
+    auto page = prepare_page(choice.html, json_report(results), pictures_of(results));
+    if (!page) {
+        return page.error();
+    }
+    auto committed = commit_all(*files);
+    return committed ? page->file.commit() : committed;
 }
 
 } // namespace
@@ -80,7 +108,7 @@ void add_output_options(CLI::App& command, OutputChoice& choice) {
 
 Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs) {
     const std::vector<app::NamedFile> outputs = outputs_of(choice);
-    if (auto apart = app::check_apart(outputs, inputs); !apart) {
+    if (auto apart = app::check_apart(with_page(outputs, choice.html), inputs); !apart) {
         return apart;
     }
     for (const app::NamedFile& output : outputs) {
@@ -95,16 +123,11 @@ Result<void> report(const Results& results, const OutputChoice& choice) {
     if (results.rows.empty()) {
         return results.stopped.value_or(Error{"no rows found, some were expected"});
     }
+    // What failed on the way is no reason to lose earlier results.
+    auto written = results.failed ? Result<void>() : write_outputs(results, choice);
     fmt::print("{}", terminal_report(results));
-    std::fflush(stdout);
-    if (auto written = write_outputs(results, choice); !written) {
+    if (std::fflush(stdout) != 0 || !written) {
         return written;
-    }
-    if (!choice.html.empty()) {
-        if (auto written = write_page(choice.html, json_report(results), pictures_of(results));
-            !written) {
-            return written;
-        }
     }
     return results.stopped ? Result<void>(*results.stopped) : Result<void>();
 }

@@ -27,9 +27,9 @@ void add_output_options(CLI::App& command, OutputChoice& choice);
 /// anything is measured, leaves nothing behind.
 Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs);
 
-/// Prints the table, where there are rows, and writes the files: all, or none where one fails; and
-/// the page, with the pictures of the rows that have a view. A run without rows leaves earlier
-/// files as they are. Fails with Results::stopped too.
+/// Writes the files and the page, with the pictures of the rows that have a view: all, or none
+/// where one fails; and prints the table. A run that failed, or has no rows, leaves earlier files
+/// as they are. Fails with Results::stopped too.
 Result<void> report(const Results& results, const OutputChoice& choice);
 
 } // namespace reljef::bench

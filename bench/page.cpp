@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/page_data_uri.h"
+#include "bench/page_heat_map.h"
 #include "bench/page_parts.h"
-#include "engine/core/atomic_file.h"
-#include "engine/io/image.h"
+#include "bench/report_schema.h"
 
 namespace reljef::bench {
 namespace fs = std::filesystem;
@@ -21,57 +21,38 @@ namespace {
 using PageJson = nlohmann::ordered_json;
 
 constexpr std::string_view page_name = "index.html";
-constexpr std::string_view page_schema = "reljef-bench/1";
 
 /// Pictures of the page: each once, named by its index.
 struct Album {
     std::vector<std::string> uris;
     /// Truths that are in already: rows of one view share theirs.
-    std::vector<std::pair<const Image*, std::size_t>> truths;
+    std::vector<std::pair<const RowView::File*, std::size_t>> truths;
 };
 
-Result<std::size_t> add_picture(Album& album, const char* extension, const char* media_type,
-                                const Image& picture) {
-    const auto bytes = io::encode_image(extension, picture);
-    if (!bytes) {
-        return bytes.error();
-    }
-    album.uris.push_back(data_uri(media_type, *bytes));
+std::size_t add_picture(Album& album, const char* media_type, const RowView::File& file) {
+    album.uris.push_back(data_uri(media_type, file));
     return album.uris.size() - 1;
 }
 
-Result<std::size_t> add_truth(Album& album, const Image& truth) {
+std::size_t add_truth(Album& album, const RowView::File& truth) {
     const auto same = std::find_if(album.truths.begin(), album.truths.end(),
-                                   [&](const auto& known) { return *known.first == truth; });
+                                   [&](const auto& known) { return known.first == &truth; });
     if (same != album.truths.end()) {
         return same->second;
     }
-    auto added = add_picture(album, ".jpg", "image/jpeg", truth);
-    if (added) {
-        album.truths.emplace_back(&truth, *added);
-    }
+    const std::size_t added = add_picture(album, "image/jpeg", truth);
+    album.truths.emplace_back(&truth, added);
     return added;
 }
 
-Result<PageJson> add_pictures_of(Album& album, const RowPictures& pictures) {
-    const auto shown = add_picture(album, ".jpg", "image/jpeg", pictures.shown);
-    if (!shown) {
-        return shown.error();
-    }
-    const auto truth = add_truth(album, pictures.truth);
-    if (!truth) {
-        return truth.error();
-    }
-    const auto heat = add_picture(album, ".png", "image/png", pictures.heat);
-    if (!heat) {
-        return heat.error();
-    }
-    return PageJson{{"row", pictures.row},
-                    {"width", pictures.shown.cols()},
-                    {"height", pictures.shown.rows()},
-                    {"shown", *shown},
-                    {"truth", *truth},
-                    {"heat", *heat}};
+PageJson add_pictures_of(Album& album, const RowPictures& pictures) {
+    const RowView& view = *pictures.view;
+    return {{"row", pictures.row},
+            {"width", view.size.x},
+            {"height", view.size.y},
+            {"shown", add_picture(album, "image/jpeg", view.shown)},
+            {"truth", add_truth(album, *view.truth)},
+            {"heat", add_picture(album, "image/png", view.heat)}};
 }
 
 std::string css_color(Rgba8 color) {
@@ -88,15 +69,11 @@ PageJson scale_of_errors() {
             {"colors", std::move(colors)}};
 }
 
-Result<std::string> pictures_as_json(std::span<const RowPictures> pictures) {
+std::string pictures_as_json(std::span<const RowPictures> pictures) {
     Album album;
     PageJson rows = PageJson::array();
     for (const RowPictures& row : pictures) {
-        auto added = add_pictures_of(album, row);
-        if (!added) {
-            return added.error();
-        }
-        rows.push_back(std::move(*added));
+        rows.push_back(add_pictures_of(album, row));
     }
     return PageJson{
         {"scale", scale_of_errors()}, {"rows", std::move(rows)}, {"images", std::move(album.uris)}}
@@ -110,11 +87,11 @@ Result<std::size_t> rows_of_report(std::string_view json_report) {
         return report.contains(key) && report[key].is_string() ? report[key].get<std::string>()
                                                                : std::string();
     };
-    if (!report.is_object() || text_at("schema") != page_schema || !report.contains("rows") ||
+    if (!report.is_object() || text_at("schema") != schema_name || !report.contains("rows") ||
         !report["rows"].is_array()) {
         return Error{fmt::format("no page can be made: the report is no JSON with rows of the "
                                  "schema {:?}, which was expected",
-                                 page_schema)};
+                                 schema_name)};
     }
     return report["rows"].size();
 }
@@ -157,49 +134,72 @@ std::string assembled(std::string_view report, std::string_view pictures) {
     return page;
 }
 
-bool are_complete(const RowPictures& pictures) {
-    const auto has_size = [&](const Image& image) {
-        return image.cols() == pictures.shown.cols() && image.rows() == pictures.shown.rows();
-    };
-    return !pictures.shown.empty() && has_size(pictures.truth) && has_size(pictures.heat);
-}
-
-Result<void> make_folder(const fs::path& folder) {
-    std::error_code code;
-    fs::create_directory(folder, code);
-    return code ? Error{fmt::format("{}: the folder cannot be made: {}", folder.string(),
-                                    code.message())}
-                : Result<void>();
+// "report/" names the folder "report".
+fs::path without_slash(const fs::path& folder) {
+    return folder.has_filename() ? folder : folder.parent_path();
 }
 
 } // namespace
 
+fs::path page_file(const fs::path& folder) {
+    return without_slash(folder) / page_name;
+}
+
 Result<void> check_page_target(const fs::path& folder) {
+    const fs::path target = without_slash(folder);
     std::error_code code;
-    const auto writable =
-        AtomicFile::create(fs::exists(folder, code) ? folder / page_name : folder);
+    if (fs::exists(target, code) && !fs::is_directory(target, code)) {
+        return Error{fmt::format("--html: {} found, which is a file; a folder was expected",
+                                 target.string())};
+    }
+    const auto writable = AtomicFile::create(fs::exists(target, code) ? page_file(folder) : target);
     return writable ? Result<void>() : writable.error();
 }
 
-Result<void> write_page(const fs::path& folder, std::string_view json_report,
-                        std::span<const RowPictures> pictures) {
+Result<MadeFolder> MadeFolder::make(const fs::path& folder) {
+    std::error_code code;
+    const bool is_new = fs::create_directory(folder, code);
+    if (code) {
+        return Error{
+            fmt::format("{}: the folder cannot be made: {}", folder.string(), code.message())};
+    }
+    return MadeFolder(is_new ? folder : fs::path());
+}
+
+MadeFolder::~MadeFolder() {
+    std::error_code ignored;
+    if (!folder_.empty()) {
+        fs::remove(folder_, ignored); // fails where it is not empty
+    }
+}
+
+Result<PreparedPage> prepare_page(const fs::path& folder, std::string_view json_report,
+                                  std::span<const RowPictures> pictures) {
     const auto rows = rows_of_report(json_report);
     if (!rows) {
         return rows.error();
     }
     for (const RowPictures& each : pictures) {
-        check(each.row < *rows, "write_page: pictures of a row that is not in the report");
-        check(are_complete(each), "write_page: a row's pictures are empty or differ in size");
+        check(each.row < *rows, "a page with pictures of a row that is not in the report");
+        check(each.view != nullptr, "a page with a row without pictures");
     }
-    const auto embedded = pictures_as_json(pictures);
-    if (!embedded) {
-        return embedded.error();
+    auto made = MadeFolder::make(without_slash(folder));
+    if (!made) {
+        return made.error();
     }
-    if (auto made = make_folder(folder); !made) {
-        return made;
+    const std::string page =
+        assembled(safe_in_script(json_report), safe_in_script(pictures_as_json(pictures)));
+    auto file = prepare_file(page_file(folder), std::as_bytes(std::span(page)));
+    if (!file) {
+        return file.error();
     }
-    return write_text_file(folder / page_name,
-                           assembled(safe_in_script(json_report), safe_in_script(*embedded)));
+    return PreparedPage{std::move(*made), std::move(*file)};
+}
+
+Result<void> write_page(const fs::path& folder, std::string_view json_report,
+                        std::span<const RowPictures> pictures) {
+    auto page = prepare_page(folder, json_report, pictures);
+    return page ? page->file.commit() : page.error();
 }
 
 } // namespace reljef::bench

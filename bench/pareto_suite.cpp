@@ -13,6 +13,8 @@ namespace {
 constexpr std::array poses{scene::Pose::overview, scene::Pose::oblique, scene::Pose::low,
                            scene::Pose::grazing};
 
+constexpr int most_view_cols = 512; // there are hundreds of rows
+
 bool is_wide(const scene::ParameterInfo& parameter) {
     return parameter.low > 0.0 && parameter.high > 10.0 * parameter.low;
 }
@@ -32,15 +34,50 @@ bool is_accepted(const scene::Technique& technique) {
     return scene::parse_technique(scene::to_string(technique)).has_value();
 }
 
-// Without the one that it is by default.
-std::vector<scene::Technique> settings_of(const scene::TechniqueInfo& info) {
-    const scene::Technique usual = scene::make_technique(info.id);
+// What a technique costs by its kind, about: the first cost the least.
+int cost_rank(const scene::TechniqueInfo& info) {
+    constexpr int searches = 2;
+    constexpr std::array<std::pair<std::string_view, int>, 5> ranks{
+        {{"texture", 0}, {"parallax", 1}, {"exact", 3}, {"prewarp", 4}, {"cone", 5}}};
+    constexpr int triangles = 6;
+    const auto found = std::find_if(ranks.begin(), ranks.end(), [&](const auto& rank) {
+        return info.name.starts_with(rank.first);
+    });
+    const bool is_full = scene::geometry_of(info.id) == scene::Geometry::full;
+    return is_full ? triangles : found == ranks.end() ? searches : found->second;
+}
+
+std::vector<scene::TechniqueInfo> catalogue_by_cost() {
+    std::vector<scene::TechniqueInfo> infos = scene::terrain_techniques();
+    std::stable_sort(infos.begin(), infos.end(),
+                     [](const scene::TechniqueInfo& a, const scene::TechniqueInfo& b) {
+                         return cost_rank(a) < cost_rank(b);
+                     });
+    return infos;
+}
+
+// The values of a parameter but its default, by how many of them lie between.
+std::vector<std::vector<double>> values_by_distance(const scene::ParameterInfo& parameter) {
+    const std::vector<double> values = values_over_range(parameter);
+    const auto usual = std::find(values.begin(), values.end(), parameter.default_value);
+    std::vector<std::vector<double>> rings(values.size() - 1);
+    for (auto value = values.begin(); value != values.end(); ++value) {
+        if (const auto distance = std::abs(value - usual); distance > 0) {
+            rings[static_cast<std::size_t>(distance) - 1].push_back(*value);
+        }
+    }
+    return rings;
+}
+
+// A technique with one parameter as far from its default as `ring` says.
+std::vector<scene::Technique> settings_of_ring(const scene::TechniqueInfo& info, std::size_t ring) {
     std::vector<scene::Technique> settings;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-        for (const double value : values_over_range(info.parameters[i])) {
-            scene::Technique setting = usual;
+        const auto rings = values_by_distance(info.parameters[i]);
+        for (const double value : ring < rings.size() ? rings[ring] : std::vector<double>()) {
+            scene::Technique setting = scene::make_technique(info.id);
             setting.values[i] = value;
-            if (setting.values != usual.values && is_accepted(setting)) {
+            if (is_accepted(setting)) {
                 settings.push_back(std::move(setting));
             }
         }
@@ -60,14 +97,32 @@ std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& ch
     return candidates;
 }
 
+std::vector<StageChoice> pareto_stages(const ParetoOptions& options) {
+    if (options.terrains.empty()) {
+        const int samples = options.suite.quick ? quick_samples : 0;
+        return {{"natural", samples}, {"urban", samples}};
+    }
+    std::vector<StageChoice> stages;
+    for (const std::string& terrain : options.terrains) {
+        stages.push_back({terrain});
+    }
+    return stages;
+}
+
 std::vector<Group> pareto_groups(const ParetoOptions& options) {
     std::vector<Group> groups;
-    for (const std::string& terrain : options.terrains) {
+    for (const StageChoice& stage : pareto_stages(options)) {
         for (const scene::Pose pose : poses) {
-            groups.push_back({"", {terrain}, pose, pareto_candidates(options.techniques)});
+            groups.push_back({"", stage, pose, pareto_candidates(options.techniques)});
         }
     }
     return groups;
+}
+
+bool lacks_a_technique(const Front& front, const std::vector<LeftOut>& left_out) {
+    return std::any_of(left_out.begin(), left_out.end(), [&](const LeftOut& group) {
+        return group.scene == front.scene && group.pose == front.pose && !group.techniques.empty();
+    });
 }
 
 } // namespace
@@ -83,20 +138,29 @@ std::vector<double> values_over_range(const scene::ParameterInfo& parameter) {
 }
 
 std::vector<scene::Technique> settings_over_range() {
+    const std::vector<scene::TechniqueInfo> catalogue = catalogue_by_cost();
     std::vector<scene::Technique> all;
-    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
-        all.push_back(scene::make_technique(info.id));
-    }
-    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
-        const std::vector<scene::Technique> settings = settings_of(info);
-        all.insert(all.end(), settings.begin(), settings.end());
+    std::transform(catalogue.begin(), catalogue.end(), std::back_inserter(all),
+                   [](const scene::TechniqueInfo& info) { return scene::make_technique(info.id); });
+    for (std::size_t ring = 0; ring < most_values; ++ring) {
+        for (const scene::TechniqueInfo& info : catalogue) {
+            const std::vector<scene::Technique> settings = settings_of_ring(info, ring);
+            all.insert(all.end(), settings.begin(), settings.end());
+        }
     }
     return all;
 }
 
 Results run_pareto(const ParetoOptions& options, const std::stop_token& stop) {
-    Results results = run_suite({"pareto", pareto_groups(options)}, options.suite, stop);
+    Suite suite{.name = "pareto", .groups = pareto_groups(options)};
+    suite.most_view_cols = most_view_cols;
+    Results results = run_suite(suite, options.suite, stop);
     results.fronts = fronts_of(results.rows);
+    for (Front& front : results.fronts) {
+        if (lacks_a_technique(front, results.left_out)) {
+            front.area.reset();
+        }
+    }
     return results;
 }
 

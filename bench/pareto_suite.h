@@ -11,9 +11,13 @@ namespace reljef::bench {
 
 struct ParetoOptions {
     SuiteOptions suite;
-    std::vector<std::string> terrains{"natural", "urban"};
+    /// Empty: natural and urban, of quick_samples a side where the run is quick.
+    std::vector<std::string> terrains;
     std::vector<scene::Technique> techniques; ///< beside texture; empty: settings_over_range()
 };
+
+/// A quarter of the built-in terrains: polygons, too, are measured in a minute.
+inline constexpr int quick_samples = 513;
 
 /// At most so many values of one parameter are measured.
 inline constexpr int most_values = 5;
@@ -23,12 +27,15 @@ inline constexpr int most_values = 5;
 /// times its beginning, else in even steps. Whole where it is. Ascending, none twice.
 std::vector<double> values_over_range(const scene::ParameterInfo& parameter);
 
-/// Every technique there is as it is by default, then each with one parameter at a time over its
-/// range, as far as the catalogue takes it. None twice.
+/// Every technique there is as it is by default, the cheapest first by its kind: the flat one,
+/// parallax, searches, exact, what is prepared beforehand, triangles; then each with one parameter
+/// at a time over its range, as far as the catalogue takes it, the values next to the default
+/// first. None twice.
 std::vector<scene::Technique> settings_over_range();
 
 /// Time against error: the settings on each terrain from each of the poses overview, oblique, low
-/// and grazing, and the front of each (pareto_front.h). See run_suite().
+/// and grazing, and the front of each (pareto_front.h), without an area where the default of a
+/// technique was left out. See run_suite().
 Results run_pareto(const ParetoOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

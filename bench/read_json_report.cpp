@@ -1,4 +1,5 @@
 #include <charconv>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,8 +11,12 @@
 namespace reljef::bench {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{1} << 28;
-constexpr JsonRange positive{.low = 0.0, .above_low = true};
+namespace fs = std::filesystem;
+
+constexpr std::size_t largest_file = std::size_t{1} << 25;
+// Of times, rates and ratios: a picosecond to eleven days, in milliseconds. Products and quotients
+// of three of them are still numbers.
+constexpr JsonRange figure_range{.low = 1e-9, .high = 1e9};
 constexpr JsonRange share{.low = 0.0, .high = 1.0};
 
 Result<nlohmann::json> parse(const std::string& text, const std::string& file) {
@@ -86,20 +91,35 @@ render::FrameStats::Skipped read_skipped(const JsonObject& json) {
     return skipped;
 }
 
+bool is_there(const JsonObject& json, std::string_view key) {
+    return json.has(key) && !json.is_null(key);
+}
+
+std::optional<ConfidenceInterval> read_interval(const JsonObject& ms) {
+    if (ms.is_null("interval")) {
+        return std::nullopt;
+    }
+    const std::vector<double> ends = ms.numbers("interval", 2);
+    if (ends[0] > ends[1] || ends[0] < figure_range.low || ends[1] > figure_range.high) {
+        ms.fail("interval", fmt::format("two numbers from {} to {}, the lower one first",
+                                        figure_range.low, figure_range.high));
+    }
+    return ConfidenceInterval{ends[0], ends[1]};
+}
+
 Timing read_timing(const JsonObject& json) {
     const JsonObject ms = json.object("ms");
-    const std::vector<double> interval = ms.numbers("interval", 2);
-    if (interval[0] > interval[1]) {
-        ms.fail("interval", "the lower bound before the upper one");
-    }
     Timing timing;
     timing.frames = json.count("frames", 1);
-    timing.ms = {ms.number("median", positive), ms.number("p95", positive),
-                 ms.number("p99", positive)};
-    timing.interval = {interval[0], interval[1]};
-    timing.fps_1_percent_low = json.number("fps_1_percent_low", positive);
-    timing.ratio_to_texture = json.number("ratio_to_texture", positive);
+    timing.ms = {ms.number("median", figure_range), ms.number("p95", figure_range),
+                 ms.number("p99", figure_range)};
+    timing.interval = read_interval(ms);
+    timing.fps_1_percent_low = json.number("fps_1_percent_low", figure_range);
+    timing.ratio_to_texture = json.number_or_null("ratio_to_texture", figure_range);
     timing.noise_floor = json.number_or_null("noise_floor");
+    if (is_there(json, "gpu_ms")) {
+        timing.gpu_ms = json.number("gpu_ms", {0.0, figure_range.high});
+    }
     timing.stats.tiles = json.whole("tiles");
     timing.stats.triangles = json.count("triangles");
     timing.stats.draws = json.whole("draws");
@@ -136,7 +156,7 @@ RowError read_error(const JsonObject& json) {
 Row read_row(const JsonObject& json) {
     Row row;
     row.suite = json.text("suite");
-    row.test = json.has("test") ? json.text("test") : "";
+    row.test = is_there(json, "test") ? json.text("test") : "";
     row.scene = json.text("scene");
     row.pose = read_pose(json);
     row.setting = read_setting(json);
@@ -145,24 +165,57 @@ Row read_row(const JsonObject& json) {
     if (!json.flag("missing")) {
         row.timing = read_timing(json);
     }
-    if (json.has("error")) {
+    if (is_there(json, "error")) {
         row.error = read_error(json.object("error"));
     }
-    if (json.has("source")) {
+    if (is_there(json, "source")) {
         const JsonObject source = json.object("source");
-        row.source = SourceFigure{source.number("fps", positive), source.number("ratio", positive),
-                                  source.text("where")};
+        row.source = SourceFigure{source.number("fps", figure_range),
+                                  source.number("ratio", figure_range), source.text("where")};
     }
     return row;
 }
 
 Front read_front(const JsonObject& json) {
-    Front front{
-        json.text("scene"), read_pose(json), json.number("area", share), json.texts("front"), {}};
-    for (const JsonObject& setting : json.objects("dominated")) {
+    Front front;
+    front.scene = json.text("scene");
+    front.pose = read_pose(json);
+    front.area = json.number_or_null("area", share);
+    front.front = json.texts("front");
+    json.each("dominated", [&](const JsonObject& setting) {
         front.dominated.push_back({setting.text("label"), setting.text("by")});
+    });
+    if (json.has("holed")) {
+        front.holed = json.texts("holed");
     }
     return front;
+}
+
+LeftOut read_left_out(const JsonObject& json) {
+    return {json.text("scene"), read_pose(json), json.count("settings", 1),
+            json.texts("techniques")};
+}
+
+// What is told of the run itself. Keys that the first results of this schema did not have may be
+// absent.
+Results read_run(const JsonObject& json, const std::string& file) {
+    const bool is_complete = json.flag("complete");
+    Results results;
+    results.environment = read_environment(json.object("environment"));
+    if (json.has("notes")) {
+        results.notes = json.texts("notes");
+    }
+    if (json.has("left_out")) {
+        json.each("left_out", [&](const JsonObject& group) {
+            results.left_out.push_back(read_left_out(group));
+        });
+    }
+    if (is_there(json, "stopped")) {
+        results.stopped = Error{json.text("stopped")};
+    } else if (!is_complete && results.left_out.empty()) {
+        results.stopped = Error{fmt::format("{}: the run ended early", file)};
+    }
+    return results;
 }
 
 void check_schema(const JsonObject& json) {
@@ -172,19 +225,12 @@ void check_schema(const JsonObject& json) {
 }
 
 Results read_results(const JsonObject& json, const std::string& file) {
-    Results results;
     check_schema(json);
-    if (!json.flag("complete")) {
-        results.stopped = Error{fmt::format("{}: the run ended early", file)};
-    }
-    results.environment = read_environment(json.object("environment"));
-    for (const JsonObject& row : json.objects("rows")) {
-        results.rows.push_back(read_row(row));
-    }
+    Results results = read_run(json, file);
+    json.each("rows", [&](const JsonObject& row) { results.rows.push_back(read_row(row)); });
     if (json.has("fronts")) {
-        for (const JsonObject& front : json.objects("fronts")) {
-            results.fronts.push_back(read_front(front));
-        }
+        json.each("fronts",
+                  [&](const JsonObject& front) { results.fronts.push_back(read_front(front)); });
     }
     return results;
 }
@@ -192,6 +238,11 @@ Results read_results(const JsonObject& json, const std::string& file) {
 } // namespace
 
 Result<Results> read_json_report(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (fs::exists(file, ignored) && !fs::is_directory(file, ignored) &&
+        !fs::is_regular_file(file, ignored)) { // which may never end
+        return Error{fmt::format("{}: is a device, a file was expected", file.string())};
+    }
     const auto text = read_text_file(file, largest_file);
     if (!text) {
         return text.error();

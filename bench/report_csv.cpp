@@ -36,14 +36,18 @@ std::string csv_description(const Row& row) {
                        row.null_row, row.missing(), row.noisy(), row.size.x, row.size.y);
 }
 
+std::string csv_interval(const std::optional<ConfidenceInterval>& interval) {
+    return interval ? fmt::format("{},{}", interval->low, interval->high) : ",";
+}
+
 std::string csv_timing(const std::optional<Timing>& timing) {
     if (!timing) {
         return std::string(10, ',');
     }
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{}", timing->frames, timing->ms.median,
-                       timing->interval.low, timing->interval.high, timing->ms.p95, timing->ms.p99,
+    return fmt::format("{},{},{},{},{},{},{},{},{},{}", timing->frames, timing->ms.median,
+                       csv_interval(timing->interval), timing->ms.p95, timing->ms.p99,
                        1000.0 / timing->ms.median, timing->fps_1_percent_low,
-                       timing->ratio_to_texture, or_empty(timing->noise_floor),
+                       or_empty(timing->ratio_to_texture), or_empty(timing->noise_floor),
                        timing->stats.triangles);
 }
 

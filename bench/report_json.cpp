@@ -69,6 +69,10 @@ Json to_json(const RowError& error) {
             {"flip", error.flip}};
 }
 
+Json to_json(const std::optional<ConfidenceInterval>& interval) {
+    return interval ? Json{interval->low, interval->high} : Json();
+}
+
 Json to_json(const SourceFigure& source) {
     return {{"fps", source.fps}, {"ratio", source.ratio}, {"where", source.where}};
 }
@@ -79,48 +83,47 @@ Json to_json(const Timing& timing) {
              {{"median", timing.ms.median},
               {"p95", timing.ms.p95},
               {"p99", timing.ms.p99},
-              {"interval", {timing.interval.low, timing.interval.high}}}},
+              {"interval", to_json(timing.interval)}}},
             {"fps", 1000.0 / timing.ms.median},
             {"fps_1_percent_low", timing.fps_1_percent_low},
-            {"ratio_to_texture", timing.ratio_to_texture},
+            {"ratio_to_texture", or_null(timing.ratio_to_texture)},
             {"noise_floor", or_null(timing.noise_floor)},
+            {"gpu_ms", or_null(timing.gpu_ms)},
             {"tiles", timing.stats.tiles},
             {"triangles", timing.stats.triangles},
             {"draws", timing.stats.draws},
             {"uploads", timing.stats.uploads}};
 }
 
-Json description_of(const Row& row) {
-    Json json{{"suite", row.suite}};
-    if (!row.test.empty()) {
-        json["test"] = row.test;
+// The same keys, for a row that is missing.
+Json without_figures(Json timing) {
+    for (Json& figure : timing) {
+        figure = nullptr;
     }
-    json.update({{"scene", row.scene},
-                 {"pose", scene::to_string(row.pose)},
-                 {"technique", row.setting.technique},
-                 {"params", parameters_of(row.setting)},
-                 {"label", row.setting.label},
-                 {"null_row", row.null_row},
-                 {"missing", row.missing()},
-                 {"noisy", row.noisy()},
-                 {"size", fmt::format("{}x{}", row.size.x, row.size.y)}});
-    return json;
+    return timing;
+}
+
+Json description_of(const Row& row) {
+    return {{"suite", row.suite},
+            {"test", row.test.empty() ? Json() : Json(row.test)},
+            {"scene", row.scene},
+            {"pose", scene::to_string(row.pose)},
+            {"technique", row.setting.technique},
+            {"params", parameters_of(row.setting)},
+            {"label", row.setting.label},
+            {"null_row", row.null_row},
+            {"missing", row.missing()},
+            {"noisy", row.noisy()},
+            {"size", fmt::format("{}x{}", row.size.x, row.size.y)}};
 }
 
 Json to_json(const Row& row) {
     Json json = description_of(row);
-    if (row.timing) {
-        json.update(to_json(*row.timing));
-    }
-    if (row.error) {
-        json["error"] = to_json(*row.error);
-    }
-    if (row.source) {
-        json["source"] = to_json(*row.source);
-    }
-    if (row.timing) {
-        json["skipped"] = to_json(row.timing->stats.skipped);
-    }
+    json.update(row.timing ? to_json(*row.timing) : without_figures(to_json(Timing{})));
+    json["taps"] = nullptr; // not counted yet
+    json["error"] = row.error ? to_json(*row.error) : Json();
+    json["source"] = row.source ? to_json(*row.source) : Json();
+    json["skipped"] = row.timing ? to_json(row.timing->stats.skipped) : Json();
     return json;
 }
 
@@ -131,9 +134,17 @@ Json to_json(const Front& front) {
     }
     return {{"scene", front.scene},
             {"pose", scene::to_string(front.pose)},
-            {"area", front.area},
+            {"area", or_null(front.area)},
             {"front", front.front},
-            {"dominated", std::move(dominated)}};
+            {"dominated", std::move(dominated)},
+            {"holed", front.holed}};
+}
+
+Json to_json(const LeftOut& left_out) {
+    return {{"scene", left_out.scene},
+            {"pose", scene::to_string(left_out.pose)},
+            {"settings", left_out.settings},
+            {"techniques", left_out.techniques}};
 }
 
 template <class Part> Json array_of(const std::vector<Part>& parts) {
@@ -148,7 +159,10 @@ template <class Part> Json array_of(const std::vector<Part>& parts) {
 
 std::string json_report(const Results& results) {
     Json report{{"schema", schema_name},
-                {"complete", !results.stopped.has_value()},
+                {"complete", results.complete()},
+                {"stopped", results.stopped ? Json(results.stopped->message) : Json()},
+                {"notes", results.notes},
+                {"left_out", array_of(results.left_out)},
                 {"environment", to_json(results.environment)},
                 {"rows", array_of(results.rows)}};
     if (!results.fronts.empty()) {

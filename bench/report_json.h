@@ -7,8 +7,9 @@
 
 namespace reljef::bench {
 
-/// The results as JSON of the schema "reljef-bench/1". Shares are fractions, times milliseconds;
-/// what could not be measured is null. "complete" is false where the run ended early.
+/// The results as JSON of the schema schema_name. Shares are fractions, times milliseconds. Every
+/// row has every key; what could not be or is not measured is null, "taps" everywhere. "complete"
+/// is false where the run ended early, as "stopped" says, or left settings out, as "left_out" says.
 std::string json_report(const Results& results);
 
 /// Writes json_report(), whole or not at all.

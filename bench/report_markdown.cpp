@@ -47,9 +47,12 @@ std::string markdown_table(const ReportTable& table) {
 }
 
 std::string markdown_front(const Front& front) {
-    std::string text = fmt::format(
-        "- {}, {}: {}; area {:.3f}\n", escaped(front.scene), scene::to_string(front.pose),
-        escaped(fmt::format("{}", fmt::join(front.front, ", "))), front.area);
+    std::string text =
+        fmt::format("- {}, {}: {}; {}\n", escaped(front.scene), scene::to_string(front.pose),
+                    escaped(fmt::format("{}", fmt::join(front.front, ", "))), area_text(front));
+    if (!front.holed.empty()) {
+        text += fmt::format("  - {}\n", escaped(holed_text(front)));
+    }
     for (const Front::Dominated& setting : front.dominated) {
         text +=
             fmt::format("  - {} is dominated by {}\n", escaped(setting.label), escaped(setting.by));
@@ -67,8 +70,9 @@ std::string markdown_list(const std::vector<std::string>& lines) {
 
 } // namespace
 
-std::string markdown_report(const Results& results) {
-    check(!results.rows.empty(), "a report of no rows");
+std::string markdown_report(const Results& raw) {
+    check(!raw.rows.empty(), "a report of no rows");
+    const Results results = printable(raw);
     std::string text = fmt::format("# reljef-bench {}\n\n", results.rows.front().suite) +
                        markdown_list(environment_lines(results.environment));
     for (const ReportTable& table : report_tables(results)) {
@@ -80,6 +84,9 @@ std::string markdown_report(const Results& results) {
             text += markdown_front(front);
         }
         text += "\n";
+    }
+    if (results.stopped) {
+        text += fmt::format("Ended early: {}\n\n", escaped(results.stopped->message));
     }
     return text + markdown_list(column_notes(results));
 }

@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/message.h"
+#include "bench/pareto_front.h"
+
 namespace reljef::bench {
 namespace {
 
-constexpr std::size_t reliable_frames = 5;
 constexpr const char* no_figure = "–";
 
 bool is_same_table(const Row& a, const Row& b) {
@@ -29,7 +31,9 @@ std::string heading_of(std::span<const Row> rows) {
                        ? fmt::format(", noise floor {:.1f} %", 100.0 * *row.timing->noise_floor)
                        : ", noise floor unknown";
     }
-    return heading + (row.noisy() ? ": NOISY" : "");
+    return heading + (!row.noisy()           ? ""
+                      : row.has_few_frames() ? ": NOISY, too few frames"
+                                             : ": NOISY");
 }
 
 bool has_sources(std::span<const Row> rows) {
@@ -63,18 +67,26 @@ std::string figure(double value) {
                           : fmt::format("{:.{}f}", value, value >= 0.9995 ? 2 : 3);
 }
 
+std::string half_width_cell(const Timing& timing) {
+    if (!timing.interval) {
+        return no_figure;
+    }
+    const double half_width = 0.5 * (timing.interval->high - timing.interval->low);
+    return fmt::format("{:.1f} %", 100.0 * half_width / timing.ms.median);
+}
+
 std::vector<std::string> time_cells(const Row& row) {
     if (!row.timing) {
         return std::vector<std::string>(6, no_figure);
     }
     const Timing& timing = *row.timing;
-    const double half_width = 0.5 * (timing.interval.high - timing.interval.low);
+    const auto& ratio = timing.ratio_to_texture;
     return {figure(timing.ms.median),
-            fmt::format("{:.1f} %", 100.0 * half_width / timing.ms.median),
+            half_width_cell(timing),
             figure(1000.0 / timing.ms.median),
             figure(timing.fps_1_percent_low),
-            fmt::format("{:.2f}", timing.ratio_to_texture),
-            fmt::format("{:.0f} %", 100.0 * (1.0 - 1.0 / timing.ratio_to_texture))};
+            ratio ? fmt::format("{:.2f}", *ratio) : no_figure,
+            ratio ? fmt::format("{:.0f} %", 100.0 * (1.0 - 1.0 / *ratio)) : no_figure};
 }
 
 std::vector<std::string> source_cells(const Row& row) {
@@ -83,19 +95,25 @@ std::vector<std::string> source_cells(const Row& row) {
                       : std::vector<std::string>(2, no_figure);
 }
 
+bool has_unbounded(const Row& row) {
+    return row.error && row.error->reprojection_px && row.error->reprojection_px->unbounded > 0;
+}
+
 std::vector<std::string> level_cells(const Row& row) {
     const bool has_error = row.error && row.error->reprojection_px;
     return {row.timing ? fmt::format("{}", row.timing->stats.triangles) : std::string(no_figure),
-            has_error ? figure(row.error->reprojection_px->distribution.max)
-                      : std::string(no_figure)};
+            !has_error           ? std::string(no_figure)
+            : has_unbounded(row) ? "∞"
+                                 : figure(row.error->reprojection_px->distribution.max)};
 }
 
 std::vector<std::string> error_cells(const Row& row) {
     if (!row.error) {
         return std::vector<std::string>(2, no_figure);
     }
-    return {row.error->reprojection_px ? figure(row.error->reprojection_px->distribution.rms)
-                                       : std::string(no_figure),
+    const auto& error = row.error->reprojection_px;
+    const std::string bound = has_unbounded(row) ? "≥" : "";
+    return {error ? bound + figure(error->distribution.rms) : std::string(no_figure),
             fmt::format("{:.1f} %", row.error->wrong_percent)};
 }
 
@@ -115,25 +133,46 @@ std::vector<std::string> cells_of(const Row& row, bool with_sources, bool with_l
     return cells;
 }
 
-bool shows_nothing(const Row& row) {
-    return !row.null_row && row.error && !row.error->reprojection_px;
+std::string unbounded_text(const Row& row) {
+    return fmt::format("{} {}", row.setting.label, row.error->reprojection_px->unbounded);
+}
+
+// Of what the pictures' errors hold in any row: the true one filters its colours otherwise.
+std::string picture_floor(const Row& exact) {
+    const RowError& error = *exact.error;
+    return fmt::format(
+        "floor of the pictures' errors, that of exact: FLIP {:.3f}, PSNR {}, SSIM {}", error.flip,
+        error.psnr ? fmt::format("{:.1f} dB", *error.psnr) : "∞",
+        error.ssim ? fmt::format("{:.3f}", *error.ssim) : no_figure);
 }
 
 std::vector<std::string> notes_of(std::span<const Row> rows) {
     std::vector<std::string> notes;
-    const auto tell = [&](std::string_view title, bool (*is_meant)(const Row&)) {
+    const auto tell = [&](std::string_view title, bool (*is_meant)(const Row&),
+                          std::string (*text_of)(const Row&)) {
         std::vector<std::string> labels;
         for (const Row& row : rows) {
-            if (is_meant(row)) {
-                labels.push_back(row.setting.label);
+            if (!row.null_row && is_meant(row)) {
+                labels.push_back(text_of(row));
             }
         }
         if (!labels.empty()) {
             notes.push_back(fmt::format("{}: {}", title, fmt::join(labels, ", ")));
         }
     };
-    tell("missing, not there yet", [](const Row& row) { return row.missing(); });
-    tell("shows nothing of the terrain here, so its time says nothing", shows_nothing);
+    const auto label_of = [](const Row& row) { return row.setting.label; };
+    tell(
+        "missing, not there yet", [](const Row& row) { return row.missing(); }, label_of);
+    tell(
+        "shows nothing of the terrain here, so its time says nothing",
+        [](const Row& row) { return row.shows_nothing(); }, label_of);
+    tell("≥, pixels whose error has no bound are not in it", has_unbounded, unbounded_text);
+    const auto exact = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
+        return row.setting.technique == "exact" && row.error;
+    });
+    if (exact != rows.end()) {
+        notes.push_back(picture_floor(*exact));
+    }
     return notes;
 }
 
@@ -149,10 +188,6 @@ ReportTable table_of_rows(std::span<const Row> rows) {
     return table;
 }
 
-bool has_few_frames(const Row& row) {
-    return row.timing && row.timing->frames < reliable_frames;
-}
-
 } // namespace
 
 std::vector<ReportTable> report_tables(const Results& results) {
@@ -165,6 +200,37 @@ std::vector<ReportTable> report_tables(const Results& results) {
         begin = next;
     }
     return tables;
+}
+
+Results printable(Results results) {
+    const auto clean = [](std::string& text) { text = app::printable(text); };
+    const auto clean_all = [&](std::vector<std::string>& texts) {
+        std::for_each(texts.begin(), texts.end(), clean);
+    };
+    Environment& environment = results.environment;
+    for (std::string* text : {&environment.renderer, &environment.gl, &environment.context,
+                              &environment.cpu, &environment.commit}) {
+        clean(*text);
+    }
+    for (Row& row : results.rows) {
+        for (std::string* text : {&row.suite, &row.test, &row.scene, &row.setting.label}) {
+            clean(*text);
+        }
+    }
+    for (Front& front : results.fronts) {
+        clean(front.scene);
+        clean_all(front.front);
+        clean_all(front.holed);
+        for (Front::Dominated& setting : front.dominated) {
+            clean(setting.label);
+            clean(setting.by);
+        }
+    }
+    clean_all(results.notes);
+    if (results.stopped) {
+        clean(results.stopped->message);
+    }
+    return results;
 }
 
 std::vector<std::string> environment_lines(const Environment& environment) {
@@ -186,18 +252,33 @@ std::vector<std::string> column_notes(const Results& results) {
         notes.emplace_back(
             "source: frame rate in the thesis, on the newer of its two machines, and ratio there.");
     }
-    if (std::any_of(begin, end, [](const Row& row) { return row.noisy(); })) {
+    if (std::any_of(begin, end,
+                    [](const Row& row) { return row.noisy() && !row.has_few_frames(); })) {
         notes.push_back(fmt::format("NOISY: texture measured twice lies over {:.0f} % apart; a "
                                     "difference below the floor is none.",
                                     100.0 * most_noise));
     }
-    if (std::any_of(begin, end, has_few_frames)) {
+    if (std::any_of(begin, end, [](const Row& row) { return row.has_few_frames(); })) {
         notes.push_back(fmt::format("Caution: under {} frames of a technique are too few to rely "
-                                    "on.",
-                                    reliable_frames));
+                                    "on, and to tell a noise floor of.",
+                                    least_frames));
+    }
+    if (std::any_of(begin, end, [](const Row& row) { return row.setting.technique == "exact"; })) {
+        notes.emplace_back("FLIP, PSNR, SSIM, RMSE: of the shaded picture, filtering of its colour "
+                           "map included; exact's own is the floor.");
     }
     notes.insert(notes.end(), results.notes.begin(), results.notes.end());
     return notes;
+}
+
+std::string area_text(const Front& front) {
+    return front.area ? fmt::format("area {:.3f}", *front.area)
+                      : "no area, as a technique or the ratio to texture is lacking";
+}
+
+std::string holed_text(const Front& front) {
+    return fmt::format("holes over {:.1f} % of the picture: {}", 100.0 * most_holes,
+                       fmt::join(front.holed, ", "));
 }
 
 std::size_t text_width(const std::string& text) {

@@ -20,11 +20,20 @@ struct ReportTable {
 /// heading tells the noise floor. Columns for the sources' figures only where there are some.
 std::vector<ReportTable> report_tables(const Results& results);
 
+/// The results with every name as a terminal may show it, see app::printable().
+Results printable(Results results);
+
 /// On what it was measured, as lines "renderer: …".
 std::vector<std::string> environment_lines(const Environment& environment);
 
 /// What the columns mean, as sentences.
 std::vector<std::string> column_notes(const Results& results);
+
+/// "area 0.250", or that there is none.
+std::string area_text(const Front& front);
+
+/// Which rows have too many holes for the front.
+std::string holed_text(const Front& front);
 
 /// The number of code points.
 std::size_t text_width(const std::string& text);

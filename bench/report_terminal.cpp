@@ -68,9 +68,12 @@ std::string terminal_table(const ReportTable& table, const std::vector<std::size
 }
 
 std::string terminal_front(const Front& front) {
-    std::string text = wrapped(fmt::format("{}, {}: front {}; area {:.3f}", front.scene,
-                                           scene::to_string(front.pose),
-                                           fmt::join(front.front, ", "), front.area));
+    std::string text =
+        wrapped(fmt::format("{}, {}: front {}; {}", front.scene, scene::to_string(front.pose),
+                            fmt::join(front.front, ", "), area_text(front)));
+    if (!front.holed.empty()) {
+        text += wrapped("  " + holed_text(front), 4);
+    }
     for (const Front::Dominated& setting : front.dominated) {
         text += wrapped(fmt::format("  {} is dominated by {}", setting.label, setting.by), 4);
     }
@@ -91,8 +94,9 @@ std::string terminal_fronts(const std::vector<Front>& fronts) {
 
 } // namespace
 
-std::string terminal_report(const Results& results) {
-    check(!results.rows.empty(), "a report of no rows");
+std::string terminal_report(const Results& raw) {
+    check(!raw.rows.empty(), "a report of no rows");
+    const Results results = printable(raw);
     const std::vector<ReportTable> tables = report_tables(results);
     std::string text =
         fmt::format("{}: frames of the techniques interleaved\n{}\n\n", results.rows.front().suite,

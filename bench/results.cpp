@@ -14,8 +14,16 @@ Setting setting_of(const scene::Technique& technique) {
     return setting;
 }
 
+bool Row::has_few_frames() const {
+    return timing && timing->frames < least_frames;
+}
+
 bool Row::noisy() const {
-    return timing && timing->noise_floor && *timing->noise_floor > most_noise;
+    return has_few_frames() || (timing && timing->noise_floor && *timing->noise_floor > most_noise);
+}
+
+bool Row::shows_nothing() const {
+    return error && !error->reprojection_px;
 }
 
 } // namespace reljef::bench

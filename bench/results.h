@@ -9,8 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "bench/environment.h"
-#include "engine/core/color.h"
-#include "engine/core/grid.h"
+#include "bench/row_view.h"
 #include "engine/core/result.h"
 #include "engine/core/statistics.h"
 #include "engine/render/frame_stats.h"
@@ -23,6 +22,9 @@ namespace reljef::bench {
 /// A row above this noise floor is marked noisy: what it says of small differences is worth
 /// nothing.
 inline constexpr double most_noise = 0.10;
+
+/// Of fewer frames neither a noise floor nor an interval can be told, see median_interval().
+inline constexpr std::size_t least_frames = 5;
 
 /// A technique by its names, which the program that reads them need not know.
 struct Setting {
@@ -40,15 +42,19 @@ Setting setting_of(const scene::Technique& technique);
 
 /// How fast.
 struct Timing {
-    std::size_t frames = 0;         ///< timed, at least 1
-    Summary ms;                     ///< from the first command of a frame until all of it is drawn
-    ConfidenceInterval interval;    ///< of the median, milliseconds, see median_interval()
+    std::size_t frames = 0; ///< timed, at least 1
+    Summary ms;             ///< from the first command of a frame until all of it is drawn
+    /// Of the median, milliseconds, see median_interval(); absent under least_frames.
+    std::optional<ConfidenceInterval> interval;
     double fps_1_percent_low = 0.0; ///< 1000 over the mean of the slowest hundredth, milliseconds
-    double ratio_to_texture = 1.0;  ///< of the medians, in the same run
+    /// Of the medians, in the same run; absent where texture shows no terrain, as its time says
+    /// nothing then.
+    std::optional<double> ratio_to_texture;
     /// How far the medians of texture and its null row lie apart, a share of the smaller; absent
-    /// where the run ended before there was a null row.
+    /// where either has under least_frames.
     std::optional<double> noise_floor;
-    render::FrameStats stats; ///< of the last frame
+    std::optional<double> gpu_ms; ///< median of what the GPU took; absent on software renderers
+    render::FrameStats stats;     ///< of the last frame
 };
 
 /// How wrong: engine/truth/geometric_error.h and image_error.h say what is what.
@@ -75,13 +81,6 @@ struct SourceFigure {
     std::string where;  ///< "relief-4, configuration 2"
 };
 
-/// What a row looks like; not part of the JSON.
-struct RowView {
-    Image shown;
-    std::shared_ptr<const Image> truth; ///< shared by the rows of one scene and pose
-    Grid<float> reprojection;           ///< pixels of error, NaN where there is none
-};
-
 /// One technique on one scene.
 struct Row {
     std::string suite;
@@ -94,11 +93,14 @@ struct Row {
     std::optional<Timing> timing; ///< absent: the technique does not exist yet, the row is missing
     std::optional<RowError> error;
     std::optional<SourceFigure> source;
-    std::shared_ptr<const RowView> view; ///< where it was asked for
+    std::shared_ptr<const RowView> view; ///< where it was asked for; not part of the JSON
 
     [[nodiscard]] bool missing() const { return !timing.has_value(); }
-    /// Whether its noise floor is above most_noise.
+    [[nodiscard]] bool has_few_frames() const; ///< timed ones, under least_frames
+    /// Whether its noise floor is above most_noise, or it has too few frames for one.
     [[nodiscard]] bool noisy() const;
+    /// Whether it was held against the truth and shows none of the terrain.
+    [[nodiscard]] bool shows_nothing() const;
 };
 
 /// Which settings of one scene and pose are worth their time, see pareto_front.h.
@@ -110,18 +112,34 @@ struct Front {
 
     std::string scene;
     scene::Pose pose = scene::Pose::overview;
-    double area = 1.0;              ///< [0,1], the smaller the better
+    /// [0,1], the smaller the better; absent where it would not be that of all techniques, as the
+    /// default of one was left out, or texture, its measure, shows no terrain.
+    std::optional<double> area;
     std::vector<std::string> front; ///< labels, the fastest first
     std::vector<Dominated> dominated;
+    std::vector<std::string> holed; ///< labels of the rows that have too many holes for a place
+};
+
+/// Settings of one scene and pose that are no rows, for want of time or as the run was stopped.
+struct LeftOut {
+    std::string scene;
+    scene::Pose pose = scene::Pose::overview;
+    std::size_t settings = 0;            ///< so many
+    std::vector<std::string> techniques; ///< whose first setting, the default, is one of them
 };
 
 /// What a run brought.
 struct Results {
     Environment environment;
     std::vector<Row> rows;
-    std::vector<Front> fronts;      ///< of the suite pareto
-    std::vector<std::string> notes; ///< what a reader of the tables should be told; not in JSON
-    std::optional<Error> stopped;   ///< why there are not all rows
+    std::vector<Front> fronts; ///< of the suite pareto
+    std::vector<LeftOut> left_out;
+    std::vector<std::string> notes; ///< what a reader of the tables should be told
+    std::optional<Error> stopped;   ///< why the run ended early
+    bool failed = false;            ///< so it did by an error, and not as it was asked to
+
+    /// Whether there is every row that was asked for.
+    [[nodiscard]] bool complete() const { return !stopped && left_out.empty(); }
 };
 
 } // namespace reljef::bench

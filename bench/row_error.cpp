@@ -88,8 +88,8 @@ Result<Judgement> judge(Stage& stage, const scene::Technique& technique, render:
     }
     Judgement judgement{row_error_of(*geometric, *image), {}};
     if (options.keep_view) {
-        judgement.view = std::make_shared<const RowView>(RowView{
-            std::move(shown->image), truth->get().image, std::move(geometric->reprojection.map)});
+        judgement.view = ShownView{std::move(shown->image), truth->get().image,
+                                   std::move(geometric->reprojection.map)};
     }
     return judgement;
 }

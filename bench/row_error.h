@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <stop_token>
 
 #include "bench/results.h"
@@ -12,7 +12,7 @@ namespace reljef::bench {
 /// How wrong a technique's picture is, and what it looks like.
 struct Judgement {
     RowError error;
-    std::shared_ptr<const RowView> view; ///< where it was asked for
+    std::optional<ShownView> view; ///< where it was asked for
 };
 
 struct JudgeOptions {

@@ -1,123 +1,59 @@
 #include "bench/suite.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <limits>
+#include <map>
+#include <set>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/device.h"
 #include "app/progress_line.h"
 #include "bench/measure.h"
 #include "bench/row_error.h"
+#include "bench/time_table.h"
 
 namespace reljef::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double seconds_a_group = 20.0;
-constexpr double noisy_seconds_a_group = 60.0;
-constexpr int most_rounds = 2000;
-constexpr double quick_seconds = 10.0; // of measuring, all groups together
-constexpr int most_quick_rounds = 200;
-constexpr double quick_limit = 48.0; // seconds for all of it, a slow machine's reserve left out
-
 // One thing drawn; what its last frame drew.
 struct Entry {
     Row row;
     std::optional<scene::Technique> technique;
     render::FrameStats stats{};
+    std::vector<double> gpu_ms{}; // of every frame
 };
 
-// A parameter of a technique that does not exist yet; one that is no number is left out.
-std::optional<Setting::Parameter> parameter_named(std::string_view text) {
-    const auto equals = std::min(text.find('='), text.size());
-    const std::string_view digits = text.substr(std::min(equals + 1, text.size()));
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return code == std::errc{} && end == digits.data() + digits.size()
-               ? std::optional(Setting::Parameter{std::string(text.substr(0, equals)), value})
-               : std::nullopt;
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
 }
-
-Setting setting_named(const std::string& text) {
-    const auto colon = std::min(text.find(':'), text.size());
-    Setting setting{text.substr(0, colon), {}, text};
-    for (std::size_t begin = colon + 1; begin < text.size();) {
-        const auto end = std::min(text.find(',', begin), text.size());
-        if (auto parameter = parameter_named(std::string_view(text).substr(begin, end - begin))) {
-            setting.parameters.push_back(std::move(*parameter));
-        }
-        begin = end + 1;
-    }
-    return setting;
-}
-
-// Shares the time of a run among its groups.
-class TimeTable {
-public:
-    TimeTable(const SuiteOptions& options, std::size_t groups)
-        : options_(options), groups_(static_cast<double>(groups)) {}
-
-    // Until the next group must have judged its candidates, when `left` groups are left, this one
-    // among them: half of its time.
-    [[nodiscard]] Clock::time_point judging_ends(std::size_t left) const {
-        const bool is_bounded = options_.quick && options_.rounds == 0;
-        const std::chrono::duration<double> share(0.5 * seconds_left() / static_cast<double>(left));
-        return is_bounded ? Clock::now() + std::chrono::duration_cast<Clock::duration>(share)
-                          : Clock::time_point::max();
-    }
-
-    // Of the next group, when `left` are left, this one among them.
-    [[nodiscard]] MeasureOptions next(std::size_t left) const {
-        MeasureOptions measure;
-        measure.most_noise = most_noise;
-        measure.most_rounds = most_rounds;
-        measure.seconds = seconds_a_group;
-        measure.noisy_seconds = noisy_seconds_a_group;
-        if (options_.quick) {
-            measure.warm_up_rounds = 1;
-            measure.most_rounds = most_quick_rounds;
-            measure.seconds = quick_seconds / groups_;
-            measure.noisy_seconds = 2.0 * measure.seconds;
-            measure.most_seconds = seconds_left() / static_cast<double>(left);
-        }
-        if (options_.rounds > 0) {
-            measure.least_rounds = options_.rounds;
-            measure.most_rounds = options_.rounds;
-            measure.seconds = 0.0;
-            measure.most_seconds = std::numeric_limits<double>::infinity();
-        }
-        return measure;
-    }
-
-private:
-    [[nodiscard]] double seconds_left() const {
-        return quick_limit - std::chrono::duration<double>(Clock::now() - begin_).count();
-    }
-
-    const SuiteOptions& options_;
-    double groups_;
-    Clock::time_point begin_ = Clock::now();
-};
 
 // Tells the progress of all groups from that of each.
 class SuiteProgress {
 public:
     SuiteProgress(std::string_view label, std::size_t groups, const SuiteOptions& options)
-        : line_(fmt::format("measuring {}", label), options.quiet),
+        : line_(fmt::format("measuring {}", label), options.quiet), progress_(options.progress),
           groups_(static_cast<double>(groups)), judging_(options.quick ? 0.7 : 0.2) {}
 
     void begin_group(std::size_t index) { index_ = static_cast<double>(index); }
-    void tell_judged(double fraction) { line_.update((index_ + judging_ * fraction) / groups_); }
-    void tell_timed(double fraction) {
-        line_.update((index_ + std::lerp(judging_, 1.0, fraction)) / groups_);
-    }
+    void tell_judged(double fraction) { tell(judging_ * fraction); }
+    void tell_timed(double fraction) { tell(std::lerp(judging_, 1.0, fraction)); }
 
 private:
+    void tell(double fraction_of_group) {
+        const double fraction = (index_ + fraction_of_group) / groups_;
+        line_.update(fraction);
+        if (progress_) {
+            progress_(fraction);
+        }
+    }
+
     app::ProgressLine line_;
+    const Progress& progress_;
     double groups_;
     double judging_; // the share of a group's time, about
     double index_ = 0.0;
@@ -134,8 +70,7 @@ Result<app::Device> make_device(const SuiteOptions& options) {
     return app::Device::create(device);
 }
 
-// Texture again last: the null row.
-std::vector<Entry> entries_of(const Group& group, std::string_view suite, const Stage& stage,
+std::vector<Entry> entries_of(const Group& group, std::string_view suite, const std::string& scene,
                               glm::ivec2 size) {
     check(!group.candidates.empty() && group.candidates.front().technique.has_value(),
           "a group does not begin with texture");
@@ -144,17 +79,25 @@ std::vector<Entry> entries_of(const Group& group, std::string_view suite, const 
         Row row;
         row.suite = suite;
         row.test = group.test;
-        row.scene = stage.name();
+        row.scene = scene;
         row.pose = group.pose;
         row.setting = candidate.setting;
         row.size = size;
         row.source = candidate.source;
         entries.push_back({std::move(row), candidate.technique});
     }
-    Entry null_entry = entries.front();
-    null_entry.row.null_row = true;
-    null_entry.row.source.reset();
-    entries.push_back(std::move(null_entry));
+    return entries;
+}
+
+// Texture again last.
+std::vector<Entry> ended_by_null_row(std::vector<Entry> entries) {
+    if (!entries.empty()) {
+        Entry null_entry{entries.front().row, entries.front().technique};
+        null_entry.row.null_row = true;
+        null_entry.row.source.reset();
+        null_entry.row.view.reset();
+        entries.push_back(std::move(null_entry));
+    }
     return entries;
 }
 
@@ -166,8 +109,73 @@ DrawFrame frame_of(Entry& entry, Stage& stage, render::Driver& driver) {
             return stats.error();
         }
         entry.stats = *stats;
+        entry.gpu_ms.push_back(stats->gpu_ms);
         return {};
     };
+}
+
+// So that what was judged is not lost when the run is stopped before all was drawn once.
+bool lacks_a_round(const Measurement& measurement) {
+    return measurement.stopped &&
+           std::any_of(measurement.ms.begin(), measurement.ms.end(),
+                       [](const std::vector<double>& ms) { return ms.empty(); });
+}
+
+MeasureOptions one_round() {
+    MeasureOptions options;
+    options.warm_up_rounds = 0;
+    options.least_rounds = 1;
+    options.most_rounds = 1;
+    return options;
+}
+
+// Absent where either of texture's two rows, the first and the last, has few frames.
+std::optional<double> noise_floor_of(const Measurement& measurement) {
+    const bool is_reliable =
+        std::min(measurement.ms.front().size(), measurement.ms.back().size()) >= least_frames;
+    return is_reliable ? measurement.noise_floor : std::nullopt;
+}
+
+Timing timing_of(const std::vector<double>& ms, std::optional<double> noise_floor) {
+    Timing timing;
+    timing.frames = ms.size();
+    timing.ms = summarize(ms);
+    timing.fps_1_percent_low = 1000.0 / mean_of_largest(ms, 0.01);
+    if (ms.size() >= least_frames) {
+        timing.interval = median_interval(ms);
+        timing.noise_floor = noise_floor;
+    }
+    return timing;
+}
+
+bool has_row_of(const Candidate& candidate, std::span<const Row> rows) {
+    return std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
+        return row.setting.label == candidate.setting.label;
+    });
+}
+
+// The candidates that are none of the rows.
+LeftOut left_out_of(const Group& group, const std::string& stage, std::span<const Row> rows) {
+    LeftOut left_out{stage, group.pose, 0, {}};
+    std::set<std::string> begun; // techniques
+    for (const Candidate& candidate : group.candidates) {
+        const bool is_first = begun.insert(candidate.setting.technique).second;
+        if (!has_row_of(candidate, rows)) {
+            ++left_out.settings;
+            if (is_first) {
+                left_out.techniques.push_back(candidate.setting.technique);
+            }
+        }
+    }
+    return left_out;
+}
+
+std::string left_out_note(const LeftOut& left_out, std::size_t candidates, bool is_stopped) {
+    return fmt::format("{}, {}: {} of {} settings left out, {}{}{}", left_out.scene,
+                       scene::to_string(left_out.pose), left_out.settings, candidates,
+                       is_stopped ? "as the run was stopped" : "there was no time for them",
+                       left_out.techniques.empty() ? "" : "; even the first of ",
+                       fmt::join(left_out.techniques, ", "));
 }
 
 // Measures one suite on one device.
@@ -175,8 +183,8 @@ class SuiteRun {
 public:
     SuiteRun(const Suite& suite, const SuiteOptions& options, std::stop_token stop)
         : suite_(suite), options_(options), stop_(std::move(stop)),
-          time_table_(options, suite.groups.size()),
-          stages_({options.size, options.threads, options.quiet}, stop_, suite.keep_stages) {}
+          stages_({options.size, options.threads, options.quiet}, stop_, suite.keep_stages),
+          views_(suite.most_view_cols) {}
 
     Result<void> run() {
         auto device = make_device(options_);
@@ -184,6 +192,7 @@ public:
             return device.error();
         }
         results_.environment = environment_of(device->context(), options_.threads);
+        is_software_ = device->context().is_software();
         if (auto opened = open_stages(); !opened) {
             return opened;
         }
@@ -200,12 +209,23 @@ public:
     Results take() { return std::move(results_); }
 
 private:
+    // That of its scene; where several have it, the path.
+    [[nodiscard]] const std::string& name_of(const Group& group, const Stage& stage) const {
+        return shared_names_.contains(stage.name()) ? group.stage.terrain : stage.name();
+    }
+
     // All of them, so that a mistake in the last does not cost the time of measuring the others.
     Result<void> open_stages() {
         for (const Group& group : suite_.groups) {
             if (suite_.keep_stages) {
-                if (auto stage = stages_.get(group.stage); !stage) {
+                const auto stage = stages_.get(group.stage);
+                if (!stage) {
                     return stage.error();
+                }
+                const std::string& name = (*stage)->name();
+                const auto first = owners_.emplace(name, group.stage).first;
+                if (first->second != group.stage) {
+                    shared_names_.insert(name);
                 }
             }
         }
@@ -214,67 +234,122 @@ private:
 
     Result<void> run_group(std::size_t index, render::Driver& driver, SuiteProgress& progress) {
         const Group& group = suite_.groups[index];
+        const std::size_t left = suite_.groups.size() - index;
+        const double seconds = group_seconds(options_, seconds_since(begin_), left);
+        group_begin_ = Clock::now();
         const auto stage = stages_.get(group.stage);
         if (!stage) {
             return stage.error();
         }
         (*stage)->set_pose(group.pose);
-        std::vector<Entry> entries = entries_of(group, suite_.name, **stage, options_.size);
-        const std::size_t left = suite_.groups.size() - index;
-        const Clock::time_point end = time_table_.judging_ends(left);
-        if (auto judged = judge_all(entries, end, **stage, driver, progress); !judged) {
-            return judged;
+        const std::string& name = name_of(group, **stage);
+        auto entries = judge_all(entries_of(group, suite_.name, name, options_.size), seconds,
+                                 **stage, driver, progress);
+        if (!entries || entries->empty()) {
+            return entries ? Result<void>() : entries.error();
         }
-        MeasureOptions measuring = time_table_.next(left);
-        measuring.stop = stop_;
-        measuring.progress = [&](double fraction) { progress.tell_timed(fraction); };
-        return time_all(entries, **stage, driver, std::move(measuring));
-    }
-
-    // Leaves out what there is no time for before `end`, where that is allowed, but not texture.
-    Result<void> judge_all(std::vector<Entry>& entries, Clock::time_point end, Stage& stage,
-                           render::Driver& driver, SuiteProgress& progress) {
-        const JudgeOptions options{static_cast<unsigned>(options_.threads), options_.keep_views,
-                                   stop_};
-        const std::size_t count = entries.size() - 1;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (suite_.may_leave_out && i > 0 && Clock::now() >= end) {
-                leave_out(entries, i, stage.name());
-                break;
-            }
-            if (entries[i].technique) {
-                auto judgement = judge(stage, *entries[i].technique, driver, options);
-                if (!judgement) {
-                    return judgement.error();
-                }
-                entries[i].row.error = judgement->error;
-                entries[i].row.view = std::move(judgement->view);
-            }
-            progress.tell_judged(static_cast<double>(i + 1) / static_cast<double>(count));
+        MeasureOptions timing = measuring(options_, suite_.groups.size(),
+                                          group_seconds(options_, seconds_since(begin_), left));
+        timing.stop = stop_;
+        timing.progress = [&](double fraction) { progress.tell_timed(fraction); };
+        const std::size_t first_row = results_.rows.size();
+        if (auto timed = time_all(std::move(*entries), **stage, driver, timing); !timed) {
+            return timed;
         }
-        entries.back().row.error = entries.front().row.error;
+        tell_left_out(group, name, std::span(results_.rows).subspan(first_row));
         return {};
     }
 
-    // All from `first` on, but the null row.
-    void leave_out(std::vector<Entry>& entries, std::size_t first, const std::string& stage) {
-        results_.notes.push_back(
-            fmt::format("{}, {}: {} of {} settings left out, there was no time for them", stage,
-                        scene::to_string(entries.front().row.pose), entries.size() - 1 - first,
-                        entries.size() - 1));
-        entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end() - 1);
+    // Those there is time for in `seconds`, where any may be left out, but texture at any rate, and
+    // its null row; where the run is stopped, those that are judged by then.
+    Result<std::vector<Entry>> judge_all(std::vector<Entry> entries, double seconds, Stage& stage,
+                                         render::Driver& driver, SuiteProgress& progress) {
+        std::vector<Entry> kept;
+        GroupCost cost;
+        const std::size_t count = entries.size();
+        for (std::size_t i = 0; i < count && !stop_.stop_requested(); ++i) {
+            const bool may_leave_out = suite_.may_leave_out && i > 0 && entries[i].technique;
+            cost.elapsed = seconds_since(group_begin_);
+            if (may_leave_out && !fits(with_another(cost, frame_seconds(entries[i])), seconds)) {
+                continue;
+            }
+            auto after = judge_one(entries[i], cost, stage, driver);
+            if (!after && stop_.stop_requested()) {
+                break;
+            }
+            if (!after) {
+                return after.error();
+            }
+            if (may_leave_out && !fits(*after, seconds)) {
+                continue;
+            }
+            cost = *after;
+            kept.push_back(std::move(entries[i]));
+            progress.tell_judged(static_cast<double>(i + 1) / static_cast<double>(count));
+        }
+        return ended_by_null_row(std::move(kept));
     }
 
-    Result<void> time_all(std::vector<Entry>& entries, Stage& stage, render::Driver& driver,
-                          MeasureOptions measuring) {
+    // What the group has cost then. Missing techniques cost nothing.
+    Result<GroupCost> judge_one(Entry& entry, const GroupCost& cost, Stage& stage,
+                                render::Driver& driver) {
+        if (!entry.technique) {
+            return cost;
+        }
+        const bool is_texture = cost.frames == 0;
+        const Clock::time_point begin = Clock::now();
+        auto judgement =
+            judge(stage, *entry.technique, driver,
+                  {static_cast<unsigned>(options_.threads), options_.keep_views, stop_});
+        if (!judgement) {
+            return judgement.error();
+        }
+        entry.row.error = judgement->error;
+        if (auto kept = keep_view(entry.row, judgement->view); !kept) {
+            return kept.error();
+        }
+        const Clock::time_point judged = Clock::now();
+        if (auto drawn = frame_of(entry, stage, driver)(); !drawn) {
+            return drawn.error();
+        }
+        const double frame = seconds_since(judged);
+        frame_seconds_[entry.row.setting.label] = frame;
+        const int frames = is_texture ? 2 : 1; // its null row
+        return GroupCost{
+            seconds_since(group_begin_), is_texture ? 0.0 : cost.judging + seconds_since(begin),
+            is_texture ? 0 : cost.judged + 1, cost.round + frames * frame, cost.frames + frames};
+    }
+
+    // As the run drew it last.
+    [[nodiscard]] std::optional<double> frame_seconds(const Entry& entry) const {
+        const auto known = frame_seconds_.find(entry.row.setting.label);
+        return known == frame_seconds_.end() ? std::nullopt : std::optional(known->second);
+    }
+
+    Result<void> keep_view(Row& row, const std::optional<ShownView>& shown) {
+        if (shown) {
+            auto view = views_.make(*shown);
+            if (!view) {
+                return view.error();
+            }
+            row.view = std::move(*view);
+        }
+        return {};
+    }
+
+    Result<void> time_all(std::vector<Entry> entries, Stage& stage, render::Driver& driver,
+                          MeasureOptions timing) {
         std::vector<DrawFrame> frames;
         for (Entry& entry : entries) {
             if (entry.technique) {
                 frames.push_back(frame_of(entry, stage, driver));
             }
         }
-        measuring.null_pair = {0, frames.size() - 1};
-        const auto measurement = measure(frames, measuring);
+        timing.null_pair = {0, frames.size() - 1};
+        auto measurement = measure(frames, timing);
+        if (measurement && lacks_a_round(*measurement)) {
+            measurement = measure(frames, one_round());
+        }
         if (!measurement) {
             return measurement.error();
         }
@@ -282,57 +357,51 @@ private:
         return {};
     }
 
-    // Every row that has a frame, and the missing ones; none where texture has no frame.
     void keep_rows(std::vector<Entry> entries, const Measurement& measurement) {
-        if (measurement.ms.front().empty()) {
-            return;
-        }
+        const bool has_measure = !entries.front().row.shows_nothing();
         const double texture = median(measurement.ms.front());
         std::size_t place = 0;
         for (Entry& entry : entries) {
             if (entry.technique) {
                 const std::vector<double>& ms = measurement.ms[place++];
-                if (ms.empty()) {
-                    continue;
+                Timing timing = timing_of(ms, noise_floor_of(measurement));
+                if (has_measure) {
+                    timing.ratio_to_texture = timing.ms.median / texture;
                 }
-                entry.row.timing = timing_of(ms, texture, measurement.noise_floor);
-                entry.row.timing->stats = entry.stats;
+                if (!is_software_) {
+                    timing.gpu_ms = median(std::span(entry.gpu_ms).last(ms.size()));
+                }
+                timing.stats = entry.stats;
+                entry.row.timing = timing;
             }
             results_.rows.push_back(std::move(entry.row));
         }
     }
 
-    static Timing timing_of(const std::vector<double>& ms, double texture,
-                            std::optional<double> noise_floor) {
-        Timing timing;
-        timing.frames = ms.size();
-        timing.ms = summarize(ms);
-        timing.interval = median_interval(ms);
-        timing.fps_1_percent_low = 1000.0 / mean_of_largest(ms, 0.01);
-        timing.ratio_to_texture = timing.ms.median / texture;
-        timing.noise_floor = noise_floor;
-        return timing;
+    void tell_left_out(const Group& group, const std::string& stage, std::span<const Row> rows) {
+        LeftOut left_out = left_out_of(group, stage, rows);
+        if (left_out.settings > 0) {
+            results_.notes.push_back(
+                left_out_note(left_out, group.candidates.size(), stop_.stop_requested()));
+            results_.left_out.push_back(std::move(left_out));
+        }
     }
 
     const Suite& suite_;
     const SuiteOptions& options_;
     std::stop_token stop_;
-    TimeTable time_table_;
+    Clock::time_point begin_ = Clock::now();
+    Clock::time_point group_begin_ = begin_;
     Stages stages_;
+    RowViews views_;
+    bool is_software_ = true;
+    std::map<std::string, double> frame_seconds_; // by label
+    std::map<std::string, StageChoice> owners_;   // by name, the first that has it
+    std::set<std::string> shared_names_;
     Results results_;
 };
 
 } // namespace
-
-Candidate candidate_of(const scene::Technique& technique) {
-    return {setting_of(technique), technique, std::nullopt};
-}
-
-Candidate candidate_named(const std::string& text) {
-    const auto technique = scene::parse_technique(text);
-    return technique ? candidate_of(*technique)
-                     : Candidate{setting_named(text), std::nullopt, std::nullopt};
-}
 
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop) {
     SuiteRun run(suite, options, stop);
@@ -345,6 +414,7 @@ Results run_suite(const Suite& suite, const SuiteOptions& options, const std::st
                                          "until then"};
     } else if (!done) {
         results.stopped = done.error();
+        results.failed = true;
     }
     return results;
 }

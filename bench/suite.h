@@ -5,25 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/candidate.h"
 #include "bench/results.h"
 #include "bench/stage.h"
 #include "bench/suite_options.h"
 
 namespace reljef::bench {
-
-/// A row to be: its setting, and what is known of it before it is measured.
-struct Candidate {
-    Setting setting;
-    std::optional<scene::Technique> technique; ///< absent: it does not exist yet
-    std::optional<SourceFigure> source;
-};
-
-/// The candidate of a technique, which must exist.
-Candidate candidate_of(const scene::Technique& technique);
-
-/// The candidate of "ID:key=value,…"; without a technique where the catalogue has none such or
-/// refuses its parameters.
-Candidate candidate_named(const std::string& text);
 
 /// What is measured interleaved: settings on one stage from one pose.
 struct Group {
@@ -38,14 +25,16 @@ struct Suite {
     std::string name;
     std::vector<Group> groups;
     bool keep_stages = true; ///< all opened before anything is measured, see Stages
-    /// Whether a quick run leaves out the last candidates of a group where there is no time for
-    /// them; it says so in Results::notes.
+    int most_view_cols = 0;  ///< of a row's pictures, see RowViews
+    /// Whether a quick run leaves out candidates of a group where there is no time for them, the
+    /// last first as far as it knows their cost; Results::left_out says which.
     bool may_leave_out = true;
 };
 
 /// Measures a suite group by group: first how wrong each candidate's picture is, then how fast it
 /// is drawn. The rows are in the groups' order, each group's null row last. A run that is stopped
-/// or fails on the way keeps the rows it has, and says why in Results::stopped.
+/// or fails on the way keeps the rows it has, and says why in Results::stopped; stopped, it still
+/// draws once what it has judged.
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -1,11 +1,13 @@
 #include "bench/suite_arguments.h"
 
 #include <charconv>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "engine/io/scene_file.h"
 
 namespace reljef::bench {
 namespace {
@@ -44,10 +46,12 @@ CLI::Validator whole_number_in(int low, int high) {
 } // namespace
 
 void add_suite_options(CLI::App& command, SuiteOptions& options) {
-    command.add_flag("--quick", options.quick, "done in a minute, with fewer frames");
+    command.add_flag("--quick", options.quick,
+                     "done in a minute, with fewer frames of smaller pictures");
     command
         .add_option("--rounds", options.rounds,
-                    "frames of each technique (as many as fit in 20 s a table, at least 5)")
+                    "frames of each technique (as many as fit in 20 s a table, in 60 s where they "
+                    "are noisy, at least 5)")
         ->type_name("N")
         ->check(whole_number_in(1, 1'000'000));
     command
@@ -71,6 +75,13 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
     command.add_flag("--quiet", options.quiet, "no progress and no notes on stderr");
+}
+
+SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm::ivec2 size) {
+    if (options.quick && command.count("--size") == 0) {
+        options.size = size;
+    }
+    return options;
 }
 
 void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
@@ -111,6 +122,13 @@ std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains)
     std::vector<app::NamedFile> files;
     for (const std::string& terrain : terrains) {
         files.push_back({"--terrain", terrain});
+        if (std::filesystem::path(terrain).extension() == ".toml") {
+            const auto scene = io::read_scene_file(terrain);
+            if (scene) { // else opening it will tell
+                files.push_back({"the terrain's heights", scene->heights});
+                files.push_back({"the terrain's imagery", scene->imagery});
+            }
+        }
     }
     return files;
 }

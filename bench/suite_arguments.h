@@ -21,6 +21,9 @@ namespace reljef::bench {
 /// parsed (CLI::ParseError).
 void add_suite_options(CLI::App& command, SuiteOptions& options);
 
+/// The options with pictures of `size` where --quick is given and --size is not.
+SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm::ivec2 size);
+
 /// Adds --terrain, which may be given again; `otherwise` says what is measured without it.
 void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
                          const std::string& otherwise);
@@ -32,7 +35,7 @@ void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& tec
 /// Adds --pose.
 void add_pose_option(CLI::App& command, std::optional<scene::Pose>& pose);
 
-/// The terrains as files that no output may replace.
+/// The terrains as files that no output may replace, and those that their scene files name.
 std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains);
 
 } // namespace reljef::bench

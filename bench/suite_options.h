@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "engine/core/worker_pool.h"
 #include "engine/platform/context.h"
 
 namespace reljef::bench {
@@ -17,10 +18,12 @@ struct SuiteOptions {
     int rounds = 0; ///< of each measurement; 0: as many as fit in the time, at least 5
     /// Done in a minute; fewer rounds than 5 where they would take longer.
     bool quick = false;
-    bool quiet = false; ///< no progress and no notes on stderr
+    double quick_seconds = 48.0; ///< of a quick run: the minute, less a slow machine's reserve
+    bool quiet = false;          ///< no progress and no notes on stderr
     std::filesystem::path
         shader_dir;          ///< shader files here come before the built-in ones; may be empty
     bool keep_views = false; ///< fills Row::view
+    Progress progress;       ///< told beside the line on stderr
 };
 
 } // namespace reljef::bench

@@ -11,6 +11,8 @@
 namespace reljef::bench {
 namespace {
 
+constexpr glm::ivec2 tables_quick_size{512, 384}; // a quarter of the pixels
+
 struct TablesChoice {
     TablesOptions options;
     OutputChoice outputs;
@@ -26,12 +28,14 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
     add_output_options(command, choice.outputs);
 }
 
-Result<void> run_tables_command(const TablesChoice& choice, const app::Interrupt& interrupt) {
+Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& command,
+                                const app::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
     }
     TablesOptions options = choice.options;
+    options.suite = with_quick_size(options.suite, command, tables_quick_size);
     options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_tables(options, interrupt.token()), choice.outputs);
 }
@@ -45,13 +49,16 @@ app::Command add_tables_command(CLI::App& program, app::Interrupt& interrupt) {
     add_tables_options(*arguments, *choice);
     arguments->footer(
         "Without --terrain, --technique and --pose the seven tests of the sources, with their "
-        "figures.\n"
+        "figures,\n"
+        "which are of 1024x768. With --quick pictures are 512x384 unless --size says otherwise.\n"
         "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
         "Examples:\n"
         "  reljef-bench tables --quick\n"
         "  reljef-bench tables --json tables.json --html report\n"
         "  reljef-bench tables --terrain N45E006.hgt --rounds 50 --csv alps.csv");
-    return {arguments, [choice, &interrupt] { return run_tables_command(*choice, interrupt); }};
+    return {arguments, [arguments, choice, &interrupt] {
+                return run_tables_command(*choice, *arguments, interrupt);
+            }};
 }
 
 } // namespace reljef::bench

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "bench/source_tests.h"
 #include "bench/suite.h"
 
 namespace reljef::bench {
 namespace {
+
+constexpr glm::ivec2 sources_size{1024, 768};
 
 std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& chosen) {
     const scene::Technique texture = scene::make_technique(scene::TechniqueId::texture);
@@ -45,6 +49,11 @@ Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
                       as_sources ? source_groups(options.suite.quick) : terrain_groups(options),
                       !as_sources, !as_sources};
     Results results = run_suite(suite, options.suite, stop);
+    if (as_sources && options.suite.size != sources_size) {
+        results.notes.push_back(fmt::format("sources: their pictures are of {}x{}, these of {}x{}",
+                                            sources_size.x, sources_size.y, options.suite.size.x,
+                                            options.suite.size.y));
+    }
     std::stable_sort(results.rows.begin(), results.rows.end(),
                      [](const Row& a, const Row& b) { return a.test < b.test; });
     return results;

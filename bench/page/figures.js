@@ -53,6 +53,17 @@ function isMeasured(row) {
   return isNumber(at(row, 'ms.median'));
 }
 
+// The pictures of a row that was held against the truth show none of the terrain.
+function showsNothing(row) {
+  return Boolean(row.error) && !row.error.reprojection_px;
+}
+
+// Pixels whose error has no bound are in no other figure of it.
+function unboundedText(row) {
+  const unbounded = at(row, 'error.reprojection_px.unbounded');
+  return unbounded ? ' +' + grouped(unbounded) + ' ∞' : '';
+}
+
 function dropOf(row) {
   return isNumber(row.ratio_to_texture) && row.ratio_to_texture > 0 ? 1 - 1 / row.ratio_to_texture : undefined;
 }

@@ -18,7 +18,7 @@ function factsOf(row) {
   const px = error.reprojection_px || {};
   return [
     ['median', figure(at(row, 'ms.median')) + ' ms'], ['× texture', fixed(row.ratio_to_texture, 2)],
-    ['error RMS', figure(px.rms) + ' px'], ['p99', figure(px.p99) + ' px'],
+    ['error RMS', figure(px.rms) + ' px' + unboundedText(row)], ['p99', figure(px.p99) + ' px'],
     ['wrong', figure(error.wrong_percent) + ' %'], ['FLIP', figure(error.flip)],
   ];
 }

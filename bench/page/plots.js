@@ -109,7 +109,8 @@ function axisTitles(layout, measure) {
 
 // Steps: until the next setting's time, nothing better than this one is to be had.
 function frontLine(points, layout) {
-  const front = points.filter(point => point.isOnFront).sort((a, b) => a.time - b.time);
+  const sorted = points.filter(point => point.isOnFront).sort((a, b) => a.time - b.time);
+  const front = sorted.filter((point, i) => sorted.slice(0, i).every(other => other.error > point.error));
   if (!front.length) return null;
   const places = front.map(layout.place);
   const steps = places.map(([x, y], i) => (i ? `H${x}V${y}` : `M${x} ${margin.top}V${y}`)).join('');
@@ -121,7 +122,7 @@ function pointNode(point, layout, plot) {
   const [low, high] = at(point.row, 'ms.interval') || [point.time, point.time];
   return svg('g', {
     class: ['point', point.isOnFront ? 'on-front' : '', point.isDominated ? 'dominated' : '', point.row.noisy ? 'noisy' : ''].join(' ').trim(),
-    role: 'img', tabindex: '-1', 'data-row': point.index, 'aria-label': summaryOf(point, plot.measure).join(', '),
+    role: byId('row-' + point.index) ? 'link' : 'img', tabindex: '-1', 'data-row': point.index, 'aria-label': summaryOf(point, plot.measure).join(', '),
     onpointerenter: () => showTip(plot, point), onpointerleave: () => hideTip(plot),
     onfocus: () => showTip(plot, point), onblur: () => hideTip(plot),
     onclick: () => goToPictures(point), onkeydown: event => moveOn(event, plot, point),
@@ -136,12 +137,12 @@ function summaryOf(point, measure) {
   const lines = [
     labelOf(row),
     figure(point.time) + ' ms' + (isNumber(low) ? ' (' + figure(low) + '–' + figure(high) + ')' : ''),
-    measure.title + ': ' + (error === 0 ? 'exactly 0' : figure(error) + (measure.unit ? ' ' + measure.unit : '')),
+    measure.title + ': ' + (error === 0 ? 'exactly 0' : figure(error) + (measure.unit ? ' ' + measure.unit : '')) + point.beyond,
   ];
   if (isNumber(row.ratio_to_texture)) lines.push(fixed(row.ratio_to_texture, 2) + ' × texture');
   if (point.isOnFront) lines.push('on the Pareto front');
   if (point.dominatedBy) lines.push('dominated by ' + point.dominatedBy);
-  if (row.noisy) lines.push('noisy: floor ' + percent(row.noise_floor) + ' %');
+  if (row.noisy) lines.push('noisy: ' + noiseOf(row));
   return lines;
 }
 
@@ -187,7 +188,7 @@ function namesOf(points, layout) {
   const names = svg('g', {class: 'names', 'aria-hidden': 'true'});
   for (const point of points.filter(point => points.length <= mostNames || point.isOnFront)) {
     const [x, y] = layout.place(point);
-    const text = labelOf(point.row);
+    const text = labelOf(point.row) + point.beyond;
     const width = 6.9 * text.length;
     const beside = point.isOnFront ? [['start', x + 11, y - 9, x + 11]] : []; // off the front's line
     const choices = [...beside, ['start', x + 12, y + 4, x + 12], ['end', x - 12, y + 4, x - 12 - width],
@@ -222,6 +223,7 @@ function pointsOf(plot, techniques) {
   return plot.group.rows
     .map(({row, index}) => ({
       row, index, time: at(row, 'ms.median'), error: at(row, 'error.' + plot.measure.path),
+      beyond: plot.measure.path.startsWith('reprojection_px') ? unboundedText(row) : '',
       series: techniques.indexOf(row.technique),
       isOnFront: Boolean(front && (front.front || []).includes(labelOf(row))),
       isDominated: dominated.has(labelOf(row)), dominatedBy: dominated.get(labelOf(row)),
@@ -243,7 +245,8 @@ function frontNote(front) {
   const dominated = front.dominated || [];
   return element('div', {class: 'front-note'},
     element('p', {class: 'note'}, 'Pareto front: ' + (front.front || []).join(' → ') +
-      (isNumber(front.area) ? '. Area under it: ' + figure(front.area) : '') + '.'),
+      (isNumber(front.area) ? '. Area under it: ' + figure(front.area) : '. No area: a technique or the ratio to texture is lacking') + '.'),
+    (front.holed || []).length ? element('p', {class: 'note'}, 'No place on it, for holes over 0.1 % of the picture: ' + front.holed.join(', ') + '.') : null,
     dominated.length ? element('details', {}, element('summary', {}, counted(dominated.length, 'dominated setting')),
       element('ul', {}, dominated.map(({label, by}) => element('li', {}, label + ' by ' + by)))) : null);
 }

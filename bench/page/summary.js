@@ -32,10 +32,18 @@ function showHeading(report) {
     element('h1', {}, headline(report)),
     element('p', {class: 'lede'}, subtitle(report)),
     environmentList(report.environment || {}));
-  if (report.complete === false) {
-    byId('heading').append(element('p', {class: 'notice', role: 'note'},
-      'The run ended early: these are the rows it had by then.'));
+  const notices = noticesOf(report);
+  if (notices.length) {
+    byId('heading').append(element('div', {class: 'notice', role: 'note'}, notices.map(text => element('p', {}, text))));
   }
+}
+
+function noticesOf(report) {
+  const isCut = report.complete === false && !(report.left_out || []).length;
+  return [
+    report.stopped || isCut ? 'The run ended early' + (report.stopped ? ': ' + report.stopped : ', these are the rows it had by then') + '.' : '',
+    ...(report.notes || []),
+  ].filter(Boolean);
 }
 
 function tile(name, value, unit, note) {
@@ -73,13 +81,15 @@ function showSummary(report) {
   const measured = report.rows.filter(row => isMeasured(row) && !row.null_row);
   const place = row => labelOf(row) + ' on ' + viewOf(row);
   const drop = row => isNumber(dropOf(row)) ? '; ' + percent(dropOf(row), 0) + '\u00a0% below texture' : '';
-  const fastest = leastBy(measured, 'ms.median');
-  const slowest = leastBy(measured.map(row => ({...row, slowness: -at(row, 'ms.median')})), 'slowness');
+  const shown = measured.filter(row => !showsNothing(row));
+  const bounded = shown.filter(row => !unboundedText(row));
+  const fastest = leastBy(shown, 'ms.median');
+  const slowest = leastBy(shown.map(row => ({...row, slowness: -at(row, 'ms.median')})), 'slowness');
   byId('summary').append(element('div', {class: 'tiles'},
     measuredTile(report, measured),
     extremeTile('Fastest', fastest, 'ms.median', 'ms', place),
     extremeTile('Slowest', slowest, 'ms.median', 'ms', row => place(row) + drop(row)),
-    extremeTile('Least RMS error', leastBy(measured, 'error.reprojection_px.rms'), 'error.reprojection_px.rms', 'px', place),
+    extremeTile('Least RMS error', leastBy(bounded, 'error.reprojection_px.rms'), 'error.reprojection_px.rms', 'px', place),
     noiseTile(measured)));
 }
 

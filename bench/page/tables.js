@@ -9,12 +9,15 @@ const columns = [
   {group: 'Frame time', title: 'drop %', value: dropOf, text: percent},
   {group: 'Sources', title: 'FPS', value: row => at(row, 'source.fps'), cell: sourceCell},
   {group: 'Sources', title: '× texture', value: row => at(row, 'source.ratio'), text: value => fixed(value, 2)},
+  {group: 'Reprojection error, px', title: 'RMS', value: row => at(row, 'error.reprojection_px.rms'), cell: row => unboundedCell(row, 'rms')},
   {group: 'Reprojection error, px', title: 'median', value: row => at(row, 'error.reprojection_px.median'), text: figure},
+  {group: 'Reprojection error, px', title: 'p95', value: row => at(row, 'error.reprojection_px.p95'), text: figure},
   {group: 'Reprojection error, px', title: 'p99', value: row => at(row, 'error.reprojection_px.p99'), text: figure},
-  {group: 'Reprojection error, px', title: 'max', value: row => at(row, 'error.reprojection_px.max'), cell: maximumCell},
+  {group: 'Reprojection error, px', title: 'max', value: row => at(row, 'error.reprojection_px.max'), cell: row => unboundedCell(row, 'max')},
   {group: 'Surface', title: 'wrong %', value: row => at(row, 'error.wrong_percent'), text: figure},
   {group: 'Surface', title: 'holes', value: row => at(row, 'error.holes'), text: grouped},
   {group: 'Picture', title: 'PSNR dB', value: psnrOf, cell: psnrCell},
+  {group: 'Picture', title: 'SSIM', value: row => at(row, 'error.ssim'), text: value => fixed(value, 3)},
   {group: 'Picture', title: 'FLIP', value: row => at(row, 'error.flip'), text: figure},
   {group: 'Run', title: 'triangles', value: row => row.triangles, text: grouped},
   {group: 'Run', title: 'noise %', value: row => row.noise_floor, text: percent},
@@ -34,9 +37,11 @@ function psnrCell(row) {
 // The median, and below it a bar of its length with the interval's ends.
 function timeCell(row, table) {
   if (!isMeasured(row)) return absent;
-  const [low, high] = at(row, 'ms.interval') || [row.ms.median, row.ms.median];
+  const interval = at(row, 'ms.interval');
+  const [low, high] = interval || [row.ms.median, row.ms.median];
   const share = value => (100 * value / table.longest).toFixed(2) + '%';
-  const name = 'median ' + figure(row.ms.median) + ' ms, 95 % interval ' + figure(low) + ' to ' + figure(high) + ' ms';
+  const name = 'median ' + figure(row.ms.median) + ' ms, ' +
+    (interval ? '95 % interval ' + figure(low) + ' to ' + figure(high) + ' ms' : 'too few frames for an interval');
   return element('span', {class: 'time', title: name},
     figure(row.ms.median),
     element('span', {class: 'bar', role: 'img', 'aria-label': name, '--length': share(row.ms.median)},
@@ -48,23 +53,27 @@ function sourceCell(row) {
   return isNumber(fps) ? element('span', {title: row.source.where || ''}, figure(fps)) : absent;
 }
 
-function maximumCell(row) {
+function unboundedCell(row, key) {
   const unbounded = at(row, 'error.reprojection_px.unbounded');
-  const text = figure(at(row, 'error.reprojection_px.max'));
+  const text = figure(at(row, 'error.reprojection_px.' + key));
   if (!unbounded) return text;
   return element('span', {title: counted(unbounded, 'pixel') + ' without a bound, not in the figures'},
-    text, element('span', {class: 'beyond'}, ' +' + grouped(unbounded) + ' ∞'));
+    text, element('span', {class: 'beyond'}, unboundedText(row)));
 }
 
 function tag(text, kind, title) {
   return element('span', {class: 'tag ' + kind, title}, text);
 }
 
+function noiseOf(row) {
+  return isNumber(row.noise_floor) ? 'The noise floor is ' + percent(row.noise_floor) + ' %.' : 'Too few frames: ' + row.frames + '.';
+}
+
 function tagsOf(row) {
   return [
     row.missing ? tag('not there yet', 'missing', 'This technique is not in reljef yet.') : null,
     row.null_row ? tag('A/A', 'again', 'The same technique once more: the noise floor.') : null,
-    row.noisy ? tag('noisy', 'noisy', 'The noise floor is ' + percent(row.noise_floor) + ' %.') : null,
+    row.noisy ? tag('noisy', 'noisy', noiseOf(row)) : null,
   ];
 }
 
@@ -147,6 +156,15 @@ function sourcesOf(group) {
   return places.length ? element('p', {class: 'note'}, 'Sources: ' + places.join('; ') + '.') : null;
 }
 
+// What the pictures' errors cannot fall below here.
+function floorOf(group) {
+  const exact = group.rows.find(({row}) => row.technique === 'exact' && row.error);
+  if (!exact) return null;
+  const {row} = exact;
+  return element('p', {class: 'note floor'}, 'Floor of the pictures’ errors, that of exact: PSNR ' +
+    (psnrOf(row) === Infinity ? '∞' : fixed(psnrOf(row), 1)) + ' dB, SSIM ' + fixed(row.error.ssim, 3) + ', FLIP ' + figure(row.error.flip) + '.');
+}
+
 function showTables(report) {
   const section = byId('tables');
   section.append(element('h2', {}, 'Tables'),
@@ -157,6 +175,6 @@ function showTables(report) {
     section.append(element('article', {class: 'table'},
       element('h3', {id}, group.title),
       element('div', {class: 'scroll', role: 'region', tabindex: '0', 'aria-labelledby': id}, tableOf(group)),
-      sourcesOf(group)));
+      sourcesOf(group), floorOf(group)));
   });
 }

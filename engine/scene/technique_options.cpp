@@ -25,7 +25,7 @@ constexpr std::array<ParameterInfo, 1> shadow_numbers{
     {{"M", 0.2, 0.001, 1.0, false,
       "soft: how deep in the surface, of the range of heights, a ray has no light left"}}};
 constexpr std::array<ParameterInfo, 1> edges_numbers{
-    {{"E", 0.05, 1e-6, 1.0, false,
+    {{"E", 0.005, 1e-6, 1.0, false,
       "smooth: over the surface, of the range of heights, where a ray shows nothing of it"}}};
 
 constexpr std::array<std::string_view, 3> shadow_words{"none", "hard", "soft"};

@@ -53,6 +53,13 @@ TEST(BenchBadInput, unknown_terrain) {
                    1, {"atlantis", "natural, urban"});
 }
 
+TEST(BenchBadInput, name_that_steers_a_terminal_is_told_in_plain_letters) {
+    const auto result = test::reljef_bench(
+        {"tables", "--terrain", "a\n\x1b[31mb.tif", "--context", "osmesa", "--quiet"});
+    expect_refusal(result, 1, {"a; \\x1b[31mb.tif"});
+    EXPECT_EQ(result.err.find('\x1b'), result.err.npos);
+}
+
 TEST(BenchBadInput, missing_file) {
     expect_refusal(
         test::reljef_bench({"tables", "--terrain", "/none/a.tif", "--context", "osmesa"}), 1,

@@ -1,9 +1,11 @@
 #include "bench/compare.h"
 
+#include <functional>
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "bench/report_json.h"
 #include "tests/bench/bench_program.h"
@@ -37,7 +39,8 @@ Verdict verdict_of_polygons(const Comparison& comparison, const std::string& fig
 TEST(Compare, run_with_itself_is_the_same) {
     const Comparison comparison = compare(test::made_source_results(), test::made_source_results());
     EXPECT_EQ(comparison.regressions(), 0U);
-    EXPECT_EQ(comparison.changes.size(), 6U); // time, error and wrong of two rows
+    EXPECT_EQ(comparison.changes.size(), 14U); // a time and six errors of two rows
+    EXPECT_THAT(comparison.untimed, IsEmpty());
     for (const Change& change : comparison.changes) {
         EXPECT_EQ(change.verdict, Verdict::same) << change.row;
     }
@@ -64,7 +67,7 @@ TEST(Compare, change_within_any_of_threshold_floors_and_intervals_is_none) {
     EXPECT_EQ(verdict(noisy, 0.1), Verdict::same); // the floor of one run
     EXPECT_EQ(verdict_of_polygons(compare(noisy, slower(1.0)), "median ms"), Verdict::same);
     Results sharp = slower(1.15);
-    sharp.rows[1].timing->interval = {9.1, 9.3};
+    sharp.rows[1].timing->interval = ConfidenceInterval{9.1, 9.3};
     EXPECT_EQ(verdict(sharp, 0.1), Verdict::worse);
 }
 
@@ -84,17 +87,91 @@ TEST(Compare, errors_have_no_noise_but_rounding) {
     EXPECT_EQ(verdict_of_polygons(compare(a, b), "wrong %"), Verdict::worse);
 }
 
-TEST(Compare, error_that_lost_its_bound_is_worse) {
-    Results unbounded = test::made_results();
-    unbounded.rows[1].error->reprojection_px->unbounded = 1;
-    Results absent = test::made_results();
-    absent.rows[1].error->reprojection_px.reset();
-    for (const Results& lost : {unbounded, absent}) {
-        EXPECT_EQ(verdict_of_polygons(compare(test::made_results(), lost), "error px"),
-                  Verdict::worse);
-        EXPECT_EQ(verdict_of_polygons(compare(lost, test::made_results()), "error px"),
-                  Verdict::better);
-        EXPECT_EQ(verdict_of_polygons(compare(lost, lost), "error px"), Verdict::same);
+// What worse results a change of one row gives, and that it is better the other way round.
+void expect_worse(const std::string& figure, const std::function<void(RowError&)>& change) {
+    Results worse = test::made_results();
+    change(*worse.rows[1].error);
+    EXPECT_EQ(verdict_of_polygons(compare(test::made_results(), worse), figure), Verdict::worse);
+    EXPECT_EQ(verdict_of_polygons(compare(worse, test::made_results()), figure), Verdict::better);
+    EXPECT_EQ(verdict_of_polygons(compare(worse, worse), figure), Verdict::same);
+    EXPECT_EQ(compare(test::made_results(), worse).regressions(), 1U) << figure;
+}
+
+TEST(Compare, every_error_that_grows_is_worse) {
+    expect_worse("error px", [](RowError& e) { e.reprojection_px->distribution.rms = 0.3; });
+    expect_worse("error px", [](RowError& e) { e.reprojection_px.reset(); });
+    expect_worse("pixels without bound", [](RowError& e) { e.reprojection_px->unbounded = 1; });
+    expect_worse("hit texels", [](RowError& e) { e.hit_texels->distribution.rms = 0.3; });
+    expect_worse("hit texels", [](RowError& e) { e.hit_texels.reset(); });
+    expect_worse("wrong %", [](RowError& e) { e.wrong_percent = 1.5; });
+    expect_worse("holes", [](RowError& e) { e.holes = 300; });
+    expect_worse("FLIP", [](RowError& e) { e.flip = 0.025; });
+}
+
+// 1024 x 768 pixels; each is many times what it was.
+TEST(Compare, what_rounding_can_do_to_an_error_is_no_change) {
+    Results a = test::made_results();
+    RowError& before = *a.rows[1].error;
+    before.reprojection_px->distribution.rms = before.hit_texels->distribution.rms = 1e-5;
+    before.wrong_percent = 0.0;
+    before.holes = 0;
+    before.flip = 1e-5;
+    Results b = a;
+    RowError& after = *b.rows[1].error;
+    after.reprojection_px->distribution.rms = after.hit_texels->distribution.rms = 9e-4;
+    after.wrong_percent = 0.009;
+    after.holes = 78;
+    after.flip = 0.0019;
+    EXPECT_EQ(compare(a, b).regressions(), 0U);
+    EXPECT_EQ(compare(b, a).regressions(), 0U);
+}
+
+TEST(Compare, error_that_is_no_longer_measured_is_worse) {
+    Results without = test::made_results();
+    without.rows[1].error.reset();
+    EXPECT_EQ(verdict_of_polygons(compare(test::made_results(), without), "error px"),
+              Verdict::worse);
+    EXPECT_EQ(verdict_of_polygons(compare(without, test::made_results()), "error px"),
+              Verdict::better);
+    EXPECT_EQ(compare(without, without).regressions(), 0U);
+}
+
+TEST(Compare, few_frames_get_no_verdict_of_time_and_are_named) {
+    Results few = slower(5.0);
+    few.rows[1].timing->frames = 4;
+    few.rows[1].timing->interval.reset();
+    few.rows[1].timing->noise_floor.reset();
+    for (const Comparison& comparison : {compare(slower(1.0), few), compare(few, slower(1.0))}) {
+        EXPECT_EQ(comparison.regressions(), 0U);
+        EXPECT_THAT(comparison.untimed, ElementsAre(HasSubstr("polygons:lods=1")));
+        EXPECT_THAT(comparison_report(comparison),
+                    HasSubstr("no verdict of time, under 5 frames or no ratio to texture:\n  "
+                              "tables, natural, overview, polygons"));
+    }
+}
+
+TEST(Compare, absent_ratio_gets_no_verdict_between_machines) {
+    Results other = slower(5.0);
+    other.rows[1].timing->ratio_to_texture.reset();
+    EXPECT_THAT(compare(slower(1.0), other).untimed, IsEmpty());
+    other.environment.cpu = "another processor";
+    EXPECT_THAT(compare(slower(1.0), other).untimed, ElementsAre(HasSubstr("polygons")));
+}
+
+// What read_json_report() lets through at its ends.
+TEST(Compare, figures_at_the_ends_of_their_range_abort_nothing) {
+    const std::vector<double> ends{1e-9, 1.0, 1e9};
+    for (const double median : ends) {
+        for (const double ratio : ends) {
+            for (const char* cpu : {"a processor", "another"}) {
+                Results other = test::made_results();
+                other.environment.cpu = cpu;
+                other.rows[1].timing = test::made_timing(median, ratio);
+                other.rows[1].timing->interval = ConfidenceInterval{1e-9, 1e9};
+                EXPECT_FALSE(comparison_report(compare(slower(1.0), other)).empty());
+                EXPECT_FALSE(comparison_report(compare(other, slower(1.0))).empty());
+            }
+        }
     }
 }
 
@@ -102,7 +179,7 @@ TEST(Compare, other_machines_are_compared_by_ratios_alone) {
     Results other = test::made_results();
     other.environment.cpu = "another processor";
     for (Row& row : other.rows) { // everything takes three times as long
-        row.timing = test::made_timing(3.0 * row.timing->ms.median, row.timing->ratio_to_texture);
+        row.timing = test::made_timing(3.0 * row.timing->ms.median, *row.timing->ratio_to_texture);
     }
     const Comparison comparison = compare(test::made_results(), other);
     EXPECT_FALSE(comparison.same_environment);
@@ -112,6 +189,19 @@ TEST(Compare, other_machines_are_compared_by_ratios_alone) {
     other.rows[1].timing->ratio_to_texture = 6.0;
     EXPECT_EQ(verdict_of_polygons(compare(test::made_results(), other), "ratio to texture"),
               Verdict::worse);
+}
+
+TEST(Compare, run_that_is_not_complete_is_told) {
+    Results stopped = test::made_results();
+    stopped.stopped = Error{"interrupted"};
+    EXPECT_THAT(comparison_report(compare(test::made_results(), stopped)),
+                HasSubstr("The second run ended early: interrupted.\n"));
+    Results short_of_time = test::made_results();
+    short_of_time.left_out = {{"natural", scene::Pose::low, 7, {}}};
+    EXPECT_THAT(comparison_report(compare(short_of_time, stopped)),
+                HasSubstr("The first run left settings out"));
+    EXPECT_THAT(compare(stopped, test::made_results()).notes,
+                ElementsAre(HasSubstr("The first run")));
 }
 
 TEST(Compare, another_commit_is_the_same_machine) {
@@ -126,6 +216,8 @@ TEST(Compare, rows_in_only_one_run_are_named) {
     const Comparison comparison = compare(test::made_results(), fewer);
     EXPECT_THAT(comparison.only_a, ElementsAre(HasSubstr("polygons:lods=1")));
     EXPECT_THAT(comparison.only_b, IsEmpty());
+    EXPECT_EQ(comparison.regressions(), 1U); // it is gone
+    EXPECT_EQ(compare(fewer, test::made_results()).regressions(), 0U);
     EXPECT_THAT(comparison_report(comparison), HasSubstr("only in the first:\n  tables, natural"));
     EXPECT_THAT(compare(fewer, test::made_results()).only_b,
                 ElementsAre(HasSubstr("polygons:lods=1")));
@@ -184,11 +276,22 @@ TEST_F(CompareProgram, regression_is_status_1_and_one_line) {
     EXPECT_EQ(worse.exit_code, 1);
     EXPECT_THAT(worse.out, HasSubstr("worse:\n  tables, natural, overview, polygons:lods=1, "
                                      "1024x768: median ms 8 -> 12 (+50.0 %)\n"));
-    EXPECT_EQ(worse.err, "reljef-bench: " + b + ": 1 figure worse than in " + a + "\n");
+    EXPECT_EQ(worse.err, "reljef-bench: " + b + ": 1 figure worse or gone, against " + a + "\n");
     const auto better = test::reljef_bench({"compare", b, a});
     EXPECT_EQ(better.exit_code, 0) << better.err;
     EXPECT_THAT(better.out, HasSubstr("better:\n"));
     EXPECT_EQ(test::reljef_bench({"compare", a, b, "--threshold", "60"}).exit_code, 0);
+}
+
+TEST_F(CompareProgram, row_that_is_gone_is_status_1_and_named) {
+    Results fewer = test::made_results();
+    fewer.rows[1].timing.reset(); // measured before, missing now
+    fewer.rows[1].error.reset();
+    const auto gone = test::reljef_bench(
+        {"compare", file("a.json", test::made_results()), file("b.json", fewer)});
+    EXPECT_EQ(gone.exit_code, 1);
+    EXPECT_THAT(gone.out, HasSubstr("gone, only in the first:\n  tables, natural, overview, "
+                                    "polygons:lods=1, 1024x768\n"));
 }
 
 TEST_F(CompareProgram, bad_input_is_one_sentence) {
@@ -208,6 +311,25 @@ TEST_F(CompareProgram, bad_input_is_one_sentence) {
     expect_failure(folder_.path().string(), "folder");
     expect_failure(folder_.write("c.json", R"({"schema": "other/2"})").string(), "reljef-bench/1");
     expect_failure(folder_.write("d.txt", "hello").string(), "no JSON");
+}
+
+TEST_F(CompareProgram, what_never_ends_is_no_file) {
+    const std::string pipe = (folder_.path() / "pipe").string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const auto result = test::reljef_bench({"compare", pipe, file("a.json", slower(1.0))});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("is a device, a file was expected"));
+}
+
+TEST_F(CompareProgram, names_neither_forge_lines_nor_steer_the_terminal) {
+    const auto a = file("a.json", test::made_results("x\n\x1b[31m"));
+    const auto result = test::reljef_bench(
+        {"compare", a, file("b.json", test::made_results("y"))}); // no common row
+    EXPECT_EQ(result.out.find('\x1b'), result.out.npos);
+    Results worse = test::made_results("x\n\x1b[31m");
+    worse.rows[1].error->flip = 0.5;
+    EXPECT_THAT(test::reljef_bench({"compare", a, file("c.json", worse)}).out,
+                HasSubstr("x\\x0a\\x1b[31m, overview, polygons"));
 }
 
 TEST_F(CompareProgram, runs_without_a_common_row_cannot_be_compared) {

@@ -7,11 +7,12 @@
 
 namespace reljef::test {
 
-/// A report of the schema "reljef-bench/1" as a page gets it: the table relief-4 on `natural` with
-/// a missing, a noisy and a null row and an exact picture, and relief-3 on `scene`.
+/// A report as a page gets it, from json_report(): the table relief-4 on `natural` with a missing
+/// and a null row, exact pictures and one of them with pixels without a bound; relief-3 on `scene`
+/// with a noisy row, one of few frames and one that shows nothing; a note.
 std::string made_report(const std::string& scene = "urban");
 
-/// The same with a Pareto front on `natural` in place of the tables.
+/// The same with a Pareto front on `natural` in place of the tables, settings left out.
 std::string made_pareto_report();
 
 /// Pictures of the first three rows of made_report(): a gradient, a darker one that all three

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/page.h"
 #include "tests/bench/bench_program.h"
 #include "tests/bench/made_results.h"
 #include "tests/support/temporary_folder.h"
@@ -65,8 +67,10 @@ TEST(BenchOutputs, one_that_fails_keeps_the_others_from_appearing) {
 TEST(BenchOutputs, page_holds_the_pictures_of_the_rows_that_have_a_view) {
     const test::TemporaryFolder folder;
     Results results = test::made_results();
-    results.rows[0].view = std::make_shared<const RowView>(
-        RowView{Image(32, 24), std::make_shared<const Image>(32, 24), Grid<float>(32, 24, 0.5F)});
+    results.rows[0].view =
+        RowViews()
+            .make({Image(32, 24), std::make_shared<const Image>(32, 24), Grid<float>(32, 24, 0.5F)})
+            .value();
     testing::internal::CaptureStdout();
     const auto done =
         report(results, {.json = {}, .csv = {}, .markdown = {}, .html = folder.path() / "page"});
@@ -87,6 +91,36 @@ TEST(BenchOutputs, page_that_cannot_be_written_is_refused_before_measuring) {
     EXPECT_EQ(result.out, "");
 }
 
+TEST(BenchOutputs, folder_named_with_a_slash_at_its_end_is_that_folder) {
+    const test::TemporaryFolder folder;
+    const OutputChoice choice{{}, {}, {}, folder.path() / "page" / ""};
+    for (int time = 0; time < 2; ++time) { // there is none, there is one
+        ASSERT_TRUE(check_outputs(choice, {}));
+        testing::internal::CaptureStdout();
+        const auto done = report(test::made_results(), choice);
+        testing::internal::GetCapturedStdout();
+        ASSERT_TRUE(done) << done.error().message;
+        EXPECT_THAT(test::read_bytes(folder.path() / "page" / "index.html"), HasSubstr("<html"));
+    }
+    EXPECT_THAT(folder.names(), ElementsAre("page"));
+}
+
+TEST(BenchOutputs, page_and_another_output_in_one_file_are_refused) {
+    const test::TemporaryFolder folder;
+    const auto page = folder.path() / "page";
+    for (const auto& html : {page, page / ""}) {
+        for (const auto& json : {page / "index.html", page}) {
+            const auto refused = check_outputs({json, {}, {}, html}, {});
+            ASSERT_FALSE(refused);
+            EXPECT_THAT(refused.error().message, HasSubstr("--json"));
+            EXPECT_THAT(refused.error().message, HasSubstr("--html"));
+        }
+    }
+    std::filesystem::create_directory(page);
+    EXPECT_FALSE(check_outputs({page / "index.html", {}, {}, page}, {}));
+    EXPECT_TRUE(check_outputs({page / "t.json", {}, {}, page}, {}));
+}
+
 TEST(BenchOutputs, run_without_rows_leaves_earlier_files_alone) {
     const test::TemporaryFolder folder;
     const auto json = folder.write("t.json", "earlier");
@@ -96,6 +130,69 @@ TEST(BenchOutputs, run_without_rows_leaves_earlier_files_alone) {
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().message, "interrupted before the first frame was timed");
     EXPECT_EQ(test::read_bytes(json), "earlier");
+}
+
+TEST(BenchOutputs, files_that_a_scene_file_names_are_inputs_too) {
+    const test::TemporaryFolder folder;
+    folder.write("dem.asc", test::small_dem);
+    const auto scene =
+        folder.write("s.toml", "name = \"a scene\"\n[terrain]\nheights = \"dem.asc\"\n");
+    const auto result = test::reljef_bench(
+        {"tables", "--terrain", scene.string(), "--json", (folder.path() / "dem.asc").string()});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("read as the terrain's heights"));
+    EXPECT_EQ(test::read_bytes(folder.path() / "dem.asc"), test::small_dem);
+}
+
+TEST(BenchOutputs, page_that_fails_keeps_the_other_files_as_they_were) {
+    const test::TemporaryFolder folder;
+    const auto json = folder.write("t.json", "earlier");
+    std::filesystem::create_directories(folder.path() / "page" / "index.html");
+    testing::internal::CaptureStdout();
+    const auto done = report(test::made_results(), {json, {}, {}, folder.path() / "page"});
+    testing::internal::GetCapturedStdout();
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("index.html"));
+    EXPECT_EQ(test::read_bytes(json), "earlier");
+}
+
+TEST(BenchOutputs, folder_that_was_made_goes_again_where_it_stays_empty) {
+    const test::TemporaryFolder folder;
+    const auto page = folder.path() / "page";
+    ASSERT_TRUE(MadeFolder::make(page));
+    EXPECT_FALSE(std::filesystem::exists(page)); // the object is gone
+    {
+        const auto made = MadeFolder::make(page);
+        ASSERT_TRUE(made);
+        std::ofstream(page / "a file") << "kept";
+    }
+    EXPECT_TRUE(std::filesystem::exists(page / "a file"));
+    std::filesystem::remove(page / "a file");
+    ASSERT_TRUE(MadeFolder::make(page));
+    EXPECT_TRUE(std::filesystem::exists(page)); // it was there before
+}
+
+TEST(BenchOutputs, file_in_place_of_the_page_s_folder_is_called_one) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.write("old.json", "earlier");
+    const auto refused = check_outputs({{}, {}, {}, file}, {});
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("which is a file; a folder was expected"));
+}
+
+TEST(BenchOutputs, run_that_failed_on_the_way_keeps_earlier_results) {
+    const test::TemporaryFolder folder;
+    const auto json = folder.write("t.json", "earlier");
+    Results part = test::made_results();
+    part.stopped = Error{"b.asc, low: no pixel of terrain found"};
+    part.failed = true;
+    testing::internal::CaptureStdout();
+    const auto done = report(part, {json, {}, {}, folder.path() / "page"});
+    EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("polygons"));
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message, part.stopped->message);
+    EXPECT_EQ(test::read_bytes(json), "earlier");
+    EXPECT_THAT(folder.names(), ElementsAre("t.json"));
 }
 
 TEST(BenchOutputs, run_that_ended_early_is_written_and_fails) {

@@ -65,9 +65,15 @@ class PageTest(unittest.TestCase):
         self.assertTrue(any(scene in title for title in titles), titles)
         self.assertEqual(self.browser.script("return document.querySelectorAll('img[src=x], h3 *').length"), 0)
 
+    def notice(self):
+        return self.browser.script("return (document.querySelector('.notice[role=note]') || {}).textContent || ''")
+
+    def test_what_a_reader_should_be_told_is_told(self):
+        self.assertEqual(self.notice(), self.report['notes'][0])
+
     def test_run_that_ended_early_and_measured_no_error_is_shown_as_far_as_it_goes(self):
         self.open('bare')
-        self.assertIn('ended early', self.browser.script("return document.querySelector('.notice[role=note]').textContent"))
+        self.assertIn('ended early: interrupted', self.notice())
         names = self.browser.script("return [...document.querySelectorAll('tbody th')].map(node => node.textContent.trim())")
         self.assertEqual(len(names), len(self.report['rows']))
         self.assertTrue(names[0].startswith('texture'), names)
@@ -87,7 +93,7 @@ class PageTest(unittest.TestCase):
 
     def plotted_rows(self):
         return [index for index, row in enumerate(self.report['rows'])
-                if 'ms' in row and not row['null_row'] and row['error']['reprojection_px']]
+                if row['ms'] and not row['null_row'] and row['error']['reprojection_px']]
 
     def test_every_measured_row_is_one_point(self):
         for page in ('tables', 'pareto'):
@@ -104,8 +110,8 @@ class PageTest(unittest.TestCase):
             points = [point for point in self.points() if point['plot'] == plot]
             by_x = sorted(points, key=lambda point: point['x'])
             self.assertEqual(by_x, sorted(points, key=lambda point: rows[point['row']]['ms']['median']))
-            by_y = sorted(points, key=lambda point: -point['y'])
-            self.assertEqual(by_y, sorted(points, key=error))
+            by_y = sorted(points, key=lambda point: -round(point['y'], 2))
+            self.assertEqual([error(point) for point in by_y], sorted(map(error, points)))
 
     def test_zero_error_lies_in_the_lane(self):
         point = next(point for point in self.points()
@@ -142,8 +148,19 @@ class PageTest(unittest.TestCase):
         before = self.points()
         self.browser.script("const choice = document.getElementById('measure'); choice.value = 'Wrong surface'; choice.dispatchEvent(new Event('change'))")
         after = self.points()
-        self.assertEqual(sorted(p['row'] for p in before), sorted(p['row'] for p in after))
+        self.assertLess({p['row'] for p in before}, {p['row'] for p in after}) # and what shows nothing
         self.assertNotEqual({p['row']: p['y'] for p in before}, {p['row']: p['y'] for p in after})
+
+    def test_point_is_a_link_where_it_leads_to_pictures(self):
+        roles = self.browser.script("return [...document.querySelectorAll('.point')].map(point => [Number(point.dataset.row), point.getAttribute('role')])")
+        for row, role in roles:
+            self.assertEqual(role, 'link' if row < 3 else 'img', row)
+
+    def test_front_without_an_area_and_rows_with_holes_are_told(self):
+        self.open('pareto')
+        note = self.browser.script("return document.querySelector('.front-note').textContent")
+        self.assertIn('No area', note)
+        self.assertIn('holes over 0.1 % of the picture: relief:steps=8', note)
 
     def test_front_is_drawn_where_the_report_has_one(self):
         self.assertEqual(self.browser.script("return document.querySelectorAll('.front').length"), 0)
@@ -172,7 +189,7 @@ class PageTest(unittest.TestCase):
         return there + [index for index in group if index not in there]
 
     def test_table_sorts_both_ways_and_what_is_missing_comes_last(self):
-        median = lambda row: row['ms']['median'] if 'ms' in row else None
+        median = lambda row: row['ms']['median'] if row['ms'] else None
         self.assertIsNone(self.column('median ms')['sort'])
         self.browser.click('#column button')
         self.assertEqual(self.column('median ms'), {'sort': 'ascending', 'rows': self.sorted_rows(median)})
@@ -188,6 +205,39 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.column('technique')['sort'], 'ascending')
         self.assertEqual(self.column('technique')['rows'], self.sorted_rows(lambda row: row['label']))
         self.assertEqual(self.browser.script("return document.querySelectorAll('table:first-of-type [aria-sort]').length"), 1)
+
+    def cells(self, title):
+        return self.browser.script('''
+            return [...document.querySelectorAll('table')].flatMap(table => {
+                const heads = [...table.querySelectorAll('thead tr:last-child th')];
+                const index = heads.findIndex(head => head.textContent.trim() === arguments[0]);
+                return [...table.tBodies[0].rows].map(row => [Number(row.dataset.row), row.cells[index].textContent]);
+            });''', title)
+
+    def test_errors_have_their_columns_and_unbounded_pixels_are_told_beside_the_rms(self):
+        for row, text in self.cells('RMS'):
+            error = (self.report['rows'][row]['error'] or {}).get('reprojection_px')
+            self.assertEqual('∞' in text, bool(error and error['unbounded']), text)
+            self.assertEqual(text == '–', not error)
+        for title in ('p95', 'SSIM'):
+            self.assertTrue(any(text != '–' for _, text in self.cells(title)), title)
+        self.assertIn('∞', self.browser.script("return document.querySelector('#row-1 .facts').textContent"))
+
+    def test_tiles_leave_out_what_shows_nothing_and_errors_without_a_bound(self):
+        tiles = self.browser.script("return [...document.querySelectorAll('.tile')].map(tile => tile.textContent)")
+        tile = lambda name: next(text for text in tiles if text.startswith(name))
+        self.assertIn('texture', tile('Fastest'))
+        self.assertIn('polygons:lods=1', tile('Least RMS'))
+
+    def test_floor_of_the_pictures_errors_is_told_where_there_is_an_exact_row(self):
+        floors = self.browser.script("return [...document.querySelectorAll('.floor')].map(node => node.textContent)")
+        self.assertEqual(len(floors), 1)
+        self.assertIn('SSIM 1.000', floors[0])
+
+    def test_row_of_few_frames_says_why_it_is_noisy(self):
+        few = next(index for index, row in enumerate(self.report['rows']) if row['frames'] == 3)
+        title = self.browser.script(f"return document.querySelector('tr[data-row=\"{few}\"] .tag.noisy').title")
+        self.assertEqual(title, 'Too few frames: 3.')
 
     def test_rows_not_measured_are_marked(self):
         tags = self.browser.script("return [...document.querySelectorAll('tbody tr')].map(row => [Number(row.dataset.row), row.className])")

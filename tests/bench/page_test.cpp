@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/page_data_uri.h"
+#include "bench/page_heat_map.h"
 #include "bench/report_json.h"
 #include "tests/bench/made_page.h"
 #include "tests/bench/made_results.h"
@@ -160,16 +161,16 @@ TEST(Page, target_is_checked_without_a_trace) {
     EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(PageDeathTest, pictures_of_no_row_or_of_two_sizes_are_refused) {
+TEST(PageDeathTest, pictures_of_no_row_and_rows_without_pictures_are_refused) {
     const test::TemporaryFolder folder;
     auto pictures = test::made_pictures();
     pictures[1].row = 99;
     EXPECT_DEATH(static_cast<void>(write_page(folder.path(), test::made_report(), pictures)),
                  "not in the report");
     pictures = test::made_pictures();
-    pictures[1].heat = Image(3, 3);
+    pictures[1].view = nullptr;
     EXPECT_DEATH(static_cast<void>(write_page(folder.path(), test::made_report(), pictures)),
-                 "differ in size");
+                 "without pictures");
 }
 
 // RFC 4648, section 10.

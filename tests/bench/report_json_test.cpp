@@ -16,6 +16,9 @@ TEST(JsonReport, has_the_schema_the_environment_and_a_row_a_technique) {
     const json report = json::parse(json_report(test::made_results()));
     EXPECT_EQ(report.at("schema"), "reljef-bench/1");
     EXPECT_EQ(report.at("complete"), true);
+    EXPECT_TRUE(report.at("stopped").is_null());
+    EXPECT_EQ(report.at("notes"), json::array());
+    EXPECT_EQ(report.at("left_out"), json::array());
     EXPECT_EQ(report.at("environment"), json({{"renderer", "a renderer"},
                                               {"gl", "4.5 of it"},
                                               {"context", "osmesa"},
@@ -50,8 +53,54 @@ TEST(JsonReport, row_says_what_was_drawn_how_and_how_fast) {
     EXPECT_EQ(row.at("uploads"), 1);
     EXPECT_EQ(row.at("skipped").at("tiles_outside_frustum"), 17);
     EXPECT_EQ(row.at("null_row"), false);
-    EXPECT_FALSE(row.contains("test")); // it is none of the sources'
-    EXPECT_FALSE(row.contains("source"));
+    EXPECT_TRUE(row.at("gpu_ms").is_null());
+    EXPECT_TRUE(row.at("taps").is_null()); // not counted
+    EXPECT_TRUE(row.at("test").is_null()); // it is none of the sources'
+    EXPECT_TRUE(row.at("source").is_null());
+}
+
+TEST(JsonReport, time_of_the_gpu_is_told_where_it_was_measured) {
+    Results results = test::made_results();
+    results.rows[1].timing->gpu_ms = 7.5;
+    EXPECT_EQ(json::parse(json_report(results)).at("rows").at(1).at("gpu_ms"), 7.5);
+}
+
+TEST(JsonReport, every_row_has_every_key_and_null_where_there_is_nothing) {
+    Results results = test::made_source_results();
+    results.rows[1].error.reset();
+    const json rows = json::parse(json_report(results)).at("rows");
+    for (const json& row : rows) {
+        ASSERT_EQ(row.size(), rows.at(0).size());
+        for (const auto& [key, value] : rows.at(0).items()) {
+            EXPECT_TRUE(row.contains(key)) << key;
+        }
+    }
+    EXPECT_TRUE(rows.at(1).at("error").is_null());
+}
+
+TEST(JsonReport, too_few_frames_are_noisy_and_have_neither_interval_nor_floor) {
+    Results results = test::made_results();
+    results.rows[1].timing->frames = least_frames - 1;
+    results.rows[1].timing->interval.reset();
+    results.rows[1].timing->noise_floor.reset();
+    const json rows = json::parse(json_report(results)).at("rows");
+    EXPECT_EQ(rows.at(1).at("noisy"), true);
+    EXPECT_TRUE(rows.at(1).at("ms").at("interval").is_null());
+    EXPECT_TRUE(rows.at(1).at("noise_floor").is_null());
+    EXPECT_EQ(rows.at(0).at("noisy"), false);
+}
+
+TEST(JsonReport, run_that_left_settings_out_is_not_complete_and_says_which) {
+    Results results = test::made_results();
+    results.left_out = {{"natural", scene::Pose::low, 7, {"exact", "polygons"}}};
+    results.notes = {"a note"};
+    const json report = json::parse(json_report(results));
+    EXPECT_EQ(report.at("complete"), false);
+    EXPECT_TRUE(report.at("stopped").is_null());
+    EXPECT_EQ(report.at("notes"), json({"a note"}));
+    EXPECT_EQ(report.at("left_out"),
+              json::parse(R"([{"scene": "natural", "pose": "low", "settings": 7,
+                               "techniques": ["exact", "polygons"]}])"));
 }
 
 TEST(JsonReport, row_says_how_wrong) {
@@ -87,8 +136,9 @@ TEST(JsonReport, missing_row_has_no_time_and_no_error_but_the_sources_figure) {
     EXPECT_EQ(row.at("technique"), "relief");
     EXPECT_EQ(row.at("missing"), true);
     EXPECT_EQ(row.at("test"), "relief-4");
-    for (const char* absent : {"ms", "fps", "frames", "ratio_to_texture", "error", "skipped"}) {
-        EXPECT_FALSE(row.contains(absent)) << absent;
+    for (const char* absent : {"ms", "fps", "frames", "ratio_to_texture", "noise_floor", "gpu_ms",
+                               "tiles", "triangles", "taps", "error", "skipped"}) {
+        EXPECT_TRUE(row.at(absent).is_null()) << absent;
     }
     EXPECT_EQ(
         row.at("source"),
@@ -107,10 +157,13 @@ TEST(JsonReport, row_above_the_noise_is_noisy) {
 TEST(JsonReport, fronts_name_who_dominates_whom) {
     Results results = test::made_results();
     EXPECT_FALSE(json::parse(json_report(results)).contains("fronts"));
-    results.fronts = {{"natural", scene::Pose::low, 0.25, {"a", "b"}, {{"c", "b"}}}};
+    results.fronts = {{"natural", scene::Pose::low, 0.25, {"a", "b"}, {{"c", "b"}}, {"d"}}};
     EXPECT_EQ(json::parse(json_report(results)).at("fronts"),
               json::parse(R"([{"scene": "natural", "pose": "low", "area": 0.25,
-                              "front": ["a", "b"], "dominated": [{"label": "c", "by": "b"}]}])"));
+                              "front": ["a", "b"], "dominated": [{"label": "c", "by": "b"}],
+                              "holed": ["d"]}])"));
+    results.fronts[0].area.reset();
+    EXPECT_TRUE(json::parse(json_report(results)).at("fronts").at(0).at("area").is_null());
 }
 
 TEST(JsonReport, technique_without_parameters_has_an_empty_object) {
@@ -131,6 +184,7 @@ TEST(JsonReport, run_that_ended_early_says_so_and_invents_no_floor) {
     results.rows[0].timing->noise_floor.reset();
     const json report = json::parse(json_report(results));
     EXPECT_EQ(report.at("complete"), false);
+    EXPECT_EQ(report.at("stopped"), "interrupted");
     EXPECT_TRUE(report.at("rows").at(0).at("noise_floor").is_null());
 }
 

@@ -69,10 +69,43 @@ TEST(TerminalReport, noisy_table_says_so) {
 
 TEST(TerminalReport, fronts_and_what_they_dominate_are_named) {
     Results results = test::made_results();
-    results.fronts = {{"natural", scene::Pose::low, 0.25, {"a", "b"}, {{"c", "b"}}}};
+    results.fronts = {{"natural", scene::Pose::low, 0.25, {"a", "b"}, {{"c", "b"}}, {"d"}}};
     const std::string report = terminal_report(results);
     EXPECT_THAT(report, HasSubstr("natural, low: front a, b; area 0.250\n"));
     EXPECT_THAT(report, HasSubstr("c is dominated by b\n"));
+    EXPECT_THAT(report, HasSubstr("holes over 0.1 % of the picture: d\n"));
+    results.fronts[0].area.reset();
+    EXPECT_THAT(terminal_report(results), HasSubstr("low: front a, b; no area"));
+}
+
+TEST(TerminalReport, pixels_without_a_bound_are_told_beside_the_rms) {
+    Results results = test::made_results();
+    results.rows[1].error->reprojection_px->unbounded = 17;
+    const std::string report = terminal_report(results);
+    EXPECT_THAT(line_with(report, "polygons"), HasSubstr("≥0.250"));
+    EXPECT_THAT(line_with(report, "texture"), Not(HasSubstr("≥")));
+    EXPECT_THAT(report, HasSubstr("not in it: polygons:lods=1 17\n"));
+}
+
+TEST(TerminalReport, ratio_is_no_figure_where_texture_shows_nothing) {
+    Results results = test::made_results();
+    results.rows[0].error->reprojection_px.reset();
+    for (Row& row : results.rows) {
+        row.timing->ratio_to_texture.reset();
+    }
+    const std::string report = terminal_report(results);
+    EXPECT_THAT(line_with(report, "polygons"), HasSubstr("–     –"));
+    EXPECT_THAT(report, HasSubstr("shows nothing of the terrain here, so its time says nothing: "
+                                  "texture\n"));
+}
+
+TEST(TerminalReport, floor_of_the_pictures_errors_is_that_of_exact) {
+    Results results = test::made_results();
+    EXPECT_THAT(terminal_report(results), Not(HasSubstr("floor of the pictures")));
+    results.rows[1].setting = {"exact", {}, "exact"};
+    const std::string report = terminal_report(results);
+    EXPECT_THAT(report, HasSubstr("that of exact: FLIP 0.020, PSNR 40.0 dB, SSIM 0.975\n"));
+    EXPECT_THAT(report, HasSubstr("colour map included"));
 }
 
 TEST(TerminalReport, says_on_what_it_was_measured) {
@@ -104,10 +137,19 @@ TEST(TerminalReport, fits_the_screen_with_the_built_in_terrains) {
     }
 }
 
+TEST(TerminalReport, name_neither_forges_a_line_nor_steers_the_terminal) {
+    Results results = test::made_results("a\nb\x1b[31m\xC2\x9B\x7F.tif");
+    results.rows[1].setting.label = "c\rd";
+    const std::string report = terminal_report(results);
+    EXPECT_THAT(report, HasSubstr("a\\x0ab\\x1b[31m\\x9b\\x7f.tif, overview"));
+    EXPECT_THAT(report, HasSubstr("c\\x0dd"));
+    EXPECT_EQ(report.find_first_of("\x1b\r\x7F"), report.npos);
+}
+
 TEST(TerminalReport, long_notes_and_fronts_are_broken_between_words) {
     Results results = test::made_source_results();
     const std::vector<std::string> many(40, "relief:n=11,k=8");
-    results.fronts = {{"natural", scene::Pose::low, 0.25, many, {{many[0], many[1]}}}};
+    results.fronts = {{"natural", scene::Pose::low, 0.25, many, {{many[0], many[1]}}, {}}};
     results.notes = {"Ć" + std::string(60, 'x') + " " + std::string(38, 'y'),
                      "Ć" + std::string(60, 'x') + " " + std::string(39, 'y')};
     const std::string report = terminal_report(results);

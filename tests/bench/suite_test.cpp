@@ -102,6 +102,90 @@ TEST_F(SuiteOnTinyTerrain,
     EXPECT_GT(texture.wrong_percent, 10.0);
     EXPECT_GT(texture.holes, 0U);
     EXPECT_TRUE(results.rows[1].error->reprojection_px);
+    for (const Row& row : results.rows) { // a ratio to a picture of nothing says nothing
+        EXPECT_GT(row.timing->ms.median, 0.0);
+        EXPECT_FALSE(row.timing->ratio_to_texture);
+    }
+}
+
+TEST_F(SuiteOnTinyTerrain, under_five_frames_there_is_no_interval_no_floor_and_the_row_is_noisy) {
+    auto few = options();
+    few.rounds = 4;
+    const Group both = group(std::string(test::small_dem), {"texture", "polygons"});
+    for (const Row& row : run_suite({"a suite", {both}}, few, {}).rows) {
+        EXPECT_FALSE(row.timing->interval);
+        EXPECT_FALSE(row.timing->noise_floor);
+        EXPECT_TRUE(row.noisy());
+    }
+    few.rounds = 5;
+    for (const Row& row : run_suite({"a suite", {both}}, few, {}).rows) {
+        EXPECT_TRUE(row.timing->interval);
+        EXPECT_TRUE(row.timing->noise_floor);
+    }
+}
+
+TEST_F(SuiteOnTinyTerrain, cpu_renderer_tells_no_time_of_a_gpu) {
+    const Group one = group(std::string(test::small_dem), {"texture"});
+    for (const Row& row : run_suite({"a suite", {one}}, options(), {}).rows) {
+        EXPECT_FALSE(row.timing->gpu_ms);
+    }
+}
+
+TEST_F(SuiteOnTinyTerrain, settings_without_time_are_left_out_counted_and_named) {
+    auto hurried = options();
+    hurried.rounds = 0;
+    hurried.quick = true;
+    hurried.quick_seconds = 0.0;
+    const Suite suite{"a suite",
+                      {group(std::string(test::small_dem),
+                             {"texture", "polygons", "relief:n=3,k=1", "relief:n=4,k=1"})}};
+    const Results results = run_suite(suite, hurried, {});
+    ASSERT_FALSE(results.stopped) << results.stopped->message;
+    ASSERT_EQ(results.rows.size(), 2U);
+    EXPECT_EQ(results.rows[0].setting.label, "texture");
+    EXPECT_TRUE(results.rows[1].null_row);
+    ASSERT_EQ(results.left_out.size(), 1U);
+    EXPECT_EQ(results.left_out[0].scene, "dem.asc");
+    EXPECT_EQ(results.left_out[0].settings, 3U);
+    EXPECT_THAT(results.left_out[0].techniques, ElementsAre("polygons", "relief"));
+    EXPECT_THAT(results.notes,
+                ElementsAre("dem.asc, overview: 3 of 4 settings left out, there was no time for "
+                            "them; even the first of polygons, relief"));
+    EXPECT_FALSE(results.complete());
+    Suite whole = suite;
+    whole.may_leave_out = false;
+    EXPECT_EQ(run_suite(whole, hurried, {}).rows.size(), 5U);
+}
+
+TEST_F(SuiteOnTinyTerrain, stop_while_judging_keeps_what_is_judged) {
+    std::vector<std::string> labels{"texture"};
+    for (int n = 1; n <= 30; ++n) {
+        labels.push_back("relief:n=" + std::to_string(n) + ",k=1");
+    }
+    std::stop_source stop;
+    int told = 0;
+    auto watched = options();
+    watched.progress = [&](double /*fraction*/) {
+        if (++told == 3) { // three are judged
+            stop.request_stop();
+        }
+    };
+    const Group group_of_many = group(std::string(test::small_dem), labels);
+    const Results results =
+        run_suite({"a suite", {group_of_many, group_of_many}}, watched, stop.get_token());
+    ASSERT_TRUE(results.stopped);
+    ASSERT_EQ(results.rows.size(), 4U);
+    EXPECT_EQ(results.rows[2].setting.label, "relief:n=2,k=1");
+    EXPECT_TRUE(results.rows[3].null_row);
+    for (const Row& row : results.rows) {
+        EXPECT_EQ(row.timing->frames, 1U);
+        EXPECT_TRUE(row.error);
+        EXPECT_TRUE(row.noisy());
+    }
+    ASSERT_EQ(results.left_out.size(), 1U);
+    EXPECT_EQ(results.left_out[0].settings, 28U);
+    EXPECT_THAT(results.notes, ElementsAre(HasSubstr("28 of 31 settings left out, as the run was "
+                                                     "stopped")));
 }
 
 // The terrain is a thread of 1 mm by 200 m; the rays of 32 rows pass it by two metres and more.
