@@ -1,4 +1,5 @@
 #include "relief_cell.glsl"
+
 // The true first hit: down a pyramid of greatest heights (Tevs, Ihrke and Seidel 2008) to the cells
 // the ray may touch, where the bilinear surface along it is a quadratic. The inner loop only
 // descends and moves on, one tap a turn.
