@@ -15,12 +15,11 @@ constexpr glm::ivec2 pareto_quick_size{320, 240}; // ten times as many settings 
 
 struct ParetoChoice {
     ParetoOptions options;
-    std::vector<std::string> terrains; // empty: the default ones
     OutputChoice outputs;
 };
 
 void add_pareto_options(CLI::App& command, ParetoChoice& choice) {
-    add_terrains_option(command, choice.terrains, "natural and urban");
+    add_terrains_option(command, choice.options.terrains, "natural and urban");
     add_techniques_option(command, choice.options.techniques, "all, over their parameters' ranges");
     add_suite_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
@@ -28,14 +27,11 @@ void add_pareto_options(CLI::App& command, ParetoChoice& choice) {
 
 Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& command,
                                 const app::Interrupt& interrupt) {
-    const auto inputs = terrain_files(choice.terrains);
+    const auto inputs = terrain_files(choice.options.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
     }
     ParetoOptions options = choice.options;
-    if (!choice.terrains.empty()) {
-        options.terrains = choice.terrains;
-    }
     options.suite = with_quick_size(options.suite, command, pareto_quick_size);
     options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_pareto(options, interrupt.token()), choice.outputs);
@@ -52,9 +48,11 @@ app::Command add_pareto_command(CLI::App& program, app::Interrupt& interrupt) {
         "Each terrain is seen from the poses overview, oblique, low and grazing.\n"
         "The area is that below the front, time and error on logarithmic axes: 0 the best, 1 the "
         "worst.\n"
-        "With --quick pictures are 320x240 unless --size says otherwise, and settings there is no "
-        "time\n"
-        "for are left out, and named; every technique as it is by default comes first.\n"
+        "With --quick pictures are 320x240 unless --size says otherwise, natural and urban have "
+        "513\n"
+        "samples a side unless --terrain names them, and settings there is no time for are left "
+        "out,\n"
+        "and named; every technique as it is by default comes first.\n"
         "Ctrl-C draws what was looked at once more, shows and writes the rows so far, and ends.\n"
         "Examples, the second with real DEMs beside the built-in terrains:\n"
         "  reljef-bench pareto --quick\n"

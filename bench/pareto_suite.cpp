@@ -97,11 +97,23 @@ std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& ch
     return candidates;
 }
 
+std::vector<StageChoice> pareto_stages(const ParetoOptions& options) {
+    if (options.terrains.empty()) {
+        const int samples = options.suite.quick ? quick_samples : 0;
+        return {{"natural", samples}, {"urban", samples}};
+    }
+    std::vector<StageChoice> stages;
+    for (const std::string& terrain : options.terrains) {
+        stages.push_back({terrain});
+    }
+    return stages;
+}
+
 std::vector<Group> pareto_groups(const ParetoOptions& options) {
     std::vector<Group> groups;
-    for (const std::string& terrain : options.terrains) {
+    for (const StageChoice& stage : pareto_stages(options)) {
         for (const scene::Pose pose : poses) {
-            groups.push_back({"", {terrain}, pose, pareto_candidates(options.techniques)});
+            groups.push_back({"", stage, pose, pareto_candidates(options.techniques)});
         }
     }
     return groups;

@@ -11,9 +11,13 @@ namespace reljef::bench {
 
 struct ParetoOptions {
     SuiteOptions suite;
-    std::vector<std::string> terrains{"natural", "urban"};
+    /// Empty: natural and urban, of quick_samples a side where the run is quick.
+    std::vector<std::string> terrains;
     std::vector<scene::Technique> techniques; ///< beside texture; empty: settings_over_range()
 };
+
+/// A quarter of the built-in terrains: polygons, too, are measured in a minute.
+inline constexpr int quick_samples = 513;
 
 /// At most so many values of one parameter are measured.
 inline constexpr int most_values = 5;
