@@ -49,7 +49,7 @@ app::Command add_pareto_command(CLI::App& program, app::Interrupt& interrupt) {
         "The area is that below the front, time and error on logarithmic axes: 0 the best, 1 the "
         "worst.\n"
         "With --quick pictures are 320x240 unless --size says otherwise, natural and urban have "
-        "513\n"
+        "257\n"
         "samples a side unless --terrain names them, and settings there is no time for are left "
         "out,\n"
         "and named; every technique as it is by default comes first.\n"

@@ -16,8 +16,9 @@ struct ParetoOptions {
     std::vector<scene::Technique> techniques; ///< beside texture; empty: settings_over_range()
 };
 
-/// A quarter of the built-in terrains: polygons, too, are measured in a minute.
-inline constexpr int quick_samples = 513;
+/// A quarter of a side of the built-in terrains: so polygons and cones, too, are measured in a
+/// minute.
+inline constexpr int quick_samples = 257;
 
 /// At most so many values of one parameter are measured.
 inline constexpr int most_values = 5;
