@@ -33,7 +33,7 @@ std::vector<app::NamedFile> outputs_of(const OutputChoice& choice) {
 std::vector<app::NamedFile> with_page(std::vector<app::NamedFile> outputs,
                                       const std::filesystem::path& html) {
     if (!html.empty()) {
-        outputs.push_back({"--html", html});
+        outputs.push_back({"--html", page_file(html).parent_path()});
         outputs.push_back({"--html", page_file(html)});
     }
     return outputs;

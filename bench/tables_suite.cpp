@@ -45,9 +45,11 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
 
 Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
     const bool as_sources = options.terrains.empty() && options.techniques.empty() && !options.pose;
-    const Suite suite{"tables",
-                      as_sources ? source_groups(options.suite.quick) : terrain_groups(options),
-                      !as_sources, !as_sources};
+    Suite suite{.name = "tables",
+                .groups =
+                    as_sources ? source_groups(options.suite.quick) : terrain_groups(options)};
+    suite.keep_stages = !as_sources;
+    suite.may_leave_out = !as_sources;
     Results results = run_suite(suite, options.suite, stop);
     if (as_sources && options.suite.size != sources_size) {
         results.notes.push_back(fmt::format("sources: their pictures are of {}x{}, these of {}x{}",

@@ -35,7 +35,7 @@ TEST_P(BenchMisused, is_one_line_and_status_2) {
 INSTANTIATE_TEST_SUITE_P(
     Arguments, BenchMisused,
     testing::Values(Misuse{{}, {"suite", "tables"}}, //
-                    Misuse{{"lod"}, {"lod", "tables", "pareto", "compare"}},
+                    Misuse{{"levels"}, {"levels", "tables", "pareto", "compare"}},
                     Misuse{{"stress", "--quick"}, {"stress", "tables"}},
                     Misuse{{"tables", "--technique", "magic"}, {"magic", "texture"}},
                     Misuse{{"tables", "--technique", "polygons:lods=0"}, {"lods=0"}},

@@ -46,7 +46,7 @@ TEST(SettingsOverRange, hold_every_technique_as_it_is_none_twice_and_none_refuse
 
 TEST(SettingsOverRange, begin_with_every_technique_the_cheap_kinds_first) {
     const std::vector<scene::Technique> settings = settings_over_range();
-    const std::size_t techniques = scene::technique_catalogue().size();
+    const std::size_t techniques = scene::terrain_techniques().size();
     std::vector<std::string> names;
     for (std::size_t i = 0; i < techniques; ++i) {
         EXPECT_EQ(settings[i].values, scene::make_technique(settings[i].id).values);

@@ -143,7 +143,7 @@ TEST_F(ReadJsonReport, place_found_and_expected_are_in_the_sentence) {
                 HasSubstr("rows[1].ms.median: -1.0 found, a number from 1e-09 to 1000000000"));
     EXPECT_THAT(refusal("/rows/0/ms/interval", {2.0, 1.0}),
                 HasSubstr("rows[0].ms.interval: [2.0,1.0] found, two numbers from 1e-09 to "
-                          "1000000000, the lower one first, was expected"));
+                          "1000000000, the lower one first was expected"));
     EXPECT_THAT(refusal("/rows/0/size", "1024"), HasSubstr("rows[0].size: \"1024\" found"));
     EXPECT_THAT(refusal_without("/rows/0", "pose"),
                 HasSubstr("rows[0].pose: nothing found, a text was expected"));

@@ -102,7 +102,7 @@ TEST(MarkdownReport, lines_of_a_table_have_as_many_cells) {
 
 TEST(MarkdownReport, names_are_text_and_no_markup) {
     const std::string report = markdown_report(test::made_results("a|b<i>*x*</i>_\n# c.tif"));
-    EXPECT_THAT(report, HasSubstr("a\\|b\\<i\\>\\*x\\*\\</i\\>\\_ \\# c.tif"));
+    EXPECT_THAT(report, HasSubstr("a\\|b\\<i\\>\\*x\\*\\</i\\>\\_\\\\x0a\\# c.tif"));
 }
 
 } // namespace
