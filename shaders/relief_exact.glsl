@@ -2,7 +2,7 @@
 
 // The true first hit: down a pyramid of greatest heights (Tevs, Ihrke and Seidel 2008) to the cells
 // the ray may touch, where the bilinear surface along it is a quadratic. The inner loop only
-// descends and moves on, one tap a turn, two levels at a time: a block holds 4×4 of the finer ones.
+// descends and moves on, one tap a turn.
 layout(binding = 2) uniform sampler2D greatest_heights; // level 0: of a cell's corners
 uniform ivec2 last_cell;
 uniform int top_level;
@@ -20,31 +20,33 @@ vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk) {
     return max((border - start.xy) * inverse, walk.part);
 }
 
-// Into the next block, and up two levels where that begins a new one there. False where the ray
-// ends, which is where the box does.
-bool move_on(vec2 exits, ivec2 forward, int highest, inout Walk walk) {
+// Into the next block, and up a level where that begins a new one there. False where there is none.
+bool move_on(vec2 exits, ivec2 forward, inout Walk walk) {
     walk.part = min(exits.x, exits.y);
     bool sideways = exits.x <= exits.y;
     ivec2 stride = 2 * forward - 1;
     walk.block += sideways ? ivec2(stride.x, 0) : ivec2(0, stride.y);
-    int fourth = (sideways ? walk.block.x : walk.block.y) & 3;
+    ivec2 beyond = last_cell >> walk.level;
+    bool there = walk.part < 1.0 && all(greaterThanEqual(walk.block, ivec2(0))) &&
+                 all(lessThanEqual(walk.block, beyond));
+    int odd = (sideways ? walk.block.x : walk.block.y) & 1;
     int ahead = sideways ? forward.x : forward.y;
-    if (fourth == 3 - 3 * ahead && walk.level < highest) {
-        walk.level += 2;
-        walk.block >>= 2;
+    if (odd != ahead && walk.level < top_level) {
+        ++walk.level;
+        walk.block >>= 1;
     }
-    return walk.part < 1.0;
+    return there;
 }
 
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
-    int highest = min(6, top_level & ~1);
+    const int start_level = 5;
     ivec2 forward = ivec2(greaterThan(span.xy, vec2(0.0)));
     // A ray along an axis never leaves through that axis's borders.
     vec2 inverse = vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0);
     vec2 never = vec2(span.x != 0.0 ? 0.0 : 2.0, span.y != 0.0 ? 0.0 : 2.0);
     bool above = start.z >= height_at(start.xy);
     Walk walk;
-    walk.level = highest;
+    walk.level = min(top_level, start_level);
     walk.part = 0.0;
     walk.block = clamp(ivec2(start.xy), ivec2(0), last_cell) >> walk.level;
     bool inside = true;
@@ -58,17 +60,15 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             bool over = above && lowest > texelFetch(greatest_heights, walk.block, walk.level).r;
             reached = !over && walk.level == 0;
             if (over) {
-                inside = move_on(exits, forward, highest, walk);
+                inside = move_on(exits, forward, walk);
             } else if (!reached) {
-                walk.level -= 2;
-                ivec2 part_block = ivec2(start.xy + walk.part * span.xy) >> walk.level;
-                walk.block = clamp(part_block, 4 * walk.block, 4 * walk.block + 3);
+                --walk.level;
+                vec2 middle = vec2((2 * walk.block + 1) << walk.level);
+                vec2 p = start.xy + walk.part * span.xy;
+                walk.block = 2 * walk.block + ivec2(greaterThanEqual(p, middle));
             }
         }
-        // Beyond the last sample by rounding only.
-        inside = inside && all(greaterThanEqual(walk.block, ivec2(0))) &&
-                 all(lessThanEqual(walk.block, last_cell >> walk.level));
-        if (reached && inside) {
+        if (reached) {
             float leave = min(min(exits.x, exits.y), 1.0);
             float found = crossing(start, span, walk.block, walk.part, leave, above);
             if (found <= 1.0) {
@@ -76,7 +76,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
                 place = start.xy + part * span.xy;
                 return true;
             }
-            inside = move_on(exits, forward, highest, walk);
+            inside = move_on(exits, forward, walk);
         }
     }
     part = 1.0;

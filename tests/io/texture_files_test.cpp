@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include <OpenImageIO/imageio.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -33,7 +33,7 @@ bool all_finite(const HitBuffer& hits) {
 // Every technique as it is, and with all options that a terrain takes.
 std::vector<std::string> techniques_with_and_without() {
     std::vector<std::string> all;
-    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+    for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
         scene::Technique technique = scene::make_technique(info.id);
         all.push_back(to_string(technique));
         for (const scene::OptionInfo& option : scene::options_of(info.id)) {
@@ -169,7 +169,7 @@ bool same_hits(const HitBuffer& a, const HitBuffer& b) {
 TEST_F(TechniqueStressGlTest, AnyOptionsGoTogetherAndShadingMovesNoHit) {
     ReliefStage stage(test::hills(65, 65, 12.0), small_setting());
     test::Chance chance(11);
-    const auto catalogue = scene::technique_catalogue();
+    const auto catalogue = scene::terrain_techniques();
     for (int i = 0; i < 60; ++i) {
         const auto index = chance.whole(0, static_cast<int>(catalogue.size()) - 1);
         scene::Technique technique =
