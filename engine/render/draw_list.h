@@ -45,6 +45,7 @@ struct ReliefDraw {
 struct MeshDraw {
     const scene::MeshNode* mesh = nullptr;
     glm::dmat4 world_from_local{1.0};
+    bool from_behind = false; ///< its inner side
 };
 
 /// What to draw this frame: pure data, decided on the CPU. Valid as long as the scene is unchanged.

@@ -76,14 +76,6 @@ Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<f
     return texture;
 }
 
-Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
-    if (!made) {
-        return made.error();
-    }
-    place = std::move(*made);
-    return {};
-}
-
 // The eye of a camera as Warp takes it.
 glm::dvec4 eye_of(const scene::Camera& camera, const glm::dmat4& world_from_local) {
     const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective

@@ -55,7 +55,8 @@ enum ShaderFeature : std::uint32_t {
     feature_normal_map = 1U << 17U,
     feature_bump = 1U << 18U,
     feature_emboss = 1U << 19U,
-    feature_wrap = 1U << 20U, ///< a mesh: the tile goes on in copies of itself
+    feature_wrap = 1U << 20U,   ///< a mesh: the tile goes on in copies of itself
+    feature_layers = 1U << 21U, ///< how a mesh's relief looks: for solids between layers
 };
 
 struct ShaderVariant {

@@ -58,4 +58,12 @@ Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, Fr
     return texture;
 }
 
+Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
+    if (!made) {
+        return made.error();
+    }
+    place = std::move(*made);
+    return {};
+}
+
 } // namespace reljef::render

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,5 +28,8 @@ Result<gl::Texture2D> tile_height_texture(const Grid<float>& heights, gl::Wrap w
 
 /// One level after the other, as greatest_heights() gives them.
 Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, FrameStats& stats);
+
+/// Puts a texture that could be made into its place.
+Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place);
 
 } // namespace reljef::render

@@ -77,11 +77,6 @@ Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
                                  "relief draws both",
                                  name)};
     }
-    if (technique.options.two_sided) {
-        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a mesh "
-                                 "shows its outside only",
-                                 name)};
-    }
     return {};
 }
 
