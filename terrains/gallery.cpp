@@ -18,36 +18,76 @@ namespace {
 constexpr double floor_width = 40.0; // metres
 constexpr int color_side = 1024;     // texels of the floor's picture
 
-constexpr std::array<GalleryModel, 5> models{
-    {{GalleryShape::plane,
-      "plane",
-      "brick",
-      {0.0, 3.4, 2.25},
-      0.0,
-      {12.0F, 4.5F, 0.0F},
-      {8.0F, 3.0F}},
-     {GalleryShape::box, "box", "rock", {-3.35, 0.3, 1.0}, 24.0, {2.0F, 2.0F, 2.0F}, {1.0F, 1.0F}},
-     {GalleryShape::sphere,
-      "sphere",
-      "cobble",
-      {-0.25, 0.7, 1.3},
-      0.0,
-      {1.3F, 0.0F, 0.0F},
-      {4.0F, 2.0F}},
-     {GalleryShape::torus,
-      "torus",
-      "rock",
-      {1.15, -2.1, 0.46},
-      0.0,
-      {0.98F, 0.46F, 0.0F},
-      {4.0F, 2.0F}},
-     {GalleryShape::cylinder,
-      "cylinder",
-      "brick",
-      {3.4, 0.6, 1.5},
-      0.0,
-      {0.95F, 3.0F, 0.0F},
-      {4.0F, 2.0F}}}};
+constexpr std::string_view solid_look = "relief";
+constexpr float through_the_middle = -0.5F;
+
+constexpr std::array<GalleryModel, 8> models{{{GalleryShape::plane,
+                                               "plane",
+                                               "brick",
+                                               {0.0, 3.4, 2.25},
+                                               0.0,
+                                               {12.0F, 4.5F, 0.0F},
+                                               {8.0F, 3.0F},
+                                               solid_look},
+                                              {GalleryShape::box,
+                                               "box",
+                                               "rock",
+                                               {-3.35, 0.3, 1.0},
+                                               24.0,
+                                               {2.0F, 2.0F, 2.0F},
+                                               {1.0F, 1.0F},
+                                               solid_look},
+                                              {GalleryShape::sphere,
+                                               "sphere",
+                                               "cobble",
+                                               {-0.25, 0.7, 1.3},
+                                               0.0,
+                                               {1.3F, 0.0F, 0.0F},
+                                               {4.0F, 2.0F},
+                                               solid_look},
+                                              {GalleryShape::torus,
+                                               "torus",
+                                               "rock",
+                                               {1.15, -2.1, 0.46},
+                                               0.0,
+                                               {0.98F, 0.46F, 0.0F},
+                                               {4.0F, 2.0F},
+                                               solid_look},
+                                              {GalleryShape::cylinder,
+                                               "cylinder",
+                                               "brick",
+                                               {3.4, 0.6, 1.5},
+                                               0.0,
+                                               {0.95F, 3.0F, 0.0F},
+                                               {4.0F, 2.0F},
+                                               solid_look},
+                                              {GalleryShape::sheet,
+                                               "fence",
+                                               "fence",
+                                               {-3.5, -2.0, 0.75},
+                                               30.0,
+                                               {3.0F, 1.5F, 0.0F},
+                                               {4.0F, 2.0F},
+                                               "lattice",
+                                               through_the_middle},
+                                              {GalleryShape::sheet,
+                                               "curtain",
+                                               "rings",
+                                               {3.75, -1.7, 1.3},
+                                               -30.0,
+                                               {2.4F, 2.4F, 0.0F},
+                                               {2.0F, 2.0F},
+                                               "multi-layer:n=64",
+                                               through_the_middle},
+                                              {GalleryShape::bowl,
+                                               "shell",
+                                               "copper",
+                                               {-1.35, -2.75, 0.8},
+                                               0.0,
+                                               {0.8F, 0.0F, 0.0F},
+                                               {6.0F, 1.5F},
+                                               "relief:sides=two",
+                                               through_the_middle}}};
 
 // Metres from a place on the floor to what a model covers of it; 0 below it.
 double distance_to_foot(const GalleryModel& model, glm::dvec2 place) {
@@ -66,6 +106,7 @@ double distance_to_foot(const GalleryModel& model, glm::dvec2 place) {
     case GalleryShape::torus:
         return std::abs(far - model.size.x);
     case GalleryShape::sphere:
+    case GalleryShape::bowl:
         return far;
     default:
         return std::max(far - model.size.x, 0.0);
@@ -76,6 +117,9 @@ double distance_to_foot(const GalleryModel& model, glm::dvec2 place) {
 double sky_seen(glm::dvec2 place) {
     double seen = 1.0;
     for (const GalleryModel& model : models) {
+        if (model.shape == GalleryShape::sheet) {
+            continue; // it has holes
+        }
         const double reach = 0.45 * std::max(model.center.z, 0.5);
         const double away = distance_to_foot(model, place) / reach;
         seen *= 1.0 - 0.62 * std::exp(-away * away);

@@ -223,6 +223,16 @@ LayerMap filled_layers(GridView<const float> heights) {
     });
 }
 
+Grid<float> top_heights(const LayerMap& layers) {
+    const Grid<glm::vec4>& heights = layers.heights();
+    Grid<float> tops(heights.cols(), heights.rows());
+    for (std::size_t i = 0; i < tops.size(); ++i) {
+        const glm::vec4& at = heights.samples()[i];
+        tops.samples()[i] = at.x > at.y ? at.x : (at.z > at.w ? at.z : 0.0F);
+    }
+    return tops;
+}
+
 LayerMap seen_from_behind(const LayerMap& layers) {
     const Grid<glm::vec4>& from = layers.heights();
     return made_layers(from.cols(), from.rows(), [&](int col, int row) {

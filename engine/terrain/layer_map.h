@@ -42,6 +42,9 @@ Result<LayerMap> dual_layers(GridView<const float> front, GridView<const float> 
 /// All below the heights is solid. Precondition: heights in [0,1], at least one.
 LayerMap filled_layers(GridView<const float> heights);
 
+/// What is seen from straight above: the uppermost solid; 0 where there is none.
+Grid<float> top_heights(const LayerMap& layers);
+
 /// The tile seen from behind: what was lowest is highest.
 LayerMap seen_from_behind(const LayerMap& layers);
 

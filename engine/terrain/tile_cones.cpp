@@ -13,16 +13,6 @@ int wrapped_index(int index, int count) {
     return ((index % count) + count) % count;
 }
 
-Grid<float> cones_within(const Grid<float>& field, int margin, int cols, int rows, float widest) {
-    Grid<float> cones(cols, rows);
-    for (int row = 0; row < rows; ++row) {
-        for (int col = 0; col < cols; ++col) {
-            cones(col, row) = std::min(field(col + margin, row + margin), widest);
-        }
-    }
-    return cones;
-}
-
 } // namespace
 
 Grid<float> cone_field(GridView<const float> heights, TileBorder border) {
@@ -42,14 +32,22 @@ Grid<float> cone_field(GridView<const float> heights, TileBorder border) {
     return field;
 }
 
-ConeMaps tile_cones(const ConeMaps& of_field, int cols, int rows, TileBorder border) {
+Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, TileBorder border) {
     const int margin = field_margin(cols, rows, border);
     const bool wraps = border == TileBorder::wrap;
-    const int cell_cols = wraps ? cols : std::max(cols - 1, 1);
-    const int cell_rows = wraps ? rows : std::max(rows - 1, 1);
     const float widest = wraps ? static_cast<float>(margin) : widest_cone;
-    return {cones_within(of_field.plain, margin, cell_cols, cell_rows, widest),
-            cones_within(of_field.relaxed, margin, cell_cols, cell_rows, widest)};
+    Grid<float> cones(wraps ? cols : std::max(cols - 1, 1), wraps ? rows : std::max(rows - 1, 1));
+    for (int row = 0; row < cones.rows(); ++row) {
+        for (int col = 0; col < cones.cols(); ++col) {
+            cones(col, row) = std::min(of_field(col + margin, row + margin), widest);
+        }
+    }
+    return cones;
+}
+
+ConeMaps tile_cones(const ConeMaps& of_field, int cols, int rows, TileBorder border) {
+    return {tile_cones(of_field.plain, cols, rows, border),
+            tile_cones(of_field.relaxed, cols, rows, border)};
 }
 
 } // namespace reljef::terrain

@@ -161,6 +161,39 @@ TEST_F(MeshTechniquesGlTest, ANormalMapLightsAsTheGradientOfTheHeights) {
     }
 }
 
+// How much the brightness of what is shown differs over the middle of a picture.
+double contrast(const Image& picture) {
+    double sum = 0.0;
+    double squares = 0.0;
+    int count = 0;
+    for (int y = mesh_picture.y / 2 - 15; y < mesh_picture.y / 2 + 15; ++y) {
+        for (int x = mesh_picture.x / 2 - 15; x < mesh_picture.x / 2 + 15; ++x) {
+            const double bright = linear_from_rgba8(picture(x, y)).g;
+            sum += bright;
+            squares += bright * bright;
+            ++count;
+        }
+    }
+    return std::sqrt(std::max(squares / count - sum * sum / count / count, 0.0)) / (sum / count);
+}
+
+// Steep edges, seen from so far that many texels share a pixel.
+TEST_F(MeshTechniquesGlTest, BumpFromAfarIsAsStrongAsANormalMap) {
+    Grid<float> steps(128, 128, 0.0F);
+    for (int row = 0; row < 128; ++row) {
+        for (int col = 0; col < 128; ++col) {
+            steps(col, row) = (col / 11 + row / 17) % 3 == 0 ? 1.0F : 0.0F;
+        }
+    }
+    Panel panel(steps, 3.0F);
+    panel.scene.add_light({.azimuth = 240.0, .altitude = 35.0});
+    for (const double far : {3.0, 9.0, 18.0}) {
+        panel.look({0.0, -0.3 * far, far}, {0.0, 0.0, 0.0});
+        const double normal = contrast(panel.picture("normal"));
+        EXPECT_NEAR(contrast(panel.picture("bump")) / normal, 1.0, 0.3) << far;
+    }
+}
+
 TEST_F(MeshTechniquesGlTest, EmbossHasNoSpecularAndTheOthersDo) {
     const auto differs = [](const std::string& technique) {
         Image before;
