@@ -43,27 +43,17 @@ float seen_height(vec2 place, float level) {
     return textureLod(height_map, (place + 0.5) * height_texel, level).r;
 }
 
-// What heights a texel of a level around a place rise by in x and y, a texel of level 0.
-vec2 rise_around(vec2 place, float texels, float level) {
-    vec2 right = vec2(0.5 * texels, 0.0);
-    vec2 up = vec2(0.0, 0.5 * texels);
-    return vec2(seen_height(place + right, level) - seen_height(place - right, level),
-                seen_height(place + up, level) - seen_height(place - up, level)) / texels;
-}
-
-// The mean of the normals that the heights have on what a pixel covers, as a normal map's levels
-// hold it: of the mean slope a steep edge would make the more, the farther it is.
+// From the heights half a texel around. What a pixel covers is lit by the mean of its normals, which
+// no mean of heights has: a steep edge is as steep in all it spreads over. From afar it is the map
+// of the heights' normals that knows it.
 vec3 bumped_normal(vec2 place, float level) {
-    vec2 lift_per_texel = lift * tiles_per_metre * tile_samples();
-    float parts = level > 0.0 ? 4.0 : 1.0; // of the pixel, along each side
-    float texels = exp2(level) / parts;
-    float fine = max(level - log2(parts), 0.0);
-    vec3 sum = vec3(0.0);
-    for (float i = 0.0; i < parts * parts; ++i) {
-        vec2 part = vec2(mod(i, parts), floor(i / parts)) + 0.5 - 0.5 * parts;
-        sum += normal_of_slope(rise_around(place + part * texels, texels, fine) * lift_per_texel);
-    }
-    return normalize(sum);
+    const vec2 right = vec2(0.5, 0.0);
+    const vec2 up = vec2(0.0, 0.5);
+    vec2 rise = vec2(seen_height(place + right, 0.0) - seen_height(place - right, 0.0),
+                     seen_height(place + up, 0.0) - seen_height(place - up, 0.0));
+    vec3 near = normal_of_slope(rise * lift * tiles_per_metre * tile_samples());
+    vec3 far = mapped_normal((place + 0.5) * height_texel, level);
+    return normalize(mix(near, far, clamp(level, 0.0, 1.0)));
 }
 
 vec3 world_normal_of(vec3 tangent_normal, mat3 space) {

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/render/relief_options.h"
+#include "engine/scene/texture_plane.h"
 
 namespace reljef::render {
 namespace {
@@ -19,6 +20,8 @@ std::uint32_t look_features(scene::TechniqueId id) {
     case scene::TechniqueId::normal:
     case scene::TechniqueId::displacement:
         return feature_normal_map;
+    case scene::TechniqueId::prewarp:
+        return feature_normal_map | feature_warped;
     default:
         return 0U;
     }
@@ -68,6 +71,15 @@ void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSur
     program.set_uniform("last_cell", surface.cells - 1);
 }
 
+// From the tile's coordinates over the mesh to the warp's own, which go from 0 to 1 over it.
+void bind_warp(gl::Program& program, const MeshDraw& draw, const gl::Texture2D& warp) {
+    warp.bind(6);
+    const auto plane = scene::texture_plane(*draw.mesh->mesh);
+    const glm::dvec2 size = plane->high - plane->low;
+    const glm::dvec2 per_tile = 1.0 / (size * glm::dvec2(draw.mesh->material.detail.repeats));
+    program.set_uniform("warp_from_tile", glm::vec4(per_tile, -plane->low / size));
+}
+
 } // namespace
 
 ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
@@ -87,6 +99,9 @@ void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& r
               const scene::Camera& camera) {
     const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
     bind_tile(program, residency.tile(draw), residency.surface(draw));
+    if (const gl::Texture2D* const warp = residency.warp(draw)) {
+        bind_warp(program, draw, *warp);
+    }
     const bool is_perspective = camera.projection == scene::ProjectionKind::perspective;
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
     program.set_uniform("local_from_relative", glm::mat3(local_from_world));

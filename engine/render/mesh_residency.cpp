@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "engine/render/mesh_warp.h"
+#include "engine/render/prewarp.h"
 #include "engine/render/uploads.h"
 #include "engine/scene/tangent_frames.h"
 
@@ -104,7 +107,8 @@ std::optional<terrain::LayerKind> layers_for(scene::TechniqueId id) {
 
 } // namespace
 
-Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, FrameStats& stats) {
+Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, const scene::Camera& camera,
+                                    FrameStats& stats) {
     forget_unused(draws);
     for (const MeshDraw& draw : draws) {
         const scene::Mesh& mesh = *draw.mesh->mesh;
@@ -125,7 +129,7 @@ Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, FrameSta
             return done;
         }
     }
-    return {};
+    return prepare_warps(draws, camera, stats);
 }
 
 void MeshResidency::forget_unused(const std::vector<MeshDraw>& draws) {
@@ -224,6 +228,31 @@ Result<void> MeshResidency::prepare_surface(const MeshDraw& draw, FrameStats& st
     return {};
 }
 
+Result<void> MeshResidency::prepare_warps(const std::vector<MeshDraw>& draws,
+                                          const scene::Camera& camera, FrameStats& stats) {
+    std::map<const scene::MeshNode*, gl::Texture2D> before = std::exchange(warps_, {});
+    for (const MeshDraw& draw : draws) {
+        const scene::Material& material = draw.mesh->material;
+        if (!has_tile(draw) || material.technique.id != scene::TechniqueId::prewarp) {
+            continue;
+        }
+        const auto plane = scene::texture_plane(*draw.mesh->mesh);
+        check(plane.has_value(), "a warp of a mesh that is not flat");
+        const scene::TextureDetail detail = scene::shown_detail(material);
+        const Grid<glm::vec4> shown =
+            warped_tile(*plane, detail, scene::relief_height(*draw.mesh->mesh, detail),
+                        warp_eye(camera, draw.world_from_local));
+        auto texture = place_texture({shown.cols(), shown.rows()}, before[draw.mesh]);
+        if (!texture) {
+            return texture.error();
+        }
+        texture->upload(0, shown);
+        count_upload(stats, texture->bytes());
+        warps_.emplace(draw.mesh, std::move(*texture));
+    }
+    return {};
+}
+
 const MeshResidency::Displaced* MeshResidency::displaced(const MeshDraw& draw) const {
     const scene::Material& material = draw.mesh->material;
     const scene::TextureDetail detail = scene::shown_detail(material);
@@ -247,6 +276,11 @@ const ResidentMesh& MeshResidency::mesh(const MeshDraw& draw) const {
 
 const ResidentTile& MeshResidency::tile(const MeshDraw& draw) const {
     return tiles_.at(tile_key(draw)).resident;
+}
+
+const gl::Texture2D* MeshResidency::warp(const MeshDraw& draw) const {
+    const auto found = warps_.find(draw.mesh);
+    return found == warps_.end() ? nullptr : &found->second;
 }
 
 const ResidentSurface& MeshResidency::surface(const MeshDraw& draw) const {

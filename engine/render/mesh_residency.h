@@ -23,12 +23,15 @@ namespace reljef::render {
 class MeshResidency {
 public:
     /// Fails when the driver has no memory left.
-    Result<void> prepare(const std::vector<MeshDraw>& draws, FrameStats& stats);
+    Result<void> prepare(const std::vector<MeshDraw>& draws, const scene::Camera& camera,
+                         FrameStats& stats);
 
     /// Precondition: prepared.
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
     [[nodiscard]] const ResidentTile& tile(const MeshDraw& draw) const;
     [[nodiscard]] const ResidentSurface& surface(const MeshDraw& draw) const;
+    /// What prewarp shows on the mesh: warped_tile; null for other techniques.
+    [[nodiscard]] const gl::Texture2D* warp(const MeshDraw& draw) const;
 
 private:
     enum class Look { plain, textured }; // which attributes its vertices have
@@ -62,11 +65,14 @@ private:
     Result<void> prepare_displaced(const MeshDraw& draw, FrameStats& stats);
     Result<void> prepare_tile(const MeshDraw& draw, FrameStats& stats);
     Result<void> prepare_surface(const MeshDraw& draw, FrameStats& stats);
+    Result<void> prepare_warps(const std::vector<MeshDraw>& draws, const scene::Camera& camera,
+                               FrameStats& stats);
 
     std::map<std::pair<const scene::Mesh*, Look>, Triangles> triangles_;
     std::vector<Displaced> displaced_;
     std::map<TileKey, Tile> tiles_;
     std::map<SurfaceKey, Surface> surfaces_;
+    std::map<const scene::MeshNode*, gl::Texture2D> warps_; // of the last frame
 };
 
 } // namespace reljef::render

@@ -208,7 +208,8 @@ std::uint32_t features_that_mean_something(ShaderKind kind) {
     case ShaderKind::relief_mesh:
         return any | relief | feature_cone | feature_layers | feature_wrap;
     case ShaderKind::textured_mesh:
-        return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap;
+        return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
+               feature_warped;
     default:
         return any;
     }
@@ -230,7 +231,9 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap;
     case ShaderKind::textured_mesh:
-        return is_hit ? wrap : is_lit ? look_of(variant.features) : 0U;
+        return (variant.features & feature_warped) | (is_hit   ? wrap
+                                                      : is_lit ? look_of(variant.features)
+                                                               : 0U);
     default:
         return 0U;
     }

@@ -49,7 +49,7 @@ enum ShaderFeature : std::uint32_t {
     feature_soft_shadow = 1U << 12U,  ///< a ray to the sun: lit by how deep it goes
     feature_smooth_edges = 1U << 13U, ///< near misses are blended in
     feature_write_depth = 1U << 14U,  ///< the depth of the hit, not of the box
-    feature_warped = 1U << 15U,       ///< a terrain: shows the places warped onto it
+    feature_warped = 1U << 15U,       ///< shows the places that were warped onto it
     feature_cone = 1U << 16U,         ///< how a relief looks: from cone to cone
     // How a mesh with a tile of detail is lit; by its own normals where none of the three is there.
     feature_normal_map = 1U << 17U,

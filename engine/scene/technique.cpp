@@ -235,7 +235,7 @@ bool draws_terrain(TechniqueId id) {
            id != TechniqueId::emboss && id != TechniqueId::normal && !looks_for_layers(id);
 }
 
-bool draws_meshes(TechniqueId id) {
+bool draws_any_mesh(TechniqueId id) {
     return id != TechniqueId::prewarp;
 }
 

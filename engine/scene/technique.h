@@ -44,9 +44,9 @@ Geometry geometry_of(TechniqueId id);
 /// Whether it draws terrains.
 bool draws_terrain(TechniqueId id);
 
-/// Whether it draws meshes with a tile of detail: there `polygons` shows the mesh as it is, as
-/// `texture` does.
-bool draws_meshes(TechniqueId id);
+/// Whether it draws any mesh with a tile of detail, not only a flat one: there `polygons` shows the
+/// mesh as it is, as `texture` does.
+bool draws_any_mesh(TechniqueId id);
 
 /// Whether it looks for solids between layers, which are seen from either side.
 bool looks_for_layers(TechniqueId id);

@@ -157,7 +157,7 @@ TEST_F(MapsCommand, BadInputIsOneSentenceAndLeavesNothing) {
 }
 
 TEST_F(MapsCommand, CtrlCLeavesNothing) {
-    io::Channels large = io::make_channels(2048, 2048, 1);
+    io::Channels large = io::make_channels(1024, 1024, 1);
     for (std::size_t i = 0; i < large.values.size(); ++i) {
         large.values[i] = static_cast<float>((i * 2654435761U) % 1009U) / 1009.0F;
     }

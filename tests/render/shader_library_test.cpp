@@ -41,9 +41,9 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // colour three shadows and smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
-    // A mesh with a tile: lit in four ways; one that searches is that of a relief, lit or not,
+    // A mesh with a tile: lit in four ways, warped or not; one that searches is that of a relief, lit or not,
     // wrapped or not; one that looks for layers has no smooth edges.
-    constexpr std::size_t textured = 4U * 2U + 2U + 2U;
+    constexpr std::size_t textured = 2U * (4U * 2U + 2U + 2U);
     constexpr std::size_t mesh_parallax = 2U * 4U * (4U + 1U) * 4U;
     constexpr std::size_t mesh_searches = 2U * 8U * (4U + 4U * 2U * 2U * (3U + 1U));
     constexpr std::size_t layers = 2U * (4U + 4U * 2U * (3U + 1U));
