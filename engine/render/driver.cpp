@@ -227,10 +227,9 @@ private:
         bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
         program_->set_uniform("tile_sample", glm::vec2(tile.col, tile.row));
+        set_eye(draw.world_from_local);
         const std::size_t before = stats_.triangles;
         for (const ResidentMesh& mesh : residency_.tile(draw)) {
-            program_->set_uniform("relative_from_tile",
-                                  relative_from(list_.camera, draw.world_from_local, mesh.origin));
             draw_resident(mesh, gl::IndexType::uint16);
         }
         if (draw.coarse) {
@@ -239,6 +238,14 @@ private:
             stats_.skipped.triangles_under_error += all - std::min(all, stats_.triangles - before);
         }
         ++stats_.tiles;
+    }
+
+    void set_eye(const glm::dmat4& world_from_local) {
+        const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(list_.camera.eye, 1.0));
+        const glm::vec3 rounded(eye);
+        program_->set_uniform("eye", rounded);
+        program_->set_uniform("eye_rest", glm::vec3(eye - glm::dvec3(rounded)));
+        program_->set_uniform("world_from_local", glm::mat3(glm::dmat3(world_from_local)));
     }
 
     Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {

@@ -198,7 +198,7 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
         return vertices.error();
     }
     count_upload(stats, vertices->size());
-    ResidentMesh mesh = resident_grid(std::move(*vertices), grid.origin, 6 * grid.cols * grid.rows);
+    ResidentMesh mesh = resident_grid(std::move(*vertices), 6 * grid.cols * grid.rows);
     mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(*draw.terrain);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
