@@ -24,6 +24,7 @@ std::span<const EmbeddedShader> embedded_shaders();
 enum class ShaderKind {
     terrain,
     relief,
+    beams,         ///< how far a relief's rays meet nothing, by blocks of pixels
     mesh,          ///< of one colour
     textured_mesh, ///< with a tile of detail on it
     relief_mesh,   ///< each pixel looks for the tile's surface
@@ -56,7 +57,8 @@ enum ShaderFeature : std::uint32_t {
     feature_bump = 1U << 18U,
     feature_emboss = 1U << 19U,
     feature_wrap = 1U << 20U,   ///< a mesh: the tile goes on in copies of itself
-    feature_layers = 1U << 21U, ///< how a mesh's relief looks: for solids between layers
+    feature_beams = 1U << 21U,  ///< a relief: rays begin where their beam may meet something
+    feature_layers = 1U << 22U, ///< how a mesh's relief looks: for solids between layers
 };
 
 struct ShaderVariant {
