@@ -8,7 +8,7 @@
 #endif
 
 #ifdef WARPED
-// What is seen at a place of the mesh: the tile's coordinate, its height, 1; all 0 where nothing is.
+// What is seen at a sample of the mesh: the tile's coordinate, its height, 1; all 0 where nothing is.
 layout(binding = 6) uniform sampler2D warped_map;
 uniform vec4 warp_from_tile; // texture coordinate = tile coordinate · xy + zw
 #endif
@@ -60,11 +60,14 @@ void main() {
     }
     vec2 coordinate = tile_coordinate;
 #ifdef WARPED
-    vec4 seen = textureLod(warped_map, coordinate * warp_from_tile.xy + warp_from_tile.zw, 0.0);
+    vec2 on_map = coordinate * warp_from_tile.xy + warp_from_tile.zw;
+    vec2 samples = vec2(textureSize(warped_map, 0));
+    vec2 middle = (floor(on_map * samples) + 0.5) / samples; // of the nearest sample
+    vec4 seen = textureLod(warped_map, middle, 0.0);
     if (seen.w < 1.0) {
         discard;
     }
-    coordinate = seen.xy;
+    coordinate = seen.xy + (on_map - middle) / warp_from_tile.xy;
 #endif
 #ifdef HIT
     hit = tile_hit(coordinate * tile_samples() - 0.5, relative);

@@ -280,21 +280,23 @@ TEST_F(LayerTechniquesGlTest, TheUpperLayerThrowsAShadowOnTheLower) {
         }
         return static_cast<double>(dark) / (lit + dark);
     };
-    EXPECT_LT(lit_share("multi-layer"), 0.4); // beyond the square nothing is drawn: it is dark, too
-    EXPECT_GT(lit_share("multi-layer:shadow=hard"), lit_share("multi-layer") + 0.15);
-    EXPECT_GT(lit_share("multi-layer:shadow=soft,0.05"), lit_share("multi-layer") + 0.15);
+    const double unshadowed = lit_share("multi-layer");
+    EXPECT_LT(unshadowed, 0.4); // beyond the square nothing is drawn: it is dark, too
+    EXPECT_GT(lit_share("multi-layer:shadow=hard"), unshadowed + 0.15);
 }
 
 // Cones over a tile and its copies lead to the surface, in few steps.
 TEST_F(LayerTechniquesGlTest, ConesOverATileLeadToItsSurfaceBeyondEveryBorder) {
-    for (const TileBorder border : {TileBorder::wrap, TileBorder::clamp, TileBorder::discard}) {
-        for (const char* technique : {"cone:n=256,k=8,step=0", "cone:relaxed=0,n=512,step=0"}) {
-            Panel panel(wave_tile(32));
-            panel.detail().border = border;
-            const TileErrors found = tile_errors(panel, panel.hits(technique));
-            EXPECT_LE(found.wrong_percent(), 0.1) << technique << static_cast<int>(border);
-            EXPECT_LT(found.rms(), 0.05) << technique << static_cast<int>(border);
-        }
+    for (const auto& [border, technique] :
+         {std::pair{TileBorder::wrap, "cone:n=128,k=8,step=0"},
+          std::pair{TileBorder::wrap, "cone:relaxed=0,n=256,step=0"},
+          std::pair{TileBorder::clamp, "cone:n=128,k=8,step=0"},
+          std::pair{TileBorder::discard, "cone:n=128,k=8,step=0"}}) {
+        Panel panel(wave_tile(32));
+        panel.detail().border = border;
+        const TileErrors found = tile_errors(panel, panel.hits(technique));
+        EXPECT_LE(found.wrong_percent(), 0.1) << technique << static_cast<int>(border);
+        EXPECT_LT(found.rms(), 0.05) << technique << static_cast<int>(border);
     }
     Panel panel(noise_tile(16, 16, 35));
     const TileErrors found = tile_errors(panel, panel.hits("cone:n=64,step=0"));
