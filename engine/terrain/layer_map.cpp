@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/vec2.hpp>
 
 namespace reljef::terrain {
@@ -127,33 +128,38 @@ std::vector<Solid> solids_of(Column column) {
     return solids;
 }
 
-// Texels without a value take the mean of their neighbours', ring after ring; in copies.
-void fill_from_neighbours(Grid<std::optional<float>>& values) {
-    bool is_changed = true;
-    while (is_changed) {
-        is_changed = false;
-        const Grid<std::optional<float>> before = values;
-        for (int row = 0; row < values.rows(); ++row) {
-            for (int col = 0; col < values.cols(); ++col) {
-                if (before(col, row)) {
-                    continue;
-                }
-                float sum = 0.0F;
-                int count = 0;
-                for (const glm::ivec2 way :
-                     {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
-                    const auto& other =
-                        before(index_beyond(col + way.x, values.cols(), TileBorder::wrap),
-                               index_beyond(row + way.y, values.rows(), TileBorder::wrap));
-                    sum += other.value_or(0.0F);
-                    count += other ? 1 : 0;
-                }
-                if (count > 0) {
-                    values(col, row) = sum / static_cast<float>(count);
-                    is_changed = true;
-                }
+// The mean of the neighbours that have a value; in copies.
+std::optional<float> mean_around(const Grid<std::optional<float>>& values, int col, int row) {
+    constexpr std::array<glm::ivec2, 4> ways{glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1),
+                                             glm::ivec2(0, -1)};
+    float sum = 0.0F;
+    int count = 0;
+    for (const glm::ivec2 way : ways) {
+        const auto& other = values(index_beyond(col + way.x, values.cols(), TileBorder::wrap),
+                                   index_beyond(row + way.y, values.rows(), TileBorder::wrap));
+        sum += other.value_or(0.0F);
+        count += other ? 1 : 0;
+    }
+    return count > 0 ? std::optional(sum / static_cast<float>(count)) : std::nullopt;
+}
+
+// Texels without a value that lie beside one with a value take theirs. False where there are none.
+bool fill_one_ring(Grid<std::optional<float>>& values) {
+    const Grid<std::optional<float>> before = values;
+    bool is_changed = false;
+    for (int row = 0; row < values.rows(); ++row) {
+        for (int col = 0; col < values.cols(); ++col) {
+            if (!before(col, row)) {
+                values(col, row) = mean_around(before, col, row);
+                is_changed = is_changed || values(col, row);
             }
         }
+    }
+    return is_changed;
+}
+
+void fill_from_neighbours(Grid<std::optional<float>>& values) {
+    while (fill_one_ring(values)) {
     }
 }
 
@@ -174,6 +180,40 @@ struct Halves {
         return glm::vec2(middles(col, row).value_or(middle_height));
     }
 };
+
+// The uppermost and the lowest of what the plumb lines meet.
+struct BothHalves {
+    Halves upper;
+    Halves lower;
+    std::size_t too_many = 0;
+};
+
+BothHalves halves_of(Grid<Column>& columns) {
+    BothHalves both{{columns.cols(), columns.rows()}, {columns.cols(), columns.rows()}, 0};
+    for (int row = 0; row < columns.rows(); ++row) {
+        for (int col = 0; col < columns.cols(); ++col) {
+            const std::vector<Solid> solids = solids_of(std::move(columns(col, row)));
+            both.too_many += solids.size() > 2 ? 1U : 0U;
+            if (!solids.empty()) {
+                both.upper.set(col, row, solids.front());
+            }
+            if (solids.size() > 1) {
+                both.lower.set(col, row, solids.back());
+            }
+        }
+    }
+    fill_from_neighbours(both.upper.middles);
+    fill_from_neighbours(both.lower.middles);
+    return both;
+}
+
+// A hole among the lower lies no higher than the upper.
+glm::vec4 layers_at(const BothHalves& both, int col, int row) {
+    const glm::vec2 high = both.upper.at(col, row);
+    const glm::vec2 low = both.lower.at(col, row);
+    const bool is_hole = !both.lower.solids(col, row).has_value();
+    return {high, is_hole ? glm::vec2(std::min(low.x, high.y)) : low};
+}
 
 } // namespace
 
@@ -270,38 +310,18 @@ Result<MeshLayers> layers_of_mesh(const TileMesh& mesh, int cols, int rows) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         add_crossings(columns, mesh, i);
     }
-    MeshLayers made;
-    Halves upper(cols, rows);
-    Halves lower(cols, rows);
-    for (int row = 0; row < rows; ++row) {
-        for (int col = 0; col < cols; ++col) {
-            const std::vector<Solid> solids = solids_of(std::move(columns(col, row)));
-            made.too_many += solids.size() > 2 ? 1U : 0U;
-            if (!solids.empty()) {
-                upper.set(col, row, solids.front());
-            }
-            if (solids.size() > 1) {
-                lower.set(col, row, solids.back());
-            }
-        }
-    }
-    fill_from_neighbours(upper.middles);
-    fill_from_neighbours(lower.middles);
+    const BothHalves both = halves_of(columns);
     Grid<glm::vec4> heights(cols, rows);
     for (int row = 0; row < rows; ++row) {
         for (int col = 0; col < cols; ++col) {
-            const glm::vec2 high = upper.at(col, row);
-            const glm::vec2 low = lower.at(col, row);
-            const bool is_hole = !lower.solids(col, row).has_value();
-            heights(col, row) = glm::vec4(high, is_hole ? glm::vec2(std::min(low.x, high.y)) : low);
+            heights(col, row) = layers_at(both, col, row);
         }
     }
     auto layers = LayerMap::create(std::move(heights));
     if (!layers) {
         return layers.error();
     }
-    made.layers = std::move(*layers);
-    return made;
+    return MeshLayers{std::move(*layers), both.too_many};
 }
 
 } // namespace reljef::terrain

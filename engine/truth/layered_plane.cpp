@@ -123,7 +123,7 @@ private:
         Corners corners;
         for (std::size_t i = 0; i < 4; ++i) {
             const double col = cell.x + static_cast<double>(i % 2);
-            const double row = cell.y + static_cast<double>(i / 2);
+            const double row = cell.y + (i < 2 ? 0.0 : 1.0);
             corners[i] = layers_(index_of(col, layers_.cols()), index_of(row, layers_.rows()));
         }
         return corners;
@@ -162,7 +162,7 @@ private:
     }
 
     static int nearer_layer(const std::array<Clearance, 4>& clearances, int solid, double t) {
-        const auto top = static_cast<std::size_t>(2 * solid);
+        const std::size_t top = 2U * static_cast<std::size_t>(solid);
         const bool is_top = std::abs(clearances[top].at(t)) <= std::abs(clearances[top + 1].at(t));
         return 2 * solid + (is_top ? 0 : 1);
     }
