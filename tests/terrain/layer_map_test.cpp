@@ -103,7 +103,7 @@ struct MadeMesh {
                                    (i & 4) != 0 ? high.z : low.z);
         }
         for (const int corner : {4, 6, 5, 5, 6, 7, 0, 1, 2, 1, 3, 2, 0, 2, 4, 4, 2, 6,
-                                           1, 5, 3, 3, 5, 7, 0, 4, 1, 1, 4, 5, 2, 3, 6, 3, 7, 6}) {
+                                 1, 5, 3, 3, 5, 7, 0, 4, 1, 1, 4, 5, 2, 3, 6, 3, 7, 6}) {
             indices.push_back(first + static_cast<std::uint32_t>(corner));
         }
     }
