@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bench/report_table.h"
 
@@ -49,7 +48,7 @@ std::string markdown_table(const ReportTable& table) {
 std::string markdown_front(const Front& front) {
     std::string text =
         fmt::format("- {}, {}: {}; {}\n", escaped(front.scene), scene::to_string(front.pose),
-                    escaped(fmt::format("{}", fmt::join(front.front, ", "))), area_text(front));
+                    escaped(front_text(front)), area_text(front));
     if (!front.holed.empty()) {
         text += fmt::format("  - {}\n", escaped(holed_text(front)));
     }

@@ -271,6 +271,10 @@ std::vector<std::string> column_notes(const Results& results) {
     return notes;
 }
 
+std::string front_text(const Front& front) {
+    return front.front.empty() ? "none" : fmt::format("{}", fmt::join(front.front, ", "));
+}
+
 std::string area_text(const Front& front) {
     return front.area ? fmt::format("area {:.3f}", *front.area)
                       : "no area, as a technique or the ratio to texture is lacking";

@@ -29,6 +29,9 @@ std::vector<std::string> environment_lines(const Environment& environment);
 /// What the columns mean, as sentences.
 std::vector<std::string> column_notes(const Results& results);
 
+/// The labels of a front, the fastest first, or that there is none.
+std::string front_text(const Front& front);
+
 /// "area 0.250", or that there is none.
 std::string area_text(const Front& front);
 

@@ -70,7 +70,7 @@ std::string terminal_table(const ReportTable& table, const std::vector<std::size
 std::string terminal_front(const Front& front) {
     std::string text =
         wrapped(fmt::format("{}, {}: front {}; {}", front.scene, scene::to_string(front.pose),
-                            fmt::join(front.front, ", "), area_text(front)));
+                            front_text(front), area_text(front)));
     if (!front.holed.empty()) {
         text += wrapped("  " + holed_text(front), 4);
     }

@@ -24,7 +24,8 @@ const shapes = [
 ];
 
 function marker(number) {
-  return svg('path', {class: 'marker', d: shapes[number % shapes.length], '--series': `var(--series-${number % 8})`});
+  const color = (number + 3 * Math.floor(number / shapes.length)) % 8; // the next round has others
+  return svg('path', {class: 'marker', d: shapes[number % shapes.length], '--series': `var(--series-${color})`});
 }
 
 // A logarithmic axis from values to positions begin..end, with room around the values.

@@ -76,6 +76,8 @@ TEST(TerminalReport, fronts_and_what_they_dominate_are_named) {
     EXPECT_THAT(report, HasSubstr("holes over 0.1 % of the picture: d\n"));
     results.fronts[0].area.reset();
     EXPECT_THAT(terminal_report(results), HasSubstr("low: front a, b; no area"));
+    results.fronts[0].front.clear();
+    EXPECT_THAT(terminal_report(results), HasSubstr("low: front none; no area"));
 }
 
 TEST(TerminalReport, pixels_without_a_bound_are_told_beside_the_rms) {
