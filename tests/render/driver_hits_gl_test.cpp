@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/surface_caster.h"
 #include "tests/render/driver_fixture.h"
 
 namespace reljef::render {
