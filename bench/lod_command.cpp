@@ -1,9 +1,11 @@
 #include "bench/lod_command.h"
 
+#include <charconv>
 #include <memory>
 #include <optional>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "bench/lod_suite.h"
 #include "bench/output_options.h"
@@ -61,7 +63,18 @@ void add_poses_options(CLI::App& command, LodChoice& choice) {
         ->check(CLI::Range(1, 1'000'000));
     command.add_option("--max-error", choice.error, "of --poses, pixels (1)")
         ->type_name("PX")
-        ->check(CLI::Range(render::least_error, render::most_error));
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                double error = 0.0;
+                const auto [end, code] =
+                    std::from_chars(text.data(), text.data() + text.size(), error);
+                const bool fits = code == std::errc{} && end == text.data() + text.size() &&
+                                  error >= render::least_error && error <= render::most_error;
+                return fits ? std::string()
+                            : fmt::format("'{}' found, a number from {} to {} was expected", text,
+                                          render::least_error, render::most_error);
+            },
+            ""));
 }
 
 void check_poses_options(const LodChoice& choice, const CLI::App& command) {

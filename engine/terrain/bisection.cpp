@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -170,8 +171,9 @@ private:
             error = std::max(error, below.error);
             radius = std::max(radius, glm::distance(center, below.center) + below.radius);
         });
-        bisection_.splits_(place.x, place.y) = {rounded_up(error),
-                                                rounded_up(radius * ball_growth)};
+        bisection_.kept(place, size_, on_side_) = {rounded_up(error),
+                                                   rounded_up(radius * ball_growth),
+                                                   bisection_.heights_(place.x, place.y)};
     }
 
     double own_error(glm::ivec2 place) const {
@@ -225,11 +227,12 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      const ParallelOptions& parallel)
     : heights_(heightfield.heights.view()), placement_(&placement),
       end_(steps_per_sample * glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
-      bending_(bending_of(heightfield, placement)), splits_(heights_.cols(), heights_.rows()) {
+      bending_(bending_of(heightfield, placement)) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
     if (placement.kind() == PlacementKind::ellipsoid) {
         keep_places(parallel);
     }
+    make_levels();
     keep_cells(parallel);
     for (int size = 2; size <= tile_cells; size *= 2) {
         LevelBuilder(*this, size, true).build(parallel);
@@ -281,31 +284,49 @@ void Bisection::keep_places(const ParallelOptions& parallel) {
                  {parallel.threads, parallel.stop, {}});
 }
 
+void Bisection::make_levels() {
+    const glm::ivec2 last(heights_.cols() - 1, heights_.rows() - 1);
+    in_middles_[0] = Grid<KeptSplit>(last.x, last.y);
+    for (std::size_t level = 1; level < levels; ++level) {
+        const int size = 1 << level;
+        in_middles_[level] = Grid<KeptSplit>(last.x / size + 1, last.y / size + 1);
+        on_sides_[level] = Grid<KeptSplit>(last.x / size + 1, 2 * last.y / size + 1);
+    }
+}
+
+const Bisection::KeptSplit& Bisection::kept(glm::ivec2 sample, int size, bool on_side) const {
+    const auto level = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(size)));
+    const auto shift = static_cast<int>(level);
+    return on_side ? on_sides_[level](sample.x >> shift, sample.y >> (shift - 1))
+                   : in_middles_[level](sample.x >> shift, sample.y >> shift);
+}
+
 void Bisection::keep_cells(const ParallelOptions& parallel) {
-    cells_ = Grid<KeptSplit>(heights_.cols() - 1, heights_.rows() - 1);
-    for_runs(cells_.rows(), samples_at_once, parallel,
+    for_runs(in_middles_[0].rows(), samples_at_once, parallel,
              [&](int first, int last) { keep_cell_rows(first, last); });
 }
 
 void Bisection::keep_cell_rows(int first, int last) {
     const int low = std::max(first - 1, 0);
-    const int high = std::min(last + 1, cells_.rows());
-    Grid<CellBend> bends(cells_.cols(), high - low);
+    Grid<KeptSplit>& cells = in_middles_[0];
+    const int high = std::min(last + 1, cells.rows());
+    Grid<CellBend> bends(cells.cols(), high - low);
     for (int row = low; row < high; ++row) {
-        for (int col = 0; col < cells_.cols(); ++col) {
+        for (int col = 0; col < cells.cols(); ++col) {
             bends(col, row - low) = bend_of_cell(col, row);
         }
     }
     for (int row = first; row < last; ++row) {
-        for (int col = 0; col < cells_.cols(); ++col) {
+        for (int col = 0; col < cells.cols(); ++col) {
             CellBend most = bends(col, row - low);
             for (int i = 0; i < 9; ++i) {
                 const CellBend& near = bends.clamped(col + i % 3 - 1, row - low + i / 3 - 1);
                 most.side = std::max(most.side, near.side);
                 most.reach = std::max(most.reach, near.reach);
             }
-            cells_(col, row) = {rounded_up(0.25 * std::max(most.middle, most.side)),
-                                rounded_up(1.5 * most.reach * ball_growth + bending_.curvature)};
+            cells(col, row) = {rounded_up(0.25 * std::max(most.middle, most.side)),
+                               rounded_up(1.5 * most.reach * ball_growth + bending_.curvature),
+                               0.0F};
         }
     }
 }
@@ -314,6 +335,11 @@ glm::dvec3 Bisection::place_of(int col, int row) const {
     return offsets_.empty()
                ? placement_->world_from_sample({col, row, heights_(col, row)})
                : origins_(col / tile_cells, row / tile_cells) + glm::dvec3(offsets_(col, row));
+}
+
+glm::dvec3 Bisection::place_of(glm::ivec2 sample, const KeptSplit& split) const {
+    return offsets_.empty() ? placement_->world_from_sample({sample, split.height})
+                            : place_of(sample.x, sample.y);
 }
 
 // Bilinear between the cell's corners: on an ellipsoid off by less than its curvature.
@@ -347,9 +373,8 @@ Bisection::CellBend Bisection::bend_of_cell(int col, int row) const {
 
 Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
     if (size == steps_per_sample && !on_side) {
-        const glm::ivec2 cell = place / steps_per_sample;
-        const KeptSplit& kept = cells_(cell.x, cell.y);
-        return {kept.error, place_in_cell(place), kept.radius};
+        const KeptSplit& cell = kept(place / steps_per_sample, 1, false);
+        return {cell.error, place_in_cell(place), cell.radius};
     }
     const int reach = on_side ? size : 3 * size / 2;
     const glm::ivec2 last_cell = end_ / steps_per_sample - 1;
@@ -379,8 +404,8 @@ Split Bisection::split(glm::ivec2 place, int size, bool on_side) const {
         return split_in_cell(place, size, on_side);
     }
     const glm::ivec2 sample = place / steps_per_sample;
-    const KeptSplit& kept = splits_(sample.x, sample.y);
-    return {kept.error, place_of(sample.x, sample.y), kept.radius};
+    const KeptSplit& split = kept(sample, size / steps_per_sample, on_side);
+    return {split.error, place_of(sample, split), split.radius};
 }
 
 double Bisection::height(glm::ivec2 place) const {

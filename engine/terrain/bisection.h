@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -66,14 +69,21 @@ private:
     struct KeptSplit {
         float error = 0.0F;
         float radius = 0.0F;
+        float height = 0.0F; // metres
     };
     class LevelBuilder;
 
     static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
     void keep_places(const ParallelOptions& parallel);
+    void make_levels();
+    [[nodiscard]] const KeptSplit& kept(glm::ivec2 sample, int size, bool on_side) const;
+    [[nodiscard]] KeptSplit& kept(glm::ivec2 sample, int size, bool on_side) {
+        return const_cast<KeptSplit&>(std::as_const(*this).kept(sample, size, on_side));
+    }
     void keep_cells(const ParallelOptions& parallel);
     void keep_cell_rows(int first, int last);
     [[nodiscard]] glm::dvec3 place_of(int col, int row) const;
+    [[nodiscard]] glm::dvec3 place_of(glm::ivec2 sample, const KeptSplit& split) const;
     [[nodiscard]] glm::dvec3 place_in_cell(glm::ivec2 place) const;
     [[nodiscard]] CellBend bend_of_cell(int col, int row) const;
     [[nodiscard]] Split split_in_cell(glm::ivec2 place, int size, bool on_side) const;
@@ -82,8 +92,10 @@ private:
     const Placement* placement_;
     glm::ivec2 end_{0};
     Bending bending_;
-    Grid<KeptSplit> cells_;    // at the middle of each cell, of its square
-    Grid<KeptSplit> splits_;   // at each sample; unset where a tile's middle or corner is
+    // Of squares of 1, 2, 4 … samples: those a view asks for together lie side by side.
+    static constexpr std::size_t levels = 8;
+    std::array<Grid<KeptSplit>, levels> in_middles_; // (col, row) of the square
+    std::array<Grid<KeptSplit>, levels> on_sides_;   // row: of the side, two a square
     Grid<glm::vec3> offsets_;  // of samples on an ellipsoid, from their tile's origin
     Grid<glm::dvec3> origins_; // of tiles
 };

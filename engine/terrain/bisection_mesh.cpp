@@ -102,7 +102,8 @@ bool shows_more(const ErrorView& view, const Split& split) {
 class TileBisector {
 public:
     TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
-        : bisection_(bisection), view_(view), writer_(tile) {}
+        : bisection_(bisection), view_(view), first_(tile.col, tile.row),
+          at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {}
 
     // `is_seen`: the ball of the split that made it is seen as a whole, and so are those below.
     void add(const BisectionTriangle& triangle, bool is_seen = false) {
@@ -128,6 +129,7 @@ private:
     struct Choice {
         bool splits = false;
         bool is_seen = false; // the split's ball as a whole
+        bool is_made = true;
     };
 
     [[nodiscard]] Reach reach_of(const BisectionTriangle& triangle) const {
@@ -141,23 +143,41 @@ private:
     }
 
     [[nodiscard]] Choice choice_at(const BisectionTriangle& triangle, glm::ivec2 middle,
-                                   bool is_seen) const {
+                                   bool is_seen) {
         const glm::ivec2 edge = glm::abs(triangle.right - triangle.left);
         const int size = std::max(edge.x, edge.y);
         constexpr int least_size = 2; // steps: their middle is a step
         if (size < least_size) {
             return {false, is_seen};
         }
-        const Split split = bisection_.split(middle, size, edge.x != edge.y);
+        const bool on_side = edge.x != edge.y;
+        if (size <= steps_per_sample) {
+            return choice_of(bisection_.split(middle, size, on_side), is_seen);
+        }
+        // Each is asked for by the triangles on its two sides.
+        const glm::ivec2 sample = middle / steps_per_sample - first_;
+        Choice& choice = at_samples_(sample.x, sample.y);
+        if (!choice.is_made) {
+            choice = choice_of(bisection_.split(middle, size, on_side), is_seen);
+        }
+        return choice;
+    }
+
+    [[nodiscard]] Choice choice_of(const Split& split, bool is_seen) const {
         if (std::isinf(split.error)) {
             return {true, is_seen};
         }
+        if (!shows_more(view_, split)) {
+            return {false, is_seen};
+        }
         const Sight sight = is_seen ? Sight::whole : sight_of(view_, split);
-        return {sight != Sight::none && shows_more(view_, split), sight == Sight::whole};
+        return {sight != Sight::none, sight == Sight::whole};
     }
 
     const Bisection& bisection_;
     const ErrorView& view_;
+    glm::ivec2 first_;        // sample of the tile
+    Grid<Choice> at_samples_; // of the tile, where made
     TriangulationWriter writer_;
 };
 

@@ -103,9 +103,9 @@ double greatest_at_samples(GridView<const float> heights, const SampleTriangle& 
         for (const Side& side : sides) {
             span.add_side(side, row);
         }
-        const auto in_row =
-            heights.row(row).subspan(static_cast<std::size_t>(span.first),
-                                     static_cast<std::size_t>(span.last - span.first + 1));
+        const auto first = static_cast<std::size_t>(span.first);
+        const auto last = static_cast<std::size_t>(span.last);
+        const auto in_row = heights.row(row).subspan(first, last - first + 1);
         greatest =
             std::max(greatest, greatest_in_row(in_row, plane.at(span.first, row), plane.by_col));
     }

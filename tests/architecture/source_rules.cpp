@@ -99,13 +99,14 @@ const std::vector<Library>& guarded_libraries() {
         {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
         {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
+        {"Irrlicht", {"irrlicht"}, {"bench/irrlicht/"}},
     };
     return libraries;
 }
 
 bool may_use_gl(std::string_view path) {
     return starts_with_any(path, {"engine/gl/", "engine/platform/", "engine/render/", "tests/gl/",
-                                  "tests/platform/"}) ||
+                                  "tests/platform/", "bench/irrlicht/"}) ||
            (path.starts_with("tests/") && path.ends_with("_gl_test.cpp"));
 }
 

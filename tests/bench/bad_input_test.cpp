@@ -45,6 +45,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"tables", "--size", "0x768"}, {"--size", "0x768"}},
                     Misuse{{"tables", "--context", "vulkan"}, {"--context", "vulkan", "osmesa"}},
                     Misuse{{"tables", "--html"}, {"--html"}},
+                    Misuse{{"lod", "--poses", "0"}, {"--poses", "0"}},
+                    Misuse{{"lod", "--poses", "9", "--max-error", "nan"}, {"--max-error"}},
+                    Misuse{{"lod", "--poses", "9", "--max-error", "-1"}, {"--max-error"}},
+                    Misuse{{"lod", "--poses", "9", "--csv", "a.csv"}, {"--poses", "--json"}},
+                    Misuse{{"lod", "--max-error", "1"}, {"--max-error", "--poses"}},
+                    Misuse{{"peers", "--rounds", "0"}, {"--rounds", "'0'"}},
+                    Misuse{{"peers", "--csv", "a.csv"}, {"--csv"}},
                     Misuse{{"tables", "--terrain"}, {"--terrain"}},
                     Misuse{{"tables", "natural"}, {"natural"}}));
 

@@ -28,34 +28,51 @@ ErrorView uniform_view(double most_error) {
 
 // Heights that need every split of the first levels and none of those below: each split down to
 // the level that `level_at` gives moves the middle of the longest edge by a metre.
-template <class LevelAt> Grid<float> made_by_splits(int cols, int rows, const LevelAt& level_at) {
-    Grid<float> heights(cols, rows);
-    const auto split = [&](int level, glm::ivec2 place, glm::ivec2 along) {
-        const glm::ivec2 a = place - along;
-        const glm::ivec2 b = place + along;
-        heights(place.x, place.y) = 0.5F * (heights(a.x, a.y) + heights(b.x, b.y)) +
-                                    (level <= level_at(place) ? 1.0F : 0.0F);
-    };
-    int level = 0;
-    for (int size = tile_cells; size > 1; size /= 2) {
-        ++level;
-        for (int y = 0; y < rows; y += size / 2) {
-            for (int x = (y % size == 0) ? size / 2 : 0; x < cols; x += size) {
-                split(level, {x, y},
-                      y % size == 0 ? glm::ivec2(size / 2, 0) : glm::ivec2(0, size / 2));
-            }
+template <class LevelAt> class SplitHeights {
+public:
+    SplitHeights(int cols, int rows, const LevelAt& level_at)
+        : heights_(cols, rows), level_at_(level_at) {}
+
+    Grid<float> made() {
+        int level = 0;
+        for (int size = tile_cells; size > 1; size /= 2) {
+            split_sides(size, ++level);
+            split_middles(size / 2, ++level);
         }
-        ++level;
+        return std::move(heights_);
+    }
+
+private:
+    void split_sides(int size, int level) {
         const int half = size / 2;
-        for (int y = half / 2; half > 1 && y < rows; y += half) {
-            for (int x = half / 2; x < cols; x += half) {
-                const bool falls = (x / half + y / half) % 2 == 0;
-                split(level, {x, y}, {half / 2, falls ? half / 2 : -half / 2});
+        for (int y = 0; y < heights_.rows(); y += half) {
+            const bool is_row = y % size == 0;
+            for (int x = is_row ? half : 0; x < heights_.cols(); x += size) {
+                split(level, {x, y}, is_row ? glm::ivec2(half, 0) : glm::ivec2(0, half));
             }
         }
     }
-    return heights;
-}
+
+    void split_middles(int size, int level) {
+        const int half = size / 2;
+        for (int y = half; half > 0 && y < heights_.rows(); y += size) {
+            for (int x = half; x < heights_.cols(); x += size) {
+                const bool falls = (x / size + y / size) % 2 == 0;
+                split(level, {x, y}, {half, falls ? half : -half});
+            }
+        }
+    }
+
+    void split(int level, glm::ivec2 place, glm::ivec2 along) {
+        const glm::ivec2 a = place - along;
+        const glm::ivec2 b = place + along;
+        heights_(place.x, place.y) = 0.5F * (heights_(a.x, a.y) + heights_(b.x, b.y)) +
+                                     (level <= level_at_(place) ? 1.0F : 0.0F);
+    }
+
+    Grid<float> heights_;
+    const LevelAt& level_at_;
+};
 
 PlacedTerrain two_tiles(int western_level, int eastern_level) {
     const auto level_at = [&](glm::ivec2 place) {
@@ -65,7 +82,7 @@ PlacedTerrain two_tiles(int western_level, int eastern_level) {
     };
     return PlacedTerrain(
         {"two tiles",
-         test::plane_heightfield(made_by_splits(2 * tile_cells + 1, tile_cells + 1, level_at)),
+         test::plane_heightfield(SplitHeights(2 * tile_cells + 1, tile_cells + 1, level_at).made()),
          1.0});
 }
 
