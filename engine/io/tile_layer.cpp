@@ -191,6 +191,9 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
         return values.error();
     }
     result.values = std::move(*values);
+    *reading.bytes_read +=
+        result.values.size() * static_cast<std::size_t>(GDALGetDataTypeSizeBytes(
+                                   (*dataset)->GetRasterBand(1)->GetRasterDataType()));
     return result;
 }
 

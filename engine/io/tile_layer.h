@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -78,6 +79,7 @@ struct TileReading {
     std::span<const IndexedFile> files;
     std::filesystem::path folder; ///< the files' paths begin here
     RasterOptions options;        ///< scale, offset, stop
+    std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
 };
 
 /// The averages of a layer's samples over cells, of the newest tile where there are several; NaN

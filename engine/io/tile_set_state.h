@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 
 #include "engine/io/tile_layer.h"
@@ -25,6 +26,7 @@ struct TileSet::State {
     std::string vertical_datum; ///< empty where the tiles differ
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
+    mutable std::atomic<std::size_t> bytes_read{0};
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };

@@ -99,6 +99,19 @@ public:
         return {};
     }
 
+    Result<void> draw_streamed_tiles() {
+        if (list_.streamed_tiles.empty()) {
+            return {};
+        }
+        if (auto used = use({ShaderKind::terrain, features_}); !used) {
+            return used;
+        }
+        for (const StreamedDraw& draw : list_.streamed_tiles) {
+            draw_streamed(draw);
+        }
+        return {};
+    }
+
     Result<void> draw_reliefs(const gl::VertexArray& no_vertices) {
         if (list_.reliefs.empty()) {
             return {};
@@ -230,6 +243,25 @@ private:
                 2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
             stats_.skipped.triangles_under_error += all - std::min(all, stats_.triangles - before);
         }
+        ++stats_.tiles;
+    }
+
+    void draw_streamed(const StreamedDraw& draw) {
+        const ResidentStreamed& resident = residency_.streamed().tile(draw);
+        set_wireframe(draw.terrain->material.wireframe);
+        if (hits_) {
+            program_->set_uniform("tile_sample",
+                                  glm::vec2(terrain::TileTree::first(draw.tile->id)));
+        } else {
+            resident.lit->bind(0);
+            program_->set_uniform("tile_sample", glm::vec2(0.0F));
+            program_->set_uniform("lit_from_sample", resident.lit_from_sample);
+        }
+        program_->set_uniform(
+            "relative_from_tile",
+            relative_from(list_.camera, draw.world_from_local, resident.mesh.origin));
+        draw_resident(resident.mesh, gl::IndexType::uint16);
+        stats_.state_changes += hits_ ? 0 : 1;
         ++stats_.tiles;
     }
 
@@ -445,6 +477,9 @@ Result<void> Driver::draw_content(const DrawList& list, bool hits, FrameStats& s
     frame_block_.bind_uniform_block(0);
     Painter painter(list, hits, shaders_, residency_, stats);
     auto done = painter.draw_tiles();
+    if (done) {
+        done = painter.draw_streamed_tiles();
+    }
     if (done) {
         done = painter.draw_reliefs(no_vertices_);
     }
