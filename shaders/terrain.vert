@@ -13,11 +13,20 @@ out vec2 tile_place; // samples from the tile's first
 out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
 
+// Where the rasterizer puts the vertex anyway, before it interpolates: else triangles seen edge-on show
+// places beyond their own border, and on cliffs those lie pixels away.
+vec4 on_vertex_grid(vec4 clip) {
+    const float farthest = 1048576.0; // steps of which floats still tell an eighth
+    vec2 steps = clip.xy / clip.w * vertex_grid.xy;
+    bool is_on_it = clip.w > 0.0 && max(abs(steps.x), abs(steps.y)) < farthest;
+    return is_on_it ? vec4(round(steps) / vertex_grid.xy * clip.w, clip.zw) : clip;
+}
+
 void main() {
     vec4 relative = relative_from_tile * vec4(position, 1.0);
     tile_place = place;
 #ifdef HIT
     height_and_depth = vec2(height, dot(relative.xyz, view_forward.xyz));
 #endif
-    gl_Position = clip_from_relative * relative;
+    gl_Position = on_vertex_grid(clip_from_relative * relative);
 }

@@ -9,9 +9,11 @@
 
 namespace reljef::render {
 
-/// Rasterizers move vertices onto a grid, of 1/256 pixel in practice: by so much of the error that
-/// may be shown, pixels, a triangle may be off by itself.
-inline constexpr double rasterizer_error = 1.0 / 128.0;
+/// Rasterizers move vertices onto a grid of so many steps to a pixel, in practice.
+inline constexpr float vertex_steps = 256.0F;
+/// By so much of the error that may be shown, pixels, a triangle may be off by that: half the
+/// diagonal of a step, and as much again for what is interpolated in floats.
+inline constexpr double rasterizer_error = 1.5 / 256.0;
 
 /// The least and the greatest error that can be asked for, pixels.
 inline constexpr double least_error = 0.02;

@@ -18,6 +18,7 @@ static_assert(offsetof(FrameBlock, clip_from_relative) == 0);
 static_assert(offsetof(FrameBlock, view_forward) == 64);
 static_assert(offsetof(FrameBlock, sky_horizon) == 64 + 5 * 16);
 static_assert(offsetof(FrameBlock, ray_from_pixel) == 64 + 6 * 16);
-static_assert(sizeof(FrameBlock) == 64 + 7 * 16);
+static_assert(offsetof(FrameBlock, vertex_grid) == 64 + 7 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 8 * 16);
 
 } // namespace reljef::render

@@ -75,20 +75,47 @@ private:
     std::vector<Triangulation> parts_;
 };
 
+enum class Sight { none, part, whole };
+
+Sight sight_of(const ErrorView& view, const Split& split) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const glm::dvec4& side : view.sides) {
+        least = std::min(least, glm::dot(glm::dvec3(side), split.center) + side.w);
+    }
+    return least < -split.radius ? Sight::none : least > split.radius ? Sight::whole : Sight::part;
+}
+
+// Whether more than the most error may be seen of a split that is in sight. Precondition: its error
+// is finite.
+bool shows_more(const ErrorView& view, const Split& split) {
+    if (!view.perspective) {
+        return view.scale * split.error > view.most_error;
+    }
+    const double reach = view.stretch * split.radius;
+    const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
+    const double lateral =
+        glm::length(view.lateral_axes * split.center + view.lateral_origin) + reach;
+    return split.error > 0.0 &&
+           (depth <= 0.0 || view.scale * split.error * lateral > view.most_error * depth * depth);
+}
+
 class TileBisector {
 public:
     TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
         : bisection_(bisection), view_(view), writer_(tile) {}
 
-    void add(const BisectionTriangle& triangle) {
+    // `is_seen`: the ball of the split that made it is seen as a whole, and so are those below.
+    void add(const BisectionTriangle& triangle, bool is_seen = false) {
         const Reach reach = reach_of(triangle);
         if (reach == Reach::outside) {
             return;
         }
         const glm::ivec2 middle = (triangle.left + triangle.right) / 2;
-        if (reach == Reach::across || is_split(triangle, middle)) {
-            add({middle, triangle.apex, triangle.left});
-            add({middle, triangle.right, triangle.apex});
+        const Choice choice =
+            reach == Reach::across ? Choice{true, is_seen} : choice_at(triangle, middle, is_seen);
+        if (choice.splits) {
+            add({middle, triangle.apex, triangle.left}, choice.is_seen);
+            add({middle, triangle.right, triangle.apex}, choice.is_seen);
         } else {
             writer_.add(triangle);
         }
@@ -98,6 +125,10 @@ public:
 
 private:
     enum class Reach { inside, across, outside }; // of the heightfield
+    struct Choice {
+        bool splits = false;
+        bool is_seen = false; // the split's ball as a whole
+    };
 
     [[nodiscard]] Reach reach_of(const BisectionTriangle& triangle) const {
         const glm::ivec2 high = glm::max(triangle.apex, glm::max(triangle.left, triangle.right));
@@ -109,12 +140,20 @@ private:
         return low.x < end.x && low.y < end.y ? Reach::across : Reach::outside;
     }
 
-    [[nodiscard]] bool is_split(const BisectionTriangle& triangle, glm::ivec2 middle) const {
+    [[nodiscard]] Choice choice_at(const BisectionTriangle& triangle, glm::ivec2 middle,
+                                   bool is_seen) const {
         const glm::ivec2 edge = glm::abs(triangle.right - triangle.left);
         const int size = std::max(edge.x, edge.y);
         constexpr int least_size = 2; // steps: their middle is a step
-        return size >= least_size &&
-               exceeds(view_, bisection_.split(middle, size, edge.x != edge.y));
+        if (size < least_size) {
+            return {false, is_seen};
+        }
+        const Split split = bisection_.split(middle, size, edge.x != edge.y);
+        if (std::isinf(split.error)) {
+            return {true, is_seen};
+        }
+        const Sight sight = is_seen ? Sight::whole : sight_of(view_, split);
+        return {sight != Sight::none && shows_more(view_, split), sight == Sight::whole};
     }
 
     const Bisection& bisection_;
@@ -125,23 +164,8 @@ private:
 } // namespace
 
 bool exceeds(const ErrorView& view, const Split& split) {
-    if (std::isinf(split.error)) {
-        return true;
-    }
-    const auto is_beyond = [&](const glm::dvec4& side) {
-        return glm::dot(glm::dvec3(side), split.center) + side.w < -split.radius;
-    };
-    if (split.error <= 0.0 || std::any_of(view.sides.begin(), view.sides.end(), is_beyond)) {
-        return false;
-    }
-    if (!view.perspective) {
-        return view.scale * split.error > view.most_error;
-    }
-    const double reach = view.stretch * split.radius;
-    const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
-    const double lateral =
-        glm::length(view.lateral_axes * split.center + view.lateral_origin) + reach;
-    return depth <= 0.0 || view.scale * split.error * lateral > view.most_error * depth * depth;
+    return std::isinf(split.error) ||
+           (sight_of(view, split) != Sight::none && shows_more(view, split));
 }
 
 std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,

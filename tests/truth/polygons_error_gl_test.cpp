@@ -116,6 +116,19 @@ TEST_F(PolygonsErrorGlTest, NoPixelOfAnyPoseIsFartherOffThanAskedFor) {
         test::plane_heightfield(test::random_heights(65, 65, 0.0F, 8.0F, 3), {5, 7}), 40, 2));
 }
 
+// Walls that are seen edge-on.
+TEST_F(PolygonsErrorGlTest, NorBetweenTowers) {
+    expect_kept(promise_over(
+        test::plane_heightfield(test::made_heights(129, 129,
+                                                   [](int col, int row) {
+                                                       const bool tower =
+                                                           (col / 9 * 7 + row / 11 * 5) % 4 == 0 &&
+                                                           col % 9 > 2 && row % 11 > 3;
+                                                       return tower ? 140.0 : 0.0;
+                                                   })),
+        12, 6));
+}
+
 TEST_F(PolygonsErrorGlTest, NorOverTheCurvedEarth) {
     expect_kept(promise_over(
         test::geographic_heightfield(test::hills(161, 140, 600.0), 46.0, 7.0, 0.004), 30, 3));
