@@ -12,6 +12,7 @@
 
 #include "engine/core/grid.h"
 #include "engine/io/crs_transform.h"
+#include "engine/io/dataset_pool.h"
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {
@@ -80,6 +81,7 @@ struct TileReading {
     std::filesystem::path folder; ///< the files' paths begin here
     RasterOptions options;        ///< scale, offset, stop
     std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
+    DatasetPool* pool = nullptr;                    ///< where the files are open
 };
 
 /// The averages of a layer's samples over cells, of the newest tile where there are several; NaN

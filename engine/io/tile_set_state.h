@@ -3,6 +3,7 @@
 #include <atomic>
 #include <map>
 
+#include "engine/io/dataset_pool.h"
 #include "engine/io/tile_layer.h"
 #include "engine/io/tile_set.h"
 
@@ -27,6 +28,7 @@ struct TileSet::State {
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
     mutable std::atomic<std::size_t> bytes_read{0};
+    mutable DatasetPool pool;
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };

@@ -17,6 +17,9 @@ namespace {
 // are lower than peaks.
 constexpr double more_of_range = 0.25;
 
+// At a time: what is less urgent may turn out not to be needed once these are there.
+constexpr std::size_t most_wanted = 16;
+
 struct Candidate {
     double excess = 0.0; // the error as it is seen, over the one that may be
     double distance = 0.0;
@@ -91,16 +94,20 @@ private:
     bool replace(const Candidate& candidate) {
         std::vector<terrain::TreeTile> below = stream_.tree().children(candidate.tile->id);
         std::erase_if(below, [&](terrain::TreeTile tile) { return !may_see(tile, candidate); });
-        if (candidates_.size() + choice_.drawn.size() + below.size() > stream_.most_drawn()) {
+        const std::size_t now = candidates_.size() + choice_.drawn.size() + choice_.wanted.size();
+        if (now + below.size() > stream_.most_drawn()) {
             return false;
         }
         const std::size_t before = choice_.wanted.size();
+        bool all_there = true;
         for (const terrain::TreeTile tile : below) {
-            if (stream_.find(tile) == nullptr) {
+            const bool is_there = stream_.find(tile) != nullptr;
+            all_there = all_there && is_there;
+            if (!is_there && before < most_wanted) {
                 choice_.wanted.push_back(tile);
             }
         }
-        if (choice_.wanted.size() > before) {
+        if (!all_there) {
             return false;
         }
         for (const terrain::TreeTile tile : below) {

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "engine/core/worker_pool.h"
 
 namespace reljef::scene {
@@ -50,6 +52,25 @@ std::shared_ptr<const StreamedTile> TileStream::find(terrain::TreeTile tile) con
     }
     found->second.used = view_;
     return found->second.tile;
+}
+
+std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
+    const glm::dvec2 last(tree().cols() - 1, tree().rows() - 1);
+    const glm::dvec2 sample =
+        glm::clamp(maker_.from_overview(overview_sample), glm::dvec2(0.0), last);
+    const std::lock_guard lock(mutex_);
+    for (int level = 0; level <= tree().root().level; ++level) {
+        const int side = terrain::tile_cells << level;
+        const glm::ivec2 at = glm::ivec2(glm::min(sample, last - 0.5)) / side;
+        const auto found = tiles_.find({level, at.x, at.y});
+        if (found != tiles_.end()) {
+            const glm::dvec2 from_first =
+                sample - glm::dvec2(terrain::TileTree::first(found->first));
+            return Found{found->second.tile,
+                         from_first / static_cast<double>(terrain::TileTree::step(found->first))};
+        }
+    }
+    return std::nullopt;
 }
 
 std::size_t TileStream::most_drawn() const {
@@ -223,6 +244,23 @@ void TileStream::evict() {
         ++stats_.evicted;
         tiles_.erase(oldest);
     }
+}
+
+std::optional<double> height_at(const TerrainNode& terrain, double x, double y) {
+    auto z = terrain.surface->height_at(x, y);
+    // On a curved Earth the vertical leans against z: see TerrainSurface::height_at.
+    constexpr int rounds = 3;
+    for (int i = 0; z && terrain.stream != nullptr && i < rounds; ++i) {
+        const terrain::Placement& placement = terrain.surface->placement();
+        const auto sample = placement.sample_from_world({x, y, *z});
+        const auto found = sample ? terrain.stream->finest_at(glm::dvec2(*sample)) : std::nullopt;
+        if (!found) {
+            return z;
+        }
+        const double height = terrain::bilinear_height(found->tile->heights.view(), found->place);
+        z = placement.world_from_sample({sample->x, sample->y, height}).z;
+    }
+    return z;
 }
 
 } // namespace reljef::scene

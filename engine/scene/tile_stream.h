@@ -65,6 +65,12 @@ public:
 
     /// A tile that is there, else null.
     [[nodiscard]] std::shared_ptr<const StreamedTile> find(terrain::TreeTile tile) const;
+    /// The finest tile that is there over a sample of the overview, and the place on its vertices.
+    struct Found {
+        std::shared_ptr<const StreamedTile> tile;
+        glm::dvec2 place{0.0};
+    };
+    [[nodiscard]] std::optional<Found> finest_at(glm::dvec2 overview_sample) const;
     /// As many as may be drawn at a time.
     [[nodiscard]] std::size_t most_drawn() const;
 
@@ -123,5 +129,8 @@ private:
     TileStreamStats stats_;
     std::vector<std::jthread> threads_; // last: they stop before the rest goes
 };
+
+/// As TerrainSurface::height_at, of the finest tile that is there.
+std::optional<double> height_at(const TerrainNode& terrain, double x, double y);
 
 } // namespace reljef::scene
