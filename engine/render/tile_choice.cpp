@@ -154,8 +154,8 @@ std::vector<terrain::TreeTile> wanted_tiles(const scene::Scene& scene,
             return;
         }
         for (const scene::Camera& camera : cameras) {
-            for (const terrain::TreeTile tile :
-                 choose_tiles(*terrain, camera, size, transform).wanted) {
+            const TileChoice choice = choose_tiles(*terrain, camera, size, transform);
+            for (const terrain::TreeTile tile : choice.wanted) {
                 if (known.insert(tile).second) {
                     wanted.push_back(tile);
                 }

@@ -24,7 +24,8 @@ protected:
              {std::tuple("N44E006.hgt", 6, 44), {"N44E007.hgt", 7, 44}, {"N45E006.hgt", 6, 45}}) {
             write_cell(name, west, south);
         }
-        options_.environment.emplace_back("XDG_CACHE_HOME", (folder_.path() / "cache").string());
+        options_.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
+        options_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
     }
     void write_cell(const std::string& name, int west, int south) const {
         constexpr int side = 1201;

@@ -99,7 +99,8 @@ TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
         world.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
         world.bring();
         std::set<TreeTile> drawn;
-        for (const auto& [tile, distance] : world.choice().drawn) {
+        const TileChoice choice = world.choice();
+        for (const auto& [tile, distance] : choice.drawn) {
             drawn.insert(tile->id);
             const double pixels = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
             const double spacing = world.stream->maker().spacing(tile->id.level);
