@@ -1,12 +1,16 @@
 #include "bench/lod_command.h"
 
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
 #include "bench/lod_suite.h"
 #include "bench/output_options.h"
+#include "bench/promise.h"
+#include "bench/promise_report.h"
 #include "bench/suite_arguments.h"
+#include "engine/render/error_view.h"
 
 namespace reljef::bench {
 namespace {
@@ -17,13 +21,27 @@ struct LodChoice {
     SuiteOptions suite;
     std::vector<std::string> terrains; // empty: the default ones
     OutputChoice outputs;
+    std::optional<int> poses;
+    double error = 1.0;
 };
+
+Result<void> run_poses(const LodChoice& choice, const app::Interrupt& interrupt) {
+    PromiseOptions options;
+    options.suite = choice.suite;
+    options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
+    options.poses = *choice.poses;
+    options.error = choice.error;
+    return report(run_promise(options, interrupt.token()), choice.outputs.json);
+}
 
 Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
                              const app::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
+    }
+    if (choice.poses) {
+        return run_poses(choice, interrupt);
     }
     LodOptions options;
     options.suite = with_quick_size(choice.suite, command, lod_quick_size);
@@ -32,6 +50,30 @@ Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
         options.terrains = choice.terrains;
     }
     return report(run_lod(options, interrupt.token()), choice.outputs);
+}
+
+void add_poses_options(CLI::App& command, LodChoice& choice) {
+    command
+        .add_option("--poses", choice.poses,
+                    "instead of the tables: so many random poses, shared among the terrains, and "
+                    "two flights over each, all held against --max-error pixel by pixel")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--max-error", choice.error, "of --poses, pixels (1)")
+        ->type_name("PX")
+        ->check(CLI::Range(render::least_error, render::most_error));
+}
+
+void check_poses_options(const LodChoice& choice, const CLI::App& command) {
+    const OutputChoice& outputs = choice.outputs;
+    if (choice.poses &&
+        !(outputs.csv.empty() && outputs.markdown.empty() && outputs.html.empty())) {
+        throw CLI::ValidationError(
+            "--poses: --csv, --markdown or --html found, only --json was expected with it");
+    }
+    if (!choice.poses && command.count("--max-error") > 0) {
+        throw CLI::ValidationError("--max-error: no --poses found, one was expected with it");
+    }
 }
 
 } // namespace
@@ -43,13 +85,16 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
     add_terrains_option(*arguments, choice->terrains, "natural and urban");
     add_suite_options(*arguments, choice->suite);
     add_output_options(*arguments, choice->outputs);
+    add_poses_options(*arguments, *choice);
+    arguments->callback([arguments, choice] { check_poses_options(*choice, *arguments); });
     arguments->footer(
         "Each terrain is seen from the poses overview, oblique, low and grazing, with a still "
         "camera. With --quick pictures are 512x384 unless --size says otherwise.\n"
         "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
         "Examples:\n"
         "  reljef-bench lod --quick\n"
-        "  reljef-bench lod --terrain N45E006.hgt --json lod.json");
+        "  reljef-bench lod --terrain N45E006.hgt --json lod.json\n"
+        "  reljef-bench lod --terrain N45E006.hgt --poses 10000 --max-error 1");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_lod_command(*choice, *arguments, interrupt);
             }};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/environment_json.h"
 #include "bench/report_schema.h"
 #include "engine/core/atomic_file.h"
 
@@ -14,12 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double most_exact_whole = 9e15; // of the whole numbers a double tells apart
-
-Json to_json(const Environment& environment) {
-    return {{"renderer", environment.renderer}, {"gl", environment.gl},
-            {"context", environment.context},   {"threads", environment.threads},
-            {"cpu", environment.cpu},           {"commit", environment.commit}};
-}
 
 Json to_json(const render::FrameStats::Skipped& skipped) {
     return {{"invisible_nodes", skipped.invisible_nodes},
@@ -163,7 +158,7 @@ std::string json_report(const Results& results) {
                 {"stopped", results.stopped ? Json(results.stopped->message) : Json()},
                 {"notes", results.notes},
                 {"left_out", array_of(results.left_out)},
-                {"environment", to_json(results.environment)},
+                {"environment", environment_json(results.environment)},
                 {"rows", array_of(results.rows)}};
     if (!results.fronts.empty()) {
         report["fronts"] = array_of(results.fronts);

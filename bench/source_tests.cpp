@@ -69,6 +69,14 @@ Group group_of(std::string_view test, const StageChoice& stage) {
     return group;
 }
 
+// The same with techniques that the sources do not have.
+Group with_ours(Group group, std::initializer_list<std::string_view> techniques) {
+    for (const std::string_view technique : techniques) {
+        group.candidates.push_back(candidate_named(std::string(technique)));
+    }
+    return group;
+}
+
 } // namespace
 
 std::span<const SourceMeasurement> source_measurements() {
@@ -83,7 +91,7 @@ std::vector<Group> source_groups(bool quick) {
             group_of("parallax-2", {"urban", quick ? 2048 : 4096}),
             group_of("relief-2", {"urban", 1024}),
             group_of("parallax-3", natural),
-            group_of("relief-4", natural),
+            with_ours(group_of("relief-4", natural), {"polygons:error=1", "exact"}),
             group_of("relief-3", {"natural", 1280})};
 }
 

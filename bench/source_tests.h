@@ -27,7 +27,8 @@ std::span<const SourceMeasurement> source_measurements();
 /// - parallax-2: all of an urban terrain of 4096 samples, not a fragment of its picture; `quick`
 ///   takes 2048, a quarter of the time to make it.
 /// - parallax-3: natural of 1025 samples; relief-4: the same for its 1024, as levels of detail want
-///   a power of two and one.
+///   a power of two and one; and two techniques that the sources do not have, without a figure:
+///   polygons:error=1 and exact.
 /// In the order of the terrains, so that each is opened once.
 std::vector<Group> source_groups(bool quick = false);
 

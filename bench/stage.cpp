@@ -54,6 +54,10 @@ void Stage::set_pose(scene::Pose pose) {
     pose_ = pose;
 }
 
+void Stage::set_camera(const scene::Camera& camera) {
+    *scene_.camera->get<scene::Camera>() = camera;
+}
+
 void Stage::set_technique(const scene::Technique& technique) {
     scene_.terrain->get<scene::TerrainNode>()->material.technique = technique;
 }

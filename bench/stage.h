@@ -52,6 +52,8 @@ public:
     [[nodiscard]] const scene::Node& terrain() const { return *scene_.terrain; }
 
     void set_pose(scene::Pose pose);
+    /// Not one of the poses: truth() is of those only.
+    void set_camera(const scene::Camera& camera);
     void set_technique(const scene::Technique& technique);
 
     /// Seen from the pose that was set last. Kept for the next call. Fails where it is stopped.

@@ -13,6 +13,9 @@
 #ifdef FADE
 #include "relief_fade.glsl"
 #endif
+#ifdef BEAMS
+#include "relief_beams.glsl"
+#endif
 #if defined(HARD_SHADOW) || defined(SOFT_SHADOW)
 #define SHADOW
 #include "relief_shadow.glsl"
@@ -91,6 +94,17 @@ vec3 color_at(vec2 place, float level, float metres) {
 }
 #endif
 
+bool find_view_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+#ifdef BEAMS
+    float clear = clear_part(start, span);
+    bool found = find_hit(start + clear * span, (1.0 - clear) * span, part, place);
+    part = mix(clear, 1.0, part);
+    return found;
+#else
+    return find_hit(start, span, part, place);
+#endif
+}
+
 void main() {
     vec3 along = mix(view_forward.xyz, back, perspective);
     vec3 direction = space_from_relative * along;
@@ -103,7 +117,7 @@ void main() {
 #endif
     float part;
     vec2 place;
-    if (!find_hit(start, span, part, place)) {
+    if (!find_view_hit(start, span, part, place)) {
         discard;
     }
 #ifdef FADE

@@ -38,8 +38,13 @@ bool move_on(vec2 exits, ivec2 forward, inout Walk walk) {
     return there;
 }
 
+#ifdef BEAMS
+const int start_level = 2; // the ray begins near the surface
+#else
+const int start_level = 5;
+#endif
+
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
-    const int start_level = 5;
     ivec2 forward = ivec2(greaterThan(span.xy, vec2(0.0)));
     // A ray along an axis never leaves through that axis's borders.
     vec2 inverse = vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0);

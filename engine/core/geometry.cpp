@@ -32,6 +32,13 @@ Box transformed(const glm::dmat4& to_from_local, const Box& box) {
     return result;
 }
 
+bool is_finite(const Ray& ray) {
+    const auto finite = [](glm::dvec3 v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    return finite(ray.origin) && finite(ray.direction);
+}
+
 std::optional<Interval> intersect(const Ray& ray, const Box& box, Interval range) {
     if (box.empty()) {
         return std::nullopt;

@@ -39,6 +39,7 @@ struct Ray {
 
     [[nodiscard]] glm::dvec3 at(double t) const { return origin + t * direction; }
 };
+bool is_finite(const Ray& ray);
 
 /// A range of t.
 struct Interval {

@@ -36,8 +36,7 @@ NewCut cut_tile(const terrain::Bisection* bisection, const Coarseness& coarsenes
 }
 
 Result<ResidentMesh> uploaded(const terrain::Triangulation& part,
-                              const std::vector<GridVertex>& vertices, glm::dvec3 origin,
-                              FrameStats& stats) {
+                              const std::vector<GridVertex>& vertices, FrameStats& stats) {
     auto vertex_buffer = gl::Buffer::create(bytes_of(vertices));
     if (!vertex_buffer) {
         return vertex_buffer.error();
@@ -49,17 +48,16 @@ Result<ResidentMesh> uploaded(const terrain::Triangulation& part,
     count_upload(stats, vertex_buffer->size());
     count_upload(stats, index_buffer->size());
     ResidentMesh mesh =
-        resident_grid(std::move(*vertex_buffer), origin, static_cast<int>(part.indices.size()));
+        resident_grid(std::move(*vertex_buffer), static_cast<int>(part.indices.size()));
     mesh.indices = std::move(*index_buffer);
     mesh.vertex_array.set_indices(mesh.indices);
     return mesh;
 }
 
-Result<std::vector<ResidentMesh>> uploaded(const NewCut& cut, glm::dvec3 origin,
-                                           FrameStats& stats) {
+Result<std::vector<ResidentMesh>> uploaded(const NewCut& cut, FrameStats& stats) {
     std::vector<ResidentMesh> meshes;
     for (std::size_t i = 0; i < cut.parts.size(); ++i) {
-        auto mesh = uploaded(cut.parts[i], cut.vertices[i], origin, stats);
+        auto mesh = uploaded(cut.parts[i], cut.vertices[i], stats);
         if (!mesh) {
             return mesh.error();
         }
@@ -114,7 +112,7 @@ Result<void> CoarseTiles::prepare(const DrawList& list, const CoarseTerrain& ter
             ++stats.skipped.uploads_unchanged;
             continue;
         }
-        auto meshes = uploaded(cuts[i], surface.tiles()[outdated[i]].bounds.center(), stats);
+        auto meshes = uploaded(cuts[i], stats);
         if (!meshes) {
             return meshes.error();
         }

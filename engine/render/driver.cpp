@@ -12,6 +12,7 @@
 #include "engine/gl/draw.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
+#include "engine/render/beams.h"
 #include "engine/render/error_view.h"
 #include "engine/render/frame_block.h"
 #include "engine/render/mesh_painter.h"
@@ -80,13 +81,18 @@ std::uint32_t features_of(const DrawList& list, bool hits) {
     return features;
 }
 
+struct Targets {
+    const gl::Framebuffer& picture;
+    const gl::Framebuffer& beams; // there where a technique has them
+};
+
 // Draws a list and counts what it sets; what is set already is not set again.
 class Painter {
 public:
-    Painter(const DrawList& list, bool hits, ShaderLibrary& shaders, const Residency& residency,
-            FrameStats& stats)
-        : list_(list), features_(features_of(list, hits)), hits_(hits), shaders_(shaders),
-          residency_(residency), stats_(stats) {}
+    Painter(const DrawList& list, bool hits, const Targets& targets, ShaderLibrary& shaders,
+            const Residency& residency, FrameStats& stats)
+        : list_(list), features_(features_of(list, hits)), hits_(hits), targets_(targets),
+          shaders_(shaders), residency_(residency), stats_(stats) {}
 
     Result<void> draw_tiles() {
         if (list_.tiles.empty()) {
@@ -234,10 +240,9 @@ private:
         bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
         program_->set_uniform("tile_sample", glm::vec2(tile.col, tile.row));
+        set_eye(draw.world_from_local);
         const std::size_t before = stats_.triangles;
         for (const ResidentMesh& mesh : residency_.tile(draw)) {
-            program_->set_uniform("relative_from_tile",
-                                  relative_from(list_.camera, draw.world_from_local, mesh.origin));
             draw_resident(mesh, gl::IndexType::uint16);
         }
         if (draw.coarse) {
@@ -259,16 +264,28 @@ private:
             program_->set_uniform("tile_sample", glm::vec2(0.0F));
             program_->set_uniform("lit_from_sample", resident.lit_from_sample);
         }
-        program_->set_uniform(
-            "relative_from_tile",
-            relative_from(list_.camera, draw.world_from_local, resident.mesh.origin));
+        set_eye(draw.world_from_local);
         draw_resident(resident.mesh, gl::IndexType::uint16);
         stats_.state_changes += hits_ ? 0 : 1;
         ++stats_.tiles;
     }
 
+    void set_eye(const glm::dmat4& world_from_local) {
+        const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(list_.camera.eye, 1.0));
+        const glm::vec3 rounded(eye);
+        program_->set_uniform("eye", rounded);
+        program_->set_uniform("eye_rest", glm::vec3(eye - glm::dvec3(rounded)));
+        program_->set_uniform("world_from_local", glm::mat3(glm::dmat3(world_from_local)));
+    }
+
     Result<void> draw_relief(const ReliefDraw& draw, const gl::VertexArray& no_vertices) {
         const scene::Technique& technique = draw.terrain->material.technique;
+        no_vertices.bind();
+        if (has_beams(technique)) {
+            if (auto drawn = draw_beams(draw); !drawn) {
+                return drawn;
+            }
+        }
         if (auto used = use({ShaderKind::relief, features_ | relief_features(technique)}); !used) {
             return used;
         }
@@ -276,13 +293,30 @@ private:
         bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
         set_relief(draw, residency_.relief(draw));
-        no_vertices.bind();
         constexpr int box_vertices = 14; // relief.vert
         gl::draw_arrays(gl::Primitive::triangle_strip, 0, box_vertices);
         stats_.triangles += box_vertices - 2;
         stats_.state_changes += 3;
         ++stats_.draws;
         ++stats_.tiles;
+        return {};
+    }
+
+    // How far down the rays of each block of pixels meet nothing.
+    Result<void> draw_beams(const ReliefDraw& draw) {
+        if (auto used = use({ShaderKind::beams}); !used) {
+            return used;
+        }
+        const ResidentRelief& relief = residency_.relief(draw);
+        set_wireframe(false);
+        set_beams(*program_, relief,
+                  picture_rays(list_.camera, list_.size, relief.space,
+                               glm::inverse(draw.world_from_local)));
+        targets_.beams.bind();
+        gl::draw_arrays(gl::Primitive::triangles, 0, 3);
+        targets_.picture.bind();
+        stats_.state_changes += 3;
+        ++stats_.draws;
         return {};
     }
 
@@ -316,6 +350,10 @@ private:
         program_->set_uniform("last_cell", samples - 2);
         program_->set_uniform("metres_per_unit", space.metres_per_unit);
         const scene::Technique& technique = draw.terrain->material.technique;
+        if (has_beams(technique)) {
+            targets_.beams.color().bind(5);
+            program_->set_uniform("pixels_a_block", pixels_a_beam);
+        }
         set_relief_options(*program_, technique, reference_height(technique));
         program_->set_uniform("texels_per_metre_away", texels_per_metre_away(draw, space));
     }
@@ -358,6 +396,7 @@ private:
     const DrawList& list_;
     std::uint32_t features_;
     bool hits_;
+    Targets targets_;
     ShaderLibrary& shaders_;
     const Residency& residency_;
     FrameStats& stats_;
@@ -469,15 +508,36 @@ Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats)
     frame_block_.write(0, std::as_bytes(std::span(&block, 1)));
     ++stats.uploads;
     stats.upload_bytes += sizeof(block);
+    if (auto there = prepare_beams(list); !there) {
+        return there;
+    }
     return residency_.prepare(list, !hits, stats);
+}
+
+Result<void> Driver::prepare_beams(const DrawList& list) {
+    const bool needed =
+        std::any_of(list.reliefs.begin(), list.reliefs.end(), [](const ReliefDraw& draw) {
+            return has_beams(draw.terrain->material.technique);
+        });
+    if (!needed || beams_of_ == size()) {
+        return {};
+    }
+    auto target = beam_target(size());
+    if (!target) {
+        return target.error();
+    }
+    beam_target_ = std::move(*target);
+    beams_of_ = size();
+    return {};
 }
 
 Result<void> Driver::draw_content(const DrawList& list, bool hits, FrameStats& stats) {
     gl::set_reversed_depth();
     gl::set_culling(gl::Culling::back);
-    (hits ? hit_target_ : color_target_).clear_depth();
     frame_block_.bind_uniform_block(0);
-    Painter painter(list, hits, shaders_, residency_, stats);
+    const Targets targets{hits ? hit_target_ : color_target_, beam_target_};
+    targets.picture.clear_depth();
+    Painter painter(list, hits, targets, shaders_, residency_, stats);
     auto done = painter.draw_tiles();
     if (done) {
         done = painter.draw_streamed_tiles();

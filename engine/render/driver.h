@@ -48,11 +48,14 @@ private:
     Driver(const DriverOptions& options, gl::Framebuffer target);
 
     Result<void> prepare(const DrawList& list, bool hits, FrameStats& stats);
+    Result<void> prepare_beams(const DrawList& list);
     Result<void> draw_content(const DrawList& list, bool hits, FrameStats& stats);
 
     DriverOptions options_;
     gl::Framebuffer color_target_;
-    gl::Framebuffer hit_target_; // made when first asked for
+    gl::Framebuffer hit_target_;  // made when first asked for
+    gl::Framebuffer beam_target_; // likewise
+    glm::ivec2 beams_of_{0};      // size of the picture that it is for
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;

@@ -10,7 +10,7 @@ constexpr int flat_ellipsoid_quads = 8;
 template <class HeightAt>
 GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& tile, glm::ivec2 quads,
                    const HeightAt& height_at) {
-    GridMesh mesh{tile.bounds.center(), quads.x, quads.y, {}};
+    GridMesh mesh{quads.x, quads.y, {}};
     mesh.vertices.reserve(static_cast<std::size_t>(quads.x + 1) *
                           static_cast<std::size_t>(quads.y + 1));
     const glm::dvec2 step = glm::dvec2(tile.cols, tile.rows) / glm::dvec2(quads);
@@ -18,15 +18,20 @@ GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& til
         for (int col = 0; col <= quads.x; ++col) {
             const glm::dvec2 sample{tile.col + col * step.x, tile.row + row * step.y};
             const double height = height_at(sample);
-            const glm::dvec3 world = placement.world_from_sample({sample.x, sample.y, height});
-            mesh.vertices.push_back({glm::vec3(world - mesh.origin), static_cast<float>(height),
-                                     glm::vec2(sample - glm::dvec2(tile.col, tile.row))});
+            mesh.vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}),
+                                                height, sample - glm::dvec2(tile.col, tile.row)));
         }
     }
     return mesh;
 }
 
 } // namespace
+
+GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place) {
+    const glm::vec3 position(local);
+    return {position, static_cast<float>(height), glm::vec2(place),
+            glm::vec3(local - glm::dvec3(position))};
+}
 
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile) {
@@ -40,16 +45,14 @@ std::vector<GridVertex> placed_vertices(const terrain::Heightfield& heightfield,
                                         const terrain::Placement& placement,
                                         const terrain::Tile& tile,
                                         const terrain::Triangulation& part) {
-    const glm::dvec3 origin = tile.bounds.center();
     std::vector<GridVertex> vertices;
     vertices.reserve(part.vertices.size());
     for (const glm::ivec2 steps : part.vertices) {
         const glm::dvec2 sample =
             glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
         const double height = terrain::bilinear_height(heightfield.heights.view(), sample);
-        const glm::dvec3 world = placement.world_from_sample({sample, height});
-        vertices.push_back({glm::vec3(world - origin), static_cast<float>(height),
-                            glm::vec2(sample - glm::dvec2(tile.col, tile.row))});
+        vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}), height,
+                                       sample - glm::dvec2(tile.col, tile.row)));
     }
     return vertices;
 }

@@ -15,15 +15,18 @@ namespace reljef::render {
 
 /// One vertex of a tile, as in terrain.vert.
 struct GridVertex {
-    glm::vec3 position; ///< metres from the tile's origin
+    glm::vec3 position; ///< local metres, the same for each tile that has the vertex
     float height;       ///< true metres
     glm::vec2 place;    ///< samples from the tile's first
+    glm::vec3 rest;     ///< local metres: what the rounding to floats left of the position
 };
-static_assert(sizeof(GridVertex) == 24);
+static_assert(sizeof(GridVertex) == 36);
+
+/// A vertex at a place in local metres; `place`: samples from the tile's first.
+GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place);
 
 /// A tile as a regular grid of vertices, row after row.
 struct GridMesh {
-    glm::dvec3 origin{0.0};           ///< local metres; positions are relative to it
     int cols = 0;                     ///< quads
     int rows = 0;                     ///< quads
     std::vector<GridVertex> vertices; ///< (cols + 1) × (rows + 1)
@@ -33,7 +36,7 @@ struct GridMesh {
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile);
 
-/// The vertices of a part of a tile, relative to the middle of its bounds.
+/// The vertices of a part of a tile.
 std::vector<GridVertex> placed_vertices(const terrain::Heightfield& heightfield,
                                         const terrain::Placement& placement,
                                         const terrain::Tile& tile,

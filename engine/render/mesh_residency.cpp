@@ -83,7 +83,7 @@ Result<ResidentMesh> filled(const std::vector<Vertex>& vertices,
     }
     count_upload(stats, vertex_buffer->size());
     count_upload(stats, index_buffer->size());
-    ResidentMesh mesh{std::move(*vertex_buffer), gl::VertexArray::create(), glm::dvec3(0.0),
+    ResidentMesh mesh{std::move(*vertex_buffer), gl::VertexArray::create(),
                       static_cast<int>(indices.size()), std::move(*index_buffer)};
     mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(Vertex)}, attributes);
     mesh.vertex_array.set_indices(mesh.indices);

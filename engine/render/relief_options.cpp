@@ -62,7 +62,15 @@ std::uint32_t option_features(const scene::TechniqueOptions& options) {
 } // namespace
 
 std::uint32_t relief_features(const scene::Technique& technique) {
-    return search_features(technique.id) | option_features(technique.options);
+    const std::uint32_t beams = has_beams(technique) ? feature_beams : 0U;
+    return search_features(technique.id) | option_features(technique.options) | beams;
+}
+
+bool has_beams(const scene::Technique& technique) {
+    const bool begins_anywhere = technique.id == scene::TechniqueId::exact ||
+                                 technique.id == scene::TechniqueId::cone ||
+                                 technique.id == scene::TechniqueId::interval;
+    return begins_anywhere && !technique.options.steps && !technique.options.fade;
 }
 
 bool is_parallax(scene::TechniqueId id) {

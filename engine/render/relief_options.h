@@ -19,6 +19,11 @@ double reference_height(const scene::Technique& technique);
 /// that stays where it is when heights fade.
 void set_relief_options(gl::Program& program, const scene::Technique& technique, double reference);
 
+/// Whether the rays of a terrain's relief begin where their beam may meet something (beams.h):
+/// those whose result does not hang on where they begin, and interval, whose steps are then
+/// shorter.
+bool has_beams(const scene::Technique& technique);
+
 bool is_parallax(scene::TechniqueId id);
 
 } // namespace reljef::render

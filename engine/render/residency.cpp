@@ -11,6 +11,7 @@
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
 #include "engine/render/prewarp.h"
+#include "engine/render/relief_options.h"
 #include "engine/render/terrain_maps.h"
 #include "engine/render/uploads.h"
 
@@ -200,7 +201,7 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
         return vertices.error();
     }
     count_upload(stats, vertices->size());
-    ResidentMesh mesh = resident_grid(std::move(*vertices), grid.origin, 6 * grid.cols * grid.rows);
+    ResidentMesh mesh = resident_grid(std::move(*vertices), 6 * grid.cols * grid.rows);
     mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(*draw.terrain);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
@@ -263,11 +264,11 @@ Residency::maps_for(const scene::TerrainNode& terrain,
 
 Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const scene::TechniqueId technique = draw.terrain->material.technique.id;
+    const scene::Technique& technique = draw.terrain->material.technique;
     std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
-    const bool needs_greatest =
-        technique == scene::TechniqueId::exact && !(relief && relief->greatest);
-    const bool needs_cones = technique == scene::TechniqueId::cone && !(relief && relief->cones);
+    const bool looks_in_pyramid = technique.id == scene::TechniqueId::exact || has_beams(technique);
+    const bool needs_greatest = looks_in_pyramid && !(relief && relief->greatest);
+    const bool needs_cones = technique.id == scene::TechniqueId::cone && !(relief && relief->cones);
     if (relief && !needs_greatest && !needs_cones) {
         ++stats.skipped.uploads_unchanged;
         return {};
@@ -283,7 +284,11 @@ Result<void> Residency::prepare_relief(const ReliefDraw& draw, FrameStats& stats
         relief->heights = std::move(*texture);
     }
     if (needs_greatest) {
-        return keep(pyramid_texture(greatest_heights(heights.view()), stats), relief->greatest);
+        auto kept =
+            keep(pyramid_texture(greatest_heights(heights.view()), stats), relief->greatest);
+        if (!kept) {
+            return kept;
+        }
     }
     return needs_cones ? keep(cone_texture(surface.terrain(), heights, stats), relief->cones)
                        : Result<void>();

@@ -7,13 +7,13 @@
 
 namespace reljef::render {
 
-ResidentMesh resident_grid(gl::Buffer vertices, glm::dvec3 origin, int index_count) {
-    ResidentMesh mesh{std::move(vertices), gl::VertexArray::create(), origin, index_count, {}};
+ResidentMesh resident_grid(gl::Buffer vertices, int index_count) {
+    ResidentMesh mesh{std::move(vertices), gl::VertexArray::create(), index_count, {}};
     const std::array attributes{
         gl::VertexAttribute{.location = 0, .components = 3},
         gl::VertexAttribute{.location = 1, .components = 2, .offset = offsetof(GridVertex, place)},
-        gl::VertexAttribute{
-            .location = 2, .components = 1, .offset = offsetof(GridVertex, height)}};
+        gl::VertexAttribute{.location = 2, .components = 1, .offset = offsetof(GridVertex, height)},
+        gl::VertexAttribute{.location = 3, .components = 3, .offset = offsetof(GridVertex, rest)}};
     mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(GridVertex)}, attributes);
     return mesh;
 }

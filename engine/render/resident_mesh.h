@@ -4,8 +4,6 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include "engine/gl/buffer.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/render/frame_stats.h"
@@ -16,13 +14,12 @@ namespace reljef::render {
 struct ResidentMesh {
     gl::Buffer vertices;
     gl::VertexArray vertex_array;
-    glm::dvec3 origin{0.0}; ///< local metres
     int index_count = 0;
     gl::Buffer indices; ///< its own; none where it shares those of others
 };
 
 /// A part of a terrain tile over its GridVertex vertices. The vertex array has no indices yet.
-ResidentMesh resident_grid(gl::Buffer vertices, glm::dvec3 origin, int index_count);
+ResidentMesh resident_grid(gl::Buffer vertices, int index_count);
 
 /// Counts a buffer or texture that was filled.
 void count_upload(FrameStats& stats, std::size_t bytes);

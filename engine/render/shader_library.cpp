@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terrain")},
                            std::pair{ShaderKind::relief, std::string_view("relief")},
+                           std::pair{ShaderKind::beams, std::string_view("beams")},
                            std::pair{ShaderKind::mesh, std::string_view("mesh")},
                            std::pair{ShaderKind::textured_mesh, std::string_view("textured_mesh")},
                            std::pair{ShaderKind::relief_mesh, std::string_view("relief_mesh")},
@@ -38,7 +39,8 @@ constexpr std::array features_by_name{
     std::pair{feature_normal_map, std::string_view("NORMAL_MAP")},
     std::pair{feature_bump, std::string_view("BUMP")},
     std::pair{feature_emboss, std::string_view("EMBOSS")},
-    std::pair{feature_wrap, std::string_view("WRAP")}};
+    std::pair{feature_wrap, std::string_view("WRAP")},
+    std::pair{feature_beams, std::string_view("BEAMS")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -179,6 +181,13 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
     return options;
 }
 
+// Beams follow rays as they are, from where their technique may begin anywhere.
+std::uint32_t beams_of(std::uint32_t features, std::uint32_t search) {
+    const bool anywhere =
+        search == feature_exact || search == feature_cone || search == feature_secant;
+    return anywhere && (features & feature_fade) == 0 ? features & feature_beams : 0U;
+}
+
 // One way to be lit by heights.
 std::uint32_t look_of(std::uint32_t features) {
     for (const std::uint32_t look : {feature_normal_map, feature_bump, feature_emboss}) {
@@ -200,7 +209,7 @@ std::uint32_t features_that_mean_something(ShaderKind kind) {
     case ShaderKind::terrain:
         return any | feature_warped;
     case ShaderKind::relief:
-        return any | relief | feature_cone;
+        return any | relief | feature_cone | feature_beams;
     case ShaderKind::relief_mesh:
         return any | relief | feature_wrap;
     case ShaderKind::textured_mesh:
@@ -222,7 +231,7 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::terrain:
         return variant.features & feature_warped;
     case ShaderKind::relief:
-        return search | options_of(variant.features, search);
+        return search | options_of(variant.features, search) | beams_of(variant.features, search);
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap;
     case ShaderKind::textured_mesh:
@@ -242,6 +251,9 @@ bool is_mesh(ShaderKind kind) {
 ShaderVariant without_meaningless(ShaderVariant variant) {
     const std::uint32_t own = own_features(variant);
     variant.features &= feature_lit | feature_fog | feature_hit;
+    if (variant.kind == ShaderKind::beams) {
+        return {variant.kind, 0U};
+    }
     if (variant.kind == ShaderKind::sky) {
         variant.features &= feature_lit;
     } else if ((variant.features & feature_hit) != 0) {

@@ -24,6 +24,7 @@ std::span<const EmbeddedShader> embedded_shaders();
 enum class ShaderKind {
     terrain,
     relief,
+    beams,         ///< how far a relief's rays meet nothing, by blocks of pixels
     mesh,          ///< of one colour
     textured_mesh, ///< with a tile of detail on it
     relief_mesh,   ///< each pixel looks for the tile's surface
@@ -55,7 +56,8 @@ enum ShaderFeature : std::uint32_t {
     feature_normal_map = 1U << 17U,
     feature_bump = 1U << 18U,
     feature_emboss = 1U << 19U,
-    feature_wrap = 1U << 20U, ///< a mesh: the tile goes on in copies of itself
+    feature_wrap = 1U << 20U,  ///< a mesh: the tile goes on in copies of itself
+    feature_beams = 1U << 21U, ///< a relief: rays begin where their beam may meet something
 };
 
 struct ShaderVariant {

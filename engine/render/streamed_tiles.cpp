@@ -55,11 +55,11 @@ GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::Edge
     const scene::StreamedTile& tile = *draw.tile;
     const terrain::TileTree& tree = draw.terrain->stream->tree();
     const glm::ivec2 first = terrain::TileTree::first(tile.id);
-    GridMesh mesh{tile.origin, tile.cells.x, tile.cells.y, {}};
+    GridMesh mesh{tile.cells.x, tile.cells.y, {}};
     const auto vertex_of = [&](const StreamedDraw& from, glm::ivec2 vertex) {
         const PlacedVertex at = placed(from, vertex);
-        return GridVertex{glm::vec3(at.place - tile.origin), at.height,
-                          glm::vec2(tree.sample(from.tile->id, vertex) - first)};
+        return grid_vertex(at.place, at.height,
+                           glm::dvec2(tree.sample(from.tile->id, vertex) - first));
     };
     mesh.vertices.reserve(tile.positions.size());
     for (int row = 0; row <= tile.cells.y; ++row) {
@@ -142,7 +142,7 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
         return vertices.error();
     }
     count_upload(stats, vertices->size());
-    ResidentMesh made = resident_grid(std::move(*vertices), mesh.origin, 6 * mesh.cols * mesh.rows);
+    ResidentMesh made = resident_grid(std::move(*vertices), 6 * mesh.cols * mesh.rows);
     made.vertex_array.set_indices(**indices);
     Entry& entry = entry_of(draw);
     if (entry.resident) {

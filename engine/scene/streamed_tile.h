@@ -39,7 +39,7 @@ struct StreamedTile {
 
 /// Memory of a tile of full size, drawn: here and with the driver, bytes.
 inline constexpr std::size_t bytes_per_vertex =
-    2 * sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 24 + 6;
+    2 * sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6;
 inline constexpr std::size_t bytes_per_tile =
     bytes_per_vertex * (terrain::tile_cells + 1) * (terrain::tile_cells + 1);
 

@@ -11,7 +11,7 @@
 #include "engine/terrain/heightfield.h"
 #include "engine/terrain/min_max_pyramid.h"
 #include "engine/terrain/placement.h"
-#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/surface_caster.h"
 #include "engine/terrain/tile_layout.h"
 
 namespace reljef::scene {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -45,10 +44,21 @@ constexpr double must_split = std::numeric_limits<double>::infinity();
 constexpr double ball_growth = 1.0 + 0x1p-20;
 
 float rounded_up(double value) {
-    return value > 0.0
-               ? std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity())
-               : 0.0F;
+    const auto nearest = static_cast<float>(value);
+    return nearest >= value ? nearest
+                            : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
+
+// Calls `body(first, last)` for runs of `at_once` of [0, count), from several threads.
+template <class Body>
+void for_runs(int count, int at_once, const ParallelOptions& parallel, const Body& body) {
+    parallel_for((count + at_once - 1) / at_once,
+                 [&](int index) { body(index * at_once, std::min(count, (index + 1) * at_once)); },
+                 {parallel.threads, parallel.stop, {}});
+}
+
+// Rows of samples that a thread does at a time.
+constexpr int samples_at_once = 16;
 
 int floor_div(int value, int by) {
     return value >= 0 ? value / by : -((by - 1 - value) / by);
@@ -136,15 +146,11 @@ public:
         const int step = on_side_ ? half : size_;
         const int rows = bisection_.heights_.rows();
         const int count = rows > first_row ? (rows - 1 - first_row) / step + 1 : 0;
-        constexpr int rows_at_once = 8;
-        parallel_for((count + rows_at_once - 1) / rows_at_once,
-                     [&](int index) {
-                         const int last = std::min(count, (index + 1) * rows_at_once);
-                         for (int i = index * rows_at_once; i < last; ++i) {
-                             build_row(first_row + i * step);
-                         }
-                     },
-                     {parallel.threads, {}, {}});
+        for_runs(count, std::max(samples_at_once / step, 1), parallel, [&](int first, int last) {
+            for (int i = first; i < last; ++i) {
+                build_row(first_row + i * step);
+            }
+        });
     }
 
 private:
@@ -160,12 +166,12 @@ private:
         double error = own_error(place);
         double radius = 0.0;
         const glm::dvec3 center = bisection_.place_of(place.x, place.y);
-        for (const Split& below : splits_below(place)) {
+        for_each_below(place, [&](const Split& below) {
             error = std::max(error, below.error);
             radius = std::max(radius, glm::distance(center, below.center) + below.radius);
-        }
-        bisection_.errors_(place.x, place.y) = rounded_up(error);
-        bisection_.radii_(place.x, place.y) = rounded_up(radius * ball_growth);
+        });
+        bisection_.splits_(place.x, place.y) = {rounded_up(error),
+                                                rounded_up(radius * ball_growth)};
     }
 
     double own_error(glm::ivec2 place) const {
@@ -196,21 +202,18 @@ private:
     }
 
     // The four that need this one, those beyond the border left out.
-    std::vector<Split> splits_below(glm::ivec2 place) const {
+    template <class Visit> void for_each_below(glm::ivec2 place, const Visit& visit) const {
         const int reach = steps_per_sample * size_ / (on_side_ ? 4 : 2);
         const int size = steps_per_sample * size_ / (on_side_ ? 2 : 1);
-        std::vector<Split> splits;
-        splits.reserve(4);
         for (int i = 0; i < 4; ++i) {
             const glm::ivec2 offset = on_side_ ? glm::ivec2(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1)
                                                : glm::ivec2((i - 1) % 2, (i - 2) % 2);
             const glm::ivec2 below = steps_per_sample * place + reach * offset;
             if (below.x >= 0 && below.y >= 0 && below.x <= bisection_.end_.x &&
                 below.y <= bisection_.end_.y) {
-                splits.push_back(bisection_.split(below, size, !on_side_));
+                visit(bisection_.split(below, size, !on_side_));
             }
         }
-        return splits;
     }
 
     Bisection& bisection_;
@@ -222,12 +225,12 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      const ParallelOptions& parallel)
     : heights_(heightfield.heights.view()), placement_(&placement),
       end_(steps_per_sample * glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
-      bending_(bending_of(heightfield, placement)), errors_(heights_.cols(), heights_.rows()),
-      radii_(heights_.cols(), heights_.rows()) {
+      bending_(bending_of(heightfield, placement)), splits_(heights_.cols(), heights_.rows()) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
     if (placement.kind() == PlacementKind::ellipsoid) {
         keep_places(parallel);
     }
+    keep_cells(parallel);
     for (int size = 2; size <= tile_cells; size *= 2) {
         LevelBuilder(*this, size, true).build(parallel);
         if (size < tile_cells) {
@@ -275,7 +278,36 @@ void Bisection::keep_places(const ParallelOptions& parallel) {
                              glm::vec3(world - origins_(col / tile_cells, row / tile_cells));
                      }
                  },
-                 {parallel.threads, {}, {}});
+                 {parallel.threads, parallel.stop, {}});
+}
+
+void Bisection::keep_cells(const ParallelOptions& parallel) {
+    cells_ = Grid<KeptSplit>(heights_.cols() - 1, heights_.rows() - 1);
+    for_runs(cells_.rows(), samples_at_once, parallel,
+             [&](int first, int last) { keep_cell_rows(first, last); });
+}
+
+void Bisection::keep_cell_rows(int first, int last) {
+    const int low = std::max(first - 1, 0);
+    const int high = std::min(last + 1, cells_.rows());
+    Grid<CellBend> bends(cells_.cols(), high - low);
+    for (int row = low; row < high; ++row) {
+        for (int col = 0; col < cells_.cols(); ++col) {
+            bends(col, row - low) = bend_of_cell(col, row);
+        }
+    }
+    for (int row = first; row < last; ++row) {
+        for (int col = 0; col < cells_.cols(); ++col) {
+            CellBend most = bends(col, row - low);
+            for (int i = 0; i < 9; ++i) {
+                const CellBend& near = bends.clamped(col + i % 3 - 1, row - low + i / 3 - 1);
+                most.side = std::max(most.side, near.side);
+                most.reach = std::max(most.reach, near.reach);
+            }
+            cells_(col, row) = {rounded_up(0.25 * std::max(most.middle, most.side)),
+                                rounded_up(1.5 * most.reach * ball_growth + bending_.curvature)};
+        }
+    }
 }
 
 glm::dvec3 Bisection::place_of(int col, int row) const {
@@ -308,11 +340,17 @@ Bisection::CellBend Bisection::bend_of_cell(int col, int row) const {
     const double leaning = steepness * bending_.turn;
     return {twist + bending_.curvature + std::sqrt(2.0) * leaning,
             0.25 * twist + 0.5 * bending_.curvature + leaning,
-            offsets_.empty() ? std::hypot(bending_.stretch, steepness)
-                             : bending_.stretch + steepness};
+            offsets_.empty()
+                ? std::sqrt(bending_.stretch * bending_.stretch + steepness * steepness)
+                : bending_.stretch + steepness};
 }
 
 Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
+    if (size == steps_per_sample && !on_side) {
+        const glm::ivec2 cell = place / steps_per_sample;
+        const KeptSplit& kept = cells_(cell.x, cell.y);
+        return {kept.error, place_in_cell(place), kept.radius};
+    }
     const int reach = on_side ? size : 3 * size / 2;
     const glm::ivec2 last_cell = end_ / steps_per_sample - 1;
     const auto cell_before = [&](int step) { return floor_div(step - 1, steps_per_sample); };
@@ -341,7 +379,8 @@ Split Bisection::split(glm::ivec2 place, int size, bool on_side) const {
         return split_in_cell(place, size, on_side);
     }
     const glm::ivec2 sample = place / steps_per_sample;
-    return {errors_(sample.x, sample.y), place_of(sample.x, sample.y), radii_(sample.x, sample.y)};
+    const KeptSplit& kept = splits_(sample.x, sample.y);
+    return {kept.error, place_of(sample.x, sample.y), kept.radius};
 }
 
 double Bisection::height(glm::ivec2 place) const {

@@ -33,7 +33,8 @@ struct Split {
 /// goes on into the bilinear cells.
 class Bisection {
 public:
-    /// Precondition: at least 2×2 samples; both outlive the bisection.
+    /// Precondition: at least 2×2 samples; both outlive the bisection. The same for any number of
+    /// threads. Once a stop is asked for it is of no use any more, and soon made.
     Bisection(const Heightfield& heightfield, const Placement& placement,
               const ParallelOptions& parallel = {});
 
@@ -62,10 +63,16 @@ private:
         double side = 0.0;   // the same on a side
         double reach = 0.0;  // metres between places a sample away in col and row
     };
+    struct KeptSplit {
+        float error = 0.0F;
+        float radius = 0.0F;
+    };
     class LevelBuilder;
 
     static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
     void keep_places(const ParallelOptions& parallel);
+    void keep_cells(const ParallelOptions& parallel);
+    void keep_cell_rows(int first, int last);
     [[nodiscard]] glm::dvec3 place_of(int col, int row) const;
     [[nodiscard]] glm::dvec3 place_in_cell(glm::ivec2 place) const;
     [[nodiscard]] CellBend bend_of_cell(int col, int row) const;
@@ -75,8 +82,8 @@ private:
     const Placement* placement_;
     glm::ivec2 end_{0};
     Bending bending_;
-    Grid<float> errors_; // of the split at each sample; unset where a tile's middle or corner is
-    Grid<float> radii_;
+    Grid<KeptSplit> cells_;    // at the middle of each cell, of its square
+    Grid<KeptSplit> splits_;   // at each sample; unset where a tile's middle or corner is
     Grid<glm::vec3> offsets_;  // of samples on an ellipsoid, from their tile's origin
     Grid<glm::dvec3> origins_; // of tiles
 };

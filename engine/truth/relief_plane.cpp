@@ -62,11 +62,6 @@ Grid<float> with_border(GridView<const float> tile, Border border) {
     return heights;
 }
 
-bool is_finite(const Ray& ray) {
-    const auto finite = [](glm::dvec3 v) { return !glm::any(glm::isnan(v) || glm::isinf(v)); };
-    return finite(ray.origin) && finite(ray.direction);
-}
-
 // A little more than the heights 0 … 1: what lies on its faces is met.
 Box slab() {
     constexpr double room = 0.01;

@@ -10,7 +10,7 @@
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/scene/scene.h"
-#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/surface_caster.h"
 
 namespace reljef::truth {
 

@@ -8,6 +8,10 @@
 namespace reljef::render {
 namespace {
 
+glm::dvec3 local_place(const GridVertex& vertex) {
+    return glm::dvec3(vertex.position) + glm::dvec3(vertex.rest);
+}
+
 terrain::Placement placed(const terrain::Heightfield& heightfield) {
     const auto kind = heightfield.georeference ? terrain::PlacementKind::ellipsoid
                                                : terrain::PlacementKind::plane;
@@ -32,8 +36,7 @@ TEST(GridMesh, EverySampleIsAVertexInItsPlace) {
                     ASSERT_EQ(vertex.height, height);
                     const glm::dvec3 world =
                         placement.world_from_sample({tile.col + col, tile.row + row, height});
-                    ASSERT_LE(glm::distance(mesh.origin + glm::dvec3(vertex.position), world),
-                              5e-4);
+                    ASSERT_LE(glm::distance(local_place(vertex), world), 1e-8);
                 }
             }
         }
@@ -46,9 +49,9 @@ TEST(GridMesh, AFlatTileOnAPlaneIsOneQuadAtItsHeight) {
     for (const terrain::Tile& tile : terrain::flat_tile_layout(heightfield, placement, 10.0)) {
         const GridMesh mesh = flat_mesh(placement, tile, 10.0);
         ASSERT_EQ(mesh.vertices.size(), 4U);
-        EXPECT_EQ(mesh.origin + glm::dvec3(mesh.vertices[0].position),
+        EXPECT_EQ(local_place(mesh.vertices[0]),
                   placement.world_from_sample({tile.col, tile.row, 10.0}));
-        EXPECT_EQ(mesh.origin + glm::dvec3(mesh.vertices[3].position),
+        EXPECT_EQ(local_place(mesh.vertices[3]),
                   placement.world_from_sample({tile.col + tile.cols, tile.row + tile.rows, 10.0}));
     }
 }
@@ -61,10 +64,33 @@ TEST(GridMesh, AFlatTileOnAnEllipsoidFollowsTheEarth) {
     const GridMesh mesh = flat_mesh(placement, tiles.front(), 100.0);
     EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>((mesh.cols + 1) * (mesh.rows + 1)));
     for (const GridVertex& vertex : mesh.vertices) {
-        const auto sample = placement.sample_from_world(mesh.origin + glm::dvec3(vertex.position));
+        const auto sample = placement.sample_from_world(local_place(vertex));
         ASSERT_TRUE(sample);
         EXPECT_NEAR(sample->z, 100.0, 1e-3);
         EXPECT_EQ(vertex.height, 100.0F);
+    }
+}
+
+TEST(GridMesh, NeighboursHaveTheSameBitsForAVertexTheyShare) {
+    const auto heightfield = test::geographic_heightfield(
+        test::random_heights(300, 140, -50.0F, 900.0F, 2), 46.0, 7.0, 1.0 / 1200.0);
+    const terrain::Placement placement = placed(heightfield);
+    const auto tiles = terrain::tile_layout(heightfield, placement);
+    const GridMesh west = full_mesh(heightfield, placement, tiles[0]);
+    const GridMesh east = full_mesh(heightfield, placement, tiles[1]);
+    const terrain::Triangulation border{
+        {terrain::steps_per_sample * glm::ivec2(terrain::tile_cells, 7)}, {}};
+    const auto cut = placed_vertices(heightfield, placement, tiles[1], border);
+    for (int row = 0; row <= west.rows; ++row) {
+        const GridVertex& a =
+            west.vertices[static_cast<std::size_t>(row * (west.cols + 1) + west.cols)];
+        const GridVertex& b = east.vertices[static_cast<std::size_t>(row * (east.cols + 1))];
+        ASSERT_EQ(a.position, b.position);
+        ASSERT_EQ(a.rest, b.rest);
+        if (row == 7) {
+            EXPECT_EQ(a.position, cut.front().position);
+            EXPECT_EQ(a.rest, cut.front().rest);
+        }
     }
 }
 

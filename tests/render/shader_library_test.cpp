@@ -41,13 +41,15 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // colour three shadows and smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
+    // Three of the searches, without fade, are there with beams too; and the beams themselves.
+    constexpr std::size_t beams = 1U + 3U * (2U + 2U * 2U * 6U);
     // A mesh with a tile: lit in four ways; one that searches is that of a relief, lit or not,
     // wrapped or not.
     constexpr std::size_t textured = 4U * 2U + 2U + 2U;
     constexpr std::size_t mesh_parallax = 2U * 4U * (4U + 1U) * 4U;
     constexpr std::size_t mesh_searches = 2U * 7U * (4U + 4U * 2U * 2U * (3U + 1U));
-    EXPECT_EQ(all_variants().size(),
-              2U * 3U + 5U + 2U + parallax + searches + textured + mesh_parallax + mesh_searches);
+    EXPECT_EQ(all_variants().size(), 2U * 3U + 5U + 2U + parallax + searches + beams + textured +
+                                         mesh_parallax + mesh_searches);
 }
 
 TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {

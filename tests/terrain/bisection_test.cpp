@@ -14,27 +14,19 @@
 
 #include "engine/terrain/bisection_mesh.h"
 #include "tests/terrain/chance.h"
+#include "tests/terrain/made_bisection.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::terrain {
 namespace {
 
-struct MadeTerrain {
-    std::string name;
-    Heightfield heightfield;
-    double exaggeration = 1.0;
-};
-
-Grid<float> rough_hills(int cols, int rows, unsigned seed) {
-    Grid<float> heights = test::random_heights(cols, rows, -2.0F, 2.0F, seed);
-    for (int row = 0; row < rows; ++row) {
-        for (int col = 0; col < cols; ++col) {
-            heights(col, row) +=
-                static_cast<float>(40.0 * std::sin(0.11 * col + 0.3) * std::cos(0.07 * row));
-        }
-    }
-    return heights;
-}
+using test::all_triangles;
+using test::doubled_area;
+using test::MadeTerrain;
+using test::open_edges;
+using test::PlacedTerrain;
+using test::rough_hills;
+using test::Triangle;
 
 // Where bisection goes wrong: any size, nothing to find, one thing to find, the curved Earth.
 std::vector<MadeTerrain> hard_terrains() {
@@ -83,70 +75,6 @@ ErrorView chance_view(test::Chance& chance, const Heightfield& heightfield) {
         view.sides[4] = view.depth;
     }
     return view;
-}
-
-struct PlacedTerrain {
-    explicit PlacedTerrain(MadeTerrain made)
-        : name(made.name), heightfield(std::move(made.heightfield)),
-          placement(test::placed(heightfield, made.exaggeration)),
-          bisection(heightfield, placement), tiles(tile_layout(heightfield, placement)) {}
-    PlacedTerrain(const PlacedTerrain&) = delete;
-
-    std::string name;
-    Heightfield heightfield;
-    Placement placement;
-    Bisection bisection;
-    std::vector<Tile> tiles;
-};
-
-using Triangle = std::array<glm::ivec2, 3>;
-
-std::vector<Triangle> all_triangles(const PlacedTerrain& terrain, const ErrorView& view) {
-    std::vector<Triangle> triangles;
-    for (const Tile& tile : terrain.tiles) {
-        for (const Triangulation& part : triangulate(terrain.bisection, tile, view)) {
-            for (std::size_t i = 0; i < part.indices.size(); i += 3) {
-                triangles.push_back({part.vertices[part.indices[i]],
-                                     part.vertices[part.indices[i + 1]],
-                                     part.vertices[part.indices[i + 2]]});
-            }
-        }
-    }
-    return triangles;
-}
-
-// Twice the area, positive where counter-clockwise from above (rows grow downwards).
-std::int64_t doubled_area(const Triangle& triangle) {
-    const glm::ivec2 p = triangle[1] - triangle[0];
-    const glm::ivec2 q = triangle[2] - triangle[0];
-    return static_cast<std::int64_t>(p.y) * q.x - static_cast<std::int64_t>(p.x) * q.y;
-}
-
-// Edges without their opposite that do not lie on the border of the heightfield.
-std::size_t open_edges(const PlacedTerrain& terrain, const std::vector<Triangle>& triangles) {
-    using Edge = std::array<int, 4>;
-    std::vector<Edge> edges;
-    std::vector<Edge> opposites;
-    const glm::ivec2 end = terrain.bisection.end();
-    for (const Triangle& triangle : triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const glm::ivec2 a = triangle[i];
-            const glm::ivec2 b = triangle[(i + 1) % 3];
-            const bool on_border = (a.x == b.x && (a.x == 0 || a.x == end.x)) ||
-                                   (a.y == b.y && (a.y == 0 || a.y == end.y));
-            if (!on_border) {
-                edges.push_back({a.x, a.y, b.x, b.y});
-                opposites.push_back({b.x, b.y, a.x, a.y});
-            }
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    std::sort(opposites.begin(), opposites.end());
-    std::vector<Edge> open;
-    std::set_symmetric_difference(edges.begin(), edges.end(), opposites.begin(), opposites.end(),
-                                  std::back_inserter(open));
-    const auto repeated = std::adjacent_find(edges.begin(), edges.end());
-    return open.size() + (repeated == edges.end() ? 0 : 1);
 }
 
 TEST(Bisection, CoversTheHeightfieldOnceWithTrianglesThatMeetEdgeToEdge) {
@@ -306,22 +234,6 @@ TEST(Bisection, ALowerErrorNeverTakesFewerTriangles) {
         const std::size_t count = all_triangles(terrain, view).size();
         EXPECT_LT(count, before) << most;
         before = count;
-    }
-}
-
-TEST(Bisection, DoesNotDependOnTheNumberOfThreads) {
-    const Heightfield heightfield = test::plane_heightfield(rough_hills(200, 180, 8));
-    const Placement placement = test::placed(heightfield);
-    const Bisection one(heightfield, placement, {1, {}, {}});
-    const Bisection four(heightfield, placement, {4, {}, {}});
-    for (int row = 2; row < 180; row += 4) {
-        for (int col = 4; col < 200; col += 8) {
-            const glm::ivec2 place = steps_per_sample * glm::ivec2(col, row);
-            const Split a = one.split(place, 4 * steps_per_sample, true);
-            const Split b = four.split(place, 4 * steps_per_sample, true);
-            ASSERT_EQ(a.error, b.error);
-            ASSERT_EQ(a.radius, b.radius);
-        }
     }
 }
 

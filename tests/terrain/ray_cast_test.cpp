@@ -1,4 +1,4 @@
-#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/surface_caster.h"
 
 #include <chrono>
 #include <cmath>

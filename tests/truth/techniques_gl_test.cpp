@@ -1,5 +1,6 @@
 // Each technique on its own claim, against the exact picture.
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -123,6 +124,33 @@ TEST_F(TechniquesGlTest, ExactSeesFromInsideItsBox) {
         *stage.camera->get<scene::Camera>() =
             scene::camera_from_angles({3.0, 5.0, 9.0}, heading, -8.0);
         EXPECT_LE(errors(stage, "exact").wrong_percent, 0.01) << heading;
+    }
+}
+
+// Rays begin where the beam of their block of pixels may meet something: from anywhere, under any
+// projection, no beam may pass what one of its rays meets.
+TEST_F(TechniquesGlTest, BeamsPassNothingThatARayMeets) {
+    std::mt19937 random(11);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    for (const MadeSurface& surface : hard_surfaces()) {
+        Stage stage(surface.heights);
+        const Box bounds = test::surface_of(*stage.terrain).bounds();
+        const double size = glm::length(bounds.high - bounds.low);
+        for (int i = 0; i < 6; ++i) {
+            const glm::dvec3 target(between(bounds.low.x, bounds.high.x),
+                                    between(bounds.low.y, bounds.high.y), bounds.high.z);
+            const glm::dvec3 away(between(-1.0, 1.0), between(-1.0, 1.0), between(0.05, 1.0));
+            scene::Camera camera = test::camera_at(target + size * away, target);
+            camera.vertical_fov = between(20.0, 140.0);
+            if (i % 3 == 2) {
+                camera.projection = scene::ProjectionKind::orthographic;
+                camera.view_height = size * between(0.3, 2.0);
+            }
+            *stage.camera->get<scene::Camera>() = camera;
+            EXPECT_LE(errors(stage, "exact").wrong_percent, 0.01) << surface.name << ' ' << i;
+        }
     }
 }
 

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/terrain/bisection.h"
+#include "engine/terrain/bisection_mesh.h"
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::test {
+
+struct MadeTerrain {
+    std::string name;
+    terrain::Heightfield heightfield;
+    double exaggeration = 1.0;
+};
+
+/// Smooth hills with noise on them.
+inline Grid<float> rough_hills(int cols, int rows, unsigned seed) {
+    Grid<float> heights = random_heights(cols, rows, -2.0F, 2.0F, seed);
+    for (int row = 0; row < rows; ++row) {
+        for (int col = 0; col < cols; ++col) {
+            heights(col, row) +=
+                static_cast<float>(40.0 * std::sin(0.11 * col + 0.3) * std::cos(0.07 * row));
+        }
+    }
+    return heights;
+}
+
+struct PlacedTerrain {
+    explicit PlacedTerrain(MadeTerrain made)
+        : name(made.name), heightfield(std::move(made.heightfield)),
+          placement(placed(heightfield, made.exaggeration)), bisection(heightfield, placement),
+          tiles(terrain::tile_layout(heightfield, placement)) {}
+    PlacedTerrain(const PlacedTerrain&) = delete;
+
+    std::string name;
+    terrain::Heightfield heightfield;
+    terrain::Placement placement;
+    terrain::Bisection bisection;
+    std::vector<terrain::Tile> tiles;
+};
+
+using Triangle = std::array<glm::ivec2, 3>;
+
+/// Of all tiles.
+inline std::vector<Triangle> all_triangles(const PlacedTerrain& made,
+                                           const terrain::ErrorView& view) {
+    std::vector<Triangle> triangles;
+    for (const terrain::Tile& tile : made.tiles) {
+        for (const terrain::Triangulation& part :
+             terrain::triangulate(made.bisection, tile, view)) {
+            for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+                triangles.push_back({part.vertices[part.indices[i]],
+                                     part.vertices[part.indices[i + 1]],
+                                     part.vertices[part.indices[i + 2]]});
+            }
+        }
+    }
+    return triangles;
+}
+
+/// Twice the area, positive where counter-clockwise from above (rows grow downwards).
+inline std::int64_t doubled_area(const Triangle& triangle) {
+    const glm::ivec2 p = triangle[1] - triangle[0];
+    const glm::ivec2 q = triangle[2] - triangle[0];
+    return static_cast<std::int64_t>(p.y) * q.x - static_cast<std::int64_t>(p.x) * q.y;
+}
+
+/// Edges without their opposite that do not lie on the border of the heightfield.
+inline std::size_t open_edges(const PlacedTerrain& made, const std::vector<Triangle>& triangles) {
+    using Edge = std::array<int, 4>;
+    std::vector<Edge> edges;
+    std::vector<Edge> opposites;
+    const glm::ivec2 end = made.bisection.end();
+    for (const Triangle& triangle : triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::ivec2 a = triangle[i];
+            const glm::ivec2 b = triangle[(i + 1) % 3];
+            const bool on_border = (a.x == b.x && (a.x == 0 || a.x == end.x)) ||
+                                   (a.y == b.y && (a.y == 0 || a.y == end.y));
+            if (!on_border) {
+                edges.push_back({a.x, a.y, b.x, b.y});
+                opposites.push_back({b.x, b.y, a.x, a.y});
+            }
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::sort(opposites.begin(), opposites.end());
+    std::vector<Edge> open;
+    std::set_symmetric_difference(edges.begin(), edges.end(), opposites.begin(), opposites.end(),
+                                  std::back_inserter(open));
+    const auto repeated = std::adjacent_find(edges.begin(), edges.end());
+    return open.size() + (repeated == edges.end() ? 0 : 1);
+}
+
+} // namespace reljef::test
