@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <cpl_vsi.h>
+
 namespace reljef::io {
 namespace {
 
@@ -12,7 +14,20 @@ std::filesystem::file_time_type time_of(const std::filesystem::path& path) {
                            : std::filesystem::last_write_time(path, ignored);
 }
 
+// What GDAL keeps of a file on a server, that it is not there for one.
+void forget(const std::filesystem::path& path) {
+    if (is_remote(path)) {
+        const std::string name = path.string();
+        VSICurlPartialClearCache((name.starts_with("/vsi") ? name : "/vsicurl/" + name).c_str());
+    }
+}
+
 } // namespace
+
+void DatasetPool::Loan::spoil() {
+    dataset_.reset();
+    forget(path_);
+}
 
 DatasetPool::Loan::~Loan() {
     if (dataset_ != nullptr) {
@@ -36,6 +51,9 @@ Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
         }
     }
     auto opened = open_raster(path, messages);
+    if (!opened) {
+        forget(path);
+    }
     return opened ? Result<Loan>(Loan(*this, path, std::move(*opened))) : opened.error();
 }
 

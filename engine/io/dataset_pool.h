@@ -27,8 +27,8 @@ public:
 
         GDALDataset& operator*() const { return *dataset_; }
         GDALDataset* operator->() const { return dataset_.get(); }
-        /// It is closed, not kept: for one that failed.
-        void spoil() { dataset_.reset(); }
+        /// It is closed, and nothing of it kept: for one that failed.
+        void spoil();
 
     private:
         DatasetPool* pool_;

@@ -130,6 +130,7 @@ void register_drivers() {
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds
         set_default("GDAL_HTTP_TIMEOUT", "60");
         set_default("GDAL_HTTP_MAX_RETRY", "2");
+        set_default("GDAL_HTTP_RETRY_DELAY", "1");
         GDALSetCacheMax64(std::min(GDALGetCacheMax64(), most_cached_bytes));
     });
 }

@@ -68,9 +68,9 @@ GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::Edge
         }
     }
     for (const terrain::EdgeMove& move : moves) {
-        const auto index =
-            static_cast<std::size_t>(move.vertex.y * (tile.cells.x + 1) + move.vertex.x);
-        mesh.vertices[index] = vertex_of(*drawn.at(move.to.tile), move.to.vertex);
+        const int index = move.vertex.y * (tile.cells.x + 1) + move.vertex.x;
+        mesh.vertices[static_cast<std::size_t>(index)] =
+            vertex_of(*drawn.at(move.to.tile), move.to.vertex);
     }
     return mesh;
 }
