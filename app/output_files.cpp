@@ -1,5 +1,7 @@
 #include "app/output_files.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace reljef::app {
@@ -19,12 +21,24 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     return whole_a == fs::weakly_canonical(fs::absolute(b, code), code);
 }
 
+// Whether writing `output` would replace `input`, or a file in it where it is a folder.
+bool would_replace(const fs::path& output, const fs::path& input) {
+    std::error_code code;
+    if (!fs::is_directory(input, code) || !fs::is_regular_file(output, code)) {
+        return is_same_file(output, input);
+    }
+    const fs::path folder = fs::canonical(input, code);
+    const fs::path file = fs::canonical(output, code);
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
+           folder.end();
+}
+
 } // namespace
 
 Result<void> check_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (const NamedFile& input : inputs) {
-            if (is_same_file(outputs[i].path, input.path)) {
+            if (would_replace(outputs[i].path, input.path)) {
                 return Error{fmt::format("{}: {} found, which is read as {}; another file was "
                                          "expected",
                                          outputs[i].option, outputs[i].path.string(),

@@ -14,8 +14,8 @@ struct NamedFile {
     std::filesystem::path path;
 };
 
-/// Fails where an output would replace an input, or another output. Paths that are empty are none;
-/// two names of one file are one file.
+/// Fails where an output would replace an input, a file in a folder that is one, or another output.
+/// Paths that are empty are none; two names of one file are one file.
 Result<void> check_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs);
 
 } // namespace reljef::app

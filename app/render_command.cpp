@@ -193,7 +193,7 @@ std::vector<NamedFile> outputs_of(const RenderChoice& choice, std::span<const Na
     names.insert({choice.hits.filename(), choice.contact_sheet.filename()});
     for (int index = 0; index < choice.view.frames; ++index) {
         const auto file = numbered(choice.output, index);
-        if (file && names.contains(file->filename())) {
+        if (file && (names.contains(file->filename()) || std::filesystem::exists(*file))) {
             outputs.push_back({"-o", *file});
         }
     }

@@ -133,6 +133,29 @@ TEST_F(SameFile, OutputOverTheTerrainByAnotherName) {
                    1, {"link.png", "TERRAIN"});
 }
 
+TEST_F(SameFile, OutputOverATileOfAFolder) {
+    const std::filesystem::path tiles = folder_.path() / "tiles";
+    std::filesystem::create_directory(tiles);
+    folder_.write("tiles/place.asc", "ncols 3\nnrows 3\nxllcorner 6\nyllcorner 45\ncellsize 0.01\n"
+                                     "1 2 3\n4 5 6\n7 8 9\n");
+    folder_.write(
+        "tiles/place.prj",
+        "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+        "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]\n");
+    folder_.write("tiles/0001.png", photo_);
+    test::ProgramOptions options;
+    options.folder = folder_.path();
+    for (const std::vector<std::string>& output :
+         {std::vector<std::string>{"-o", "tiles/0001.png"},
+          {"-o", "./tiles/%04d.png", "--frames", "3", "--path", "orbit"}}) {
+        std::vector<std::string> arguments{"render",    "tiles",  "--size", "64x48",
+                                           "--context", "osmesa", "--quiet"};
+        arguments.insert(arguments.end(), output.begin(), output.end());
+        expect_refusal(test::reljef(arguments, options), 1, {"0001.png", "TERRAIN"});
+    }
+    EXPECT_EQ(test::read_bytes(tiles / "0001.png"), photo_);
+}
+
 TEST_F(SameFile, OutputOverWhatTheSceneFileNames) {
     folder_.write("scene.toml", "[terrain]\nheights = \"photo.png\"\n");
     test::ProgramOptions options;
