@@ -78,8 +78,8 @@ struct CellWindow {
 /// Where and how files are read.
 struct TileReading {
     std::span<const IndexedFile> files;
-    std::filesystem::path folder; ///< the files' paths begin here
-    RasterOptions options;        ///< scale, offset, stop
+    std::filesystem::path folder;                   ///< the files' paths begin here
+    RasterOptions options;                          ///< scale, offset, stop
     std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
     DatasetPool* pool = nullptr;                    ///< where the files are open
 };
