@@ -21,6 +21,7 @@ Command add_view_command(CLI::App& program, Interrupt& interrupt);
 Command add_render_command(CLI::App& program, Interrupt& interrupt);
 Command add_info_command(CLI::App& program, Interrupt& interrupt);
 Command add_height_command(CLI::App& program, Interrupt& interrupt);
+Command add_maps_command(CLI::App& program, Interrupt& interrupt);
 Command add_techniques_command(CLI::App& program, Interrupt& interrupt);
 
 } // namespace reljef::app

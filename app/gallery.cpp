@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +10,10 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/message.h"
+#include "app/progress_line.h"
+#include "engine/io/cone_cache.h"
 #include "engine/io/texture_files.h"
+#include "engine/terrain/tile_cones.h"
 #include "terrains/detail_tiles.h"
 #include "terrains/gallery.h"
 
@@ -25,6 +29,7 @@ scene::Mesh mesh_of(const terrains::GalleryModel& model) {
     const glm::vec3 size = model.size;
     switch (model.shape) {
     case terrains::GalleryShape::plane:
+    case terrains::GalleryShape::sheet:
         return scene::plane_mesh({size.x, size.y});
     case terrains::GalleryShape::box:
         return scene::box_mesh(size);
@@ -34,25 +39,28 @@ scene::Mesh mesh_of(const terrains::GalleryModel& model) {
         return scene::torus_mesh(size.x, size.y, 96);
     case terrains::GalleryShape::cylinder:
         return scene::cylinder_mesh(size.x, size.y, 96);
+    case terrains::GalleryShape::bowl:
+        return scene::bowl_mesh(size.x, 96);
     }
     abort_with("a model without a shape");
 }
 
-// The plane stands as a wall that looks south.
+// Planes stand as walls that look south.
 glm::dmat4 place_of(const terrains::GalleryModel& model) {
     glm::dmat4 place = glm::translate(glm::dmat4(1.0), model.center);
     place = glm::rotate(place, glm::radians(-model.heading), {0.0, 0.0, 1.0});
-    return model.shape == terrains::GalleryShape::plane
-               ? glm::rotate(place, glm::radians(90.0), {1.0, 0.0, 0.0})
-               : place;
+    const bool stands = model.shape == terrains::GalleryShape::plane ||
+                        model.shape == terrains::GalleryShape::sheet;
+    return stands ? glm::rotate(place, glm::radians(90.0), {1.0, 0.0, 0.0}) : place;
 }
 
 // The texture sets that were asked for, each made or read once.
 class Sets {
 public:
     Sets(std::string asked_for, const io::SceneDescription& description,
-         const TerrainChoice& terrain)
-        : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain) {}
+         const TerrainChoice& terrain, bool needs_cones)
+        : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
+          needs_cones_(needs_cones) {}
 
     Result<Set> of(const terrains::GalleryModel& model) {
         const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
@@ -62,6 +70,11 @@ public:
         auto set = open(name);
         if (!set) {
             return set.error();
+        }
+        if (needs_cones_) {
+            if (auto made = add_cones(*set); !made) {
+                return made.error();
+            }
         }
         tell_notes(*set);
         return sets_.emplace(name, std::make_shared<const terrain::TextureSet>(std::move(*set)))
@@ -89,6 +102,23 @@ private:
         return io::read_texture_set(*files, {.width = file_tile_width});
     }
 
+    // From the cache where they were made before.
+    [[nodiscard]] Result<void> add_cones(terrain::TextureSet& set) const {
+        ProgressLine line("cones of " + set.name, terrain_.quiet);
+        io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+        options.parallel = {static_cast<unsigned>(terrain_.threads), {}, line.callback()};
+        const auto field = terrain::cone_field(set.heights.view(), terrain::TileBorder::wrap);
+        auto cached = io::cached_cones(field.view(), options);
+        if (!cached) {
+            return Error{fmt::format("{}: stopped while its cones were made", set.name)};
+        }
+        if (!cached->note.empty()) {
+            set.notes.push_back(cached->note);
+        }
+        set.cones_of_field = std::move(cached->cones);
+        return {};
+    }
+
     void tell_notes(const terrain::TextureSet& set) const {
         for (const std::string& note : set.notes) {
             if (!terrain_.quiet) {
@@ -100,31 +130,35 @@ private:
     std::string asked_for_;
     const io::SceneDescription& description_;
     const TerrainChoice& terrain_;
+    bool needs_cones_;
     std::map<std::string, Set> sets_;
 };
 
-Result<scene::Technique> chosen_technique(const io::SceneDescription& description,
-                                          const ViewChoice& view) {
+// None: each model's own.
+Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescription& description,
+                                                         const ViewChoice& view) {
+    using Choice = std::optional<scene::Technique>;
     if (view.max_error) {
         return Error{fmt::format("--max-error: {} found, a terrain was expected: its models are "
                                  "drawn as they are",
                                  description.name)};
     }
-    if (view.technique) {
-        return *view.technique;
+    if (view.technique || description.gallery_technique == "mixed") {
+        return Choice(view.technique);
     }
     auto technique = scene::parse_technique(description.gallery_technique);
-    return technique ? technique
+    return technique ? Result<Choice>(Choice(std::move(*technique)))
                      : Error{fmt::format("{}: [gallery] {}", description.name,
                                          technique.error().message)};
 }
 
 scene::Material material_of(const terrains::GalleryModel& model, Set set,
-                            const scene::Technique& technique, bool wireframe) {
+                            const std::optional<scene::Technique>& technique, bool wireframe) {
     scene::Material material;
-    material.technique = technique;
+    material.technique = technique ? *technique : scene::parse_technique(model.technique).value();
     material.wireframe = wireframe;
     material.detail.scale = set->scale;
+    material.detail.offset = model.offset;
     material.detail.repeats = model.repeats;
     material.detail.set = std::move(set);
     return material;
@@ -140,7 +174,9 @@ Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
     if (!technique) {
         return technique.error();
     }
-    Sets sets(terrain.textures.value_or(description.gallery_textures), description, terrain);
+    const bool needs_cones = *technique && (*technique)->id == scene::TechniqueId::cone;
+    Sets sets(terrain.textures.value_or(description.gallery_textures), description, terrain,
+              needs_cones);
     std::vector<scene::Node*> nodes;
     for (const terrains::GalleryModel& model : terrains::gallery_models()) {
         const auto set = sets.of(model);

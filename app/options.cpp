@@ -1,6 +1,5 @@
 #include "app/options.h"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
@@ -10,39 +9,12 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "app/parsed_option.h"
 #include "engine/core/geometry.h"
 #include "engine/render/error_view.h"
 
 namespace reljef::app {
 namespace {
-
-// A number that is the whole text, or nothing.
-template <class T> std::optional<T> number_from(std::string_view text) {
-    T value{};
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc{} || end != text.data() + text.size()) {
-        return std::nullopt;
-    }
-    return value;
-}
-
-// Lets a parser with a Result set `target` and turns its error into the parser library's.
-template <class Parse, class Target>
-CLI::Option* add_parsed(CLI::App& command, const char* names, Target& target, const Parse& parse,
-                        const char* description, const char* type) {
-    return command
-        .add_option_function<std::string>(
-            names,
-            [&target, parse](const std::string& text) {
-                auto value = parse(text);
-                if (!value) {
-                    throw CLI::ValidationError(value.error().message);
-                }
-                target = std::move(*value);
-            },
-            description)
-        ->type_name(type);
-}
 
 Result<glm::dvec3> parse_point(std::string_view option, std::string_view text) {
     const auto numbers = parse_numbers<3>(option, text, "x,y,z in scene metres");
@@ -115,43 +87,6 @@ Result<std::optional<platform::ContextKind>> parse_context(const std::string& te
     return kind;
 }
 
-// Parses a number in [low, high], or above low where `above`.
-auto number_in(std::string option, double low, double high, bool above = false) {
-    return [=](const std::string& text) -> Result<double> {
-        const auto value = number_from<double>(text);
-        if (!value || !(above ? *value > low : *value >= low) || !(*value <= high)) {
-            return Error{fmt::format("{}: '{}' found, a number {} {} to {} was expected", option,
-                                     text, above ? "over" : "from", low, high)};
-        }
-        return *value;
-    };
-}
-
-auto whole_number_in(std::string option, int low, int high) {
-    return [=](const std::string& text) -> Result<int> {
-        const auto value = number_from<int>(text);
-        if (!value || *value < low || *value > high) {
-            return Error{fmt::format("{}: '{}' found, a whole number from {} to {} was expected",
-                                     option, text, low, high)};
-        }
-        return *value;
-    };
-}
-
-// Looks a word up in a list of (word, value).
-template <class T> auto word_of(std::string option, std::vector<std::pair<std::string, T>> words) {
-    return [=](const std::string& text) -> Result<T> {
-        std::string expected;
-        for (const auto& [word, value] : words) {
-            if (word == text) {
-                return value;
-            }
-            expected += (expected.empty() ? "" : ", ") + word;
-        }
-        return Error{fmt::format("{}: '{}' found, one of {} was expected", option, text, expected)};
-    };
-}
-
 CLI::Validator existing_folder() {
     return {[](const std::string& text) {
                 std::error_code code;
@@ -171,7 +106,8 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--technique", choice.technique,
         [](const std::string& text) { return scene::parse_technique(text); },
-        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: relief)",
+        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: as suits "
+        "each model)",
         "ID[:key=value,...]");
     add_parsed(command, "--max-error", choice.max_error,
                number_in("--max-error", render::least_error, render::most_error),
@@ -294,7 +230,8 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         ->type_name("FILE");
     command
         .add_option("--textures", choice.textures,
-                    "gallery only: brick, rock, cobble, mixed, or a folder of pictures (colour, "
+                    "gallery only: brick, rock, cobble, fence, rings, copper, mixed, or a folder "
+                    "of pictures (colour, "
                     "height, normal)")
         ->type_name("NAME|FOLDER");
     add_parsed(command, "--exaggeration", choice.exaggeration,

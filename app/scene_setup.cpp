@@ -195,9 +195,15 @@ std::vector<scene::Material*> TerrainScene::materials() const {
 }
 
 Result<void> TerrainScene::check(const scene::Technique& technique) const {
-    return models.empty()
-               ? scene::check_technique(technique, *terrain->get<scene::TerrainNode>()->surface)
-               : scene::check_technique(technique, *models.front()->get<scene::MeshNode>());
+    if (models.empty()) {
+        return scene::check_technique(technique, *terrain->get<scene::TerrainNode>()->surface);
+    }
+    for (const scene::Node* const model : models) {
+        if (auto good = scene::check_technique(technique, *model->get<scene::MeshNode>()); !good) {
+            return good;
+        }
+    }
+    return {};
 }
 
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
@@ -218,8 +224,11 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
             return models.error();
         }
         result.models = std::move(*models);
-        if (auto good = result.check(result.materials().front()->technique); !good) {
-            return good.error();
+        for (const scene::Node* const model : result.models) {
+            const auto* const mesh = model->get<scene::MeshNode>();
+            if (auto good = scene::check_technique(mesh->material.technique, *mesh); !good) {
+                return good.error();
+            }
         }
     } else if (auto done = choose_look(result, view); !done) {
         return done.error();

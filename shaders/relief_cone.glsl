@@ -2,7 +2,26 @@
 // which holds nothing of the surface. A relaxed cone (Policarpo and Oliveira 2007) holds what a ray
 // that does not rise meets at most once: where it is found below the surface, the hit lies behind
 // the last place above it.
-layout(binding = 4) uniform sampler2D cone_map; // of a cell, samples per unit: plain, relaxed
+#ifdef TILE
+layout(binding = 6) uniform sampler2D cone_map;
+uniform ivec2 last_cell;
+#else
+layout(binding = 4) uniform sampler2D cone_map;
+#endif
+
+// Of a cell, samples per unit: plain, relaxed.
+vec2 cones_at(vec2 place) {
+#ifdef TILE
+    vec2 cell = floor(place);
+#ifdef WRAP
+    vec2 cells = vec2(last_cell + 1);
+    cell -= cells * floor(cell / cells);
+#endif
+    return texelFetch(cone_map, clamp(ivec2(cell), ivec2(0), last_cell), 0).rg;
+#else
+    return texelFetch(cone_map, ivec2(place), 0).rg;
+#endif
+}
 
 // Between `part` where the ray is `over` (>= 0) above the surface and `low_part` where it is `under`
 // (< 0): halved, then the chord.
@@ -34,7 +53,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     float under = 0.0;
     bool found = false;
     for (float i = 0.0; i < n && next < 1.0; ++i) {
-        vec2 cones = texelFetch(cone_map, ivec2(start.xy + at * span.xy), 0).rg;
+        vec2 cones = cones_at(start.xy + at * span.xy);
         float ratio = relaxed ? cones.g : cones.r;
         float opens = run - ratio * span.z;
         float way = opens > 0.0 ? max(ratio * over / opens, least) : 1.0;

@@ -6,6 +6,10 @@
 #include "tile_surface.glsl"
 #if defined(EXACT)
 #include "relief_exact_tile.glsl"
+#elif defined(CONE)
+#include "relief_cone.glsl"
+#elif defined(LAYERS)
+#include "relief_layers.glsl"
 #elif defined(PARALLAX)
 #include "relief_parallax.glsl"
 #else
@@ -112,9 +116,13 @@ vec3 color_at(vec2 place, mat3 space, vec3 way, vec2 right, vec2 up) {
     vec2 coordinate = (place + 0.5) * height_texel;
     vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
     vec3 leaning = mapped_normal(coordinate, level_of(normal_map, right, up));
-    return shiny_color(albedo, world_normal_of(leaning, space),
-                       world_normal_of(vec3(0.0, 0.0, 1.0), space), normalize(way),
-                       sun_share(place, space));
+    vec3 normal = world_normal_of(leaning, space);
+#ifdef LAYERS
+    vec3 upright = normal; // its own back is lit, too
+#else
+    vec3 upright = world_normal_of(vec3(0.0, 0.0, 1.0), space);
+#endif
+    return shiny_color(albedo, normal, upright, normalize(way), sun_share(place, space));
 }
 #endif
 

@@ -28,7 +28,7 @@ float share_of_sun(vec3 start, vec3 span) {
     float deepest = 0.0;
     for (float i = 1.0; i <= n && deepest < shadow_depth; ++i) {
         vec3 p = start + (i / n) * span;
-        deepest = max(deepest, height_at(p.xy) - p.z);
+        deepest = max(deepest, depth_in_surface(p));
     }
     return clamp(1.0 - deepest / shadow_depth, 0.0, 1.0);
 }
@@ -44,6 +44,6 @@ float share_of_sun(vec3 start, vec3 span) {
 // Share of the sun's light that reaches a place of the surface; `low` and `high` bound the search
 // space.
 float sun_at(vec2 place, vec3 sun_direction, vec3 low, vec3 high) {
-    vec3 start = vec3(place, height_at(place) + shadow_lift);
+    vec3 start = vec3(place, height_at(place) + outward() * shadow_lift);
     return share_of_sun(start, way_out(start, sun_direction, low, high));
 }

@@ -11,9 +11,45 @@ uniform vec3 metres_per_unit; // of the search space's axes
 // along the ground.
 uniform vec4 search_values;
 
+#ifdef LAYERS
+// Between the first and the second, and between the third and the fourth, is solid.
+vec4 layers_at(vec2 place) {
+    return textureLod(height_map, (place + 0.5) * height_texel, 0.0);
+}
+
+// How deep a height is in a solid; negative outside.
+float depth_between(vec4 layers, float height) {
+    vec2 depths = min(layers.xz - height, height - layers.yw);
+    return max(depths.x, depths.y);
+}
+
+int met_layer = 0; // by the ray before
+
+float height_at(vec2 place) {
+    return layers_at(place)[met_layer];
+}
+
+float depth_in_surface(vec3 point) {
+    return depth_between(layers_at(point.xy), point.z);
+}
+
+// Off the solid: 1 up, -1 down.
+float outward() {
+    return (met_layer & 1) == 0 ? 1.0 : -1.0;
+}
+#else
 float height_at(vec2 place) {
     return textureLod(height_map, (place + 0.5) * height_texel, 0.0).r;
 }
+
+float depth_in_surface(vec3 point) {
+    return height_at(point.xy) - point.z;
+}
+
+float outward() {
+    return 1.0;
+}
+#endif
 
 // Whether the surface has such a place; what is beyond a tile on a mesh is the sampler's answer.
 bool is_on_surface(vec2 place) {

@@ -7,6 +7,12 @@
 #include "tile_light.glsl"
 #endif
 
+#ifdef WARPED
+// What is seen at a sample of the mesh: the tile's coordinate, its height, 1; all 0 where nothing is.
+layout(binding = 6) uniform sampler2D warped_map;
+uniform vec4 warp_from_tile; // texture coordinate = tile coordinate · xy + zw
+#endif
+
 #ifdef HIT
 layout(location = 0) out vec4 hit; // col, row, height, depth
 #else
@@ -25,12 +31,13 @@ float embossed(vec2 place, float level, mat3 space) {
 }
 
 // `right`, `up`: what a pixel to the right and one up add to the tile's coordinate.
-vec3 lit_tile(vec3 albedo, vec2 place, vec2 right, vec2 up) {
+vec3 lit_tile(vec3 albedo, vec2 coordinate, vec2 right, vec2 up) {
+    vec2 place = coordinate * tile_samples() - 0.5;
     mat3 space = tangent_space();
     vec3 upright = world_normal_of(vec3(0.0, 0.0, 1.0), space);
 #if defined(NORMAL_MAP)
     float level = level_of(normal_map, right, up);
-    vec3 normal = world_normal_of(mapped_normal(tile_coordinate, level), space);
+    vec3 normal = world_normal_of(mapped_normal(coordinate, level), space);
     return shiny_color(albedo, normal, upright, normalize(way_to_eye()), 1.0);
 #elif defined(BUMP)
     float level = max(level_of(height_map, right, up), 0.0);
@@ -51,14 +58,24 @@ void main() {
     if (is_off_tile(tile_coordinate)) {
         discard;
     }
-    vec2 place = tile_coordinate * tile_samples() - 0.5;
+    vec2 coordinate = tile_coordinate;
+#ifdef WARPED
+    vec2 on_map = coordinate * warp_from_tile.xy + warp_from_tile.zw;
+    vec2 samples = vec2(textureSize(warped_map, 0));
+    vec2 middle = (floor(on_map * samples) + 0.5) / samples; // of the nearest sample
+    vec4 seen = textureLod(warped_map, middle, 0.0);
+    if (seen.w < 1.0) {
+        discard;
+    }
+    coordinate = seen.xy + (on_map - middle) / warp_from_tile.xy;
+#endif
 #ifdef HIT
-    hit = tile_hit(place, relative);
+    hit = tile_hit(coordinate * tile_samples() - 0.5, relative);
 #else
     vec2 right = dFdx(tile_coordinate);
     vec2 up = dFdy(tile_coordinate);
-    vec3 albedo = textureLod(color_map, tile_coordinate, level_of(color_map, right, up)).rgb;
-    vec3 lit = lit_tile(albedo, place, right, up);
+    vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
+    vec3 lit = lit_tile(albedo, coordinate, right, up);
     color = vec4(seen_through_air(lit, length(relative)), 1.0);
 #endif
 }

@@ -1,6 +1,11 @@
 // What a tile of detail sends to the eye, lit per pixel.
 layout(binding = 0) uniform sampler2D color_map;  // linear albedo
+#ifdef LAYERS
+layout(binding = 4) uniform sampler2D normal_map;   // x of the layers' normals in tangent space
+layout(binding = 5) uniform sampler2D normal_map_v; // y
+#else
 layout(binding = 4) uniform sampler2D normal_map; // x and y of the normal in tangent space
+#endif
 
 uniform mat3 world_from_normal;
 uniform float normal_scale; // relief scale that the normal map was made for
@@ -22,9 +27,15 @@ vec3 normal_of_slope(vec2 slope) {
 
 // From the map; what is higher than the map was made for leans more.
 vec3 mapped_normal(vec2 coordinate, float level) {
-    vec2 lean = textureLod(normal_map, coordinate, level).rg;
+#ifdef LAYERS
+    vec2 lean = vec2(textureLod(normal_map, coordinate, level)[met_layer],
+                     textureLod(normal_map_v, coordinate, level)[met_layer]);
+#else
+    vec2 lean = side * textureLod(normal_map, coordinate, level).rg;
+#endif
     float upright = sqrt(max(1.0 - dot(lean, lean), 1e-4));
-    return normal_of_slope(-lean / upright * tiles_per_metre * (lift / normal_scale));
+    vec3 normal = normal_of_slope(-lean / upright * tiles_per_metre * (lift / normal_scale));
+    return vec3(normal.xy, outward() * normal.z);
 }
 
 // Of the heights as they are seen from afar.
@@ -32,14 +43,17 @@ float seen_height(vec2 place, float level) {
     return textureLod(height_map, (place + 0.5) * height_texel, level).r;
 }
 
-// From the heights half a texel of that level around.
+// From the heights half a texel around. What a pixel covers is lit by the mean of its normals, which
+// no mean of heights has: a steep edge is as steep in all it spreads over. From afar it is the map
+// of the heights' normals that knows it.
 vec3 bumped_normal(vec2 place, float level) {
-    float texels = exp2(level);
-    vec2 right = vec2(0.5 * texels, 0.0);
-    vec2 up = vec2(0.0, 0.5 * texels);
-    vec2 rise = vec2(seen_height(place + right, level) - seen_height(place - right, level),
-                     seen_height(place + up, level) - seen_height(place - up, level));
-    return normal_of_slope(rise / texels * lift * tiles_per_metre * tile_samples());
+    const vec2 right = vec2(0.5, 0.0);
+    const vec2 up = vec2(0.0, 0.5);
+    vec2 rise = vec2(seen_height(place + right, 0.0) - seen_height(place - right, 0.0),
+                     seen_height(place + up, 0.0) - seen_height(place - up, 0.0));
+    vec3 near = normal_of_slope(rise * lift * tiles_per_metre * tile_samples());
+    vec3 far = mapped_normal((place + 0.5) * height_texel, level);
+    return normalize(mix(near, far, clamp(level, 0.0, 1.0)));
 }
 
 vec3 world_normal_of(vec3 tangent_normal, mat3 space) {

@@ -1,5 +1,6 @@
 // A tile of detail on a mesh, as a fragment sees it. Tangent space: x where u grows, y where v
-// grows, z off the mesh; metres of the mesh.
+// grows, z off the side of the mesh that is seen; metres of the mesh. From behind, heights are what
+// is left of 1.
 in vec3 relative; // from the eye, metres
 in vec3 local_normal;
 in vec4 local_tangent; // w: handedness
@@ -10,12 +11,13 @@ uniform mat3 local_from_relative; // directions
 uniform float perspective;        // 1, or 0: all rays run along the view axis
 uniform float lift;               // metres that a height of 1 lifts a point
 uniform float bounded;            // 1: there is nothing beyond the tile
+uniform float side;               // -1: the mesh is seen from behind
 
 // Local directions from tangent space: orthonormal.
 mat3 tangent_space() {
     vec3 z = normalize(local_normal);
     vec3 x = normalize(local_tangent.xyz - z * dot(z, local_tangent.xyz));
-    return mat3(x, local_tangent.w * cross(z, x), z);
+    return mat3(x, local_tangent.w * cross(z, x), side * z);
 }
 
 // World direction towards the eye; in perspective as long as it is far.
@@ -40,6 +42,7 @@ vec4 tile_hit(vec2 place, vec3 where) {
 #ifndef WRAP
     wrapped = clamp(place, vec2(-0.5), samples - 0.5);
 #endif
-    return vec4(wrapped, height_at(place), dot(where, view_forward.xyz));
+    float height = 0.5 + side * (height_at(place) - 0.5);
+    return vec4(wrapped, height, dot(where, view_forward.xyz));
 }
 #endif

@@ -13,6 +13,7 @@
 #include "engine/core/worker_pool.h"
 #include "terrains/detail_cells.h"
 #include "terrains/noise.h"
+#include "terrains/sheet_tiles.h"
 
 namespace reljef::terrains {
 namespace {
@@ -148,6 +149,68 @@ Stuff rock_face(glm::vec2 place, std::uint32_t seed) {
     return {height, grown * (0.75F + 0.35F * height + 0.35F * grain)};
 }
 
+// Round wires, crossing; a height of 1 is as thick as they are.
+Stuff wire_fence(glm::vec2 place, std::uint32_t seed) {
+    constexpr int wires = 3;
+    constexpr float radius = 0.13F; // of the way from wire to wire
+    float height = 0.0F;
+    for (const float along : {place.x + place.y, place.x - place.y}) {
+        const float off = std::abs(glm::fract(along * wires) - 0.5F) / radius;
+        height = std::max(height, std::sqrt(std::max(1.0F - off * off, 0.0F)));
+    }
+    const float rough = noise(seed, place, 24, 5);
+    const float rust = glm::smoothstep(0.05F, 0.45F, noise(seed + 1, place, 5, 5));
+    const glm::vec3 zinc = glm::vec3(0.40F, 0.42F, 0.44F) * (1.0F + 0.3F * rough);
+    const glm::vec3 brown = glm::vec3(0.30F, 0.14F, 0.06F) * (1.0F + 0.5F * rough);
+    return {height, glm::mix(zinc, brown, 0.75F * rust)};
+}
+
+// Copper, dented by a hammer, dent beside dent.
+Stuff hammered_copper(glm::vec2 place, std::uint32_t seed) {
+    constexpr int dents = 9;
+    const VoronoiCell cell = voronoi(seed, place * static_cast<float>(dents), dents, 0.75F);
+    const float random = unit_hash(seed + 1, cell.id.x, cell.id.y);
+    const float off = glm::length(cell.from_seed);
+    const float ridge = glm::smoothstep(0.16F, 0.0F, cell.to_edge);
+    const float grain = noise(seed + 2, place, 64, 4);
+    const float dish = 0.9F * std::min(off * off, 0.6F) + 0.10F * ridge;
+    const float stain = glm::smoothstep(0.10F, 0.55F, noise(seed + 3, place, 6, 5));
+    const glm::vec3 copper = glm::vec3(0.58F, 0.27F, 0.16F) * (0.9F + 0.2F * random + 0.1F * grain);
+    const glm::vec3 green = glm::vec3(0.20F, 0.36F, 0.28F) * (1.0F + 0.3F * grain);
+    return {dish + 0.12F * random + 0.006F * grain, glm::mix(copper, green, 0.55F * stain)};
+}
+
+// What the rings of layers are made of; they are put in their place by themselves.
+Stuff brass(glm::vec2 place, std::uint32_t seed) {
+    const float rough = noise(seed, place, 48, 4);
+    const float dull = glm::smoothstep(0.0F, 0.5F, noise(seed + 1, place, 6, 4));
+    return {0.0F, glm::mix(glm::vec3(0.56F, 0.40F, 0.15F), glm::vec3(0.34F, 0.25F, 0.13F), dull) *
+                      (1.0F + 0.18F * rough)};
+}
+
+constexpr int ring_rows = 3;
+
+void hang_rings(terrain::TextureSet& set) {
+    set.layers = ring_layers(ring_rows, set.heights.cols());
+    set.heights = terrain::top_heights(*set.layers);
+}
+
+// Ribs behind the dents.
+void add_ribs(terrain::TextureSet& set) {
+    constexpr float ribs = 12.0F;
+    const float turn = 2.0F * std::acos(-1.0F);
+    set.back_heights = Grid<float>(set.heights.cols(), set.heights.rows());
+    for (int row = 0; row < set.back_heights.rows(); ++row) {
+        const float place =
+            (static_cast<float>(row) + 0.5F) / static_cast<float>(set.heights.rows());
+        const float rib = 0.5F + 0.5F * std::sin(turn * ribs * place);
+        std::fill(set.back_heights.row(row).begin(), set.back_heights.row(row).end(),
+                  0.3F + 0.7F * rib);
+    }
+}
+
+void add_nothing(terrain::TextureSet& /*set*/) {}
+
 void spread_over_unit(Grid<float>& heights) {
     const auto [low, high] =
         std::minmax_element(heights.samples().begin(), heights.samples().end());
@@ -218,12 +281,21 @@ struct Kind {
     float scale;
     float specular;
     float shininess;
+    void (*add_sides)(terrain::TextureSet& set) = &add_nothing; // beside its heights
 };
 
-constexpr std::array<Kind, 3> kinds{{{"brick", &brick_wall, 0.05F, 0.04F, 12.0F},
+constexpr std::array<Kind, 6> kinds{{{"brick", &brick_wall, 0.05F, 0.04F, 12.0F},
                                      {"rock", &rock_face, 0.10F, 0.06F, 16.0F},
-                                     {"cobble", &cobbles, 0.08F, 0.16F, 40.0F}}};
-constexpr std::array<std::string_view, 3> names{kinds[0].name, kinds[1].name, kinds[2].name};
+                                     {"cobble", &cobbles, 0.08F, 0.16F, 40.0F},
+                                     {"fence", &wire_fence, 0.0613F, 0.35F, 40.0F},
+                                     {"rings", &brass, 0.0F, 0.45F, 50.0F, &hang_rings},
+                                     {"copper", &hammered_copper, 0.06F, 0.40F, 36.0F, &add_ribs}}};
+constexpr auto names = [] {
+    std::array<std::string_view, kinds.size()> list;
+    std::transform(kinds.begin(), kinds.end(), list.begin(),
+                   [](const Kind& kind) { return kind.name; });
+    return list;
+}();
 
 } // namespace
 
@@ -244,9 +316,10 @@ Result<terrain::TextureSet> generate_detail(std::string_view name, const DetailO
     }
     terrain::TextureSet set = made(kind->make, options);
     set.name = std::string(name);
-    set.scale = kind->scale;
+    set.scale = kind->scale > 0.0F ? kind->scale : ring_scale(ring_rows);
     set.specular = kind->specular;
     set.shininess = kind->shininess;
+    kind->add_sides(set);
     return terrain::completed(std::move(set), terrain::TileBorder::wrap);
 }
 

@@ -12,7 +12,7 @@
 
 namespace reljef::terrains {
 
-enum class GalleryShape { plane, box, sphere, torus, cylinder };
+enum class GalleryShape { plane, box, sphere, torus, cylinder, sheet, bowl };
 
 /// What stands in the gallery, and where.
 struct GalleryModel {
@@ -21,9 +21,11 @@ struct GalleryModel {
     std::string_view textures; ///< of detail_names()
     glm::dvec3 center;         ///< metres
     double heading;            ///< degrees that it is turned clockwise, seen from above
-    glm::vec3 size; ///< metres: plane width, height; box sides; sphere radius; torus ring and tube
-                    ///< radius; cylinder radius, height
-    glm::vec2 repeats; ///< tiles along texture coordinates 0 … 1
+    glm::vec3 size; ///< metres: plane and sheet width, height; box sides; sphere and bowl radius;
+                    ///< torus ring and tube radius; cylinder radius, height
+    glm::vec2 repeats;          ///< tiles along texture coordinates 0 … 1
+    std::string_view technique; ///< that shows what it is
+    float offset = -1.0F;       ///< of the heights against the shape, as of a TextureDetail
 };
 
 std::span<const GalleryModel> gallery_models();

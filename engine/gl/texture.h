@@ -14,15 +14,16 @@ namespace reljef::gl {
 
 /// Of a texel, in the driver's memory and in every upload.
 enum class Format {
-    rgba8_srgb, ///< 4 bytes; r, g, b are decoded to linear when sampled, encoded when drawn to
-    rgba8,      ///< 4 bytes, [0,1]
-    r8,         ///< 1 byte, [0,1]
-    r32f,       ///< 1 float
-    rg16f,      ///< 2 half floats (glm::packHalf)
-    rg32f,      ///< 2 floats
-    rg16_snorm, ///< 2 int16, -32767..32767 for [-1,1]
-    rgba32f,    ///< 4 floats
-    depth32f    ///< 1 float, [0,1]
+    rgba8_srgb,   ///< 4 bytes; r, g, b are decoded to linear when sampled, encoded when drawn to
+    rgba8,        ///< 4 bytes, [0,1]
+    r8,           ///< 1 byte, [0,1]
+    r32f,         ///< 1 float
+    rg16f,        ///< 2 half floats (glm::packHalf)
+    rg32f,        ///< 2 floats
+    rg16_snorm,   ///< 2 int16, -32767..32767 for [-1,1]
+    rgba16_snorm, ///< 4 int16, -32767..32767 for [-1,1]
+    rgba32f,      ///< 4 floats
+    depth32f      ///< 1 float, [0,1]
 };
 
 /// "rgba8_srgb", …

@@ -20,6 +20,8 @@ FormatTraits traits(Format format) {
         return {"rg32f", GL_RG32F, GL_RG, GL_FLOAT, 8};
     case Format::rg16_snorm:
         return {"rg16_snorm", GL_RG16_SNORM, GL_RG, GL_SHORT, 4};
+    case Format::rgba16_snorm:
+        return {"rgba16_snorm", GL_RGBA16_SNORM, GL_RGBA, GL_SHORT, 8};
     case Format::rgba32f:
         return {"rgba32f", GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
     case Format::depth32f:

@@ -29,7 +29,7 @@ OIIO::ImageSpec spec_of(const HitBuffer& hits) {
     return spec;
 }
 
-Result<HitBuffer> read_channels(OIIO::ImageInput& input, const fs::path& path) {
+Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& path) {
     const OIIO::ImageSpec& spec = input.spec();
     if (auto size = check_image_size(path, spec); !size) {
         return size.error();
@@ -102,7 +102,7 @@ Result<HitBuffer> read_hits(const fs::path& path) {
             return Error{fmt::format("{}: cannot be read ({}), an OpenEXR file was expected",
                                      path.string(), OIIO::geterror())};
         }
-        return read_channels(*input, path);
+        return read_hit_channels(*input, path);
     } catch (const std::exception& problem) {
         return Error{fmt::format("{}: cannot be read ({}), an OpenEXR file was expected",
                                  path.string(), problem.what())};

@@ -42,7 +42,7 @@ struct SceneDescription {
     // [gallery]: its generator only
     /// A built-in set, "mixed", or a folder of pictures, relative to the scene file.
     std::string gallery_textures = "mixed";
-    std::string gallery_technique = "relief"; ///< as --technique has it
+    std::string gallery_technique = "mixed"; ///< as --technique has it, or "mixed"
 
     // [sun]: degrees
     double sun_azimuth = 300.0; ///< [-360, 360], clockwise from north, where the light comes from

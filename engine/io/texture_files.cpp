@@ -3,83 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <exception>
 #include <span>
 #include <vector>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/io/channels.h"
 #include "engine/io/image.h"
-#include "engine/io/image_limits.h"
 
 namespace reljef::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A picture's channels as numbers, in [0,1] of what its type can hold.
-struct Channels {
-    int cols = 0;
-    int rows = 0;
-    int count = 0; // channels
-    int bits = 0;  // of a channel
-    std::vector<float> values;
-
-    [[nodiscard]] float at(int col, int row, int channel) const {
-        return values[(static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) +
-                       static_cast<std::size_t>(col)) *
-                          static_cast<std::size_t>(count) +
-                      static_cast<std::size_t>(channel)];
-    }
-};
-
-Result<Channels> read_open_channels(OIIO::ImageInput& input, const fs::path& path) {
-    const OIIO::ImageSpec& spec = input.spec();
-    if (auto size = check_image_size(path, spec); !size) {
-        return size.error();
-    }
-    Channels channels{
-        spec.width, spec.height, spec.nchannels, static_cast<int>(8 * spec.format.basesize()), {}};
-    channels.values.resize(static_cast<std::size_t>(spec.width) *
-                           static_cast<std::size_t>(spec.height) *
-                           static_cast<std::size_t>(spec.nchannels));
-    if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data())) {
-        return Error{fmt::format("{}: cannot be read ({}), a whole picture was expected",
-                                 path.string(), input.geterror())};
-    }
-    return channels;
-}
-
-Result<Channels> read_channels(const fs::path& path) {
-    if (auto file = check_image_file(path); !file) {
-        return file.error();
-    }
-    try {
-        OIIO::ImageSpec wanted;
-        wanted.attribute("oiio:UnassociatedAlpha", 1);
-        const auto input = OIIO::ImageInput::open(path.string(), &wanted);
-        if (input == nullptr) {
-            return Error{fmt::format("{}: cannot be read ({}), a picture was expected",
-                                     path.string(), OIIO::geterror())};
-        }
-        return read_open_channels(*input, path);
-    } catch (const std::exception& problem) {
-        return Error{fmt::format("{}: cannot be read ({}), a picture was expected", path.string(),
-                                 problem.what())};
-    }
-}
-
-Grid<float> channel_of(const Channels& channels, int channel) {
-    Grid<float> grid(channels.cols, channels.rows);
-    for (int row = 0; row < grid.rows(); ++row) {
-        for (int col = 0; col < grid.cols(); ++col) {
-            grid(col, row) = channels.at(col, row, channel);
-        }
-    }
-    return grid;
-}
 
 void take_heights(const Channels& channels, int channel, const TextureOptions& options,
                   terrain::TextureSet& set) {
@@ -159,6 +95,72 @@ Result<void> read_heights_and_normals(const TextureFiles& files, const TextureOp
     return {};
 }
 
+Result<void> read_layers(const fs::path& path, terrain::TextureSet& set) {
+    const auto channels = read_channels(path);
+    if (!channels) {
+        return channels.error();
+    }
+    if (channels->count != 4) {
+        return Error{fmt::format("{}: {} channels found, 4 were expected: the depths of the layers",
+                                 path.string(), channels->count)};
+    }
+    Grid<glm::vec4> heights(channels->cols, channels->rows);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            for (int layer = 0; layer < 4; ++layer) {
+                heights(col, row)[layer] = 1.0F - channels->at(col, row, layer);
+            }
+        }
+    }
+    auto layers = terrain::LayerMap::create(std::move(heights));
+    if (!layers) {
+        return Error{fmt::format("{}: {} (a height is 1 less its depth)", path.string(),
+                                 layers.error().message)};
+    }
+    set.layers = std::move(*layers);
+    return {};
+}
+
+Result<void> punch_holes(const fs::path& path, terrain::TextureSet& set) {
+    const auto mask = read_channels(path);
+    if (!mask) {
+        return mask.error();
+    }
+    if (mask->cols != set.heights.cols() || mask->rows != set.heights.rows()) {
+        return Error{fmt::format("{}: {} x {} texels found, {} x {} were expected, as many as of "
+                                 "the heights",
+                                 path.string(), mask->cols, mask->rows, set.heights.cols(),
+                                 set.heights.rows())};
+    }
+    for (int row = 0; row < mask->rows; ++row) {
+        for (int col = 0; col < mask->cols; ++col) {
+            set.heights(col, row) *= mask->at(col, row, 0) < 0.5F ? 0.0F : 1.0F;
+        }
+    }
+    return {};
+}
+
+// What sheets and layers have besides.
+Result<void> read_sides(const TextureFiles& files, terrain::TextureSet& set) {
+    if (!files.layers.empty()) {
+        if (auto read = read_layers(files.layers, set); !read) {
+            return read;
+        }
+        if (set.heights.empty()) {
+            set.heights = terrain::top_heights(*set.layers);
+        }
+    }
+    if (!files.back_heights.empty()) {
+        const auto back = read_channels(files.back_heights);
+        if (!back) {
+            return back.error();
+        }
+        set.back_heights = channel_of(*back, 0);
+    }
+    return files.mask.empty() || set.heights.empty() ? Result<void>()
+                                                     : punch_holes(files.mask, set);
+}
+
 std::string lower_stem(const fs::path& file) {
     std::string stem = file.stem().string();
     std::transform(stem.begin(), stem.end(), stem.begin(),
@@ -172,11 +174,20 @@ bool names_any(const std::string& stem, std::span<const std::string_view> words)
 }
 
 void sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::path>& others) {
+    constexpr std::array<std::string_view, 1> layer_words{"layers"};
+    constexpr std::array<std::string_view, 3> mask_words{"mask", "alpha", "opacity"};
+    constexpr std::array<std::string_view, 1> back_words{"back"};
     constexpr std::array<std::string_view, 1> normal_words{"norm"};
     constexpr std::array<std::string_view, 2> height_words{"height", "disp"};
     constexpr std::array<std::string_view, 4> color_words{"col", "clr", "diff", "albedo"};
     const std::string stem = lower_stem(file);
-    if (names_any(stem, normal_words)) {
+    if (names_any(stem, layer_words)) {
+        files.layers = file;
+    } else if (names_any(stem, mask_words)) {
+        files.mask = file;
+    } else if (names_any(stem, back_words)) {
+        files.back_heights = file;
+    } else if (names_any(stem, normal_words)) {
         files.normals = file;
     } else if (names_any(stem, height_words)) {
         files.heights = file;
@@ -224,7 +235,8 @@ Result<TextureFiles> find_texture_files(const fs::path& folder) {
     if (files.color.empty() && others.size() == 1) {
         files.color = others.front();
     }
-    const bool has_heights = !files.heights.empty() || !files.normals.empty();
+    const bool has_heights =
+        !files.heights.empty() || !files.normals.empty() || !files.layers.empty();
     if (files.color.empty() || !has_heights) {
         return Error{fmt::format("{}: {} found among {} pictures, files of colours and of heights "
                                  "were expected, named so",
@@ -245,6 +257,9 @@ Result<terrain::TextureSet> read_texture_set(const TextureFiles& files,
     }
     set.color = std::move(*color);
     if (auto read = read_heights_and_normals(files, options, set); !read) {
+        return read.error();
+    }
+    if (auto read = read_sides(files, set); !read) {
         return read.error();
     }
     return terrain::completed(std::move(set), options.border);

@@ -12,6 +12,13 @@ struct TextureFiles {
     std::filesystem::path color;
     std::filesystem::path heights; ///< first channel; empty: the alpha channel of `normals`
     std::filesystem::path normals; ///< r, g, b for x, y, z; empty: made from the heights
+    /// r, g, b, a: how deep below the highest the four layers lie, each no less than the one
+    /// before; empty: none.
+    std::filesystem::path layers = {};
+    std::filesystem::path back_heights =
+        {};                          ///< off the back of a sheet, first channel; empty: none
+    std::filesystem::path mask = {}; ///< first channel; where it is below a half there is a hole:
+                                     ///< height 0; empty: none
 };
 
 struct TextureOptions {
@@ -20,14 +27,15 @@ struct TextureOptions {
     terrain::TileBorder border = terrain::TileBorder::wrap;
 };
 
-/// The files in a folder by what their names say: normal, height, disp(lacement); col(our), clr,
-/// diff(use), albedo, or, beside another map, the one that is left. Fails where no colour or no
-/// heights are found.
+/// The files in a folder by what their names say: layers; mask, alpha, opacity; back; normal,
+/// height, disp(lacement); col(our), clr, diff(use), albedo, or, beside another map, the one that
+/// is left. Fails where no colour or no heights are found.
 Result<TextureFiles> find_texture_files(const std::filesystem::path& folder);
 
 /// Heights in [0,1] of the values the file can hold; those of 8 bits get a note that tells their
 /// quantum in metres. Normals whose green points against the rows are turned, when the heights say
-/// so. Fails as terrain::completed, and where a file cannot be read or lacks a channel.
+/// so. Layers without heights are seen from above. Fails as terrain::completed and
+/// terrain::LayerMap::create, and where a file cannot be read or lacks a channel.
 Result<terrain::TextureSet> read_texture_set(const TextureFiles& files,
                                              const TextureOptions& options = {});
 

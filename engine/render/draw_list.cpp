@@ -77,7 +77,10 @@ private:
     void add_mesh(const scene::MeshNode& mesh, const glm::dmat4& world_from_local,
                   const Box& local_bounds) {
         if (frustum_.may_see(transformed(world_from_local, local_bounds))) {
-            list_.meshes.push_back({&mesh, world_from_local});
+            if (scene::is_seen_from_behind(mesh.material)) {
+                list_.meshes.push_back({&mesh, world_from_local, true});
+            }
+            list_.meshes.push_back({&mesh, world_from_local, false});
         } else {
             ++list_.stats.skipped.nodes_outside_frustum;
             list_.stats.skipped.triangles_outside_frustum += mesh.mesh->indices.size() / 3;

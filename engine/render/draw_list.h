@@ -56,6 +56,7 @@ struct StreamedDraw {
 struct MeshDraw {
     const scene::MeshNode* mesh = nullptr;
     glm::dmat4 world_from_local{1.0};
+    bool from_behind = false; ///< its inner side
 };
 
 /// What to draw this frame: pure data, decided on the CPU. Valid as long as the scene is unchanged.

@@ -150,8 +150,10 @@ public:
                 }
                 in_use = variant;
             }
+            set_side(draw.from_behind);
             draw_mesh(draw);
         }
+        set_side(false);
         return {};
     }
 
@@ -188,6 +190,15 @@ public:
     }
 
 private:
+    // Which side of what is drawn is left out.
+    void set_side(bool from_behind) {
+        if (from_behind != from_behind_) {
+            gl::set_culling(from_behind ? gl::Culling::front : gl::Culling::back);
+            from_behind_ = from_behind;
+            ++stats_.state_changes;
+        }
+    }
+
     Result<void> use(ShaderVariant variant) {
         auto program = shaders_.program(variant);
         if (!program) {
@@ -379,7 +390,7 @@ private:
         program_->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
         program_->set_uniform("albedo", draw.mesh->material.color);
         if (draw.mesh->material.detail.set != nullptr) {
-            set_tile(*program_, draw, residency_.meshes().tile(draw), list_.camera);
+            set_tile(*program_, draw, residency_.meshes(), list_.camera);
             ++stats_.state_changes;
         }
         draw_resident(residency_.meshes().mesh(draw), gl::IndexType::uint32);
@@ -405,6 +416,7 @@ private:
     const scene::TerrainNode* tiles_of_ = nullptr;
     bool tiles_warped_ = false;
     bool wireframe_ = false;
+    bool from_behind_ = false;
 };
 
 glm::vec4 channels_of(const Hit& hit) {

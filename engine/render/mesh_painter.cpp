@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/render/relief_options.h"
+#include "engine/scene/texture_plane.h"
 
 namespace reljef::render {
 namespace {
@@ -19,6 +20,8 @@ std::uint32_t look_features(scene::TechniqueId id) {
     case scene::TechniqueId::normal:
     case scene::TechniqueId::displacement:
         return feature_normal_map;
+    case scene::TechniqueId::prewarp:
+        return feature_normal_map | feature_warped;
     default:
         return 0U;
     }
@@ -34,12 +37,47 @@ float lift_of(const MeshDraw& draw) {
     return std::max(static_cast<float>(lift), std::numeric_limits<float>::min());
 }
 
+// Of the heights in [0,1] as they are seen: where the mesh lies.
+float mesh_height(const MeshDraw& draw) {
+    const float offset = draw.mesh->material.detail.offset;
+    return draw.from_behind ? 1.0F + offset : -offset;
+}
+
 // The mesh is the reference plane of parallax.
-scene::Technique on_mesh(scene::Technique technique, const scene::TextureDetail& detail) {
+scene::Technique on_mesh(const MeshDraw& draw) {
+    scene::Technique technique = draw.mesh->material.technique;
     if (is_parallax(technique.id)) {
-        technique.values.front() = static_cast<double>(detail.offset);
+        technique.values.front() = -static_cast<double>(mesh_height(draw));
     }
     return technique;
+}
+
+void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSurface& surface) {
+    tile.color.bind(0);
+    surface.heights.bind(1);
+    if (surface.greatest) {
+        surface.greatest->bind(2);
+        program.set_uniform("top_level", surface.greatest->levels() - 1);
+    }
+    tile.normals.bind(4);
+    if (surface.normals) {
+        surface.normals->along_u.bind(4);
+        surface.normals->along_v.bind(5);
+    }
+    if (surface.cones) {
+        surface.cones->bind(6);
+    }
+    program.set_uniform("height_texel", 1.0F / glm::vec2(surface.heights.size()));
+    program.set_uniform("last_cell", surface.cells - 1);
+}
+
+// From the tile's coordinates over the mesh to the warp's own, which go from 0 to 1 over it.
+void bind_warp(gl::Program& program, const MeshDraw& draw, const gl::Texture2D& warp) {
+    warp.bind(6);
+    const auto plane = scene::texture_plane(*draw.mesh->mesh);
+    const glm::dvec2 size = plane->high - plane->low;
+    const glm::dvec2 per_tile = 1.0 / (size * glm::dvec2(draw.mesh->material.detail.repeats));
+    program.set_uniform("warp_from_tile", glm::vec4(per_tile, -plane->low / size));
 }
 
 } // namespace
@@ -57,29 +95,25 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
                                features | look_features(material.technique.id)};
 }
 
-void set_tile(gl::Program& program, const MeshDraw& draw, const ResidentTile& tile,
+void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& residency,
               const scene::Camera& camera) {
     const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
-    tile.color.bind(0);
-    tile.heights.bind(1);
-    if (tile.greatest) {
-        tile.greatest->bind(2);
-        program.set_uniform("top_level", tile.greatest->levels() - 1);
+    bind_tile(program, residency.tile(draw), residency.surface(draw));
+    if (const gl::Texture2D* const warp = residency.warp(draw)) {
+        bind_warp(program, draw, *warp);
     }
-    tile.normals.bind(4);
     const bool is_perspective = camera.projection == scene::ProjectionKind::perspective;
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
     program.set_uniform("local_from_relative", glm::mat3(local_from_world));
     program.set_uniform("perspective", is_perspective ? 1.0F : 0.0F);
     program.set_uniform("repeats", detail.repeats);
     program.set_uniform("lift", lift_of(draw));
-    program.set_uniform("mesh_height", -detail.offset);
+    program.set_uniform("mesh_height", mesh_height(draw));
+    program.set_uniform("side", draw.from_behind ? -1.0F : 1.0F);
     program.set_uniform("bounded", detail.border == terrain::TileBorder::discard ? 1.0F : 0.0F);
-    program.set_uniform("height_texel", 1.0F / glm::vec2(tile.heights.size()));
-    program.set_uniform("last_cell", tile.cells - 1);
     program.set_uniform("normal_scale", detail.set->scale);
     program.set_uniform("shine", glm::vec2(detail.set->specular, detail.set->shininess));
-    set_relief_options(program, on_mesh(draw.mesh->material.technique, detail), -detail.offset);
+    set_relief_options(program, on_mesh(draw), static_cast<double>(mesh_height(draw)));
 }
 
 } // namespace reljef::render

@@ -15,7 +15,7 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
 
 /// What the programs of meshes with a tile ask for, beside the transform. Precondition: the
 /// material has a tile.
-void set_tile(gl::Program& program, const MeshDraw& draw, const ResidentTile& tile,
+void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& residency,
               const scene::Camera& camera);
 
 } // namespace reljef::render

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
-#include "engine/render/relief_maps.h"
+#include "engine/render/mesh_warp.h"
+#include "engine/render/prewarp.h"
 #include "engine/render/uploads.h"
 #include "engine/scene/tangent_frames.h"
 
@@ -90,56 +92,23 @@ Result<ResidentMesh> filled(const std::vector<Vertex>& vertices,
     return mesh;
 }
 
-// x and y of the normals, as rg16_snorm has them.
-std::vector<glm::i16vec2> packed_normals(const Grid<glm::vec3>& normals) {
-    std::vector<glm::i16vec2> packed;
-    packed.reserve(normals.size());
-    for (const glm::vec3& normal : normals.samples()) {
-        packed.emplace_back(glm::round(glm::vec2(normal) * 32767.0F));
+std::optional<terrain::LayerKind> layers_for(scene::TechniqueId id) {
+    switch (id) {
+    case scene::TechniqueId::lattice:
+        return terrain::LayerKind::symmetric;
+    case scene::TechniqueId::dual_layer:
+        return terrain::LayerKind::dual;
+    case scene::TechniqueId::multi_layer:
+        return terrain::LayerKind::multi;
+    default:
+        return std::nullopt;
     }
-    return packed;
-}
-
-// The heights with those that lie between the tile and its next copies; at least one cell.
-Grid<float> with_next_copies(const Grid<float>& heights, bool wraps) {
-    const int more = wraps ? 1 : 0;
-    Grid<float> all(std::max(heights.cols() + more, 2), std::max(heights.rows() + more, 2));
-    for (int row = 0; row < all.rows(); ++row) {
-        for (int col = 0; col < all.cols(); ++col) {
-            all(col, row) = wraps ? heights(col % heights.cols(), row % heights.rows())
-                                  : heights.clamped(col, row);
-        }
-    }
-    return all;
-}
-
-Result<ResidentTile> uploaded(const terrain::TextureSet& set, bool wraps, FrameStats& stats) {
-    const gl::Wrap wrap = wraps ? gl::Wrap::repeat : gl::Wrap::clamp;
-    auto color = mipmapped({set.color.cols(), set.color.rows()}, gl::Format::rgba8_srgb,
-                           std::as_bytes(set.color.samples()), stats, wrap);
-    if (!color) {
-        return color.error();
-    }
-    auto normals = mipmapped({set.normals.cols(), set.normals.rows()}, gl::Format::rg16_snorm,
-                             bytes_of(packed_normals(set.normals)), stats, wrap);
-    if (!normals) {
-        return normals.error();
-    }
-    auto heights = tile_height_texture(set.heights, wrap, stats);
-    if (!heights) {
-        return heights.error();
-    }
-    const Grid<float> all = with_next_copies(set.heights, wraps);
-    return ResidentTile{std::move(*color),
-                        std::move(*heights),
-                        std::move(*normals),
-                        std::nullopt,
-                        {all.cols() - 1, all.rows() - 1}};
 }
 
 } // namespace
 
-Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, FrameStats& stats) {
+Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, const scene::Camera& camera,
+                                    FrameStats& stats) {
     forget_unused(draws);
     for (const MeshDraw& draw : draws) {
         const scene::Mesh& mesh = *draw.mesh->mesh;
@@ -153,17 +122,21 @@ Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, FrameSta
         if (done && has_tile(draw)) {
             done = prepare_tile(draw, stats);
         }
+        if (done && has_tile(draw)) {
+            done = prepare_surface(draw, stats);
+        }
         if (!done) {
             return done;
         }
     }
-    return {};
+    return prepare_warps(draws, camera, stats);
 }
 
 void MeshResidency::forget_unused(const std::vector<MeshDraw>& draws) {
     const auto is_gone = [](const auto& entry) { return entry.second.owner.expired(); };
     std::erase_if(triangles_, is_gone);
     std::erase_if(tiles_, is_gone);
+    std::erase_if(surfaces_, is_gone);
     for (Displaced& entry : displaced_) {
         entry.drawn = std::any_of(draws.begin(), draws.end(), [&](const MeshDraw& draw) {
             return is_displaced(draw) && displaced(draw) == &entry;
@@ -209,31 +182,73 @@ Result<void> MeshResidency::prepare_displaced(const MeshDraw& draw, FrameStats& 
     return {};
 }
 
-MeshResidency::TileKey MeshResidency::key_of(const scene::TextureDetail& detail) {
+MeshResidency::TileKey MeshResidency::tile_key(const MeshDraw& draw) {
+    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
     return {detail.set.get(), detail.border == terrain::TileBorder::wrap};
 }
 
+MeshResidency::SurfaceKey MeshResidency::surface_key(const MeshDraw& draw) {
+    const auto [set, wraps] = tile_key(draw);
+    return {set, {layers_for(draw.mesh->material.technique.id), wraps, draw.from_behind}};
+}
+
 Result<void> MeshResidency::prepare_tile(const MeshDraw& draw, FrameStats& stats) {
-    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
-    const auto key = key_of(detail);
-    auto found = tiles_.find(key);
-    if (found == tiles_.end()) {
-        auto tile = uploaded(*detail.set, key.second, stats);
-        if (!tile) {
-            return tile.error();
-        }
-        found = tiles_.emplace(key, Tile{detail.set, std::move(*tile)}).first;
-    } else {
+    const TileKey key = tile_key(draw);
+    if (tiles_.contains(key)) {
         ++stats.skipped.uploads_unchanged;
+        return {};
     }
-    std::optional<gl::Texture2D>& greatest = found->second.resident.greatest;
-    if (draw.mesh->material.technique.id == scene::TechniqueId::exact && !greatest) {
-        const Grid<float> heights = with_next_copies(detail.set->heights, key.second);
-        auto texture = pyramid_texture(greatest_heights(heights.view()), stats);
+    auto tile = resident_tile(*key.first, key.second, stats);
+    if (!tile) {
+        return tile.error();
+    }
+    tiles_.emplace(key, Tile{draw.mesh->material.detail.set, std::move(*tile)});
+    return {};
+}
+
+Result<void> MeshResidency::prepare_surface(const MeshDraw& draw, FrameStats& stats) {
+    const SurfaceKey key = surface_key(draw);
+    const scene::TechniqueId technique = draw.mesh->material.technique.id;
+    auto found = surfaces_.find(key);
+    if (found == surfaces_.end()) {
+        auto surface = resident_surface(*key.first, key.second, stats);
+        if (!surface) {
+            return surface.error();
+        }
+        found = surfaces_.emplace(key, Surface{draw.mesh->material.detail.set, std::move(*surface)})
+                    .first;
+    }
+    ResidentSurface& surface = found->second.resident;
+    if (technique == scene::TechniqueId::exact && !surface.greatest) {
+        return keep(greatest_texture(*key.first, key.second, stats), surface.greatest);
+    }
+    if (technique == scene::TechniqueId::cone && !surface.cones) {
+        return keep(tile_cone_texture(*key.first, key.second, stats), surface.cones);
+    }
+    return {};
+}
+
+Result<void> MeshResidency::prepare_warps(const std::vector<MeshDraw>& draws,
+                                          const scene::Camera& camera, FrameStats& stats) {
+    std::map<const scene::MeshNode*, gl::Texture2D> before = std::exchange(warps_, {});
+    for (const MeshDraw& draw : draws) {
+        const scene::Material& material = draw.mesh->material;
+        if (!has_tile(draw) || material.technique.id != scene::TechniqueId::prewarp) {
+            continue;
+        }
+        const auto plane = scene::texture_plane(*draw.mesh->mesh);
+        check(plane.has_value(), "a warp of a mesh that is not flat");
+        const scene::TextureDetail detail = scene::shown_detail(material);
+        const Grid<glm::vec4> shown =
+            warped_tile(*plane, detail, scene::relief_height(*draw.mesh->mesh, detail),
+                        warp_eye(camera, draw.world_from_local));
+        auto texture = place_texture({shown.cols(), shown.rows()}, before[draw.mesh]);
         if (!texture) {
             return texture.error();
         }
-        greatest = std::move(*texture);
+        texture->upload(0, shown);
+        count_upload(stats, texture->bytes());
+        warps_.emplace(draw.mesh, std::move(*texture));
     }
     return {};
 }
@@ -260,7 +275,16 @@ const ResidentMesh& MeshResidency::mesh(const MeshDraw& draw) const {
 }
 
 const ResidentTile& MeshResidency::tile(const MeshDraw& draw) const {
-    return tiles_.at(key_of(scene::shown_detail(draw.mesh->material))).resident;
+    return tiles_.at(tile_key(draw)).resident;
+}
+
+const gl::Texture2D* MeshResidency::warp(const MeshDraw& draw) const {
+    const auto found = warps_.find(draw.mesh);
+    return found == warps_.end() ? nullptr : &found->second;
+}
+
+const ResidentSurface& MeshResidency::surface(const MeshDraw& draw) const {
+    return surfaces_.at(surface_key(draw)).resident;
 }
 
 } // namespace reljef::render

@@ -13,18 +13,9 @@
 #include "engine/render/draw_list.h"
 #include "engine/render/frame_stats.h"
 #include "engine/render/resident_mesh.h"
+#include "engine/render/resident_tile.h"
 
 namespace reljef::render {
-
-/// A tile of detail. `greatest` is there for the exact technique: of the cells between the heights,
-/// and, where the tile wraps, of those between the last and the first.
-struct ResidentTile {
-    gl::Texture2D color;
-    gl::Texture2D heights;
-    gl::Texture2D normals;
-    std::optional<gl::Texture2D> greatest;
-    glm::ivec2 cells{1}; ///< that a ray crosses
-};
 
 /// What of the meshes is in the driver's memory: triangles, tiles of detail, displaced triangles.
 /// Only what is drawn gets there, and stays while the scene holds it; displaced triangles while
@@ -32,11 +23,15 @@ struct ResidentTile {
 class MeshResidency {
 public:
     /// Fails when the driver has no memory left.
-    Result<void> prepare(const std::vector<MeshDraw>& draws, FrameStats& stats);
+    Result<void> prepare(const std::vector<MeshDraw>& draws, const scene::Camera& camera,
+                         FrameStats& stats);
 
     /// Precondition: prepared.
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
     [[nodiscard]] const ResidentTile& tile(const MeshDraw& draw) const;
+    [[nodiscard]] const ResidentSurface& surface(const MeshDraw& draw) const;
+    /// What prewarp shows on the mesh: warped_tile; null for other techniques.
+    [[nodiscard]] const gl::Texture2D* warp(const MeshDraw& draw) const;
 
 private:
     enum class Look { plain, textured }; // which attributes its vertices have
@@ -55,18 +50,29 @@ private:
         std::weak_ptr<const terrain::TextureSet> owner;
         ResidentTile resident;
     };
+    struct Surface {
+        std::weak_ptr<const terrain::TextureSet> owner;
+        ResidentSurface resident;
+    };
     using TileKey = std::pair<const terrain::TextureSet*, bool>; // whether it wraps
+    using SurfaceKey = std::pair<const terrain::TextureSet*, TileSide>;
 
-    static TileKey key_of(const scene::TextureDetail& detail);
+    static TileKey tile_key(const MeshDraw& draw);
+    static SurfaceKey surface_key(const MeshDraw& draw);
     [[nodiscard]] const Displaced* displaced(const MeshDraw& draw) const;
     void forget_unused(const std::vector<MeshDraw>& draws);
     Result<void> prepare_triangles(const MeshDraw& draw, FrameStats& stats);
     Result<void> prepare_displaced(const MeshDraw& draw, FrameStats& stats);
     Result<void> prepare_tile(const MeshDraw& draw, FrameStats& stats);
+    Result<void> prepare_surface(const MeshDraw& draw, FrameStats& stats);
+    Result<void> prepare_warps(const std::vector<MeshDraw>& draws, const scene::Camera& camera,
+                               FrameStats& stats);
 
     std::map<std::pair<const scene::Mesh*, Look>, Triangles> triangles_;
     std::vector<Displaced> displaced_;
     std::map<TileKey, Tile> tiles_;
+    std::map<SurfaceKey, Surface> surfaces_;
+    std::map<const scene::MeshNode*, gl::Texture2D> warps_; // of the last frame
 };
 
 } // namespace reljef::render

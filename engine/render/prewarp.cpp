@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 
 #include "engine/render/relief_maps.h"
 
@@ -93,6 +94,13 @@ std::optional<glm::dvec2> Warp::at(glm::dvec2 place, double height) const {
         return std::nullopt;
     }
     return (place + glm::dvec2(k_) * height) / share;
+}
+
+glm::dvec4 warp_eye(const scene::Camera& camera, const glm::dmat4& world_from_local) {
+    const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective
+                               ? glm::dvec4(camera.eye, 1.0)
+                               : glm::dvec4(-scene::view_axes(camera).forward, 0.0);
+    return glm::inverse(world_from_local) * eye;
 }
 
 Grid<glm::vec2> prewarped(GridView<const float> heights, const Warp& warp,

@@ -2,12 +2,14 @@
 
 #include <optional>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/core/grid.h"
 #include "engine/core/worker_pool.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/terrain_node.h"
 
 namespace reljef::render {
@@ -32,6 +34,9 @@ private:
     glm::dvec3 k_{0.0};
     glm::dvec2 nearest_{0.0};
 };
+
+/// The eye of a camera as Warp takes it, local metres.
+glm::dvec4 warp_eye(const scene::Camera& camera, const glm::dmat4& world_from_local);
 
 /// What each sample of the reference plane shows: the column and row of the surface that is seen
 /// there, both negative where it is none. `heights` above the plane. Every row of samples is warped

@@ -42,6 +42,10 @@ std::uint32_t search_features(scene::TechniqueId id) {
         return feature_cone;
     case scene::TechniqueId::exact:
         return feature_exact;
+    case scene::TechniqueId::lattice:
+    case scene::TechniqueId::dual_layer:
+    case scene::TechniqueId::multi_layer:
+        return feature_layers;
     default:
         return 0U;
     }

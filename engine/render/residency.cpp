@@ -77,31 +77,6 @@ Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<f
     return texture;
 }
 
-Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
-    if (!made) {
-        return made.error();
-    }
-    place = std::move(*made);
-    return {};
-}
-
-// The eye of a camera as Warp takes it.
-glm::dvec4 eye_of(const scene::Camera& camera, const glm::dmat4& world_from_local) {
-    const glm::dvec4 eye = camera.projection == scene::ProjectionKind::perspective
-                               ? glm::dvec4(camera.eye, 1.0)
-                               : glm::dvec4(-scene::view_axes(camera).forward, 0.0);
-    return glm::inverse(world_from_local) * eye;
-}
-
-// The texture of the last frame where it fits.
-Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before) {
-    if (before.size() == size) {
-        return std::move(before);
-    }
-    return gl::Texture2D::create(
-        {.size = size, .format = gl::Format::rgba32f, .filter = gl::Filter::nearest});
-}
-
 } // namespace
 
 Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
@@ -128,7 +103,7 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
             return done;
         }
     }
-    return meshes_.prepare(list.meshes, stats);
+    return meshes_.prepare(list.meshes, list.camera, stats);
 }
 
 void Residency::forget_unused() {
@@ -303,7 +278,7 @@ Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) 
             continue;
         }
         const Grid<glm::vec4> places =
-            warped_places(*terrain.surface, eye_of(list.camera, draw.world_from_local));
+            warped_places(*terrain.surface, warp_eye(list.camera, draw.world_from_local));
         auto texture = place_texture({places.cols(), places.rows()}, before[&terrain]);
         if (!texture) {
             return texture.error();

@@ -40,7 +40,8 @@ constexpr std::array features_by_name{
     std::pair{feature_bump, std::string_view("BUMP")},
     std::pair{feature_emboss, std::string_view("EMBOSS")},
     std::pair{feature_wrap, std::string_view("WRAP")},
-    std::pair{feature_beams, std::string_view("BEAMS")}};
+    std::pair{feature_beams, std::string_view("BEAMS")},
+    std::pair{feature_layers, std::string_view("LAYERS")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -158,6 +159,9 @@ std::uint32_t search_of(std::uint32_t features) {
     if ((features & feature_cone) != 0) {
         return feature_cone;
     }
+    if ((features & feature_layers) != 0) {
+        return feature_layers;
+    }
     if ((features & feature_parallax) != 0) {
         return features & (feature_parallax | feature_limited | feature_iterated);
     }
@@ -171,7 +175,7 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
     std::uint32_t options = features & (feature_fade | feature_write_depth);
     const bool follows_rays = (search & feature_parallax) == 0;
     if (follows_rays && (features & feature_hit) == 0) {
-        options |= features & feature_smooth_edges;
+        options |= search == feature_layers ? 0U : features & feature_smooth_edges;
         const bool hard = (features & feature_hard_shadow) != 0;
         const auto shadow = hard ? feature_hard_shadow : features & feature_soft_shadow;
         if (shadow != 0 && (features & feature_lit) != 0) {
@@ -211,9 +215,10 @@ std::uint32_t features_that_mean_something(ShaderKind kind) {
     case ShaderKind::relief:
         return any | relief | feature_cone | feature_beams;
     case ShaderKind::relief_mesh:
-        return any | relief | feature_wrap;
+        return any | relief | feature_cone | feature_layers | feature_wrap;
     case ShaderKind::textured_mesh:
-        return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap;
+        return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
+               feature_warped;
     default:
         return any;
     }
@@ -224,9 +229,10 @@ std::uint32_t own_features(ShaderVariant variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
     const bool is_lit = (variant.features & feature_lit) != 0;
     const std::uint32_t wrap = variant.features & feature_wrap;
-    const bool has_cones = variant.kind == ShaderKind::relief;
+    const std::uint32_t look = is_lit ? look_of(variant.features) : 0U;
+    const bool on_mesh = variant.kind == ShaderKind::relief_mesh;
     const std::uint32_t search =
-        search_of(has_cones ? variant.features : variant.features & ~feature_cone);
+        search_of(on_mesh ? variant.features : variant.features & ~feature_layers);
     switch (variant.kind) {
     case ShaderKind::terrain:
         return variant.features & feature_warped;
@@ -235,7 +241,7 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap;
     case ShaderKind::textured_mesh:
-        return is_hit ? wrap : is_lit ? look_of(variant.features) : 0U;
+        return (variant.features & feature_warped) | (is_hit ? wrap : look);
     default:
         return 0U;
     }

@@ -50,14 +50,15 @@ enum ShaderFeature : std::uint32_t {
     feature_soft_shadow = 1U << 12U,  ///< a ray to the sun: lit by how deep it goes
     feature_smooth_edges = 1U << 13U, ///< near misses are blended in
     feature_write_depth = 1U << 14U,  ///< the depth of the hit, not of the box
-    feature_warped = 1U << 15U,       ///< a terrain: shows the places warped onto it
+    feature_warped = 1U << 15U,       ///< shows the places that were warped onto it
     feature_cone = 1U << 16U,         ///< how a relief looks: from cone to cone
     // How a mesh with a tile of detail is lit; by its own normals where none of the three is there.
     feature_normal_map = 1U << 17U,
     feature_bump = 1U << 18U,
     feature_emboss = 1U << 19U,
-    feature_wrap = 1U << 20U,  ///< a mesh: the tile goes on in copies of itself
-    feature_beams = 1U << 21U, ///< a relief: rays begin where their beam may meet something
+    feature_wrap = 1U << 20U,   ///< a mesh: the tile goes on in copies of itself
+    feature_beams = 1U << 21U,  ///< a relief: rays begin where their beam may meet something
+    feature_layers = 1U << 22U, ///< how a mesh's relief looks: for solids between layers
 };
 
 struct ShaderVariant {

@@ -1,5 +1,7 @@
 #include "engine/render/uploads.h"
 
+#include <utility>
+
 #include "engine/render/resident_mesh.h"
 
 namespace reljef::render {
@@ -56,6 +58,22 @@ Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, Fr
         count_upload(stats, texture->bytes());
     }
     return texture;
+}
+
+Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before) {
+    if (before.size() == size) {
+        return std::move(before);
+    }
+    return gl::Texture2D::create(
+        {.size = size, .format = gl::Format::rgba32f, .filter = gl::Filter::nearest});
+}
+
+Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
+    if (!made) {
+        return made.error();
+    }
+    place = std::move(*made);
+    return {};
 }
 
 } // namespace reljef::render

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,5 +28,11 @@ Result<gl::Texture2D> tile_height_texture(const Grid<float>& heights, gl::Wrap w
 
 /// One level after the other, as greatest_heights() gives them.
 Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels, FrameStats& stats);
+
+/// For places that change each frame, four floats each: the last frame's texture where it fits.
+Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before);
+
+/// Puts a texture that could be made into its place.
+Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place);
 
 } // namespace reljef::render

@@ -119,6 +119,17 @@ Mesh sphere_mesh(float radius, int segments) {
     });
 }
 
+Mesh bowl_mesh(float radius, int segments) {
+    const int around = std::max(segments, 3);
+    const int down = std::max(around / 4, 2);
+    return swept(around, down, [&](glm::vec2 direction, int row) {
+        const float angle = 0.5F * pi * static_cast<float>(row) / static_cast<float>(down);
+        const glm::vec3 normal(row < down ? std::cos(angle) * direction : glm::vec2(0.0F),
+                               row > 0 ? -std::sin(angle) : 0.0F);
+        return std::pair(radius * normal, normal);
+    });
+}
+
 Mesh torus_mesh(float ring_radius, float tube_radius, int segments) {
     const int around = std::max(segments, 3);
     const int down = std::max(around / 2, 3);

@@ -36,6 +36,10 @@ Mesh box_mesh(glm::vec3 size);
 /// 3); u once around, v from the upper pole to the lower.
 Mesh sphere_mesh(float radius, int segments = 48);
 
+/// The lower half of such a sphere, open on top: its rim lies at z = 0. `segments` around and a
+/// quarter as many from the rim to the pole (at least 3); u once around, v from the rim down.
+Mesh bowl_mesh(float radius, int segments = 48);
+
 /// A torus around the z axis: its tube of `tube_radius` runs `ring_radius` away from the origin.
 /// `segments` around the axis and half as many around the tube (at least 3); u once around the
 /// axis, v once around the tube, from inside over the top.

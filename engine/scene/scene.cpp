@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/scene/texture_plane.h"
 #include "engine/scene/tile_stream.h"
 
 namespace reljef::scene {
@@ -74,14 +75,9 @@ Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
     if (mesh.material.detail.set == nullptr) {
         return {};
     }
-    if (!draws_meshes(technique.id)) {
-        return Error{fmt::format("technique {}: a mesh found, a terrain over a plane was expected; "
-                                 "relief draws both",
-                                 name)};
-    }
-    if (technique.options.two_sided) {
-        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a mesh "
-                                 "shows its outside only",
+    if (!draws_any_mesh(technique.id) && !texture_plane(*mesh.mesh)) {
+        return Error{fmt::format("technique {}: a mesh that is not flat found, one plane was "
+                                 "expected; relief draws both",
                                  name)};
     }
     return {};

@@ -52,8 +52,7 @@ struct MeshNode {
 };
 
 /// Whether the technique can draw the mesh; one of a single colour is drawn by any. Fails, with the
-/// reason and the name of what works, where it is one for terrains, and where the mesh would have
-/// to be seen from behind.
+/// reason and the name of what works, where it is one for terrains.
 Result<void> check_technique(const Technique& technique, const MeshNode& mesh);
 
 class Node;

@@ -50,7 +50,11 @@ constexpr std::array<ParameterInfo, 4> cone_parameters{
      {"k", 2.0, 0.0, 32.0, true, "times the bracket is halved before the chord"},
      {"step", 2.0, 0.0, 16.0, false, "samples a step goes at least; 0: passes over nothing"}}};
 
-constexpr std::array<TechniqueInfo, 16> catalogue{
+constexpr std::array<ParameterInfo, 2> layers_parameters{
+    {{"n", 32.0, 1.0, 4096.0, true, "equal steps along the ray"},
+     {"k", 6.0, 0.0, 32.0, true, "times the bracket is halved before the chord"}}};
+
+constexpr std::array<TechniqueInfo, 19> catalogue{
     {{TechniqueId::texture,
       "texture",
       "diffuse colour over the flat reference surface, lit by the height gradient",
@@ -99,6 +103,16 @@ constexpr std::array<TechniqueInfo, 16> catalogue{
       "the ray against the bilinear surface itself: the true first hit",
       "Tevs, Ihrke and Seidel 2008",
       {}},
+     {TechniqueId::lattice, "lattice",
+      "a mesh as a sheet with its heights on both sides of it: height 0 is a hole",
+      "GPU surface-detail survey (2008) ch. 3.6.9", layers_parameters},
+     {TechniqueId::dual_layer, "dual-layer",
+      "a mesh as a sheet with one height map on its front and another on its back",
+      "GPU surface-detail survey (2008) ch. 3.6.10", layers_parameters},
+     {TechniqueId::multi_layer, "multi-layer",
+      "a mesh as two solids, one over the other: four heights a place",
+      "GPU surface-detail survey (2008) ch. 3.6.11; Policarpo and Oliveira 2006",
+      layers_parameters},
      {TechniqueId::prewarp,
       "prewarp",
       "the surface warped forward onto the reference plane, rows and then columns, each frame: "
@@ -218,11 +232,16 @@ Geometry geometry_of(TechniqueId id) {
 
 bool draws_terrain(TechniqueId id) {
     return id != TechniqueId::displacement && id != TechniqueId::bump &&
-           id != TechniqueId::emboss && id != TechniqueId::normal;
+           id != TechniqueId::emboss && id != TechniqueId::normal && !looks_for_layers(id);
 }
 
-bool draws_meshes(TechniqueId id) {
-    return id != TechniqueId::prewarp && id != TechniqueId::cone;
+bool draws_any_mesh(TechniqueId id) {
+    return id != TechniqueId::prewarp;
+}
+
+bool looks_for_layers(TechniqueId id) {
+    return id == TechniqueId::lattice || id == TechniqueId::dual_layer ||
+           id == TechniqueId::multi_layer;
 }
 
 bool needs_plane(TechniqueId id) {
@@ -240,6 +259,10 @@ Technique with_parameter(Technique technique, std::string_view name, double valu
           "a parameter out of its range");
     technique.values[index] = value;
     return technique;
+}
+
+bool is_two_sided(const Technique& technique) {
+    return technique.options.two_sided || looks_for_layers(technique.id);
 }
 
 Technique make_technique(TechniqueId id) {

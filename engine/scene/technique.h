@@ -28,6 +28,9 @@ enum class TechniqueId {
     emboss,            ///< lit by the difference of two heights
     normal,            ///< lit by a normal map
     prewarp,           ///< the surface warped onto the reference plane beforehand
+    lattice,           ///< a sheet with holes
+    dual_layer,        ///< a sheet with another back
+    multi_layer,       ///< two solids, one over the other
 };
 
 /// What is drawn so that a technique's pixels are reached.
@@ -41,9 +44,12 @@ Geometry geometry_of(TechniqueId id);
 /// Whether it draws terrains.
 bool draws_terrain(TechniqueId id);
 
-/// Whether it draws meshes with a tile of detail: there `polygons` shows the mesh as it is, as
-/// `texture` does.
-bool draws_meshes(TechniqueId id);
+/// Whether it draws any mesh with a tile of detail, not only a flat one: there `polygons` shows the
+/// mesh as it is, as `texture` does.
+bool draws_any_mesh(TechniqueId id);
+
+/// Whether it looks for solids between layers, which are seen from either side.
+bool looks_for_layers(TechniqueId id);
 
 /// Whether it draws surfaces over a plane only, none that is bent over the Earth.
 bool needs_plane(TechniqueId id);
@@ -76,6 +82,9 @@ struct Technique {
 double parameter(const Technique& technique, std::string_view name);
 /// The same technique with another value. Preconditions: likewise, and the value is allowed.
 Technique with_parameter(Technique technique, std::string_view name, double value);
+
+/// Whether a mesh is seen from behind, too.
+bool is_two_sided(const Technique& technique);
 
 /// The technique with its default parameters and no options.
 Technique make_technique(TechniqueId id);

@@ -275,8 +275,17 @@ std::string_view reason_against(TechniqueId id, std::string_view option) {
     if (option == "steps" && id == TechniqueId::pom) {
         return "its own min and max say the same";
     }
+    if (option == "steps" && looks_for_layers(id)) {
+        return "its steps are as many from wherever it is seen; steep, relief and interval take it";
+    }
     if (option == "steps" && !steps_equally(id)) {
         return "it takes no equal steps; steep, relief and interval do";
+    }
+    if (option == "edges" && looks_for_layers(id)) {
+        return "what its rays miss may lie behind a hole; relief and exact take it";
+    }
+    if (option == "sides" && looks_for_layers(id)) {
+        return "it is seen from both sides as it is";
     }
     if ((option == "shadow" || option == "edges") && looks_once(id)) {
         return "it follows no ray; relief and exact do";

@@ -7,10 +7,11 @@ namespace {
 
 // A terrain's own light is that of its heights already, and its own vertices stand where they are.
 Error for_meshes_only(TechniqueId id) {
-    const bool moves = id == TechniqueId::displacement;
+    const bool moves = id == TechniqueId::displacement || looks_for_layers(id);
     return Error{fmt::format("technique {}: a terrain found, a mesh with a tile of detail was "
                              "expected; {} {} a terrain by its heights",
-                             technique_info(id).name, moves ? "polygons" : "texture",
+                             technique_info(id).name,
+                             looks_for_layers(id) ? "exact" : (moves ? "polygons" : "texture"),
                              moves ? "shapes" : "lights")};
 }
 
@@ -20,6 +21,10 @@ TextureDetail shown_detail(const Material& material) {
     TextureDetail detail = material.detail;
     detail.border = material.technique.options.border.value_or(detail.border);
     return detail;
+}
+
+bool is_seen_from_behind(const Material& material) {
+    return material.detail.set != nullptr && is_two_sided(material.technique);
 }
 
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,

@@ -27,6 +27,9 @@ struct Material {
 /// The tile of detail as it is drawn: what the technique says of its border comes first.
 TextureDetail shown_detail(const Material& material);
 
+/// Whether a mesh is drawn with its inner side.
+bool is_seen_from_behind(const Material& material);
+
 struct TerrainOptions {
     /// Absent: ellipsoid for georeferenced heights, else plane.
     std::optional<terrain::PlacementKind> placement;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <tuple>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -85,6 +87,37 @@ void add_cut_triangle(const Mesh& mesh, std::size_t index, int n, Mesh& fine) {
     }
 }
 
+// The vertices, those that stand at one place one after the other.
+std::vector<std::size_t> ordered_by_place(const std::vector<glm::vec3>& positions) {
+    std::vector<std::size_t> order(positions.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) {
+        const glm::vec3& p = positions[i];
+        return std::tuple(p.x, p.y, p.z);
+    };
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    return order;
+}
+
+// Where vertices at one place go that are lifted by 1: as far along each of their normals, so that
+// faces that meet there go on meeting. Along one of them where they look opposite ways.
+glm::dvec3 shared_direction(const Mesh& mesh, std::span<const std::size_t> vertices) {
+    std::vector<glm::vec3> normals;
+    glm::dvec3 sum(0.0);
+    for (const std::size_t vertex : vertices) {
+        const glm::vec3& normal = mesh.normals[vertex];
+        if (std::find(normals.begin(), normals.end(), normal) == normals.end()) {
+            normals.push_back(normal);
+            sum += glm::dvec3(normal);
+        }
+    }
+    constexpr double least_share = 0.25; // of a normal's length: no spike is longer than twice it
+    const glm::dvec3 mean = sum / static_cast<double>(normals.size());
+    const double share = glm::dot(mean, mean);
+    return share > 0.0 ? mean / std::max(share, least_share) : glm::dvec3(normals.front());
+}
+
 int index_on_tile(int index, int count, terrain::TileBorder border) {
     const int rest = index % count;
     return border == terrain::TileBorder::wrap ? (rest < 0 ? rest + count : rest)
@@ -132,12 +165,27 @@ int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels) {
 
 std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail& detail) {
     const double lift = relief_height(mesh, detail);
-    std::vector<glm::vec3> positions = mesh.positions;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
+    const auto height_of = [&](std::size_t vertex) {
         const glm::dvec2 coordinate =
-            glm::dvec2(mesh.texture_coordinates[i]) * glm::dvec2(detail.repeats);
-        const double height = tile_height(*detail.set, coordinate, detail.border);
-        positions[i] += static_cast<float>((height + detail.offset) * lift) * mesh.normals[i];
+            glm::dvec2(mesh.texture_coordinates[vertex]) * glm::dvec2(detail.repeats);
+        return tile_height(*detail.set, coordinate, detail.border);
+    };
+    std::vector<glm::vec3> positions = mesh.positions;
+    const std::vector<std::size_t> order = ordered_by_place(mesh.positions);
+    for (auto begin = order.begin(); begin != order.end();) {
+        const auto end = std::find_if(begin, order.end(), [&](std::size_t vertex) {
+            return mesh.positions[vertex] != mesh.positions[*begin];
+        });
+        double sum = 0.0;
+        for (auto vertex = begin; vertex != end; ++vertex) {
+            sum += height_of(*vertex);
+        }
+        const double height = sum / static_cast<double>(end - begin);
+        const glm::dvec3 way =
+            (height + detail.offset) * lift * shared_direction(mesh, std::span(begin, end));
+        for (; begin != end; ++begin) {
+            positions[*begin] += glm::vec3(way);
+        }
     }
     return positions;
 }

@@ -43,7 +43,9 @@ Mesh tessellated(const Mesh& mesh, int n);
 int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels);
 inline constexpr std::size_t most_displaced_triangles = 1'000'000;
 
-/// The positions moved along the normals to the heights at their texture coordinates.
+/// The positions moved along the normals to the heights at their texture coordinates. Vertices at
+/// one place stay together: they share the mean of their heights, and go along the mean of their
+/// normals, as far along each as they would alone.
 std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail& detail);
 
 /// Height in [0,1] at a tile's coordinate, bilinear between texel centres, as GL samples; beyond

@@ -13,6 +13,10 @@
 namespace reljef::terrain {
 namespace {
 
+template <class T> std::string size_text(const Grid<T>& grid) {
+    return fmt::format("{} x {}", grid.cols(), grid.rows());
+}
+
 std::optional<Error> fault_of(const TextureSet& set) {
     const auto fault = [&](const std::string& found, const char* expected) {
         return Error{
@@ -27,16 +31,19 @@ std::optional<Error> fault_of(const TextureSet& set) {
     if (!(std::isfinite(set.scale) && set.scale > 0.0F)) {
         return fault(fmt::format("a scale of {}", set.scale), "a number above 0 was");
     }
-    for (const float height : set.heights.samples()) {
-        if (!(height >= 0.0F && height <= 1.0F)) {
-            return fault(fmt::format("a height of {}", height), "heights in [0, 1] were");
+    for (const Grid<float>* const heights : {&set.heights, &set.back_heights}) {
+        for (const float height : heights->samples()) {
+            if (!(height >= 0.0F && height <= 1.0F)) {
+                return fault(fmt::format("a height of {}", height), "heights in [0, 1] were");
+            }
         }
     }
+    if (!set.back_heights.empty() && size_text(set.back_heights) != size_text(set.heights)) {
+        return fault(fmt::format("heights of {} and of the back of {} texels",
+                                 size_text(set.heights), size_text(set.back_heights)),
+                     "one size was");
+    }
     return std::nullopt;
-}
-
-template <class T> std::string size_text(const Grid<T>& grid) {
-    return fmt::format("{} x {}", grid.cols(), grid.rows());
 }
 
 void note_sizes(TextureSet& set) {
@@ -124,6 +131,21 @@ Result<TextureSet> completed(TextureSet set, TileBorder border) {
                                         set.name));
     }
     return set;
+}
+
+LayerMap layers_of(const TextureSet& set, LayerKind kind) {
+    switch (kind) {
+    case LayerKind::symmetric:
+        return symmetric_layers(set.heights.view());
+    case LayerKind::dual: {
+        const Grid<float> flat(set.heights.cols(), set.heights.rows(), 0.0F);
+        const Grid<float>& back = set.back_heights.empty() ? flat : set.back_heights;
+        return dual_layers(set.heights.view(), back.view()).value();
+    }
+    case LayerKind::multi:
+        return set.layers ? *set.layers : filled_layers(set.heights.view());
+    }
+    abort_with("an unknown kind of layers");
 }
 
 } // namespace reljef::terrain

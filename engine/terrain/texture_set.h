@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,11 +10,11 @@
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
+#include "engine/terrain/cone_map.h"
+#include "engine/terrain/layer_map.h"
+#include "engine/terrain/tile_border.h"
 
 namespace reljef::terrain {
-
-/// What lies beyond a tile: its own copies; its border, drawn out for ever; nothing.
-enum class TileBorder { wrap, clamp, discard };
 
 /// The maps of one tile of surface detail. Texture coordinates (u, v) in [0,1] cover the tile: u
 /// grows along the columns, v along the rows, texel (i, j) of an n × m map has its centre at
@@ -20,8 +22,12 @@ enum class TileBorder { wrap, clamp, discard };
 struct TextureSet {
     std::string name;
     Image color;
-    Grid<float> heights;     ///< in [0,1], 1 is the highest
-    Grid<glm::vec3> normals; ///< unit length, z > 0: x along u, y along v, z off the surface
+    Grid<float> heights;            ///< in [0,1], 1 is the highest
+    Grid<float> back_heights;       ///< off the back of a sheet, of as many texels; empty: none
+    std::optional<LayerMap> layers; ///< where one height a place says too little
+    Grid<glm::vec3> normals;        ///< unit length, z > 0: x along u, y along v, z off the surface
+    /// Over cone_field() of the heights where the tile wraps; none: made when they are needed.
+    std::shared_ptr<const ConeMaps> cones_of_field;
     float scale = 0.05F;     ///< of the normals: a height of 1 lifts a point so many tile widths
     float specular = 0.10F;  ///< linear, what a surface turned into the mirror direction adds
     float shininess = 32.0F; ///< exponent of Blinn and Phong
@@ -43,5 +49,14 @@ inline constexpr double seam_limit = 4.0;
 /// do not fit together where the tile is to be repeated get a note. Fails where colours or heights
 /// are missing, a height is outside [0,1], or the scale is no number above 0.
 Result<TextureSet> completed(TextureSet set, TileBorder border);
+
+/// Which solids a tile's maps say.
+enum class LayerKind {
+    symmetric, ///< a sheet, its heights on both sides
+    dual,      ///< a sheet with other heights on its back; flat there where the set has none
+    multi      ///< the set's layers; all below its heights where it has none
+};
+/// Precondition: as completed() gave it.
+LayerMap layers_of(const TextureSet& set, LayerKind kind);
 
 } // namespace reljef::terrain

@@ -54,7 +54,7 @@ TEST(InfoCommand, text_names_the_essentials) {
 
 TEST(InfoCommand, the_gallery_names_its_models_and_their_tiles) {
     const auto mixed = nlohmann::json::parse(test::reljef({"info", "gallery", "--json"}).out);
-    ASSERT_EQ(mixed["models"].size(), 5U);
+    ASSERT_EQ(mixed["models"].size(), 8U);
     EXPECT_EQ(mixed["models"][0]["name"], "plane");
     EXPECT_EQ(mixed["models"][0]["textures"], "brick");
     const auto text = test::reljef({"info", "gallery", "--textures", "rock"});

@@ -35,7 +35,7 @@ TEST(TechniquesCommand, json_lists_the_catalogue_with_ranges) {
 
 TEST(TechniquesCommand, version_and_help_succeed) {
     EXPECT_EQ(test::reljef({"--version"}).out.rfind("reljef ", 0), 0U);
-    for (const char* verb : {"view", "render", "info", "height", "techniques"}) {
+    for (const char* verb : {"view", "render", "info", "height", "maps", "techniques"}) {
         const auto help = test::reljef({verb, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_NE(help.out.find("Example"), std::string::npos) << verb;

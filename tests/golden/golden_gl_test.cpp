@@ -38,6 +38,7 @@ std::vector<GoldenCase> golden_cases() {
         }
         cases.push_back({terrain + "_truth", terrain, false, {"--truth"}});
     }
+    cases.push_back({"gallery", "gallery", false, {"--context", "osmesa"}});
     for (const std::string id : {"displacement", "bump", "emboss", "normal", "relief"}) {
         cases.push_back(
             {"gallery_" + id, "gallery", false, {"--technique", id, "--context", "osmesa"}});

@@ -1,5 +1,6 @@
 #include "engine/io/texture_files.h"
 
+#include <array>
 #include <cmath>
 
 #include <OpenImageIO/imageio.h>
@@ -147,6 +148,65 @@ TEST_F(TextureFilesTest, BadFilesAreOneSentence) {
     bad = files;
     bad.heights.clear();
     EXPECT_THAT(message(bad), HasSubstr("no heights found"));
+}
+
+// Depths of four layers: a slab under another, but none in the first column.
+float layer_depth(int col, int channel) {
+    constexpr std::array depths{0.125F, 0.25F, 0.5F, 0.75F};
+    return col == 0 ? 1.0F : depths[static_cast<std::size_t>(channel)];
+}
+
+TEST_F(TextureFilesTest, LayersAreReadAsDepthsAndSeenFromAbove) {
+    TextureFiles files = written(OIIO::TypeDesc::UINT16);
+    files.heights.clear();
+    files.layers = file("a_layers.exr");
+    write_channels(files.layers, {16, 8}, 4, OIIO::TypeDesc::FLOAT,
+                   [](int col, int, int channel) { return layer_depth(col, channel); });
+    const auto set = read_texture_set(files);
+    ASSERT_TRUE(set) << set.error().message;
+    ASSERT_TRUE(set->layers);
+    EXPECT_EQ(set->layers->heights()(5, 3), glm::vec4(0.875F, 0.75F, 0.5F, 0.25F));
+    EXPECT_EQ(set->heights(5, 3), 0.875F);
+    EXPECT_EQ(set->heights(0, 3), 0.0F);
+    const auto found = find_texture_files(folder_.path());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->layers, files.layers);
+}
+
+TEST_F(TextureFilesTest, LayersOutOfOrderAreToldWithFileAndPlace) {
+    TextureFiles files = written(OIIO::TypeDesc::UINT16);
+    files.layers = file("a_layers.exr");
+    write_channels(files.layers, {16, 8}, 4, OIIO::TypeDesc::FLOAT,
+                   [](int col, int row, int channel) {
+                       return col == 7 && row == 2 ? 0.9F - 0.2F * static_cast<float>(channel)
+                                                   : layer_depth(col, channel);
+                   });
+    EXPECT_THAT(
+        read_texture_set(files).error().message,
+        AllOf(HasSubstr("a_layers.exr"), HasSubstr("column 7, row 2"), HasSubstr("above layer 1")));
+    write_channels(files.layers, {16, 8}, 3, OIIO::TypeDesc::FLOAT,
+                   [](int, int, int) { return 0.5F; });
+    EXPECT_THAT(read_texture_set(files).error().message,
+                AllOf(HasSubstr("3 channels found"), HasSubstr("4 were expected")));
+}
+
+TEST_F(TextureFilesTest, AMaskPunchesHolesAndABackLiesBehind) {
+    TextureFiles files = written(OIIO::TypeDesc::UINT16);
+    write_channels(file("a_mask.png"), {32, 32}, 1, OIIO::TypeDesc::UINT8,
+                   [](int col, int, int) { return col < 16 ? 0.0F : 1.0F; });
+    write_channels(file("a_back_height.png"), {32, 32}, 1, OIIO::TypeDesc::UINT16,
+                   [](int, int, int) { return 0.25F; });
+    files = find_texture_files(folder_.path()).value();
+    EXPECT_EQ(files.heights, file("a_height.png"));
+    const auto set = read_texture_set(files, {.border = terrain::TileBorder::clamp});
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_EQ(set->heights(15, 9), 0.0F);
+    EXPECT_NEAR(set->heights(16, 9), wave_height(16, 9), 1e-4);
+    EXPECT_NEAR(set->back_heights(3, 3), 0.25F, 1e-4);
+    write_channels(file("a_mask.png"), {8, 8}, 1, OIIO::TypeDesc::UINT8,
+                   [](int, int, int) { return 1.0F; });
+    EXPECT_THAT(read_texture_set(files).error().message,
+                AllOf(HasSubstr("a_mask.png"), HasSubstr("8 x 8"), HasSubstr("32 x 32")));
 }
 
 TEST_F(TextureFilesTest, FoundByTheirNames) {

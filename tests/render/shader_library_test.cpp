@@ -43,13 +43,14 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
     // Three of the searches, without fade, are there with beams too; and the beams themselves.
     constexpr std::size_t beams = 1U + 3U * (2U + 2U * 2U * 6U);
-    // A mesh with a tile: lit in four ways; one that searches is that of a relief, lit or not,
-    // wrapped or not.
-    constexpr std::size_t textured = 4U * 2U + 2U + 2U;
+    // A mesh with a tile: lit in four ways, warped or not; one that searches is that of a relief,
+    // lit or not, wrapped or not; one that looks for layers has no smooth edges.
+    constexpr std::size_t textured = 2U * (4U * 2U + 2U + 2U);
     constexpr std::size_t mesh_parallax = 2U * 4U * (4U + 1U) * 4U;
-    constexpr std::size_t mesh_searches = 2U * 7U * (4U + 4U * 2U * 2U * (3U + 1U));
+    constexpr std::size_t mesh_searches = 2U * 8U * (4U + 4U * 2U * 2U * (3U + 1U));
+    constexpr std::size_t layers = 2U * (4U + 4U * 2U * (3U + 1U));
     EXPECT_EQ(all_variants().size(), 2U * 3U + 5U + 2U + parallax + searches + beams + textured +
-                                         mesh_parallax + mesh_searches);
+                                         mesh_parallax + mesh_searches + layers);
 }
 
 TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
@@ -71,8 +72,8 @@ TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
 TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
     for (const ShaderVariant& variant : all_variants()) {
         int ways = 0;
-        for (const std::uint32_t way :
-             {feature_exact, feature_cone, feature_parallax, feature_bisect, feature_secant}) {
+        for (const std::uint32_t way : {feature_exact, feature_cone, feature_layers,
+                                        feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
         EXPECT_LE(

@@ -86,6 +86,19 @@ TEST(SphereMesh, IsClosedOutwardAndRound) {
     }
 }
 
+// As a sphere's, but for the edge.
+TEST(BowlMesh, IsTheLowerHalfOfASphere) {
+    for (const int segments : {-1, 3, 7, 48}) {
+        const Mesh mesh = bowl_mesh(2.0F, segments);
+        expect_outward(mesh);
+        EXPECT_EQ(bounds_of(mesh).high.z, 0.0);
+        EXPECT_NEAR(bounds_of(mesh).low.z, -2.0, 1e-6);
+        for (const glm::vec3& position : mesh.positions) {
+            ASSERT_NEAR(glm::length(position), 2.0F, 1e-5F);
+        }
+    }
+}
+
 TEST(CylinderMesh, IsClosedOutwardAndAsLargeAsAsked) {
     for (const int segments : {-1, 3, 4, 7, 48}) {
         const Mesh mesh = cylinder_mesh(2.0F, 6.0F, segments);

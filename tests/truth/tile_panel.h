@@ -90,6 +90,38 @@ inline std::shared_ptr<const terrain::TextureSet> made_set(Grid<float> heights, 
         terrain::completed(std::move(set), TileBorder::wrap).value());
 }
 
+// Four layers that fall; here and there one of the solids is a hole.
+inline Grid<glm::vec4> layered_noise(int cols, int rows, unsigned seed) {
+    test::Chance chance(seed);
+    Grid<glm::vec4> layers(cols, rows);
+    for (glm::vec4& heights : layers.samples()) {
+        const auto between = [&](double low, double high) {
+            return static_cast<float>(chance.between(low, high));
+        };
+        heights = {between(0.75, 1.0), between(0.55, 0.7), between(0.3, 0.45), between(0.0, 0.2)};
+        heights.y = chance.one_in(4) ? heights.x : heights.y;
+        heights.z = chance.one_in(4) ? heights.w : heights.z;
+    }
+    return layers;
+}
+
+// Bilinear between texel centres, as GL samples.
+inline glm::dvec4 layers_at(const Grid<glm::vec4>& layers, glm::dvec2 coordinate,
+                            TileBorder border) {
+    const glm::ivec2 size(layers.cols(), layers.rows());
+    const glm::dvec2 place = coordinate * glm::dvec2(size) - 0.5;
+    const glm::ivec2 cell(glm::floor(place));
+    const glm::dvec2 part = place - glm::dvec2(cell);
+    const auto at = [&](int right, int down) {
+        glm::ivec2 texel = cell + glm::ivec2(right, down);
+        texel = border == TileBorder::wrap ? ((texel % size) + size) % size
+                                           : glm::clamp(texel, glm::ivec2(0), size - 1);
+        return glm::dvec4(layers(texel.x, texel.y));
+    };
+    return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
+                    part.y);
+}
+
 inline Border border_of(TileBorder border) {
     switch (border) {
     case TileBorder::wrap:

@@ -1,0 +1,372 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/command.h"
+#include "app/output_files.h"
+#include "app/parsed_option.h"
+#include "app/progress_line.h"
+#include "engine/core/atomic_file.h"
+#include "engine/io/channels.h"
+#include "engine/io/image.h"
+#include "engine/terrain/color_relief.h"
+#include "engine/terrain/height_integration.h"
+#include "engine/terrain/layer_map.h"
+#include "engine/terrain/texture_set.h"
+#include "engine/terrain/tile_cones.h"
+
+namespace reljef::app {
+namespace {
+
+enum class MapKind { heights, normals, combined, cones, relaxed_cones, layers };
+enum class MapInput { heights, normals, colors };
+
+struct MapOutput {
+    MapKind kind;
+    std::string option;
+    std::string file; // empty: not asked for
+};
+
+struct MapChoice {
+    std::string picture;
+    std::string back; // heights of it; empty: none
+    MapInput input = MapInput::heights;
+    terrain::TileBorder border = terrain::TileBorder::wrap;
+    double scale = 0.05;
+    bool sobel = false;
+    bool dark_is_high = false;
+    int octaves = terrain::ColorReliefOptions{}.octaves;
+    int threads = 0;
+    bool quiet = false;
+    std::array<MapOutput, 6> outputs{{{MapKind::heights, "--heights", {}},
+                                      {MapKind::normals, "--normals", {}},
+                                      {MapKind::combined, "--combined", {}},
+                                      {MapKind::cones, "--cones", {}},
+                                      {MapKind::relaxed_cones, "--relaxed-cones", {}},
+                                      {MapKind::layers, "--layers", {}}}};
+};
+
+terrain::MapBorder map_border(const MapChoice& choice) {
+    return choice.border == terrain::TileBorder::wrap ? terrain::MapBorder::wrap
+                                                      : terrain::MapBorder::clamp;
+}
+
+// Steps between texels, of a height of 1.
+glm::dvec2 texel_spacing(const MapChoice& choice, int cols, int rows) {
+    return 1.0 / (choice.scale * glm::dvec2(cols, rows));
+}
+
+Result<Grid<float>> read_heights(const std::string& file) {
+    const auto channels = io::read_channels(file);
+    if (!channels) {
+        return channels.error();
+    }
+    Grid<float> heights = io::channel_of(*channels, 0);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            if (!(heights(col, row) >= 0.0F && heights(col, row) <= 1.0F)) {
+                return Error{fmt::format("{}: a height of {} found at column {}, row {}, heights "
+                                         "in [0, 1] were expected",
+                                         file, heights(col, row), col, row)};
+            }
+        }
+    }
+    return heights;
+}
+
+// y as it is stored: along the rows. What is none stands upright.
+Result<Grid<glm::vec3>> read_normals(const std::string& file) {
+    const auto channels = io::read_channels(file);
+    if (!channels) {
+        return channels.error();
+    }
+    if (channels->count < 3) {
+        return Error{
+            fmt::format("{}: {} channels found, 3 were expected: a normal", file, channels->count)};
+    }
+    Grid<glm::vec3> normals(channels->cols, channels->rows);
+    for (int row = 0; row < normals.rows(); ++row) {
+        for (int col = 0; col < normals.cols(); ++col) {
+            const glm::vec3 stored(channels->at(col, row, 0), channels->at(col, row, 1),
+                                   channels->at(col, row, 2));
+            normals(col, row) = 2.0F * stored - 1.0F;
+        }
+    }
+    return normals;
+}
+
+// Lowest 0, highest 1; level ones 0.
+void spread_heights(Grid<float>& heights) {
+    const auto samples = heights.samples();
+    const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+    const float lowest = *low;
+    const float range = *high - lowest;
+    for (float& height : samples) {
+        height = range > 0.0F ? std::clamp((height - lowest) / range, 0.0F, 1.0F) : 0.0F;
+    }
+}
+
+Result<Grid<float>> integrated(const MapChoice& choice, const std::stop_token& stop) {
+    auto normals = read_normals(choice.picture);
+    if (!normals) {
+        return normals.error();
+    }
+    for (glm::vec3& normal : normals->samples()) {
+        normal.y = -normal.y; // along the rows, north against them
+    }
+    terrain::IntegrationOptions options;
+    options.spacing = texel_spacing(choice, normals->cols(), normals->rows());
+    options.border = map_border(choice);
+    options.stop = stop;
+    auto made = terrain::heights_from_normals(normals->view(), options);
+    if (stop.stop_requested()) {
+        return Error{"interrupted"};
+    }
+    spread_heights(made.heights);
+    return std::move(made.heights);
+}
+
+Result<Grid<float>> heights_of(const MapChoice& choice, const std::stop_token& stop) {
+    if (choice.input == MapInput::heights) {
+        return read_heights(choice.picture);
+    }
+    if (choice.input == MapInput::normals) {
+        return integrated(choice, stop);
+    }
+    const auto picture = io::read_image(choice.picture);
+    if (!picture) {
+        return picture.error();
+    }
+    return terrain::heights_from_colors(
+        *picture, {.octaves = choice.octaves, .dark_is_high = choice.dark_is_high});
+}
+
+io::Channels height_channels(const Grid<float>& heights) {
+    io::Channels channels = io::make_channels(heights.cols(), heights.rows(), 1);
+    std::copy(heights.samples().begin(), heights.samples().end(), channels.values.begin());
+    return channels;
+}
+
+// Normals as (n + 1) / 2, y along the rows; and the heights.
+io::Channels normal_channels(const MapChoice& choice, const Grid<float>& heights, bool combined) {
+    terrain::NormalOptions options;
+    options.spacing = texel_spacing(choice, heights.cols(), heights.rows());
+    options.border = map_border(choice);
+    options.filter = choice.sobel ? terrain::NormalFilter::sobel : terrain::NormalFilter::bilinear;
+    const Grid<glm::vec3> normals = terrain::normals_from_heights(heights.view(), options);
+    io::Channels channels = io::make_channels(heights.cols(), heights.rows(), combined ? 4 : 3);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            const glm::vec3 normal = normals(col, row) * glm::vec3(1.0F, -1.0F, 1.0F);
+            for (int i = 0; i < 3; ++i) {
+                channels.at(col, row, i) = 0.5F + 0.5F * normal[i];
+            }
+            if (combined) {
+                channels.at(col, row, 3) = heights(col, row);
+            }
+        }
+    }
+    return channels;
+}
+
+// Floats hold the ratios, whole numbers the root of their share of the widest, rounded down.
+io::Channels cone_channels(const Grid<float>& cones, const std::string& file) {
+    constexpr int highest = 65535;
+    if (file.ends_with(".exr")) {
+        return height_channels(cones);
+    }
+    const auto codes = terrain::cone_codes(cones, terrain::widest_cone, highest);
+    Grid<float> shares(cones.cols(), cones.rows());
+    std::transform(codes.samples().begin(), codes.samples().end(), shares.samples().begin(),
+                   [](std::uint16_t code) { return static_cast<float>(code) / highest; });
+    return height_channels(shares);
+}
+
+Result<io::Channels> made_cones(const MapChoice& choice, const Grid<float>& heights,
+                                const MapOutput& output, const std::stop_token& stop) {
+    const bool relaxed = output.kind == MapKind::relaxed_cones;
+    ProgressLine line(relaxed ? "relaxed cones" : "cones", choice.quiet);
+    terrain::ConeOptions options;
+    options.parallel = {static_cast<unsigned>(choice.threads), stop, line.callback()};
+    const Grid<float> field = terrain::cone_field(heights.view(), choice.border);
+    auto cones = terrain::cone_map(
+        field.view(), relaxed ? terrain::ConeKind::relaxed : terrain::ConeKind::plain, options);
+    if (!cones) {
+        return Error{"interrupted"};
+    }
+    const auto tile = terrain::tile_cones(*cones, heights.cols(), heights.rows(), choice.border);
+    return cone_channels(tile, output.file);
+}
+
+// Depths of the layers of a sheet.
+Result<io::Channels> layer_channels(const MapChoice& choice, const Grid<float>& heights) {
+    terrain::LayerMap layers = terrain::symmetric_layers(heights.view());
+    if (!choice.back.empty()) {
+        const auto back = read_heights(choice.back);
+        if (!back) {
+            return back.error();
+        }
+        auto both = terrain::dual_layers(heights.view(), back->view());
+        if (!both) {
+            return both.error();
+        }
+        layers = std::move(*both);
+    }
+    io::Channels channels = io::make_channels(heights.cols(), heights.rows(), 4);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            for (int i = 0; i < 4; ++i) {
+                channels.at(col, row, i) = 1.0F - layers.heights()(col, row)[i];
+            }
+        }
+    }
+    return channels;
+}
+
+Result<io::Channels> made_map(const MapChoice& choice, const Grid<float>& heights,
+                              const MapOutput& output, const std::stop_token& stop) {
+    switch (output.kind) {
+    case MapKind::heights:
+        return height_channels(heights);
+    case MapKind::normals:
+    case MapKind::combined:
+        return normal_channels(choice, heights, output.kind == MapKind::combined);
+    case MapKind::cones:
+    case MapKind::relaxed_cones:
+        return made_cones(choice, heights, output, stop);
+    case MapKind::layers:
+        return layer_channels(choice, heights);
+    }
+    abort_with("an unknown kind of map");
+}
+
+Result<void> check_targets(const MapChoice& choice) {
+    std::vector<NamedFile> files;
+    for (const MapOutput& output : choice.outputs) {
+        if (!output.file.empty()) {
+            files.push_back({output.option, output.file});
+        }
+    }
+    const std::array<NamedFile, 2> inputs{{{"PICTURE", choice.picture}, {"--back", choice.back}}};
+    if (auto apart = check_apart(files, inputs); !apart) {
+        return apart;
+    }
+    for (const NamedFile& file : files) {
+        if (auto good = io::check_map_target(file.path); !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+// All of them or none.
+Result<void> put_files(std::vector<AtomicFile> files) {
+    for (AtomicFile& file : files) {
+        if (auto done = file.commit(); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+Result<void> make_maps(const MapChoice& choice, const Interrupt& interrupt) {
+    if (auto good = check_targets(choice); !good) {
+        return good;
+    }
+    const auto heights = heights_of(choice, interrupt.token());
+    if (!heights) {
+        return heights.error();
+    }
+    std::vector<AtomicFile> files;
+    for (const MapOutput& output : choice.outputs) {
+        if (output.file.empty()) {
+            continue;
+        }
+        const auto map = made_map(choice, *heights, output, interrupt.token());
+        if (!map) {
+            return map.error();
+        }
+        const auto bytes = io::encode_channels(output.file, *map);
+        if (!bytes) {
+            return Error{
+                fmt::format("{}: cannot be written: {}", output.file, bytes.error().message)};
+        }
+        auto file = prepare_file(output.file, *bytes);
+        if (!file) {
+            return file.error();
+        }
+        files.push_back(std::move(*file));
+    }
+    return interrupt.requested() ? Error{"interrupted"} : put_files(std::move(files));
+}
+
+void add_map_outputs(CLI::App& arguments, MapChoice& choice) {
+    constexpr std::array meanings{
+        "heights, lowest black and highest white where they are made",
+        "normals of the heights: r, g, b for x, y along the rows, z",
+        "normals and, as alpha, heights",
+        "cones that hold nothing of the surface (Dummer 2006): .exr holds texels a height of 1, "
+        "others the root of their share of 1024",
+        "cones that a ray may meet the surface in once, likewise (GPU Gems 3 ch. 18)",
+        "depths of the layers of a sheet, its back from --back or as its front"};
+    for (std::size_t i = 0; i < choice.outputs.size(); ++i) {
+        arguments.add_option(choice.outputs[i].option, choice.outputs[i].file, meanings[i])
+            ->type_name("FILE");
+    }
+}
+
+void add_map_options(CLI::App& arguments, MapChoice& choice) {
+    arguments.add_option("PICTURE", choice.picture, "what the maps are made from")->required();
+    add_parsed(arguments, "--from", choice.input,
+               word_of<MapInput>("--from", {{"heights", MapInput::heights},
+                                            {"normals", MapInput::normals},
+                                            {"colors", MapInput::colors}}),
+               "what the picture shows: heights, normals or colors (heights)", "KIND");
+    arguments.add_option("--back", choice.back, "heights off the back of a sheet, for --layers")
+        ->type_name("FILE");
+    add_parsed(arguments, "--border", choice.border,
+               word_of<terrain::TileBorder>("--border", {{"wrap", terrain::TileBorder::wrap},
+                                                         {"clamp", terrain::TileBorder::clamp}}),
+               "what lies beyond: wrap, its copies, or clamp, its border drawn out (wrap)", "RULE");
+    add_parsed(arguments, "--scale", choice.scale, number_in("--scale", 0.0, 1000.0, true),
+               "a height of 1 lifts a point so many widths of the picture (0.05)", "S");
+    add_parsed(arguments, "--octaves", choice.octaves, whole_number_in("--octaves", 1, 12),
+               "from colors: what is coarser than so many doublings is no relief (5)", "N");
+    arguments.add_flag("--dark-is-high", choice.dark_is_high, "from colors: the darker the higher");
+    arguments.add_flag("--sobel", choice.sobel,
+                       "normals by Sobel's filter instead of the bilinear surface's slopes");
+    add_parsed(arguments, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
+               "0: as many as the machine has (0)", "N");
+    arguments.add_flag("--quiet", choice.quiet, "no progress");
+}
+
+} // namespace
+
+Command add_maps_command(CLI::App& program, Interrupt& interrupt) {
+    auto* arguments = program.add_subcommand("maps", "make maps of surface detail from a picture");
+    auto choice = std::make_shared<MapChoice>();
+    add_map_options(*arguments, *choice);
+    add_map_outputs(*arguments, *choice);
+    arguments->callback([choice] {
+        if (std::none_of(choice->outputs.begin(), choice->outputs.end(),
+                         [](const MapOutput& output) { return !output.file.empty(); })) {
+            throw CLI::ValidationError("maps: no output found, --heights, --normals, --combined, "
+                                       "--cones, --relaxed-cones or --layers was expected");
+        }
+    });
+    arguments->footer(
+        "Maps are .png or .tif of 16 bits a channel or .exr of floats; all appear or none does. "
+        "Heights that are guessed from colors are an impression, not a measurement.\n"
+        "Examples:\n"
+        "  reljef maps wall_height.png --normals wall_normal.png --scale 0.08\n"
+        "  reljef maps wall.jpg --from colors --heights wall_height.png --combined wall_both.png\n"
+        "  reljef maps wall_normal.png --from normals --heights wall_height.png\n"
+        "  reljef maps wall_height.png --cones wall_cones.exr --relaxed-cones wall_relaxed.exr\n"
+        "  reljef maps front.png --back back.png --layers sheet_layers.png");
+    return {arguments, [choice, &interrupt] { return make_maps(*choice, interrupt); }};
+}
+
+} // namespace reljef::app

@@ -1,0 +1,178 @@
+#include "engine/render/resident_tile.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_precision.hpp>
+
+#include "engine/render/relief_maps.h"
+#include "engine/render/resident_mesh.h"
+#include "engine/render/uploads.h"
+#include "engine/terrain/tile_cones.h"
+
+namespace reljef::render {
+namespace {
+
+constexpr float snorm_unit = 32767.0F;
+
+gl::Wrap wrap_of(bool wraps) {
+    return wraps ? gl::Wrap::repeat : gl::Wrap::clamp;
+}
+
+terrain::TileBorder border_as(bool wraps) {
+    return wraps ? terrain::TileBorder::wrap : terrain::TileBorder::clamp;
+}
+
+// x and y of the normals, as rg16_snorm has them.
+std::vector<glm::i16vec2> packed_normals(const Grid<glm::vec3>& normals) {
+    std::vector<glm::i16vec2> packed;
+    packed.reserve(normals.size());
+    for (const glm::vec3& normal : normals.samples()) {
+        packed.emplace_back(glm::round(glm::vec2(normal) * snorm_unit));
+    }
+    return packed;
+}
+
+// One component of the layers' normals, as rgba16_snorm has them.
+std::vector<glm::i16vec4> packed_layers(const Grid<glm::vec4>& component) {
+    std::vector<glm::i16vec4> packed;
+    packed.reserve(component.size());
+    for (const glm::vec4& layers : component.samples()) {
+        packed.emplace_back(glm::round(layers * snorm_unit));
+    }
+    return packed;
+}
+
+// The heights as that side shows them.
+Grid<float> shown_heights(const terrain::TextureSet& set, const TileSide& side) {
+    Grid<float> heights = set.heights;
+    if (side.from_behind) {
+        for (float& height : heights.samples()) {
+            height = 1.0F - height;
+        }
+    }
+    return heights;
+}
+
+// The heights with those that lie between the tile and its next copies; at least one cell.
+Grid<float> with_next_copies(const Grid<float>& heights, bool wraps) {
+    const int more = wraps ? 1 : 0;
+    Grid<float> all(std::max(heights.cols() + more, 2), std::max(heights.rows() + more, 2));
+    for (int row = 0; row < all.rows(); ++row) {
+        for (int col = 0; col < all.cols(); ++col) {
+            all(col, row) = wraps ? heights(col % heights.cols(), row % heights.rows())
+                                  : heights.clamped(col, row);
+        }
+    }
+    return all;
+}
+
+glm::ivec2 cells_of(int cols, int rows, bool wraps) {
+    return wraps ? glm::ivec2(cols, rows)
+                 : glm::ivec2(std::max(cols, 2) - 1, std::max(rows, 2) - 1);
+}
+
+Result<gl::Texture2D> layer_texture(const Grid<glm::vec4>& heights, bool wraps, FrameStats& stats) {
+    auto texture = gl::Texture2D::create({.size = {heights.cols(), heights.rows()},
+                                          .format = gl::Format::rgba32f,
+                                          .wrap = wrap_of(wraps)});
+    if (texture) {
+        texture->upload(0, heights);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+Result<gl::Texture2D> layer_normal_texture(const Grid<glm::vec4>& component, bool wraps,
+                                           FrameStats& stats) {
+    return mipmapped({component.cols(), component.rows()}, gl::Format::rgba16_snorm,
+                     bytes_of(packed_layers(component)), stats, wrap_of(wraps));
+}
+
+Result<ResidentSurface> resident_layers(const terrain::TextureSet& set, const TileSide& side,
+                                        FrameStats& stats) {
+    terrain::LayerMap layers = terrain::layers_of(set, *side.layers);
+    if (side.from_behind) {
+        layers = terrain::seen_from_behind(layers);
+    }
+    const auto normals = terrain::layer_normals(layers, set.scale, border_as(side.wraps));
+    auto heights = layer_texture(layers.heights(), side.wraps, stats);
+    if (!heights) {
+        return heights.error();
+    }
+    auto along_u = layer_normal_texture(normals.along_u, side.wraps, stats);
+    if (!along_u) {
+        return along_u.error();
+    }
+    auto along_v = layer_normal_texture(normals.along_v, side.wraps, stats);
+    if (!along_v) {
+        return along_v.error();
+    }
+    const glm::ivec2 cells = cells_of(layers.heights().cols(), layers.heights().rows(), side.wraps);
+    return ResidentSurface{std::move(*heights), cells,
+                           LayerTextures{std::move(*along_u), std::move(*along_v)}, std::nullopt,
+                           std::nullopt};
+}
+
+} // namespace
+
+Result<ResidentTile> resident_tile(const terrain::TextureSet& set, bool wraps, FrameStats& stats) {
+    auto color = mipmapped({set.color.cols(), set.color.rows()}, gl::Format::rgba8_srgb,
+                           std::as_bytes(set.color.samples()), stats, wrap_of(wraps));
+    if (!color) {
+        return color.error();
+    }
+    auto normals = mipmapped({set.normals.cols(), set.normals.rows()}, gl::Format::rg16_snorm,
+                             bytes_of(packed_normals(set.normals)), stats, wrap_of(wraps));
+    if (!normals) {
+        return normals.error();
+    }
+    return ResidentTile{std::move(*color), std::move(*normals)};
+}
+
+Result<ResidentSurface> resident_surface(const terrain::TextureSet& set, const TileSide& side,
+                                         FrameStats& stats) {
+    if (side.layers) {
+        return resident_layers(set, side, stats);
+    }
+    const Grid<float> shown = shown_heights(set, side);
+    auto heights = tile_height_texture(shown, wrap_of(side.wraps), stats);
+    if (!heights) {
+        return heights.error();
+    }
+    return ResidentSurface{std::move(*heights), cells_of(shown.cols(), shown.rows(), side.wraps),
+                           std::nullopt, std::nullopt, std::nullopt};
+}
+
+Result<gl::Texture2D> greatest_texture(const terrain::TextureSet& set, const TileSide& side,
+                                       FrameStats& stats) {
+    const Grid<float> heights = with_next_copies(shown_heights(set, side), side.wraps);
+    return pyramid_texture(greatest_heights(heights.view()), stats);
+}
+
+Result<gl::Texture2D> tile_cone_texture(const terrain::TextureSet& set, const TileSide& side,
+                                        FrameStats& stats) {
+    const terrain::TileBorder border = border_as(side.wraps);
+    const Grid<float> heights = shown_heights(set, side);
+    const Grid<float> field = terrain::cone_field(heights.view(), border);
+    const bool is_known = set.cones_of_field != nullptr && side.wraps && !side.from_behind;
+    const terrain::ConeMaps cones =
+        terrain::tile_cones(is_known ? *set.cones_of_field : *terrain::cone_maps(field.view()),
+                            heights.cols(), heights.rows(), border);
+    auto texture = gl::Texture2D::create({.size = {cones.plain.cols(), cones.plain.rows()},
+                                          .format = gl::Format::rg32f,
+                                          .filter = gl::Filter::nearest});
+    if (texture) {
+        Grid<glm::vec2> texels(cones.plain.cols(), cones.plain.rows());
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            texels.samples()[i] = {cones.plain.samples()[i], cones.relaxed.samples()[i]};
+        }
+        texture->upload(0, texels);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+} // namespace reljef::render

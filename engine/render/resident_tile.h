@@ -1,0 +1,57 @@
+#pragma once
+
+#include <compare>
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/result.h"
+#include "engine/gl/texture.h"
+#include "engine/render/frame_stats.h"
+#include "engine/terrain/texture_set.h"
+
+namespace reljef::render {
+
+/// How a tile of detail looks.
+struct ResidentTile {
+    gl::Texture2D color;
+    gl::Texture2D normals;
+};
+/// Fails when the driver has no memory left.
+Result<ResidentTile> resident_tile(const terrain::TextureSet& set, bool wraps, FrameStats& stats);
+
+/// Which surface of a tile is looked for.
+struct TileSide {
+    std::optional<terrain::LayerKind> layers; ///< none: its heights
+    bool wraps = true;
+    bool from_behind = false; ///< what is left of its heights to 1
+
+    friend auto operator<=>(const TileSide&, const TileSide&) = default;
+};
+
+/// x and y of the normals of a tile's layers.
+struct LayerTextures {
+    gl::Texture2D along_u;
+    gl::Texture2D along_v;
+};
+
+/// The surface of a tile. Of its cells, that is, those between the heights and, where the tile
+/// wraps, those between the last and the first: `greatest` is there for the exact technique,
+/// `cones` for cone.
+struct ResidentSurface {
+    gl::Texture2D heights; ///< one a place, or those of the four layers
+    glm::ivec2 cells{1};
+    std::optional<LayerTextures> normals; ///< of layers
+    std::optional<gl::Texture2D> greatest;
+    std::optional<gl::Texture2D> cones;
+};
+/// Fails when the driver has no memory left.
+Result<ResidentSurface> resident_surface(const terrain::TextureSet& set, const TileSide& side,
+                                         FrameStats& stats);
+/// What the techniques ask for besides. Precondition: a surface without layers.
+Result<gl::Texture2D> greatest_texture(const terrain::TextureSet& set, const TileSide& side,
+                                       FrameStats& stats);
+Result<gl::Texture2D> tile_cone_texture(const terrain::TextureSet& set, const TileSide& side,
+                                        FrameStats& stats);
+
+} // namespace reljef::render

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "engine/core/grid.h"
+#include "engine/terrain/cone_map.h"
+#include "engine/terrain/tile_border.h"
+
+namespace reljef::terrain {
+
+/// What the cones over a tile are made from: its heights, and where it wraps a quarter of its next
+/// copies around them. Precondition: not empty.
+Grid<float> cone_field(GridView<const float> heights, TileBorder border);
+
+/// The cones over the tile itself out of those over its field, no wider than the field reaches:
+/// those that a ray may trust in any copy. Cells as of ConeMaps; where the tile wraps there is one
+/// for each texel, the last between it and the first of the next copy.
+Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, TileBorder border);
+ConeMaps tile_cones(const ConeMaps& of_field, int cols, int rows, TileBorder border);
+
+} // namespace reljef::terrain

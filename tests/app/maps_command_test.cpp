@@ -1,0 +1,183 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/atomic_file.h"
+#include "engine/io/channels.h"
+#include "engine/io/image.h"
+#include "engine/io/texture_files.h"
+#include "tests/app/command_line.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef {
+namespace {
+
+using test::expect_refusal;
+
+// Smooth, and it fits together at its borders.
+float wave(int col, int row) {
+    const double step = 2.0 * std::acos(-1.0) / 32.0;
+    return static_cast<float>(0.5 + 0.3 * std::sin(step * col) + 0.2 * std::cos(step * row));
+}
+
+class MapsCommand : public testing::Test {
+protected:
+    void SetUp() override {
+        io::Channels heights = io::make_channels(32, 32, 1);
+        for (int row = 0; row < 32; ++row) {
+            for (int col = 0; col < 32; ++col) {
+                heights.at(col, row, 0) = wave(col, row);
+            }
+        }
+        write(file("height.png"), heights);
+    }
+    static void write(const std::string& path, const io::Channels& channels) {
+        const auto bytes = io::encode_channels(path, channels);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        ASSERT_TRUE(write_file(path, *bytes));
+    }
+    [[nodiscard]] std::string file(const std::string& name) const {
+        return (folder_.path() / name).string();
+    }
+    static io::Channels read(const std::string& path) { return io::read_channels(path).value(); }
+    // Whatever is asked for must not appear.
+    void refused(std::vector<std::string> arguments, int code,
+                 const std::vector<std::string>& parts) {
+        const auto before = folder_.names();
+        arguments.insert(arguments.begin(), "maps");
+        expect_refusal(test::reljef(arguments), code, parts);
+        EXPECT_EQ(folder_.names(), before);
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(MapsCommand, NormalsLeadBackToTheHeights) {
+    const auto made = test::reljef({"maps", file("height.png"), "--normals", file("n.png"),
+                                    "--combined", file("both.exr"), "--scale", "0.2"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(read(file("n.png")).count, 3);
+    const io::Channels both = read(file("both.exr"));
+    ASSERT_EQ(both.count, 4);
+    EXPECT_NEAR(both.at(9, 4, 3), wave(9, 4), 1e-4);
+    const auto back = test::reljef({"maps", file("n.png"), "--from", "normals", "--scale", "0.2",
+                                    "--heights", file("again.exr")});
+    ASSERT_EQ(back.exit_code, 0) << back.err;
+    const io::Channels again = read(file("again.exr"));
+    for (int row = 0; row < 32; ++row) {
+        for (int col = 0; col < 32; ++col) {
+            ASSERT_NEAR(again.at(col, row, 0), wave(col, row), 0.01) << col << ' ' << row;
+        }
+    }
+}
+
+TEST_F(MapsCommand, ATextureSetIsMadeOfAPictureAndReadAgain) {
+    io::Channels front = read(file("height.png"));
+    write(file("back.png"), front);
+    const auto made =
+        test::reljef({"maps", file("height.png"), "--back", file("back.png"), "--layers",
+                      file("layers.png"), "--normals", file("normal.png"), "--scale", "0.05"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    ASSERT_TRUE(io::write_image(file("color.png"), Image(32, 32, Rgba8{90, 80, 70, 255})));
+    const auto files = io::find_texture_files(folder_.path());
+    ASSERT_TRUE(files) << files.error().message;
+    const auto set = io::read_texture_set(*files);
+    ASSERT_TRUE(set) << set.error().message;
+    ASSERT_TRUE(set->layers);
+    EXPECT_NEAR(set->layers->heights()(3, 8).x, 0.5F + 0.5F * wave(3, 8), 1e-4);
+    EXPECT_NEAR(set->layers->heights()(3, 8).y, 0.5F - 0.5F * wave(3, 8), 1e-4);
+}
+
+TEST_F(MapsCommand, ConesInFloatsAndWholeNumbersAreTheSameAndTheRelaxedOnesWider) {
+    const auto made = test::reljef({"maps", file("height.png"), "--cones", file("cones.exr"),
+                                    "--relaxed-cones", file("relaxed.exr"), "--quiet"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const auto coded =
+        test::reljef({"maps", file("height.png"), "--cones", file("cones.png"), "--quiet"});
+    ASSERT_EQ(coded.exit_code, 0) << coded.err;
+    const io::Channels cones = read(file("cones.exr"));
+    const io::Channels relaxed = read(file("relaxed.exr"));
+    const io::Channels codes = read(file("cones.png"));
+    for (int row = 0; row < 32; ++row) {
+        for (int col = 0; col < 32; ++col) {
+            const float share = codes.at(col, row, 0);
+            ASSERT_NEAR(1024.0F * share * share, cones.at(col, row, 0), 0.05F);
+            ASSERT_LE(cones.at(col, row, 0), relaxed.at(col, row, 0) + 1e-5F);
+        }
+    }
+}
+
+TEST_F(MapsCommand, HeightsAreGuessedFromAPicture) {
+    Image picture(64, 64, Rgba8{40, 40, 40, 255});
+    for (int row = 24; row < 40; ++row) {
+        for (int col = 24; col < 40; ++col) {
+            picture(col, row) = {200, 200, 200, 255};
+        }
+    }
+    ASSERT_TRUE(io::write_image(file("wall.png"), picture));
+    for (const auto& [flag, sign] : {std::pair{"--quiet", 1.0F}, {"--dark-is-high", -1.0F}}) {
+        const auto made = test::reljef(
+            {"maps", file("wall.png"), "--from", "colors", "--heights", file("h.png"), flag});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        const io::Channels heights = read(file("h.png"));
+        EXPECT_GT(sign * (heights.at(32, 32, 0) - heights.at(4, 4, 0)), 0.2F) << flag;
+    }
+}
+
+TEST_F(MapsCommand, BadInputIsOneSentenceAndLeavesNothing) {
+    refused({file("height.png")}, 2, {"no output found", "--normals"});
+    refused({}, 2, {"PICTURE"});
+    refused({file("none.png"), "--normals", file("n.png")}, 1, {"none.png", "does not exist"});
+    refused({file("height.png"), "--normals", file("n.jpg")}, 1,
+            {"n.jpg", "cannot be written", ".png, .tif or .exr"});
+    refused({file("height.png"), "--normals", file("no/n.png")}, 1, {"no/n.png"});
+    refused({file("height.png"), "--normals", file("height.png")}, 1,
+            {"--normals", "read as PICTURE"});
+    refused({file("height.png"), "--normals", file("a.png"), "--cones", file("a.png")}, 1,
+            {"--cones", "--normals writes too"});
+    refused({file("height.png"), "--from", "depths", "--normals", file("n.png")}, 2,
+            {"--from: 'depths' found", "heights, normals, colors"});
+    refused({file("height.png"), "--scale", "0", "--normals", file("n.png")}, 2,
+            {"--scale: '0' found"});
+    refused({file("height.png"), "--from", "normals", "--heights", file("h.png")}, 1,
+            {"1 channels found", "3 were expected"});
+    io::Channels small = io::make_channels(8, 4, 1);
+    write(file("back.png"), small);
+    refused({file("height.png"), "--back", file("back.png"), "--layers", file("l.png"), "--normals",
+             file("n.png")},
+            1, {"32 x 32", "8 x 4", "one size"});
+    small.at(5, 2, 0) = 1.5F;
+    write(file("high.exr"), small);
+    refused({file("high.exr"), "--normals", file("n.png")}, 1,
+            {"high.exr", "a height of 1.5", "column 5, row 2"});
+    folder_.write("empty.png", "");
+    folder_.write("text.png", "no picture at all");
+    refused({file("empty.png"), "--normals", file("n.png")}, 1, {"empty.png"});
+    refused({file("text.png"), "--from", "colors", "--heights", file("h.png")}, 1, {"text.png"});
+}
+
+TEST_F(MapsCommand, CtrlCLeavesNothing) {
+    io::Channels large = io::make_channels(1024, 1024, 1);
+    for (std::size_t i = 0; i < large.values.size(); ++i) {
+        large.values[i] = static_cast<float>((i * 2654435761U) % 1009U) / 1009.0F;
+    }
+    write(file("large.png"), large);
+    const auto before = folder_.names();
+    test::ProgramResult result;
+    // Later where the signal came before main() had begun: a busy machine loads libraries slowly.
+    for (const char* const seconds : {"1", "2", "4"}) {
+        result = test::run_program("/usr/bin/timeout",
+                                   {"--preserve-status", "-s", "INT", seconds, RELJEF_BINARY,
+                                    "maps", file("large.png"), "--quiet", "--normals",
+                                    file("n.png"), "--relaxed-cones", file("cones.png")});
+        if (result.exit_code < 128) {
+            break;
+        }
+    }
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.err, "reljef: interrupted\n");
+    EXPECT_EQ(folder_.names(), before);
+}
+
+} // namespace
+} // namespace reljef
