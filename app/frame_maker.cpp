@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "app/streaming.h"
+
 namespace reljef::app {
 namespace {
 
@@ -20,7 +22,9 @@ private:
 
 } // namespace
 
-Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& /*parallel*/) {
+Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
+    bring_tiles(scene, device_.driver().size(), parallel.stop);
+    stream_stats_ = stream_stats(scene);
     const auto stats = device_.driver().draw(scene, timed_);
     if (!stats) {
         return stats.error();
@@ -30,25 +34,29 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
 }
 
 Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
-                                          const ParallelOptions& /*parallel*/) {
+                                          const ParallelOptions& parallel) {
+    bring_tiles(scene, device_.driver().size(), parallel.stop);
     return device_.driver().draw_hits(scene);
 }
 
 std::string DeviceFrames::stats() const {
-    return fmt::format(
-        "renderer: {}\n"
-        "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
-        "uploads: {} ({:.1f} MB)\n"
-        "tiles cut: {}\n"
-        "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the frustum, {} "
-        "triangles under the error, {} cuts and {} uploads that were there\n"
-        "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
-        device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles, stats_.draws,
-        stats_.state_changes, stats_.uploads, static_cast<double>(stats_.upload_bytes) * 1e-6,
-        stats_.tiles_cut, stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
-        stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
-        stats_.skipped.triangles_under_error, stats_.skipped.cuts_unchanged,
-        stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
+    return stream_stats_ +
+           fmt::format("renderer: {}\n"
+                       "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
+                       "uploads: {} ({:.1f} MB)\n"
+                       "tiles cut: {}\n"
+                       "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
+                       "frustum, {} "
+                       "triangles under the error, {} cuts and {} uploads that were there\n"
+                       "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
+                       device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles,
+                       stats_.draws, stats_.state_changes, stats_.uploads,
+                       static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
+                       stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
+                       stats_.skipped.tiles_outside_frustum,
+                       stats_.skipped.triangles_outside_frustum,
+                       stats_.skipped.triangles_under_error, stats_.skipped.cuts_unchanged,
+                       stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
 }
 
 Result<void> TruthFrames::prepare(const scene::Scene& scene) {

@@ -40,6 +40,7 @@ private:
     Device device_;
     bool timed_;
     render::FrameStats stats_;
+    std::string stream_stats_; // after the last frame
 };
 
 /// Draws with exact rays on the CPU.

@@ -255,7 +255,9 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         ->type_name("FILE");
     add_parsed(command, "--memory", choice.memory_megabytes,
                whole_number_in("--memory", 1, 1'000'000),
-               "for the terrain, megabytes; larger files are read coarser (512)", "MB");
+               "for the terrain, megabytes; of what is larger, parts are read as the view needs "
+               "them (512)",
+               "MB");
     add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
                "0: as many as the machine has (0)", "N");
     command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
@@ -266,6 +268,10 @@ scene::Technique technique_of(const ViewChoice& choice) {
         choice.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
     return choice.max_error ? scene::with_parameter(technique, "error", *choice.max_error)
                             : technique;
+}
+
+bool may_stream(const ViewChoice& choice) {
+    return scene::draws_tiles(technique_of(choice));
 }
 
 void check_view_options(const ViewChoice& choice) {

@@ -38,6 +38,8 @@ struct TerrainChoice {
     int memory_megabytes = 512;
     int threads = 0; ///< 0: as many as the machine has
     bool quiet = false;
+    /// Whether what does not fit the memory may be read part by part; a program's choice.
+    bool streamed = false;
 };
 
 /// From where on Earth, and whereto: --camera.
@@ -88,6 +90,8 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
 /// The technique with --max-error.
 scene::Technique technique_of(const ViewChoice& choice);
+/// Whether the technique draws a terrain that is read part by part.
+bool may_stream(const ViewChoice& choice);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

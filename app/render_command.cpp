@@ -11,6 +11,7 @@
 #include "app/output_files.h"
 #include "app/progress_line.h"
 #include "app/scene_setup.h"
+#include "app/streaming.h"
 #include "engine/io/image.h"
 #include "engine/scene/animators.h"
 
@@ -239,7 +240,9 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!maker) {
         return maker.error();
     }
-    auto source = open_terrain(choice.terrain, interrupt.token());
+    TerrainChoice terrain = choice.terrain;
+    terrain.streamed = !choice.truth && may_stream(choice.view);
+    auto source = open_terrain(terrain, interrupt.token());
     if (!source) {
         return source.error();
     }
@@ -265,7 +268,8 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (auto drawn = draw_outputs(choice, *scene, **maker, interrupt); !drawn) {
         return drawn;
     }
-    return report_faults(choice.terrain.terrain, faults);
+    tell_stream_faults(scene->scene, choice.terrain.quiet);
+    return report_faults(choice.terrain.terrain, faults + faulty_files(scene->scene));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/gallery.h"
+#include "app/streaming.h"
 #include "engine/io/flight_file.h"
 
 namespace reljef::app {
@@ -214,6 +215,8 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
         return node.error();
     }
     result.terrain = *node;
+    auto& shown = *result.terrain->get<scene::TerrainNode>();
+    shown.stream = make_stream(source, shown.surface);
     result.bounds = result.terrain->world_bounds();
     if (source.description.generator == "gallery") {
         auto models = add_gallery(result.scene, source.description, terrain, view);

@@ -10,6 +10,7 @@
 #include "engine/io/cone_cache.h"
 #include "engine/io/geoid_file.h"
 #include "engine/io/raster.h"
+#include "engine/io/tree_tile.h"
 #include "terrains/built_in.h"
 #include "terrains/gallery.h"
 #include "terrains/generators.h"
@@ -106,18 +107,70 @@ Result<io::TileSet> open_set(const TerrainChoice& choice, const io::SceneDescrip
     return io::TileSet::open(description.heights, options);
 }
 
-Result<terrain::Terrain> read_tiles(const io::TileSet& tiles, const TerrainChoice& choice,
+io::TileTerrainOptions tile_options(const TerrainChoice& choice,
                                     const io::SceneDescription& description,
                                     const std::stop_token& stop) {
-    ProgressLine line("reading " + description.name, choice.quiet);
     io::TileTerrainOptions options;
     options.raster = raster_options(choice, description, stop);
-    options.raster.progress = line.callback();
     options.area = choice.area ? choice.area : description.area;
     options.gaps =
         choice.gaps.value_or(description.gaps == "sea" ? io::Gaps::sea : io::Gaps::holes);
     options.threads = static_cast<unsigned>(choice.threads);
-    return tiles.terrain(options);
+    return options;
+}
+
+// Shares of the memory where not all of a terrain fits: its overview, GDAL's blocks, and the tiles.
+constexpr std::size_t overview_part = 8;
+constexpr std::size_t blocks_part = 8;
+
+// How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
+std::optional<StreamSource> stream_source(const io::TileSet& tiles, const TerrainChoice& choice,
+                                          io::TileTerrainOptions& options) {
+    const auto plan = tiles.plan(options);
+    if (!choice.streamed || (plan && plan->reduction == 1) ||
+        std::max(tiles.grid().cols, tiles.grid().rows) > terrain::most_tree_samples) {
+        return std::nullopt;
+    }
+    const std::size_t budget = options.raster.memory_budget;
+    options.raster.memory_budget = budget / overview_part;
+    const auto overview = tiles.plan(options);
+    if (!overview) {
+        options.raster.memory_budget = budget;
+        return std::nullopt;
+    }
+    io::limit_block_cache(budget / blocks_part);
+    return StreamSource{*overview, options.gaps,
+                        budget - budget / overview_part - budget / blocks_part, options.threads};
+}
+
+Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
+                                 io::SceneDescription description, const std::stop_token& stop) {
+    ProgressLine line("reading " + description.name, choice.quiet);
+    io::TileTerrainOptions options = tile_options(choice, description, stop);
+    options.raster.progress = line.callback();
+    const std::optional<StreamSource> stream = stream_source(tiles, choice, options);
+    auto terrain = tiles.terrain(options);
+    if (!terrain) {
+        return terrain.error();
+    }
+    if (stream) {
+        terrain->notes.emplace_back("finer tiles are read where the view needs them");
+        if (auto missing = io::missing_overviews(tiles)) {
+            terrain->notes.push_back(std::move(*missing));
+        }
+    }
+    return TerrainSource{std::move(*terrain), std::move(description), std::move(tiles), stream};
+}
+
+// A single file that does not fit the memory is read as a set of one, if it can be.
+bool is_to_stream(const TerrainChoice& choice, const io::SceneDescription& description) {
+    if (!choice.streamed || !description.generator.empty() || description.spacing) {
+        return false;
+    }
+    const auto info = io::read_raster_info(description.heights);
+    return info && !info->crs_name.empty() &&
+           static_cast<double>(info->cols) * info->rows * io::bytes_per_sample >
+               static_cast<double>(choice.memory_megabytes) * (1U << 20U);
 }
 
 Result<terrain::Terrain> read(const TerrainChoice& choice, const io::SceneDescription& description,
@@ -151,18 +204,20 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
         if (!tiles) {
             return tiles.error();
         }
-        auto terrain = read_tiles(*tiles, choice, description, stop);
-        return terrain ? Result<TerrainSource>(TerrainSource{
-                             std::move(*terrain), std::move(description), std::move(*tiles)})
-                       : terrain.error();
+        return read_tiles(std::move(*tiles), choice, std::move(description), stop);
     }
     if (auto fits = refuse_folder_options(choice, description); !fits) {
         return fits.error();
     }
+    if (is_to_stream(choice, description)) {
+        if (auto tiles = open_set(choice, description, stop)) {
+            return read_tiles(std::move(*tiles), choice, std::move(description), stop);
+        }
+    }
     auto terrain = description.generator.empty() ? read(choice, description, stop)
                                                  : generate(choice, description, stop);
     return terrain ? Result<TerrainSource>(
-                         TerrainSource{std::move(*terrain), std::move(description), std::nullopt})
+                         TerrainSource{std::move(*terrain), std::move(description), {}, {}})
                    : terrain.error();
 }
 

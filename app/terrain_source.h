@@ -10,11 +10,20 @@
 
 namespace reljef::app {
 
+/// Samples of a tile set that are read as they are needed.
+struct StreamSource {
+    io::TileSet::TerrainPlan plan; ///< the terrain is its overview
+    io::Gaps gaps = io::Gaps::holes;
+    std::size_t memory_budget = 0; ///< bytes
+    unsigned threads = 0;
+};
+
 /// A terrain that was read or generated, and what its scene file says.
 struct TerrainSource {
     terrain::Terrain terrain;
     io::SceneDescription description;
-    std::optional<io::TileSet> tiles; ///< where the heights are a folder
+    std::optional<io::TileSet> tiles; ///< where the heights are a folder, or streamed
+    std::optional<StreamSource> stream = {};
 };
 
 /// What becomes of a terrain's notes: told on stderr, or only kept in terrain::Terrain::notes.

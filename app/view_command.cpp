@@ -8,6 +8,7 @@
 #include "app/message.h"
 #include "app/options.h"
 #include "app/scene_setup.h"
+#include "app/streaming.h"
 #include "app/viewer.h"
 #include "engine/io/image.h"
 #include "engine/platform/window.h"
@@ -37,11 +38,10 @@ double seconds_since(Clock::time_point start) {
 // The loop between the window, what the viewer decides, and the driver.
 class WindowLoop {
 public:
-    /// `frames`: how many to draw, moving or not, before the window closes; 0: until the user ends
-    /// it.
     WindowLoop(platform::Window& window, render::Driver& driver, TerrainScene& scene,
-               Viewer& viewer, int frames)
-        : window_(window), driver_(driver), scene_(scene), viewer_(viewer), frames_(frames) {}
+               Viewer& viewer, const ViewerChoice& choice)
+        : window_(window), driver_(driver), scene_(scene), viewer_(viewer),
+          frames_(choice.frames_given ? choice.view.frames : 0), quiet_(choice.terrain.quiet) {}
 
     Result<void> run(const Interrupt& interrupt) {
         auto before = Clock::now();
@@ -49,11 +49,14 @@ public:
             receive(window_.wait_events(pause()));
             viewer_.advance(seconds_since(std::exchange(before, Clock::now())));
             has_drawn_ = false;
-            if (viewer_.take_redraw() || frames_ > 0) {
+            const bool has_new_tiles = take_new_tiles(scene_.scene);
+            if (viewer_.take_redraw() || frames_ > 0 || has_new_tiles) {
+                ask_ahead();
                 if (auto drawn = draw(); !drawn) {
                     return drawn;
                 }
             }
+            tell_stream_faults(scene_.scene, quiet_);
             serve_requests();
             show_title();
         }
@@ -67,10 +70,18 @@ private:
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
-        if (!viewer_.is_moving() && frames_ == 0) {
+        if (!viewer_.is_moving() && frames_ == 0 && !awaits_tiles(scene_.scene)) {
             return drawn_ == 0 ? std::chrono::milliseconds(0) : still;
         }
         return has_drawn_ || drawn_ == 0 ? std::chrono::milliseconds(0) : stuck;
+    }
+
+    // The picture does not wait for them: it shows what is there.
+    void ask_ahead() {
+        std::vector<scene::Camera> views{scene_.scene.camera()};
+        const std::vector<scene::Camera> upcoming = viewer_.upcoming();
+        views.insert(views.end(), upcoming.begin(), upcoming.end());
+        ask_for_tiles(scene_.scene, views, driver_.size());
     }
 
     void receive(const std::vector<Event>& events) {
@@ -151,7 +162,8 @@ private:
     render::Driver& driver_;
     TerrainScene& scene_;
     Viewer& viewer_;
-    int frames_;
+    int frames_; // to draw, moving or not, before the window closes; 0: until the user ends it
+    bool quiet_;
     render::FrameStats stats_;
     FrameTiming timing_;
     std::string title_;
@@ -187,7 +199,9 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
-    auto source = open_terrain(choice.terrain, interrupt.token());
+    TerrainChoice terrain = choice.terrain;
+    terrain.streamed = may_stream(choice.view);
+    auto source = open_terrain(terrain, interrupt.token());
     if (!source) {
         return source.error();
     }
@@ -218,8 +232,7 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }
-    const int frames = choice.frames_given ? choice.view.frames : 0;
-    return WindowLoop(**window, *driver, *scene, viewer, frames).run(interrupt);
+    return WindowLoop(**window, *driver, *scene, viewer, choice).run(interrupt);
 }
 
 void expect_window(const ViewChoice& view) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/streaming.h"
 #include "engine/scene/animators.h"
 #include "engine/scene/poses.h"
 #include "engine/terrain/heightfield.h"
@@ -21,6 +22,8 @@ constexpr double clearance_in_widths = 1e-3;
 constexpr double highest_clearance = 2.0;
 // How long a first step lasts at most, seconds.
 constexpr double first_step = 1.0 / 60.0;
+// Of a path, seconds.
+constexpr double least_duration = 1e-9;
 
 double width_of(const TerrainScene& scene) {
     return std::max(scene.bounds.size().x, scene.bounds.size().y);
@@ -43,24 +46,30 @@ double highest_at(GridView<const float> heights, glm::dvec2 sample) {
     return std::max({falling, rising, terrain::bilinear_height(heights, sample)});
 }
 
-std::optional<scene::GroundAt> ground_at(const scene::TerrainSurface& surface, double x, double y) {
-    const auto height = surface.height_at(x, y);
+std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y) {
+    const scene::TerrainSurface& surface = *terrain.surface;
+    const auto height = scene::height_at(terrain, x, y);
     const auto sample =
         height ? surface.placement().sample_from_world({x, y, *height}) : std::nullopt;
     if (!sample) {
         return std::nullopt;
     }
-    const double highest = highest_at(surface.heightfield().heights.view(), glm::dvec2(*sample));
+    const auto tile =
+        terrain.stream != nullptr ? terrain.stream->finest_at(glm::dvec2(*sample)) : std::nullopt;
+    const double highest =
+        tile ? highest_at(tile->tile->heights.view(), tile->place)
+             : highest_at(surface.heightfield().heights.view(), glm::dvec2(*sample));
     const double z = surface.placement().world_from_sample({sample->x, sample->y, highest}).z;
     return scene::GroundAt{*height, std::max(*height, z)};
 }
 
 scene::FreeFlight make_flight(const TerrainScene& scene, const scene::Camera& start) {
-    const auto surface = scene.terrain->get<scene::TerrainNode>()->surface;
+    const scene::TerrainNode& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const auto surface = terrain.surface;
     scene::FreeFlightOptions options;
     options.speed = width_of(scene) / seconds_across;
     options.clearance = std::min(highest_clearance, clearance_in_widths * width_of(scene));
-    options.ground = [surface](double x, double y) { return ground_at(*surface, x, y); };
+    options.ground = [terrain](double x, double y) { return ground_at(terrain, x, y); };
     options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
     return {start, std::move(options)};
 }
@@ -195,6 +204,20 @@ bool Viewer::receive_key(const KeyEvent& event) {
     return false;
 }
 
+std::vector<scene::Camera> Viewer::upcoming() const {
+    std::vector<scene::Camera> cameras;
+    for (const double ahead : {0.5, 1.5, 3.0}) { // seconds
+        if (playing_) {
+            const double time =
+                std::fmod(path_time_ + ahead, std::max(path_.duration(), least_duration));
+            cameras.push_back(scene::at_key(camera(), path_.at(path_.begin() + time)));
+        } else {
+            cameras.push_back(camera_ahead(before_, camera(), last_step_, ahead));
+        }
+    }
+    return cameras;
+}
+
 bool Viewer::is_moving() const {
     return playing_ || (map_ ? map_->is_steered() : flight_.is_steered());
 }
@@ -205,6 +228,8 @@ void Viewer::advance(double seconds) {
         step = std::min(step, first_step);
     }
     rested_ = !is_moving();
+    before_ = camera();
+    last_step_ = step;
     if (playing_) {
         advance_path(step);
     } else if (map_ && map_->advance(step)) {
@@ -215,7 +240,7 @@ void Viewer::advance(double seconds) {
 }
 
 void Viewer::advance_path(double seconds) {
-    path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), 1e-9));
+    path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), least_duration));
     flight_.set_camera(scene::at_key(camera(), path_.at(path_.begin() + path_time_)));
     const scene::Camera next = flight_.camera();
     if (next.eye != camera().eye || next.look != camera().look) {

@@ -41,6 +41,9 @@ public:
     /// is no longer than a frame.
     void advance(double seconds);
 
+    /// Where the camera is about to be in the next seconds, if it goes on as it does.
+    [[nodiscard]] std::vector<scene::Camera> upcoming() const;
+
     /// Flies along the path, or stops.
     void toggle_path();
 
@@ -92,6 +95,8 @@ private:
     scene::FreeFlight flight_;
     std::optional<ViewerMap> map_; // while it is shown
     double path_time_ = 0.0;
+    scene::Camera before_;   // the last step
+    double last_step_ = 0.0; // seconds
     bool playing_ = false;
     bool rested_ = true; // nothing moved at the last advance()
     bool mouse_look_ = false;

@@ -12,6 +12,8 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include "engine/io/raster.h"
+
 namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {
@@ -128,8 +130,14 @@ void register_drivers() {
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds
         set_default("GDAL_HTTP_TIMEOUT", "60");
         set_default("GDAL_HTTP_MAX_RETRY", "2");
+        set_default("GDAL_HTTP_RETRY_DELAY", "1");
         GDALSetCacheMax64(std::min(GDALGetCacheMax64(), most_cached_bytes));
     });
+}
+
+void limit_block_cache(std::size_t bytes) {
+    register_drivers();
+    GDALSetCacheMax64(std::min(static_cast<GIntBig>(bytes), most_cached_bytes));
 }
 
 GdalMessages::GdalMessages() : strict_jpeg_("GDAL_ERROR_ON_LIBJPEG_WARNING", "TRUE", false) {

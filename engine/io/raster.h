@@ -57,6 +57,9 @@ inline constexpr int longest_image_side = 4096;
 Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
                                       const RasterOptions& options = {});
 
+/// How much GDAL keeps of what it has read, bytes, for all readers together.
+void limit_block_cache(std::size_t bytes);
+
 /// What a raster says of itself, without reading its samples.
 struct RasterInfo {
     int cols = 0;

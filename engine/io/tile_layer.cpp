@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -173,11 +174,12 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
     const std::filesystem::path path = reading.folder / file.path;
     GdalMessages messages;
-    const auto dataset = open_raster(path, messages);
+    auto dataset = reading.pool->borrow(path, messages);
     if (!dataset) {
         return dataset.error();
     }
     if ((*dataset)->GetRasterXSize() != file.cols || (*dataset)->GetRasterYSize() != file.rows) {
+        dataset->spoil();
         return Error{fmt::format("{}: was replaced while it was read, the same {}×{} samples were "
                                  "expected",
                                  path.string(), file.cols, file.rows)};
@@ -188,9 +190,13 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     result.plan = plan_window(**dataset, window, std::max(1, reduction / taps_a_side));
     auto values = read_heights(**dataset, result.plan, path.string(), reading.options, messages);
     if (!values) {
+        dataset->spoil();
         return values.error();
     }
     result.values = std::move(*values);
+    *reading.bytes_read +=
+        result.values.size() * static_cast<std::size_t>(GDALGetDataTypeSizeBytes(
+                                   (*dataset)->GetRasterBand(1)->GetRasterDataType()));
     return result;
 }
 

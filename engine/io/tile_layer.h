@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -11,6 +12,7 @@
 
 #include "engine/core/grid.h"
 #include "engine/io/crs_transform.h"
+#include "engine/io/dataset_pool.h"
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {
@@ -76,8 +78,10 @@ struct CellWindow {
 /// Where and how files are read.
 struct TileReading {
     std::span<const IndexedFile> files;
-    std::filesystem::path folder; ///< the files' paths begin here
-    RasterOptions options;        ///< scale, offset, stop
+    std::filesystem::path folder;                   ///< the files' paths begin here
+    RasterOptions options;                          ///< scale, offset, stop
+    std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
+    DatasetPool* pool = nullptr;                    ///< where the files are open
 };
 
 /// The averages of a layer's samples over cells, of the newest tile where there are several; NaN

@@ -167,7 +167,7 @@ void keep_each_once(std::vector<TileFault>& faults) {
 }
 
 TileReading TileSet::State::reading(const std::stop_token& stop) const {
-    TileReading reading{indexed, folder, {}};
+    TileReading reading{indexed, folder, {}, &bytes_read, &pool};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
     reading.options.stop = stop;
@@ -219,6 +219,9 @@ std::span<const std::string> TileSet::notes() const {
 }
 const std::string& TileSet::crs_name() const {
     return state_->crs_name;
+}
+std::size_t TileSet::bytes_read() const {
+    return state_->bytes_read;
 }
 TileGrid TileSet::grid() const {
     return state_->grid;

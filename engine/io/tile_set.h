@@ -124,6 +124,17 @@ public:
     };
     [[nodiscard]] Heights heights(std::span<const glm::dvec2> places) const;
 
+    /// What of the set a terrain is made of: the whole grid of samples, or its part in an area, and
+    /// the finest whole-number reduction of it that fits the memory.
+    struct TerrainPlan {
+        TileGrid grid;
+        int reduction = 1;
+    };
+    [[nodiscard]] Result<TerrainPlan> plan(const TileTerrainOptions& options = {}) const;
+
+    /// Bytes of samples that all readings so far took from the files.
+    [[nodiscard]] std::size_t bytes_read() const;
+
     /// All of it, or a part, as one terrain at the finest whole-number reduction that fits the
     /// memory. Files that fail are left out, and told in Terrain::faults.
     [[nodiscard]] Result<terrain::Terrain> terrain(const TileTerrainOptions& options = {}) const;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 
+#include "engine/io/dataset_pool.h"
 #include "engine/io/tile_layer.h"
 #include "engine/io/tile_set.h"
 
@@ -25,6 +27,8 @@ struct TileSet::State {
     std::string vertical_datum; ///< empty where the tiles differ
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
+    mutable std::atomic<std::size_t> bytes_read{0};
+    mutable DatasetPool pool;
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };

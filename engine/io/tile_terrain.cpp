@@ -144,16 +144,21 @@ void note_faults(const TileSet& tiles, std::span<const TileFault> faults,
 
 } // namespace
 
-Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) const {
+Result<TileSet::TerrainPlan> TileSet::plan(const TileTerrainOptions& options) const {
     const auto whole = options.area ? part(grid(), *options.area) : Result<TileGrid>(grid());
     if (!whole) {
         return whole.error();
     }
     const auto reduction = fitting_reduction(*whole, name(), options.raster.memory_budget);
-    if (!reduction) {
-        return reduction.error();
+    return reduction ? Result<TerrainPlan>({*whole, *reduction}) : reduction.error();
+}
+
+Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) const {
+    const auto planned = plan(options);
+    if (!planned) {
+        return planned.error();
     }
-    const TileGrid samples_grid = TileSet::reduced(*whole, *reduction);
+    const TileGrid samples_grid = TileSet::reduced(planned->grid, planned->reduction);
     terrain::Terrain result;
     result.name = name_of(name());
     result.notes.assign(notes().begin(), notes().end());
@@ -181,7 +186,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
                                  name(), samples_grid.cols, samples_grid.rows,
                                  result.faults.empty() ? "" : "; " + result.faults.front())};
     }
-    note_grid(*this, samples_grid, *reduction, place->spacing, result.notes);
+    note_grid(*this, samples_grid, planned->reduction, place->spacing, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     if (!options.raster.imagery.empty()) {
         auto color = read_imagery(*frame, place->grid, options.raster, result.notes);

@@ -9,6 +9,7 @@
 
 #include "engine/render/error_view.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/tile_choice.h"
 #include "engine/terrain/patch_mesh.h"
 
 namespace reljef::render {
@@ -66,7 +67,7 @@ public:
         } else if (const auto* terrain = node.get<scene::TerrainNode>()) {
             if (scene::geometry_of(terrain->material.technique.id) == scene::Geometry::box) {
                 add_relief(*terrain, world_from_local);
-            } else {
+            } else if (!add_streamed(*terrain, world_from_local)) {
                 add_tiles(*terrain, world_from_local);
             }
         }
@@ -94,6 +95,24 @@ private:
         } else {
             ++list_.stats.skipped.nodes_outside_frustum;
         }
+    }
+
+    // False where there is no stream, or nothing of it yet: the overview is drawn.
+    bool add_streamed(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        if (terrain.stream == nullptr || !scene::draws_tiles(terrain.material.technique) ||
+            terrain.stream->find(terrain.stream->tree().root()) == nullptr) {
+            return false;
+        }
+        const bool flat =
+            scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
+        TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local);
+        for (TileChoice::Drawn& drawn : choice.drawn) {
+            list_.streamed_tiles.push_back(
+                {&terrain, world_from_local, std::move(drawn.tile), flat, drawn.distance});
+        }
+        list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
+        list_.stats.tiles_missing += static_cast<int>(choice.wanted.size());
+        return true;
     }
 
     void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
@@ -145,6 +164,7 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size) {
     });
     const auto nearer = [](const auto& a, const auto& b) { return a.distance < b.distance; };
     std::stable_sort(list.tiles.begin(), list.tiles.end(), nearer);
+    std::stable_sort(list.streamed_tiles.begin(), list.streamed_tiles.end(), nearer);
     std::stable_sort(list.reliefs.begin(), list.reliefs.end(), nearer);
     list.stats.nodes = count_nodes(scene.root());
     list.stats.skipped.invisible_nodes = list.stats.nodes - visited;
@@ -161,6 +181,11 @@ Result<void> check_techniques(const DrawList& list) {
         return scene::check_technique(terrain.material.technique, *terrain.surface);
     };
     for (const TileDraw& draw : list.tiles) {
+        if (auto good = check_node(*draw.terrain); !good) {
+            return good;
+        }
+    }
+    for (const StreamedDraw& draw : list.streamed_tiles) {
         if (auto good = check_node(*draw.terrain); !good) {
             return good;
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "engine/core/result.h"
 #include "engine/render/frame_stats.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/streamed_tile.h"
 #include "engine/terrain/bisection_mesh.h"
 
 namespace reljef::render {
@@ -42,6 +44,15 @@ struct ReliefDraw {
     double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
 };
 
+/// One tile of a terrain that is read part by part.
+struct StreamedDraw {
+    const scene::TerrainNode* terrain = nullptr;
+    glm::dmat4 world_from_local{1.0};
+    std::shared_ptr<const scene::StreamedTile> tile;
+    bool flat = false;     ///< on the reference surface instead of its heights
+    double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+};
+
 struct MeshDraw {
     const scene::MeshNode* mesh = nullptr;
     glm::dmat4 world_from_local{1.0};
@@ -54,7 +65,8 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::vector<TileDraw> tiles; ///< front to back
+    std::vector<TileDraw> tiles;              ///< front to back
+    std::vector<StreamedDraw> streamed_tiles; ///< front to back
     std::vector<CoarseTerrain> coarse_terrains;
     std::vector<ReliefDraw> reliefs; ///< front to back
     std::vector<MeshDraw> meshes;

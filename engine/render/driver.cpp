@@ -107,6 +107,19 @@ public:
         return {};
     }
 
+    Result<void> draw_streamed_tiles() {
+        if (list_.streamed_tiles.empty()) {
+            return {};
+        }
+        if (auto used = use({ShaderKind::terrain, features_}); !used) {
+            return used;
+        }
+        for (const StreamedDraw& draw : list_.streamed_tiles) {
+            draw_streamed(draw);
+        }
+        return {};
+    }
+
     Result<void> draw_reliefs(const gl::VertexArray& no_vertices) {
         if (list_.reliefs.empty()) {
             return {};
@@ -248,6 +261,23 @@ private:
                 2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
             stats_.skipped.triangles_under_error += all - std::min(all, stats_.triangles - before);
         }
+        ++stats_.tiles;
+    }
+
+    void draw_streamed(const StreamedDraw& draw) {
+        const ResidentStreamed& resident = residency_.streamed().tile(draw);
+        set_wireframe(draw.terrain->material.wireframe);
+        if (hits_) {
+            program_->set_uniform("tile_sample",
+                                  glm::vec2(terrain::TileTree::first(draw.tile->id)));
+        } else {
+            resident.lit->bind(0);
+            program_->set_uniform("tile_sample", glm::vec2(0.0F));
+            program_->set_uniform("lit_from_sample", resident.lit_from_sample);
+        }
+        set_eye(draw.world_from_local);
+        draw_resident(resident.mesh, gl::IndexType::uint16);
+        stats_.state_changes += hits_ ? 0 : 1;
         ++stats_.tiles;
     }
 
@@ -521,6 +551,9 @@ Result<void> Driver::draw_content(const DrawList& list, bool hits, FrameStats& s
     targets.picture.clear_depth();
     Painter painter(list, hits, targets, shaders_, residency_, stats);
     auto done = painter.draw_tiles();
+    if (done) {
+        done = painter.draw_streamed_tiles();
+    }
     if (done) {
         done = painter.draw_reliefs(no_vertices_);
     }

@@ -9,6 +9,7 @@ struct FrameStats {
     int nodes = 0; ///< in the scene, visible or not
     int tiles = 0; ///< terrain tiles drawn
     std::size_t triangles = 0;
+    int tiles_missing = 0; ///< of streamed terrains, not there yet: coarser ones are drawn
     int tiles_cut = 0;     ///< whose triangles were chosen anew for this frame
     int draws = 0;         ///< draw calls, the sky's included
     int state_changes = 0; ///< programs, vertex arrays, textures and modes set

@@ -7,12 +7,6 @@ namespace {
 // the chord of an eighth stays within 5 cm of the arc.
 constexpr int flat_ellipsoid_quads = 8;
 
-GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place) {
-    const glm::vec3 position(local);
-    return {position, static_cast<float>(height), glm::vec2(place),
-            glm::vec3(local - glm::dvec3(position))};
-}
-
 template <class HeightAt>
 GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& tile, glm::ivec2 quads,
                    const HeightAt& height_at) {
@@ -32,6 +26,12 @@ GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& til
 }
 
 } // namespace
+
+GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place) {
+    const glm::vec3 position(local);
+    return {position, static_cast<float>(height), glm::vec2(place),
+            glm::vec3(local - glm::dvec3(position))};
+}
 
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile) {

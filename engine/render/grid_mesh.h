@@ -22,6 +22,9 @@ struct GridVertex {
 };
 static_assert(sizeof(GridVertex) == 36);
 
+/// A vertex at a place in local metres; `place`: samples from the tile's first.
+GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place);
+
 /// A tile as a regular grid of vertices, row after row.
 struct GridMesh {
     int cols = 0;                     ///< quads

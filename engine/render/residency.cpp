@@ -87,6 +87,9 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
     if (auto done = coarse_tiles_.prepare(list, stats); !done) {
         return done;
     }
+    if (auto done = streamed_tiles_.prepare(list, with_maps, stats); !done) {
+        return done;
+    }
     if (with_maps) {
         if (auto done = prepare_all_maps(list, stats); !done) {
             return done;

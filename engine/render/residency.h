@@ -15,6 +15,7 @@
 #include "engine/render/mesh_residency.h"
 #include "engine/render/relief_maps.h"
 #include "engine/render/resident_mesh.h"
+#include "engine/render/streamed_tiles.h"
 #include "engine/render/terrain_maps.h"
 
 namespace reljef::render {
@@ -48,6 +49,7 @@ public:
     [[nodiscard]] std::span<const ResidentMesh> tile(const TileDraw& draw) const;
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
+    [[nodiscard]] const StreamedTiles& streamed() const { return streamed_tiles_; }
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     /// What prewarp shows at each sample: warped_places.
     [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
@@ -82,6 +84,7 @@ private:
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     CoarseTiles coarse_tiles_;
+    StreamedTiles streamed_tiles_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     MeshResidency meshes_;

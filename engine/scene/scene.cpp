@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/scene/texture_plane.h"
+#include "engine/scene/tile_stream.h"
 
 namespace reljef::scene {
 namespace {
@@ -36,7 +37,7 @@ std::optional<double> height_of(const TerrainNode& terrain, const glm::dmat4& wo
                                 glm::dvec3 above) {
     const glm::dvec3 origin(world_from_local[3]);
     if (glm::dmat3(world_from_local) == glm::dmat3(1.0)) {
-        const auto z = terrain.surface->height_at(above.x - origin.x, above.y - origin.y);
+        const auto z = reljef::scene::height_at(terrain, above.x - origin.x, above.y - origin.y);
         return z ? std::optional(*z + origin.z) : std::nullopt;
     }
     const auto hit = terrain.surface->pick(

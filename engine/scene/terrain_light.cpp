@@ -49,12 +49,21 @@ glm::vec3 TerrainIrradiance::normal_at(glm::dvec2 sample) const {
     return glm::normalize(world_from_normal_ * glm::vec3(-gradient.x, -gradient.y, 1.0F));
 }
 
+float TerrainIrradiance::visibility(glm::dvec2 sample) const {
+    return bilinear(visibility_, sample, [](std::uint8_t share) { return share / 255.0F; });
+}
+
 glm::vec3 TerrainIrradiance::at(glm::dvec2 sample) const {
-    const float visibility =
-        bilinear(visibility_, sample, [](std::uint8_t share) { return share / 255.0F; });
     const glm::vec3 normal = normal_at(sample);
-    const float sun = std::max(glm::dot(normal, to_sun_), 0.0F) * visibility;
+    const float sun = std::max(glm::dot(normal, to_sun_), 0.0F) * visibility(sample);
     return sun_ * sun + sky_ * (0.5F + 0.5F * normal.z);
+}
+
+glm::vec3 TerrainIrradiance::at(glm::vec3 normal, glm::vec3 up, float visibility) const {
+    const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
+    const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
+    const float sun = std::max(glm::dot(turned, to_sun_), 0.0F) * visibility;
+    return sun_ * sun + sky_ * (0.5F + 0.5F * glm::dot(turned, turned_up));
 }
 
 IrradianceParts TerrainIrradiance::parts_at(glm::dvec2 sample) const {

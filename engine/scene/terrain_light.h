@@ -42,6 +42,12 @@ public:
     /// heightfield.
     [[nodiscard]] glm::vec3 at(glm::dvec2 sample) const;
 
+    /// The same where the surface's normal, its own up (both unit vectors of the local frame) and
+    /// the share of the sun that it sees are known: of a tile of the same terrain that is finer.
+    [[nodiscard]] glm::vec3 at(glm::vec3 normal, glm::vec3 up, float visibility) const;
+    /// Share of the sun that the terrain around leaves to a place, [0, 1].
+    [[nodiscard]] float visibility(glm::dvec2 sample) const;
+
     /// The same for those who find out themselves what the sun sees.
     [[nodiscard]] IrradianceParts parts_at(glm::dvec2 sample) const;
 

@@ -83,6 +83,11 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
     return terrain::pick(heightfield().heights.view(), pyramid_, placement_, ray);
 }
 
+bool draws_tiles(const Technique& technique) {
+    return technique.id == TechniqueId::texture ||
+           (technique.id == TechniqueId::polygons && parameter(technique, "lods") == 1.0);
+}
+
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
     if (!draws_terrain(technique.id)) {
         return for_meshes_only(technique.id);

@@ -77,10 +77,17 @@ private:
 /// on.
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface);
 
+class TileStream;
+
 /// What makes a node a terrain.
 struct TerrainNode {
     std::shared_ptr<const TerrainSurface> surface;
     Material material;
+    /// Finer tiles of the same terrain, which is an overview then; null: it is all there is.
+    std::shared_ptr<TileStream> stream = {};
 };
+
+/// Whether the technique draws the tiles of a stream; else it draws the overview.
+bool draws_tiles(const Technique& technique);
 
 } // namespace reljef::scene

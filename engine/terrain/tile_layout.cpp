@@ -24,19 +24,40 @@ glm::dvec3 bend(glm::dvec3 from, glm::dvec3 middle, glm::dvec3 to) {
     return glm::abs(from - 2.0 * middle + to);
 }
 
-// The box around a tile's nine border and middle places at its lowest and highest height. On a
-// curved Earth the ground bulges out between them, at most by an eighth of the second differences
-// along and across; twice that is added.
-Box placed_bounds(const Placement& placement, const Tile& tile, HeightRange range) {
+template <class RangeOfTile>
+std::vector<Tile> cut(const Heightfield& heightfield, const Placement& placement,
+                      const RangeOfTile& range_of_tile) {
+    const int cols = heightfield.heights.cols() - 1;
+    const int rows = heightfield.heights.rows() - 1;
+    std::vector<Tile> tiles;
+    for (int row = 0; row < rows; row += tile_cells) {
+        for (int col = 0; col < cols; col += tile_cells) {
+            Tile tile{
+                col, row, std::min(tile_cells, cols - col), std::min(tile_cells, rows - row), {}};
+            tile.bounds =
+                placed_bounds(placement, glm::dvec2(col, row),
+                              glm::dvec2(col + tile.cols, row + tile.rows), range_of_tile(tile));
+            tiles.push_back(tile);
+        }
+    }
+    return tiles;
+}
+
+} // namespace
+
+// The box around the nine border and middle places at the lowest and highest height. On a curved
+// Earth the ground bulges out between them, at most by an eighth of the second differences along
+// and across; twice that is added.
+Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last,
+                  HeightRange range) {
     Box box;
     glm::dvec3 most_bend(0.0);
     for (const double height : {range.low, range.high}) {
         std::array<std::array<glm::dvec3, 3>, 3> places;
         for (std::size_t j = 0; j < 3; ++j) {
             for (std::size_t i = 0; i < 3; ++i) {
-                places[j][i] = placement.world_from_sample(
-                    {tile.col + 0.5 * static_cast<double>(i) * tile.cols,
-                     tile.row + 0.5 * static_cast<double>(j) * tile.rows, height});
+                const glm::dvec2 part = 0.5 * glm::dvec2(i, j);
+                places[j][i] = placement.world_from_sample({glm::mix(first, last, part), height});
                 box.add(places[j][i]);
             }
         }
@@ -51,25 +72,6 @@ Box placed_bounds(const Placement& placement, const Tile& tile, HeightRange rang
     }
     return box;
 }
-
-template <class RangeOfTile>
-std::vector<Tile> cut(const Heightfield& heightfield, const Placement& placement,
-                      const RangeOfTile& range_of_tile) {
-    const int cols = heightfield.heights.cols() - 1;
-    const int rows = heightfield.heights.rows() - 1;
-    std::vector<Tile> tiles;
-    for (int row = 0; row < rows; row += tile_cells) {
-        for (int col = 0; col < cols; col += tile_cells) {
-            Tile tile{
-                col, row, std::min(tile_cells, cols - col), std::min(tile_cells, rows - row), {}};
-            tile.bounds = placed_bounds(placement, tile, range_of_tile(tile));
-            tiles.push_back(tile);
-        }
-    }
-    return tiles;
-}
-
-} // namespace
 
 std::vector<Tile> tile_layout(const Heightfield& heightfield, const Placement& placement) {
     return cut(heightfield, placement,

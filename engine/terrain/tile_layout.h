@@ -29,6 +29,10 @@ std::vector<Tile> tile_layout(const Heightfield& heightfield, const Placement& p
 std::vector<Tile> flat_tile_layout(const Heightfield& heightfield, const Placement& placement,
                                    double height);
 
+/// The box around the surface between samples `first` and `last` where its heights, metres, are in
+/// `range`, scene metres.
+Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last, HeightRange range);
+
 /// The middle of the height range: where the flat reference surface lies.
 double reference_height(const Heightfield& heightfield);
 

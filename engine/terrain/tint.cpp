@@ -96,10 +96,25 @@ Rgba8 nearest(const Image& beneath, const Image& over, int col, int row) {
 
 } // namespace
 
+HeightTint::HeightTint(const Heightfield& heightfield)
+    : range_(percentiles(heightfield, 0.01, 0.99)) {}
+
+Rgba8 HeightTint::at(double height) const {
+    const double extent = range_.high - range_.low;
+    return tint(extent > 0.0 ? static_cast<float>((height - range_.low) / extent) : 0.3F);
+}
+
+Rgba8 HeightTint::of_water() {
+    return water;
+}
+
+Rgba8 HeightTint::of_void() {
+    return no_data;
+}
+
 Image hypsometric_tint(const Heightfield& heightfield) {
     const auto& heights = heightfield.heights;
-    const HeightRange range = percentiles(heightfield, 0.01, 0.99);
-    const double extent = range.high - range.low;
+    const HeightTint scale_of_heights(heightfield);
     Image image(heights.cols(), heights.rows());
     for (int row = 0; row < image.rows(); ++row) {
         for (int col = 0; col < image.cols(); ++col) {
@@ -108,8 +123,7 @@ Image hypsometric_tint(const Heightfield& heightfield) {
             } else if (is_level_sea(heightfield, col, row)) {
                 image(col, row) = water;
             } else {
-                const double above = heights(col, row) - range.low;
-                image(col, row) = tint(extent > 0.0 ? static_cast<float>(above / extent) : 0.3F);
+                image(col, row) = scale_of_heights.at(heights(col, row));
             }
         }
     }

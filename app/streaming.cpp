@@ -1,0 +1,131 @@
+#include "app/streaming.h"
+
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "app/message.h"
+#include "engine/io/tree_tile.h"
+#include "engine/render/tile_choice.h"
+
+namespace reljef::app {
+namespace {
+
+using Visit = std::function<void(scene::TileStream&)>;
+
+void for_each_stream(const scene::Scene& scene, const Visit& visit) {
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4&) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        if (terrain != nullptr && terrain->stream != nullptr) {
+            visit(*terrain->stream);
+        }
+    });
+}
+
+scene::TileReading reading_of(const io::TileWindow& window) {
+    scene::TileReading reading;
+    reading.heights = Grid<float>(window.heights.cols(), window.heights.rows());
+    for (std::size_t i = 0; i < window.heights.size(); ++i) {
+        reading.heights.samples()[i] = static_cast<float>(window.heights.samples()[i]);
+    }
+    for (const io::TileFault& fault : window.faults) {
+        reading.faults.push_back({fault.file.string(), fault.message});
+    }
+    return reading;
+}
+
+} // namespace
+
+std::shared_ptr<scene::TileStream>
+make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSurface> overview) {
+    if (!source.stream || !source.tiles) {
+        return nullptr;
+    }
+    const io::TileGrid grid = source.stream->plan.grid;
+    const terrain::TileTree tree(grid.cols, grid.rows);
+    const auto read = [tiles = *source.tiles, grid, tree,
+                       gaps = source.stream->gaps](terrain::TreeTile tile, std::stop_token stop) {
+        return reading_of(io::read_tree_tile(tiles, grid, tree, tile, gaps, std::move(stop)));
+    };
+    scene::TileStreamOptions options;
+    options.memory_budget = source.stream->memory_budget;
+    options.threads = source.stream->threads;
+    return std::make_shared<scene::TileStream>(
+        scene::TileMaker(std::move(overview), tree, source.stream->plan.reduction), read, options);
+}
+
+void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop) {
+    const std::array views{scene.camera()};
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        int before = -1;
+        while (!stop.stop_requested() && stream.stats().read != before) {
+            before = stream.stats().read;
+            const auto wanted = render::wanted_tiles(scene, stream, views, size);
+            stream.want(wanted);
+            if (wanted.empty() || !stream.wait(stop)) {
+                return;
+            }
+        }
+    });
+}
+
+void ask_for_tiles(const scene::Scene& scene, std::span<const scene::Camera> views,
+                   glm::ivec2 size) {
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        stream.want(render::wanted_tiles(scene, stream, views, size));
+    });
+}
+
+scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
+                           double ahead) {
+    scene::Camera later = now;
+    if (seconds > 0.0) {
+        const glm::dvec3 way = (now.eye - before.eye) * (ahead / seconds);
+        later.eye += way;
+        later.look += way;
+    }
+    return later;
+}
+
+bool take_new_tiles(const scene::Scene& scene) {
+    bool news = false;
+    for_each_stream(scene, [&](scene::TileStream& stream) { news = stream.take_news() || news; });
+    return news;
+}
+
+bool awaits_tiles(const scene::Scene& scene) {
+    bool busy = false;
+    for_each_stream(scene, [&](scene::TileStream& stream) { busy = stream.is_busy() || busy; });
+    return busy;
+}
+
+void tell_stream_faults(const scene::Scene& scene, bool quiet) {
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        for (const std::string& fault : stream.take_faults()) {
+            if (!quiet) {
+                tell(fmt::format("reljef: shown coarser: {}\n", fault));
+            }
+        }
+    });
+}
+
+std::size_t faulty_files(const scene::Scene& scene) {
+    std::size_t count = 0;
+    for_each_stream(scene, [&](scene::TileStream& stream) { count += stream.faulty_files(); });
+    return count;
+}
+
+std::string stream_stats(const scene::Scene& scene) {
+    std::string text;
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        const scene::TileStreamStats stats = stream.stats();
+        text += fmt::format("streamed: {} tiles read, {} failed, {} cancelled, {} evicted; {} kept "
+                            "({:.1f} MB, at most {:.1f} MB)\n",
+                            stats.read, stats.failed, stats.cancelled, stats.evicted, stats.tiles,
+                            static_cast<double>(stats.bytes) * 1e-6,
+                            static_cast<double>(stats.most_bytes) * 1e-6);
+    });
+    return text;
+}
+
+} // namespace reljef::app

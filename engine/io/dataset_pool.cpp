@@ -1,0 +1,69 @@
+#include "engine/io/dataset_pool.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <cpl_vsi.h>
+
+namespace reljef::io {
+namespace {
+
+std::filesystem::file_time_type time_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return is_remote(path) ? std::filesystem::file_time_type()
+                           : std::filesystem::last_write_time(path, ignored);
+}
+
+// What GDAL keeps of a file on a server, that it is not there for one.
+void forget(const std::filesystem::path& path) {
+    if (is_remote(path)) {
+        const std::string name = path.string();
+        VSICurlPartialClearCache((name.starts_with("/vsi") ? name : "/vsicurl/" + name).c_str());
+    }
+}
+
+} // namespace
+
+void DatasetPool::Loan::spoil() {
+    dataset_.reset();
+    forget(path_);
+}
+
+DatasetPool::Loan::~Loan() {
+    if (dataset_ != nullptr) {
+        pool_->give_back(std::move(path_), std::move(dataset_));
+    }
+}
+
+Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
+                                              const GdalMessages& messages) {
+    const auto changed = time_of(path);
+    {
+        const std::lock_guard lock(mutex_);
+        idle_.remove_if(
+            [&](const Idle& idle) { return idle.path == path && idle.changed != changed; });
+        const auto found = std::find_if(idle_.begin(), idle_.end(),
+                                        [&](const Idle& idle) { return idle.path == path; });
+        if (found != idle_.end()) {
+            Dataset dataset = std::move(found->dataset);
+            idle_.erase(found);
+            return Loan(*this, path, std::move(dataset));
+        }
+    }
+    auto opened = open_raster(path, messages);
+    if (!opened) {
+        forget(path);
+    }
+    return opened ? Result<Loan>(Loan(*this, path, std::move(*opened))) : opened.error();
+}
+
+void DatasetPool::give_back(std::filesystem::path path, Dataset dataset) {
+    const auto changed = time_of(path);
+    const std::lock_guard lock(mutex_);
+    idle_.push_front({std::move(path), changed, std::move(dataset)});
+    if (idle_.size() > most_idle) {
+        idle_.pop_back();
+    }
+}
+
+} // namespace reljef::io

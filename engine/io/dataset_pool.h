@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <list>
+#include <mutex>
+
+#include "engine/io/gdal_dataset.h"
+
+namespace reljef::io {
+
+/// Rasters that stay open from one reading to the next, a few at most, for any number of threads:
+/// what one has borrowed nobody else uses.
+class DatasetPool {
+public:
+    /// At most so many rasters stay open while nobody reads them.
+    static constexpr std::size_t most_idle = 32;
+
+    /// An open raster, for the scope.
+    class Loan {
+    public:
+        Loan(DatasetPool& pool, std::filesystem::path path, Dataset dataset)
+            : pool_(&pool), path_(std::move(path)), dataset_(std::move(dataset)) {}
+        ~Loan();
+        Loan(Loan&&) = default;
+        Loan& operator=(Loan&&) = delete;
+
+        GDALDataset& operator*() const { return *dataset_; }
+        GDALDataset* operator->() const { return dataset_.get(); }
+        /// It is closed, and nothing of it kept: for one that failed.
+        void spoil();
+
+    private:
+        DatasetPool* pool_;
+        std::filesystem::path path_;
+        Dataset dataset_;
+    };
+
+    /// Opens the file where none of it is idle, or where it has changed meanwhile. Fails as
+    /// open_raster.
+    Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages);
+
+private:
+    struct Idle {
+        std::filesystem::path path;
+        std::filesystem::file_time_type changed;
+        Dataset dataset;
+    };
+    void give_back(std::filesystem::path path, Dataset dataset);
+
+    std::mutex mutex_;
+    std::list<Idle> idle_; // the latest first
+};
+
+} // namespace reljef::io

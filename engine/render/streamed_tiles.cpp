@@ -1,0 +1,209 @@
+#include "engine/render/streamed_tiles.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/grid_triangles.h"
+#include "engine/core/worker_pool.h"
+#include "engine/render/uploads.h"
+#include "engine/scene/tile_stream.h"
+
+namespace reljef::render {
+namespace {
+
+// A vertex of a drawn tile in local metres, and its height in true metres.
+struct PlacedVertex {
+    glm::dvec3 place;
+    float height;
+};
+
+PlacedVertex placed(const StreamedDraw& draw, glm::ivec2 vertex) {
+    const scene::StreamedTile& tile = *draw.tile;
+    if (draw.flat) {
+        const double height = terrain::reference_height(draw.terrain->surface->heightfield());
+        return {draw.terrain->stream->maker().place(tile.id, vertex, height),
+                static_cast<float>(height)};
+    }
+    return {tile.origin + glm::dvec3(tile.positions(vertex.x, vertex.y)),
+            tile.heights(vertex.x, vertex.y)};
+}
+
+// The draws of each stream, by tile.
+std::map<const scene::TileStream*, StreamedByTile> draws_by_stream(const DrawList& list) {
+    std::map<const scene::TileStream*, StreamedByTile> streams;
+    for (const StreamedDraw& draw : list.streamed_tiles) {
+        streams[draw.terrain->stream.get()].emplace(draw.tile->id, &draw);
+    }
+    return streams;
+}
+
+struct TileToUpload {
+    const StreamedDraw* draw = nullptr;
+    GridMesh mesh;
+};
+
+glm::vec4 lit_from_samples(const scene::StreamedTile& tile) {
+    const glm::vec2 texels(tile.cells + 1);
+    const auto step = static_cast<float>(terrain::TileTree::step(tile.id));
+    return {1.0F / (texels * step), 0.5F / texels};
+}
+
+} // namespace
+
+GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::EdgeMove>& moves,
+                       const StreamedByTile& drawn) {
+    const scene::StreamedTile& tile = *draw.tile;
+    const terrain::TileTree& tree = draw.terrain->stream->tree();
+    const glm::ivec2 first = terrain::TileTree::first(tile.id);
+    GridMesh mesh{tile.cells.x, tile.cells.y, {}};
+    const auto vertex_of = [&](const StreamedDraw& from, glm::ivec2 vertex) {
+        const PlacedVertex at = placed(from, vertex);
+        return grid_vertex(at.place, at.height,
+                           glm::dvec2(tree.sample(from.tile->id, vertex) - first));
+    };
+    mesh.vertices.reserve(tile.positions.size());
+    for (int row = 0; row <= tile.cells.y; ++row) {
+        for (int col = 0; col <= tile.cells.x; ++col) {
+            mesh.vertices.push_back(vertex_of(draw, {col, row}));
+        }
+    }
+    for (const terrain::EdgeMove& move : moves) {
+        const int index = move.vertex.y * (tile.cells.x + 1) + move.vertex.x;
+        mesh.vertices[static_cast<std::size_t>(index)] =
+            vertex_of(*drawn.at(move.to.tile), move.to.vertex);
+    }
+    return mesh;
+}
+
+Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
+    std::erase_if(entries_, [](const auto& entry) { return entry.second.owner.expired(); });
+    std::erase_if(lights_, [](const auto& entry) { return entry.second.owner.expired(); });
+    for (const auto& streamed : draws_by_stream(list)) {
+        if (auto done = prepare_meshes(*streamed.first, streamed.second, stats); !done) {
+            return done;
+        }
+    }
+    for (const StreamedDraw& draw : list.streamed_tiles) {
+        if (auto done = with_maps ? prepare_light(list, draw, stats) : Result<void>(); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+Result<void> StreamedTiles::prepare_meshes(const scene::TileStream& stream,
+                                           const StreamedByTile& drawn, FrameStats& stats) {
+    std::set<terrain::TreeTile> ids;
+    for (const auto& entry : drawn) {
+        ids.insert(entry.first);
+    }
+    std::vector<TileToUpload> uploads;
+    for (const auto& [id, draw] : drawn) {
+        auto moves = terrain::edge_moves(stream.tree(), ids, id);
+        Entry& entry = entry_of(*draw);
+        if (entry.resident && entry.flat == draw->flat && entry.moves == moves) {
+            ++stats.skipped.uploads_unchanged;
+            continue;
+        }
+        entry.moves = std::move(moves);
+        entry.flat = draw->flat;
+        uploads.push_back({draw, {}});
+    }
+    parallel_for(static_cast<int>(uploads.size()), [&](int i) {
+        TileToUpload& tile = uploads[static_cast<std::size_t>(i)];
+        tile.mesh =
+            streamed_mesh(*tile.draw, entries_.at({&stream, tile.draw->tile->id}).moves, drawn);
+    });
+    for (const TileToUpload& tile : uploads) {
+        if (auto done = upload(*tile.draw, tile.mesh, stats); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+StreamedTiles::Entry& StreamedTiles::entry_of(const StreamedDraw& draw) {
+    Entry& entry = entries_[{draw.terrain->stream.get(), draw.tile->id}];
+    if (entry.owner.lock() != draw.tile) {
+        entry = {};
+        entry.owner = draw.tile;
+    }
+    return entry;
+}
+
+Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mesh,
+                                   FrameStats& stats) {
+    auto indices = indices_for(draw.tile->cells, stats);
+    if (!indices) {
+        return indices.error();
+    }
+    auto vertices = gl::Buffer::create(bytes_of(mesh.vertices));
+    if (!vertices) {
+        return vertices.error();
+    }
+    count_upload(stats, vertices->size());
+    ResidentMesh made = resident_grid(std::move(*vertices), 6 * mesh.cols * mesh.rows);
+    made.vertex_array.set_indices(**indices);
+    Entry& entry = entry_of(draw);
+    if (entry.resident) {
+        entry.resident->mesh = std::move(made);
+    } else {
+        entry.resident.emplace(
+            ResidentStreamed{std::move(made), std::nullopt, lit_from_samples(*draw.tile)});
+    }
+    return {};
+}
+
+Result<void> StreamedTiles::prepare_light(const DrawList& list, const StreamedDraw& draw,
+                                          FrameStats& stats) {
+    std::optional<scene::TerrainLight> light;
+    if (list.sun) {
+        light = {*list.sun, glm::dmat3(draw.world_from_local)};
+    }
+    Entry& entry = entry_of(draw);
+    if (entry.resident->lit && entry.light == light) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const Image map = light ? scene::lit_tile(draw.terrain->stream->maker(), *draw.tile,
+                                              irradiance_of(draw, *light))
+                            : draw.tile->albedo;
+    auto texture = mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb,
+                             std::as_bytes(map.samples()), stats);
+    if (!texture) {
+        return texture.error();
+    }
+    entry.resident->lit = std::move(*texture);
+    entry.light = light;
+    return {};
+}
+
+const scene::TerrainIrradiance& StreamedTiles::irradiance_of(const StreamedDraw& draw,
+                                                             const scene::TerrainLight& light) {
+    SharedLight& shared = lights_[draw.terrain->stream.get()];
+    if (shared.irradiance == nullptr || shared.light != light) {
+        shared = {draw.terrain->stream, light,
+                  std::make_unique<const scene::TerrainIrradiance>(
+                      draw.terrain->stream->maker().overview(), light)};
+    }
+    return *shared.irradiance;
+}
+
+Result<const gl::Buffer*> StreamedTiles::indices_for(glm::ivec2 cells, FrameStats& stats) {
+    const auto found = indices_.find({cells.x, cells.y});
+    if (found != indices_.end()) {
+        return &found->second;
+    }
+    auto buffer = gl::Buffer::create(bytes_of(grid_triangles<std::uint16_t>(cells.x, cells.y)));
+    if (!buffer) {
+        return buffer.error();
+    }
+    count_upload(stats, buffer->size());
+    return &indices_.emplace(std::pair{cells.x, cells.y}, std::move(*buffer)).first->second;
+}
+
+const ResidentStreamed& StreamedTiles::tile(const StreamedDraw& draw) const {
+    return *entries_.at({draw.terrain->stream.get(), draw.tile->id}).resident;
+}
+
+} // namespace reljef::render

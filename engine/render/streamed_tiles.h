@@ -1,0 +1,73 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gl/texture.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/grid_mesh.h"
+#include "engine/render/resident_mesh.h"
+#include "engine/terrain/tile_edges.h"
+
+namespace reljef::render {
+
+using StreamedByTile = std::map<terrain::TreeTile, const StreamedDraw*>;
+
+/// A streamed tile in the driver's memory.
+struct ResidentStreamed {
+    ResidentMesh mesh;
+    std::optional<gl::Texture2D> lit;
+    glm::vec4 lit_from_sample{0.0F}; ///< texture coordinate = samples from the first · xy + zw
+};
+
+/// The tiles of streamed terrains: uploaded when they are first drawn, again where a neighbour of
+/// another level moves their border or the sun moves. They go when the stream lets go of them.
+/// Needs a current context; destroy while it is current.
+class StreamedTiles {
+public:
+    /// Fails when the driver has no memory left.
+    Result<void> prepare(const DrawList& list, bool with_maps, FrameStats& stats);
+
+    /// Precondition: `draw` is of the list that was prepared.
+    [[nodiscard]] const ResidentStreamed& tile(const StreamedDraw& draw) const;
+
+private:
+    using Key = std::pair<const scene::TileStream*, terrain::TreeTile>;
+    struct Entry {
+        std::weak_ptr<const scene::StreamedTile> owner;
+        bool flat = false;
+        std::vector<terrain::EdgeMove> moves;
+        std::optional<scene::TerrainLight> light;
+        std::optional<ResidentStreamed> resident;
+    };
+    struct SharedLight {
+        std::weak_ptr<scene::TileStream> owner;
+        std::optional<scene::TerrainLight> light;
+        std::unique_ptr<const scene::TerrainIrradiance> irradiance;
+    };
+
+    Result<void> prepare_meshes(const scene::TileStream& stream, const StreamedByTile& drawn,
+                                FrameStats& stats);
+    Result<void> prepare_light(const DrawList& list, const StreamedDraw& draw, FrameStats& stats);
+    Result<void> upload(const StreamedDraw& draw, const GridMesh& mesh, FrameStats& stats);
+    const scene::TerrainIrradiance& irradiance_of(const StreamedDraw& draw,
+                                                  const scene::TerrainLight& light);
+    Result<const gl::Buffer*> indices_for(glm::ivec2 cells, FrameStats& stats);
+    Entry& entry_of(const StreamedDraw& draw);
+
+    std::map<Key, Entry> entries_;
+    std::map<const scene::TileStream*, SharedLight> lights_;
+    std::map<std::pair<int, int>, gl::Buffer> indices_; // by cells along a row, and a column
+};
+
+/// The vertices of a tile, with its border where the moves put it. `drawn` holds the tiles that
+/// they name.
+GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::EdgeMove>& moves,
+                       const StreamedByTile& drawn);
+
+} // namespace reljef::render

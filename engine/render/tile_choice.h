@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/scene/scene.h"
+#include "engine/scene/tile_stream.h"
+
+namespace reljef::render {
+
+/// The tiles of a streamed terrain that a view shows.
+struct TileChoice {
+    struct Drawn {
+        std::shared_ptr<const scene::StreamedTile> tile;
+        double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+    };
+    std::vector<Drawn> drawn;
+    std::vector<terrain::TreeTile> wanted; ///< and not there, the most urgent first
+    int outside_frustum = 0;
+};
+
+/// The error on the picture that streamed tiles are chosen for where the technique names none,
+/// pixels.
+inline constexpr double default_tile_error = 1.0;
+/// Where the error allows it, samples are seen at most so many times as far apart.
+inline constexpr double samples_apart_in_errors = 4.0;
+
+/// Best first: the tile whose estimated error is seen largest gives way to those below it, until
+/// none is seen larger than the technique's error, or more would be drawn than memory holds. Where
+/// one below is not there yet, it is wanted, and the coarser one drawn meanwhile. The same view of
+/// the same tiles gives the same choice. Nothing at all while the root is not there.
+TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                        glm::ivec2 size, const glm::dmat4& world_from_local);
+
+/// All that the cameras' views of a scene want of a stream, the first camera's first.
+std::vector<terrain::TreeTile> wanted_tiles(const scene::Scene& scene,
+                                            const scene::TileStream& stream,
+                                            std::span<const scene::Camera> cameras,
+                                            glm::ivec2 size);
+
+} // namespace reljef::render

@@ -1,0 +1,209 @@
+#include "engine/scene/streamed_tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/core/bilinear.h"
+
+namespace reljef::scene {
+namespace {
+
+// Vertices and one step around: sample (col + 1, row + 1) of `heights` is vertex (col, row).
+struct Surround {
+    Grid<float> heights;
+    Grid<std::uint8_t> voids; // 1: none of the source's
+    Grid<glm::dvec3> places;  // local metres
+};
+
+// Voids get the overview's heights, the same for every tile and level.
+Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileMaker& maker,
+                                      terrain::TreeTile tile) {
+    Grid<std::uint8_t> voids(heights.cols(), heights.rows());
+    const auto view = maker.overview().heightfield().heights.view();
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            float& height = heights(col, row);
+            if (!std::isfinite(height)) {
+                const glm::ivec2 sample = maker.tree().sample(tile, {col - 1, row - 1});
+                height = static_cast<float>(
+                    terrain::bilinear_height(view, maker.on_overview(glm::dvec2(sample))));
+                voids(col, row) = 1;
+            }
+        }
+    }
+    return voids;
+}
+
+Surround surround_of(const TileMaker& maker, terrain::TreeTile tile, Grid<float> heights) {
+    Surround around{std::move(heights), {}, {}};
+    around.voids = fill_from_overview(around.heights, maker, tile);
+    around.places = Grid<glm::dvec3>(around.heights.cols(), around.heights.rows());
+    for (int row = 0; row < around.heights.rows(); ++row) {
+        for (int col = 0; col < around.heights.cols(); ++col) {
+            around.places(col, row) =
+                maker.place(tile, {col - 1, row - 1}, around.heights(col, row));
+        }
+    }
+    return around;
+}
+
+void set_places(const Surround& around, StreamedTile& tile) {
+    const glm::ivec2 count = tile.cells + 1;
+    for (int row = 1; row <= count.y; ++row) {
+        for (int col = 1; col <= count.x; ++col) {
+            tile.bounds.add(around.places(col, row));
+        }
+    }
+    tile.origin = tile.bounds.center();
+    tile.positions = Grid<glm::vec3>(count.x, count.y);
+    tile.normals = Grid<glm::vec3>(count.x, count.y);
+    tile.heights = Grid<float>(count.x, count.y);
+    for (int row = 1; row <= count.y; ++row) {
+        for (int col = 1; col <= count.x; ++col) {
+            const glm::dvec3 east = around.places(col + 1, row) - around.places(col - 1, row);
+            const glm::dvec3 north = around.places(col, row - 1) - around.places(col, row + 1);
+            tile.positions(col - 1, row - 1) = glm::vec3(around.places(col, row) - tile.origin);
+            tile.normals(col - 1, row - 1) = glm::vec3(glm::normalize(glm::cross(east, north)));
+            tile.heights(col - 1, row - 1) = around.heights(col, row);
+        }
+    }
+}
+
+terrain::HeightRange range_of_heights(const Grid<float>& heights) {
+    const auto [low, high] =
+        std::minmax_element(heights.samples().begin(), heights.samples().end());
+    return {*low, *high};
+}
+
+double error_of(const Grid<float>& heights) {
+    float most = 0.0F;
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 1; col + 1 < heights.cols(); col += 2) {
+            const float middle = 0.5F * (heights(col - 1, row) + heights(col + 1, row));
+            most = std::max(most, std::abs(heights(col, row) - middle));
+        }
+    }
+    for (int row = 1; row + 1 < heights.rows(); row += 2) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            const float middle = 0.5F * (heights(col, row - 1) + heights(col, row + 1));
+            most = std::max(most, std::abs(heights(col, row) - middle));
+        }
+    }
+    return most;
+}
+
+// Of a vertex and all around it.
+bool is_sea(const Grid<float>& heights, int col, int row) {
+    for (int r = row - 1; r <= row + 1; ++r) {
+        for (int c = col - 1; c <= col + 1; ++c) {
+            if (heights(c, r) != 0.0F) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+std::size_t StreamedTile::bytes() const {
+    return bytes_per_vertex * positions.size();
+}
+
+TileMaker::TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
+                     int reduction)
+    : overview_(std::move(overview)), tree_(tree), reduction_(reduction),
+      tint_(overview_->heightfield()) {
+    check(reduction >= 1, "an overview of a reduction of at least 1 was expected");
+}
+
+glm::dvec2 TileMaker::on_overview(glm::dvec2 sample) const {
+    return (sample - 0.5 * (reduction_ - 1)) / static_cast<double>(reduction_);
+}
+
+glm::dvec2 TileMaker::from_overview(glm::dvec2 sample) const {
+    return sample * static_cast<double>(reduction_) + 0.5 * (reduction_ - 1);
+}
+
+double TileMaker::spacing(int level) const {
+    const glm::dvec2 spacing = overview_->heightfield().spacing;
+    return std::max(spacing.x, spacing.y) / reduction_ * std::ldexp(1.0, level);
+}
+
+glm::dvec3 TileMaker::place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const {
+    const glm::dvec2 sample = on_overview(glm::dvec2(tree_.sample(tile, vertex)));
+    return overview_->placement().world_from_sample({sample, height});
+}
+
+Box TileMaker::bounds(terrain::TreeTile tile, terrain::HeightRange range) const {
+    const auto at = [&](glm::ivec2 vertex) {
+        return on_overview(glm::dvec2(tree_.sample(tile, vertex)));
+    };
+    return terrain::placed_bounds(overview_->placement(), at({0, 0}), at(tree_.cells(tile)), range);
+}
+
+Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {
+    const Rgba8 tint = tint_.at(height);
+    const Image& picture = overview_->terrain().color;
+    if (picture.empty()) {
+        return tint;
+    }
+    const Grid<float>& samples = overview_->heightfield().heights;
+    const glm::dvec2 share = overview_sample / glm::dvec2(samples.cols() - 1, samples.rows() - 1);
+    const glm::dvec2 texel = glm::clamp(share, glm::dvec2(0.0), glm::dvec2(1.0)) *
+                             glm::dvec2(picture.cols() - 1, picture.rows() - 1);
+    const Rgba8 nearest =
+        picture(static_cast<int>(std::lround(texel.x)), static_cast<int>(std::lround(texel.y)));
+    return nearest.a < 128 ? tint : rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8));
+}
+
+StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights) const {
+    const glm::ivec2 cells = tree_.cells(tile);
+    check(heights.cols() == cells.x + 3 && heights.rows() == cells.y + 3,
+          "a tile's heights with one around were expected");
+    const Surround around = surround_of(*this, tile, std::move(heights));
+    StreamedTile made;
+    made.id = tile;
+    made.cells = cells;
+    set_places(around, made);
+    made.range = range_of_heights(made.heights);
+    made.error = overview_->placement().exaggeration() * error_of(made.heights);
+    made.up = glm::vec3(overview_->placement().up(made.origin));
+    made.albedo = Image(cells.x + 1, cells.y + 1);
+    for (int row = 0; row <= cells.y; ++row) {
+        for (int col = 0; col <= cells.x; ++col) {
+            const bool is_void = around.voids(col + 1, row + 1) != 0;
+            const glm::dvec2 sample = on_overview(glm::dvec2(tree_.sample(tile, {col, row})));
+            made.albedo(col, row) = is_void ? terrain::HeightTint::of_void()
+                                    : is_sea(around.heights, col + 1, row + 1)
+                                        ? terrain::HeightTint::of_water()
+                                        : color_at(sample, made.heights(col, row));
+        }
+    }
+    return made;
+}
+
+Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
+               const TerrainIrradiance& irradiance) {
+    const Grid<float>& overview = maker.overview().heightfield().heights;
+    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
+    Image lit(tile.albedo.cols(), tile.albedo.rows());
+    for (int row = 0; row < lit.rows(); ++row) {
+        for (int col = 0; col < lit.cols(); ++col) {
+            const glm::dvec2 sample =
+                maker.on_overview(glm::dvec2(maker.tree().sample(tile.id, {col, row})));
+            const float visibility =
+                irradiance.visibility(glm::clamp(sample, glm::dvec2(0.0), last));
+            lit(col, row) =
+                rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
+                                  irradiance.at(tile.normals(col, row), tile.up, visibility));
+        }
+    }
+    return lit;
+}
+
+} // namespace reljef::scene

@@ -1,0 +1,266 @@
+#include "engine/scene/tile_stream.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "engine/core/worker_pool.h"
+
+namespace reljef::scene {
+namespace {
+
+// Of a view's tiles those that are drawn: their ancestors stay too, a third as many, and what is
+// read ahead.
+constexpr double drawn_share = 0.5;
+constexpr std::chrono::seconds long_pause{30};
+
+} // namespace
+
+TileStream::TileStream(TileMaker maker, TileReader read, const TileStreamOptions& options)
+    : maker_(std::move(maker)), read_(std::move(read)), options_(options) {
+    const unsigned count = thread_count(options.threads);
+    for (unsigned i = 0; i < count; ++i) {
+        try {
+            threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+        } catch (const std::system_error&) {
+            check(i > 0, "a thread to read tiles was expected");
+            return; // the system gives no more: those that run do all the work
+        }
+    }
+}
+
+TileStream::~TileStream() {
+    {
+        const std::lock_guard lock(mutex_);
+        wanted_.clear();
+        for (auto& [tile, source] : in_flight_) {
+            source.request_stop();
+        }
+    }
+    for (std::jthread& thread : threads_) {
+        thread.request_stop();
+    }
+}
+
+std::shared_ptr<const StreamedTile> TileStream::find(terrain::TreeTile tile) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = tiles_.find(tile);
+    if (found == tiles_.end()) {
+        return nullptr;
+    }
+    found->second.used = view_;
+    return found->second.tile;
+}
+
+std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
+    const glm::dvec2 last(tree().cols() - 1, tree().rows() - 1);
+    const glm::dvec2 sample =
+        glm::clamp(maker_.from_overview(overview_sample), glm::dvec2(0.0), last);
+    const std::lock_guard lock(mutex_);
+    for (int level = 0; level <= tree().root().level; ++level) {
+        const int side = terrain::tile_cells << level;
+        const glm::ivec2 at = glm::ivec2(glm::min(sample, last - 0.5)) / side;
+        const auto found = tiles_.find({level, at.x, at.y});
+        if (found != tiles_.end()) {
+            const glm::dvec2 from_first =
+                sample - glm::dvec2(terrain::TileTree::first(found->first));
+            return Found{found->second.tile,
+                         from_first / static_cast<double>(terrain::TileTree::step(found->first))};
+        }
+    }
+    return std::nullopt;
+}
+
+std::size_t TileStream::most_drawn() const {
+    constexpr std::size_t least = 16; // enough for any view, coarsely
+    return std::max(
+        least, static_cast<std::size_t>(drawn_share * static_cast<double>(options_.memory_budget) /
+                                        static_cast<double>(bytes_per_tile)));
+}
+
+void TileStream::want(std::span<const terrain::TreeTile> tiles) {
+    {
+        const std::lock_guard lock(mutex_);
+        ++view_;
+        const std::set<terrain::TreeTile> now(tiles.begin(), tiles.end());
+        for (const terrain::TreeTile& tile : wanted_) {
+            stats_.cancelled += now.contains(tile) || in_flight_.contains(tile) ? 0 : 1;
+        }
+        for (auto& [tile, source] : in_flight_) {
+            if (!now.contains(tile)) {
+                source.request_stop();
+            }
+        }
+        wanted_.assign(tiles.begin(), tiles.end());
+        std::erase_if(wanted_, [&](terrain::TreeTile tile) { return tiles_.contains(tile); });
+    }
+    changed_.notify_all();
+}
+
+bool TileStream::is_settled(Clock::time_point now) const {
+    const auto given_up = [&](terrain::TreeTile tile) {
+        const auto failure = failures_.find(tile);
+        return failure != failures_.end() && failure->second.attempts >= most_attempts &&
+               now < failure->second.again;
+    };
+    return std::all_of(wanted_.begin(), wanted_.end(), given_up);
+}
+
+bool TileStream::wait(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, stop, [&] { return is_settled(Clock::now()); });
+    return !stop.stop_requested();
+}
+
+bool TileStream::take_news() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_, false);
+}
+
+bool TileStream::is_busy() const {
+    const std::lock_guard lock(mutex_);
+    return !is_settled(Clock::now());
+}
+
+std::vector<std::string> TileStream::take_faults() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(new_faults_, {});
+}
+
+std::size_t TileStream::faulty_files() const {
+    const std::lock_guard lock(mutex_);
+    return faults_.size();
+}
+
+TileStreamStats TileStream::stats() const {
+    const std::lock_guard lock(mutex_);
+    TileStreamStats stats = stats_;
+    stats.tiles = tiles_.size();
+    return stats;
+}
+
+// The most urgent tile that nobody reads and whose pause is over.
+std::optional<terrain::TreeTile> TileStream::next_tile(Clock::time_point now) {
+    for (const terrain::TreeTile tile : wanted_) {
+        const auto failure = failures_.find(tile);
+        const bool pauses = failure != failures_.end() && now < failure->second.again;
+        if (!pauses && !in_flight_.contains(tile)) {
+            return tile;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<TileStream::Clock::time_point> TileStream::next_attempt() const {
+    std::optional<Clock::time_point> first;
+    for (const terrain::TreeTile tile : wanted_) {
+        const auto failure = failures_.find(tile);
+        if (failure != failures_.end() && !in_flight_.contains(tile)) {
+            first = std::min(failure->second.again, first.value_or(failure->second.again));
+        }
+    }
+    return first;
+}
+
+void TileStream::work(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+        const auto tile = next_tile(Clock::now());
+        if (!tile) {
+            const auto ready = [&] { return next_tile(Clock::now()).has_value(); };
+            if (const auto again = next_attempt()) {
+                changed_.wait_until(lock, stop, *again, ready);
+            } else {
+                changed_.wait(lock, stop, ready);
+            }
+            continue;
+        }
+        const std::stop_token cancelled = in_flight_[*tile].get_token();
+        lock.unlock();
+        TileReading reading = read_(*tile, cancelled);
+        const bool stopped = cancelled.stop_requested();
+        std::shared_ptr<const StreamedTile> made;
+        if (!stopped && reading.faults.empty()) {
+            made = std::make_shared<const StreamedTile>(
+                maker_.make(*tile, std::move(reading.heights)));
+        }
+        lock.lock();
+        finish(*tile, std::move(reading), std::move(made), stopped);
+        changed_.notify_all();
+    }
+}
+
+void TileStream::finish(terrain::TreeTile tile, TileReading reading,
+                        std::shared_ptr<const StreamedTile> made, bool stopped) {
+    in_flight_.erase(tile);
+    if (stopped) {
+        ++stats_.cancelled;
+        return;
+    }
+    if (made == nullptr) {
+        note_failure(tile, reading);
+        return;
+    }
+    ++stats_.read;
+    failures_.erase(tile);
+    std::erase(wanted_, tile);
+    stats_.bytes += made->bytes();
+    tiles_[tile] = {std::move(made), view_};
+    news_ = true;
+    evict();
+    stats_.most_bytes = std::max(stats_.most_bytes, stats_.bytes);
+}
+
+void TileStream::note_failure(terrain::TreeTile tile, const TileReading& reading) {
+    ++stats_.failed;
+    Failure& failure = failures_[tile];
+    if (failure.attempts >= most_attempts) {
+        failure.attempts = 0;
+    }
+    const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
+    ++failure.attempts;
+    failure.again = Clock::now() + (failure.attempts < most_attempts ? pause : long_pause);
+    for (const TileReading::Fault& fault : reading.faults) {
+        if (faults_.emplace(fault.file, fault.message).second) {
+            new_faults_.push_back(fault.message);
+        }
+    }
+}
+
+// Those of this view and of the one before stay, the others go while there are too many, the least
+// recently seen first.
+void TileStream::evict() {
+    while (stats_.bytes > options_.memory_budget) {
+        const auto oldest =
+            std::min_element(tiles_.begin(), tiles_.end(), [](const auto& a, const auto& b) {
+                return a.second.used < b.second.used;
+            });
+        if (oldest->second.used + 1 >= view_) {
+            return;
+        }
+        stats_.bytes -= oldest->second.tile->bytes();
+        ++stats_.evicted;
+        tiles_.erase(oldest);
+    }
+}
+
+std::optional<double> height_at(const TerrainNode& terrain, double x, double y) {
+    auto z = terrain.surface->height_at(x, y);
+    // On a curved Earth the vertical leans against z: see TerrainSurface::height_at.
+    constexpr int rounds = 3;
+    for (int i = 0; z && terrain.stream != nullptr && i < rounds; ++i) {
+        const terrain::Placement& placement = terrain.surface->placement();
+        const auto sample = placement.sample_from_world({x, y, *z});
+        const auto found = sample ? terrain.stream->finest_at(glm::dvec2(*sample)) : std::nullopt;
+        if (!found) {
+            return z;
+        }
+        const double height = terrain::bilinear_height(found->tile->heights.view(), found->place);
+        z = placement.world_from_sample({sample->x, sample->y, height}).z;
+    }
+    return z;
+}
+
+} // namespace reljef::scene

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/scene/streamed_tile.h"
+
+namespace reljef::scene {
+
+/// What a source has for a tile: heights at its vertices and one step around them (NaN: none), and
+/// what went wrong, one sentence a file. With faults the heights do not count.
+struct TileReading {
+    Grid<float> heights;
+    struct Fault {
+        std::string file;
+        std::string message;
+    };
+    std::vector<Fault> faults;
+};
+
+/// Reads a tile; called from several threads at a time. May give up where a stop is asked for.
+using TileReader = std::function<TileReading(terrain::TreeTile, std::stop_token)>;
+
+struct TileStreamOptions {
+    std::size_t memory_budget = std::size_t{256} << 20; ///< bytes, for tiles here and when drawn
+    unsigned threads = 0;                               ///< 0: as many as the machine has
+    /// After the first failure of a tile it is read again so much later, then four times that, …
+    std::chrono::milliseconds first_pause{200};
+};
+
+struct TileStreamStats {
+    std::size_t tiles = 0; ///< in memory
+    std::size_t bytes = 0; ///< of these, drawn
+    std::size_t most_bytes = 0;
+    int read = 0;
+    int failed = 0;    ///< readings with faults
+    int cancelled = 0; ///< no longer wanted before they were there
+    int evicted = 0;
+};
+
+/// The tiles of a terrain that are in memory, and the threads that read those that are wanted. The
+/// only thing of a scene that changes by itself: tiles come, never while one looks at them (they
+/// are shared). The least recently seen ones go when memory runs out.
+class TileStream {
+public:
+    TileStream(TileMaker maker, TileReader read, const TileStreamOptions& options = {});
+    ~TileStream();
+    TileStream(const TileStream&) = delete;
+    TileStream& operator=(const TileStream&) = delete;
+
+    [[nodiscard]] const TileMaker& maker() const { return maker_; }
+    [[nodiscard]] const terrain::TileTree& tree() const { return maker_.tree(); }
+
+    /// A tile that is there, else null.
+    [[nodiscard]] std::shared_ptr<const StreamedTile> find(terrain::TreeTile tile) const;
+    /// The finest tile that is there over a sample of the overview, and the place on its vertices.
+    struct Found {
+        std::shared_ptr<const StreamedTile> tile;
+        glm::dvec2 place{0.0};
+    };
+    [[nodiscard]] std::optional<Found> finest_at(glm::dvec2 overview_sample) const;
+    /// As many as may be drawn at a time.
+    [[nodiscard]] std::size_t most_drawn() const;
+
+    /// Begins a view: what is to be read, the most urgent first. What was wanted before and is not
+    /// any more is cancelled.
+    void want(std::span<const terrain::TreeTile> tiles);
+    /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
+    /// was stopped. Only while nobody else wants.
+    bool wait(const std::stop_token& stop);
+    /// A tile that fails so often is left alone for half a minute.
+    static constexpr int most_attempts = 4;
+
+    /// Whether tiles came since the last call.
+    bool take_news();
+    /// Whether something is being read or about to be.
+    [[nodiscard]] bool is_busy() const;
+    /// Faults since the last call, of each file once in the stream's life.
+    std::vector<std::string> take_faults();
+    /// Files that had faults, all in all.
+    [[nodiscard]] std::size_t faulty_files() const;
+    [[nodiscard]] TileStreamStats stats() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Entry {
+        std::shared_ptr<const StreamedTile> tile;
+        mutable std::uint64_t used = 0; // view that looked at it last
+    };
+    struct Failure {
+        int attempts = 0;
+        Clock::time_point again;
+    };
+    void work(const std::stop_token& stop);
+    std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
+    [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
+    void finish(terrain::TreeTile tile, TileReading reading,
+                std::shared_ptr<const StreamedTile> made, bool stopped);
+    void note_failure(terrain::TreeTile tile, const TileReading& reading);
+    void evict();
+    [[nodiscard]] bool is_settled(Clock::time_point now) const;
+
+    const TileMaker maker_;
+    const TileReader read_;
+    const TileStreamOptions options_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::map<terrain::TreeTile, Entry> tiles_;
+    std::vector<terrain::TreeTile> wanted_; // most urgent first
+    std::map<terrain::TreeTile, std::stop_source> in_flight_;
+    std::map<terrain::TreeTile, Failure> failures_;
+    std::map<std::string, std::string> faults_; // by file
+    std::vector<std::string> new_faults_;
+    std::uint64_t view_ = 0;
+    bool news_ = false;
+    TileStreamStats stats_;
+    std::vector<std::jthread> threads_; // last: they stop before the rest goes
+};
+
+/// As TerrainSurface::height_at, of the finest tile that is there.
+std::optional<double> height_at(const TerrainNode& terrain, double x, double y);
+
+} // namespace reljef::scene

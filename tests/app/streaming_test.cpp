@@ -1,0 +1,94 @@
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/command_line.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+#include "tests/support/test_program.h"
+
+namespace reljef {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Folders of SRTM-like cells 1201 samples a side, big-endian, made of a formula.
+class Streaming : public ::testing::Test {
+protected:
+    void SetUp() override {
+        for (const auto& [name, west, south] :
+             {std::tuple("N44E006.hgt", 6, 44), {"N44E007.hgt", 7, 44}, {"N45E006.hgt", 6, 45}}) {
+            write_cell(name, west, south);
+        }
+        options_.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
+        options_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
+    }
+    void write_cell(const std::string& name, int west, int south) const {
+        constexpr int side = 1201;
+        std::string bytes;
+        for (int row = 0; row < side; ++row) {
+            for (int col = 0; col < side; ++col) {
+                const double x = west + col / 1200.0;
+                const double y = south + 1.0 - row / 1200.0;
+                const auto height = static_cast<std::int16_t>(
+                    1500.0 + 900.0 * std::sin(40.0 * x) * std::cos(37.0 * y) +
+                    60.0 * std::sin(700.0 * x + 500.0 * y));
+                bytes.push_back(static_cast<char>(height >> 8));
+                bytes.push_back(static_cast<char>(height & 0xff));
+            }
+        }
+        folder_.write("tiles/" + name, bytes);
+    }
+    [[nodiscard]] test::ProgramResult render(const std::string& picture,
+                                             std::vector<std::string> more) const {
+        std::vector<std::string> arguments{"render",      path("tiles"), "-o",
+                                           path(picture), "--size",      "160x120",
+                                           "--context",   "osmesa",      "--memory",
+                                           "32",          "--camera",    "44.6,6.6,2600,60,-12"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return test::reljef(arguments, options_);
+    }
+    [[nodiscard]] std::string path(const std::string& name) const {
+        return (folder_.path() / name).string();
+    }
+
+    test::TemporaryFolder folder_;
+    test::ProgramOptions options_;
+};
+
+TEST_F(Streaming, what_does_not_fit_the_memory_is_read_as_the_view_needs_it) {
+    const auto result = render("a.png", {"--stats"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("finer tiles are read where the view needs them"));
+    EXPECT_THAT(result.out, HasSubstr("streamed: "));
+    EXPECT_THAT(result.out, HasSubstr(" 0 failed"));
+    ASSERT_EQ(render("b.png", {"--quiet"}).exit_code, 0);
+    EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
+    // Other techniques draw what fits.
+    const auto bump =
+        render("c.png", {"--placement", "plane", "--technique", "parallax", "--stats"});
+    EXPECT_EQ(bump.exit_code, 0) << bump.err;
+    EXPECT_THAT(bump.out, Not(HasSubstr("streamed: ")));
+}
+
+TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
+    ASSERT_EQ(render("a.png", {}).exit_code, 0); // the index knows the file whole
+    // Cut, but of the size and the time that the index knows.
+    const auto file = folder_.path() / "tiles/N44E006.hgt";
+    const auto time = std::filesystem::last_write_time(file);
+    const auto size = std::filesystem::file_size(file);
+    std::filesystem::resize_file(file, 0);
+    std::filesystem::resize_file(file, size - 100000);
+    std::filesystem::last_write_time(file, time);
+    const auto result = render("b.png", {});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("N44E006.hgt"));
+    EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
+}
+
+} // namespace
+} // namespace reljef

@@ -1,0 +1,173 @@
+#include "engine/io/tree_tile.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/io/made_raster.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace reljef::io {
+namespace {
+
+using terrain::TileTree;
+using terrain::TreeTile;
+
+TileSet open_set(const std::filesystem::path& path) {
+    auto tiles = TileSet::open(path);
+    EXPECT_TRUE(tiles) << (tiles ? "" : tiles.error().message);
+    return std::move(*tiles);
+}
+
+std::size_t open_files() {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        count += entry.path().empty() ? 0U : 1U;
+    }
+    return count;
+}
+
+/// A raster in metres, UTM, as `made`.
+test::MadeRaster placed(test::MadeRaster made, double step) {
+    made.crs = "EPSG:32631";
+    made.geotransform = {300000.0, step, 0.0, 5600000.0, 0.0, -step};
+    return made;
+}
+
+TEST(TreeTiles, AreTheSamplesThemselvesAtTheFinestLevel) {
+    const test::TemporaryFolder folder;
+    const auto value = [](int col, int row) { return 7.0 * col - 3.0 * row; };
+    ASSERT_TRUE(
+        test::write(placed(test::made_raster(300, 200, value), 10.0), folder.path() / "a.tif"));
+    const TileSet tiles = open_set(folder.path() / "a.tif");
+    const TileTree tree(300, 200);
+    for (const TreeTile tile : {TreeTile{0, 0, 0}, {0, 1, 1}, {0, 2, 1}}) {
+        const auto heights = read_tree_tile(tiles, tiles.grid(), tree, tile, Gaps::holes).heights;
+        for (int row = 0; row < heights.rows(); ++row) {
+            for (int col = 0; col < heights.cols(); ++col) {
+                const glm::ivec2 sample = tree.sample(tile, {col - 1, row - 1});
+                ASSERT_EQ(heights(col, row), value(sample.x, sample.y));
+            }
+        }
+    }
+}
+
+TEST(TreeTiles, OfALevelAgreeToTheLastBitWhereTheyMeet) {
+    const test::TemporaryFolder folder;
+    const auto value = [](int col, int row) {
+        return 900.0 * std::sin(0.05 * col) * std::cos(0.07 * row) + 0.37 * col;
+    };
+    auto raster = placed(test::made_raster(1100, 1100, value), 10.0);
+    raster.overviews = {2, 4};
+    ASSERT_TRUE(test::write(raster, folder.path() / "a.tif"));
+    const TileSet tiles = open_set(folder.path());
+    const TileTree tree(1100, 1100);
+    for (int level = 0; level < 3; ++level) {
+        const auto west =
+            read_tree_tile(tiles, tiles.grid(), tree, {level, 0, 1}, Gaps::holes).heights;
+        const auto east =
+            read_tree_tile(tiles, tiles.grid(), tree, {level, 1, 1}, Gaps::holes).heights;
+        for (int row = 0; row < std::min(west.rows(), east.rows()); ++row) {
+            for (int col = 0; col < 3; ++col) {
+                const auto a = static_cast<float>(west(128 + col, row));
+                const auto b = static_cast<float>(east(col, row));
+                ASSERT_EQ(a, b) << "level " << level << " at " << col << "," << row;
+            }
+        }
+    }
+}
+
+TEST(TreeTiles, NoStepAcrossTheEdgesOfTheAlpineBlock) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"N44E006.hgt", "N44E007.hgt", "N45E006.hgt", "N45E007.hgt"}) {
+        const std::string file = std::string("natural/srtm3/") + name;
+        RELJEF_NEED_DATA(file);
+        std::filesystem::create_symlink(std::filesystem::absolute(test::data_path(file)),
+                                        folder.path() / name);
+    }
+    const TileSet tiles = open_set(folder.path());
+    const TileGrid grid = tiles.grid();
+    ASSERT_EQ(grid.cols, 2401);
+    const auto one = TileSet::open(folder.path() / "N45E006.hgt");
+    const auto two = TileSet::open(folder.path() / "N45E007.hgt");
+    ASSERT_TRUE(one && two);
+    // The column that both have: the same from either, and from the set, to the last bit.
+    const TileGrid shared{grid.first + grid.step * glm::dvec2(1200.0, 0.0), grid.step, 1, 1201};
+    const auto a = one->read(shared, Gaps::holes).heights;
+    EXPECT_EQ(a, two->read(shared, Gaps::holes).heights);
+    EXPECT_EQ(a, tiles.read(shared, Gaps::holes).heights);
+}
+
+TEST(TreeTiles, LeaveNoFileOpenAndSpareTheRestOfAHugeRaster) {
+    const test::TemporaryFolder folder;
+    const auto value = [](int col, int row) { return static_cast<double>(col ^ row); };
+    auto raster = placed(test::made_raster(256, 256, value), 10.0);
+    ASSERT_TRUE(test::write(raster, folder.path() / "part.tif"));
+    // 65536² samples: the same part everywhere, with overviews that GDAL makes as it reads.
+    std::ofstream vrt(folder.path() / "huge.vrt");
+    vrt << R"(<VRTDataset rasterXSize="65536" rasterYSize="65536"><SRS>EPSG:32631</SRS>)"
+        << "<GeoTransform>300000, 10, 0, 5600000, 0, -10</GeoTransform>"
+        << R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource>)"
+        << R"(<SourceFilename relativeToVRT="1">part.tif</SourceFilename>)"
+        << R"(<SrcRect xOff="0" yOff="0" xSize="256" ySize="256"/>)"
+        << R"(<DstRect xOff="0" yOff="0" xSize="65536" ySize="65536"/></SimpleSource>)"
+        << "</VRTRasterBand><OverviewList>2 4 8 16 32 64 128 256 512</OverviewList></VRTDataset>";
+    vrt.close();
+    const std::size_t before = open_files();
+    {
+        const TileSet tiles = open_set(folder.path() / "huge.vrt");
+        const TileTree tree(65536, 65536);
+        for (int level = tree.root().level; level >= 0; --level) {
+            const TreeTile tile{level, (1 << (tree.root().level - level)) / 3, 0};
+            const auto window = read_tree_tile(tiles, tiles.grid(), tree, tile, Gaps::holes);
+            ASSERT_TRUE(window.faults.empty());
+            ASSERT_FALSE(std::isnan(window.heights(60, 60)));
+        }
+        EXPECT_LT(tiles.bytes_read(), std::size_t{64} << 20);
+        EXPECT_LT(open_files(), before + 8);
+    }
+    EXPECT_EQ(open_files(), before);
+}
+
+TEST(TreeTiles, TellTheCommandThatMakesOverviews) {
+    const test::TemporaryFolder folder;
+    auto raster = placed(test::made_raster(9000, 4, [](int col, int) { return col; }), 10.0);
+    raster.type = GDT_Int16;
+    ASSERT_TRUE(test::write(raster, folder.path() / "long.tif"));
+    const auto told = missing_overviews(open_set(folder.path() / "long.tif"));
+    ASSERT_TRUE(told);
+    EXPECT_THAT(*told, ::testing::HasSubstr("long.tif"));
+    EXPECT_THAT(*told, ::testing::HasSubstr("gdaladdo -r average "));
+}
+
+TEST(TreeTiles, AFileReplacedWhileItIsOpenIsReadAnew) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "a.tif";
+    const auto write = [&](double height) {
+        ASSERT_TRUE(test::write(
+            placed(test::made_raster(100, 100, [&](int, int) { return height; }), 10.0), file));
+    };
+    write(1.0);
+    const TileSet tiles = open_set(file);
+    const TileTree tree(100, 100);
+    const auto height = [&] {
+        return read_tree_tile(tiles, tiles.grid(), tree, {0, 0, 0}, Gaps::holes).heights(50, 50);
+    };
+    EXPECT_EQ(height(), 1.0);
+    write(2.0);
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) +
+                                               std::chrono::seconds(2));
+    EXPECT_EQ(height(), 2.0);
+    std::filesystem::resize_file(file, 200);
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) +
+                                               std::chrono::seconds(4));
+    const auto cut = read_tree_tile(tiles, tiles.grid(), tree, {0, 0, 0}, Gaps::holes);
+    ASSERT_EQ(cut.faults.size(), 1U);
+    EXPECT_THAT(cut.faults.front().message, ::testing::HasSubstr("a.tif"));
+}
+
+} // namespace
+} // namespace reljef::io

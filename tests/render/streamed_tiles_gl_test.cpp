@@ -1,0 +1,212 @@
+#include "engine/render/streamed_tiles.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "engine/render/tile_choice.h"
+#include "engine/scene/tile_stream.h"
+#include "tests/render/driver_fixture.h"
+#include "tests/terrain/chance.h"
+
+namespace reljef::render {
+namespace {
+
+using terrain::TreeTile;
+
+constexpr int side = 1500; // samples: the last tiles are cut
+constexpr int reduction = 8;
+
+Grid<float> rough_hills(int samples, double step, double offset) {
+    return test::made_heights(samples, samples, [&](int col, int row) {
+        const glm::dvec2 at = glm::dvec2(col, row) * step + offset;
+        return 40.0 * std::sin(0.013 * at.x) * std::cos(0.011 * at.y) +
+               6.0 * std::sin(0.21 * at.x + 0.17 * at.y) + 2.0 * std::sin(0.9 * at.y);
+    });
+}
+
+scene::TileReading read_hills(const Grid<float>& all, TreeTile tile) {
+    const terrain::TileTree tree(side, side);
+    const glm::ivec2 count = tree.cells(tile) + 3;
+    scene::TileReading reading;
+    reading.heights = Grid<float>(count.x, count.y);
+    for (int row = 0; row < count.y; ++row) {
+        for (int col = 0; col < count.x; ++col) {
+            const glm::ivec2 sample = tree.sample(tile, {col - 1, row - 1});
+            // Coarser levels are higher: where two meet without their borders joined is a step.
+            reading.heights(col, row) = all(sample.x, sample.y) + static_cast<float>(tile.level);
+        }
+    }
+    return reading;
+}
+
+// A rough square a kilometre and a half wide, of which an overview is in the scene.
+struct StreamedWorld {
+    Scene scene;
+    Node* terrain = nullptr;
+    Node* camera = nullptr;
+    std::shared_ptr<scene::TileStream> stream;
+
+    explicit StreamedWorld(std::size_t tiles = 400) {
+        auto heightfield =
+            test::plane_heightfield(rough_hills(side / reduction, reduction, 0.5 * (reduction - 1)),
+                                    glm::dvec2(static_cast<double>(reduction)));
+        terrain = &test::add_terrain(scene, std::move(heightfield));
+        camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
+        scene.add_light();
+        auto& node = *terrain->get<scene::TerrainNode>();
+        const auto all = std::make_shared<const Grid<float>>(rough_hills(side, 1.0, 0.0));
+        stream = std::make_shared<scene::TileStream>(
+            scene::TileMaker(node.surface, terrain::TileTree(side, side), reduction),
+            [all](TreeTile tile, const std::stop_token&) { return read_hills(*all, tile); },
+            scene::TileStreamOptions{.memory_budget = tiles * scene::bytes_per_tile, .threads = 2});
+        node.stream = stream;
+    }
+    [[nodiscard]] TileChoice choice(glm::ivec2 picture = size) const {
+        return choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
+                            glm::dmat4(1.0));
+    }
+    void bring() const {
+        while (true) {
+            const auto wanted = choice().wanted;
+            stream->want(wanted);
+            if (wanted.empty()) {
+                return;
+            }
+            stream->wait({});
+        }
+    }
+    void look(glm::dvec3 eye, glm::dvec3 at) { *camera->get<Camera>() = camera_at(eye, at); }
+};
+
+TEST(TileChoices, DrawTheRootUntilFinerTilesAreThere) {
+    const StreamedWorld world;
+    EXPECT_TRUE(world.choice().drawn.empty());
+    EXPECT_EQ(world.choice().wanted, std::vector{world.stream->tree().root()});
+    world.stream->want(world.choice().wanted);
+    world.stream->wait({});
+    ASSERT_EQ(world.choice().drawn.size(), 1U);
+    EXPECT_EQ(world.choice().drawn.front().tile->id, world.stream->tree().root());
+    EXPECT_FALSE(world.choice().wanted.empty());
+}
+
+TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
+    StreamedWorld world;
+    test::Chance chance(3);
+    for (int round = 0; round < 25; ++round) {
+        const glm::dvec3 eye(chance.between(-700, 700), chance.between(-700, 700),
+                             chance.between(60, 900));
+        world.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
+        world.bring();
+        std::set<TreeTile> drawn;
+        const TileChoice choice = world.choice();
+        for (const auto& [tile, distance] : choice.drawn) {
+            drawn.insert(tile->id);
+            const double pixels = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
+            const double spacing = world.stream->maker().spacing(tile->id.level);
+            if (tile->id.level > 0) {
+                ASSERT_LE(spacing / samples_apart_in_errors * pixels / distance, 1.0 + 1e-9);
+                ASSERT_LE(tile->error * pixels / distance, 1.0 + 1e-9);
+            }
+        }
+        for (TreeTile tile : drawn) {
+            while (tile.level < world.stream->tree().root().level) {
+                tile = {tile.level + 1, tile.col / 2, tile.row / 2};
+                ASSERT_FALSE(drawn.contains(tile));
+            }
+        }
+    }
+}
+
+TEST(TileChoices, DrawNoMoreThanMemoryHolds) {
+    StreamedWorld world(40);
+    test::Chance chance(4);
+    for (int round = 0; round < 20; ++round) {
+        world.look({chance.between(-700, 700), chance.between(-700, 700), 50.0},
+                   {chance.between(-700, 700), chance.between(-700, 700), 0.0});
+        world.bring();
+        ASSERT_LE(world.choice().drawn.size(), world.stream->most_drawn());
+        ASSERT_LE(world.stream->stats().bytes, 44 * scene::bytes_per_tile);
+    }
+}
+
+class StreamedTilesGlTest : public DriverGlTest {};
+
+int sky_pixels(const HitBuffer& hits) {
+    const auto samples = hits.samples();
+    return static_cast<int>(std::count_if(samples.begin(), samples.end(),
+                                          [](const Hit& hit) { return hit.col < 0.0F; }));
+}
+
+std::string first_sky(const HitBuffer& hits) {
+    for (int row = 0; row < hits.rows(); ++row) {
+        for (int col = 0; col < hits.cols(); ++col) {
+            if (hits(col, row).col < 0.0F) {
+                const Hit beside = hits.clamped(col - 1, row);
+                return fmt::format("the first at {},{} beside sample {},{} at {} m", col, row,
+                                   beside.col, beside.row, beside.height);
+            }
+        }
+    }
+    return "";
+}
+
+TEST_F(StreamedTilesGlTest, NoHoleBetweenTilesOfAnyLevels) {
+    StreamedWorld world;
+    Driver made = driver();
+    test::Chance chance(5);
+    for (int round = 0; round < 40; ++round) {
+        // Down onto the ground: nothing but terrain is seen.
+        const glm::dvec3 eye(chance.between(-300, 300), chance.between(-300, 300),
+                             chance.between(60, 200));
+        const double aside = 0.2 * eye.z;
+        world.look(eye, eye + glm::dvec3(chance.between(-aside, aside),
+                                         chance.between(-aside, aside), -eye.z));
+        if (round % 2 == 0) {
+            world.bring();
+        } else {
+            world.stream->want(world.choice().wanted); // with what happens to be there
+        }
+        const HitBuffer hits = test::must(made.draw_hits(world.scene));
+        ASSERT_EQ(sky_pixels(hits), 0) << "round " << round << ", eye " << eye.x << "," << eye.y
+                                       << "," << eye.z << ", " << first_sky(hits);
+    }
+}
+
+TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
+    const auto picture = [&](std::span<const glm::dvec3> before) {
+        StreamedWorld world;
+        Driver made = driver();
+        for (const glm::dvec3 eye : before) {
+            world.look(eye, {0.0, 0.0, 0.0});
+            world.bring();
+            test::must(made.draw(world.scene));
+        }
+        world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
+        world.bring();
+        test::must(made.draw(world.scene));
+        return made.read_color();
+    };
+    const Image first = picture({});
+    EXPECT_EQ(first, picture(std::array{glm::dvec3(500.0, 500.0, 70.0),
+                                        glm::dvec3(-600.0, 300.0, 400.0)}));
+}
+
+TEST_F(StreamedTilesGlTest, TextureDrawsTilesFlatAndReliefTheOverview) {
+    StreamedWorld world;
+    auto& material = world.terrain->get<scene::TerrainNode>()->material;
+    Driver made = driver();
+    world.bring();
+    test::must(made.draw(world.scene));
+    const Image hills = made.read_color();
+    material.technique = scene::make_technique(scene::TechniqueId::texture);
+    world.bring();
+    const FrameStats flat = test::must(made.draw(world.scene));
+    EXPECT_GT(flat.tiles, 0);
+    EXPECT_NE(made.read_color(), hills);
+    material.technique = scene::make_technique(scene::TechniqueId::relief);
+    EXPECT_EQ(test::must(made.draw(world.scene)).tiles, 1);
+}
+
+} // namespace
+} // namespace reljef::render

@@ -1,0 +1,227 @@
+#include "engine/scene/tile_stream.h"
+
+#include <atomic>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/core/worker_pool.h"
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::scene {
+namespace {
+
+using terrain::TileTree;
+using terrain::TreeTile;
+using namespace std::chrono_literals;
+
+constexpr int side = 1025; // samples of the raster
+constexpr int reduction = 8;
+
+double height_of(glm::dvec2 sample) {
+    return 0.25 * sample.x - 0.5 * sample.y + 3.0;
+}
+
+std::shared_ptr<const TerrainSurface> overview() {
+    const int count = side / reduction;
+    auto heights = test::made_heights(count, count, [](int col, int row) {
+        return height_of((glm::dvec2(col, row) + 0.5) * static_cast<double>(reduction) - 0.5);
+    });
+    auto heightfield = test::plane_heightfield(std::move(heights));
+    heightfield.spacing = glm::dvec2(10.0 * reduction);
+    auto surface = TerrainSurface::create(std::make_shared<const terrain::Terrain>(
+        terrain::Terrain{"made", std::move(heightfield), {}, {}}));
+    EXPECT_TRUE(surface);
+    return std::make_shared<const TerrainSurface>(std::move(*surface));
+}
+
+TileReading read_plane(TreeTile tile, const std::stop_token& /*stop*/) {
+    const TileTree tree(side, side);
+    const glm::ivec2 count = tree.cells(tile) + 3;
+    TileReading reading;
+    reading.heights = Grid<float>(count.x, count.y);
+    for (int row = 0; row < count.y; ++row) {
+        for (int col = 0; col < count.x; ++col) {
+            reading.heights(col, row) =
+                static_cast<float>(height_of(glm::dvec2(tree.sample(tile, {col - 1, row - 1}))));
+        }
+    }
+    return reading;
+}
+
+TileMaker maker() {
+    return {overview(), TileTree(side, side), reduction};
+}
+
+std::vector<TreeTile> level_0() {
+    std::vector<TreeTile> tiles;
+    for (int i = 0; i < 64; ++i) {
+        tiles.push_back({0, i % 8, i / 8});
+    }
+    return tiles;
+}
+
+TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
+    const TileMaker make = maker();
+    const auto& placement = make.overview().placement();
+    for (const TreeTile tile : {TreeTile{3, 0, 0}, {2, 1, 0}, {1, 3, 2}, {0, 7, 7}, {0, 0, 5}}) {
+        const StreamedTile made = make.make(tile, read_plane(tile, {}).heights);
+        for (int row = 0; row <= made.cells.y; row += 16) {
+            for (int col = 0; col <= made.cells.x; col += 16) {
+                const glm::dvec2 sample(make.tree().sample(tile, {col, row}));
+                const glm::dvec3 expected =
+                    placement.world_from_sample({make.on_overview(sample), height_of(sample)});
+                const glm::dvec3 found = made.origin + glm::dvec3(made.positions(col, row));
+                ASSERT_NEAR(found.x, expected.x, 1e-3);
+                ASSERT_NEAR(found.y, expected.y, 1e-3);
+                ASSERT_NEAR(found.z, expected.z, 1e-3);
+                // Of the plane z = 0.025 x + 0.05 y.
+                const glm::vec3 normal = made.normals(col, row);
+                ASSERT_NEAR(normal.x / normal.z, -0.025, 1e-4);
+                ASSERT_NEAR(normal.y / normal.z, -0.05, 1e-4);
+            }
+        }
+        EXPECT_NEAR(made.error, 0.0, 1e-3); // a plane: nothing is gained by more
+    }
+}
+
+TEST(TileMakers, FillVoidsWithTheOverview) {
+    auto heights = read_plane({0, 3, 3}, {}).heights;
+    heights(60, 60) = std::numeric_limits<float>::quiet_NaN();
+    const StreamedTile made = maker().make({0, 3, 3}, std::move(heights));
+    EXPECT_NEAR(made.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
+    EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::of_void());
+}
+
+TEST(TileStreams, BringWhatIsWantedOnce) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(), [&](TreeTile tile, const std::stop_token& stop) {
+        ++readings;
+        return read_plane(tile, stop);
+    });
+    const auto tiles = level_0();
+    stream.want(tiles);
+    EXPECT_TRUE(stream.wait({}));
+    stream.want(tiles);
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(readings, 64);
+    EXPECT_FALSE(stream.is_busy());
+    EXPECT_TRUE(stream.take_news());
+    EXPECT_FALSE(stream.take_news());
+    EXPECT_EQ(stream.find({0, 5, 5})->id, (TreeTile{0, 5, 5}));
+    EXPECT_EQ(stream.stats().tiles, 64U);
+}
+
+TEST(TileStreams, StayWithinTheirMemoryAndDropTheLeastRecentlySeen) {
+    TileStream stream(maker(), read_plane, {.memory_budget = 8 * bytes_per_tile, .threads = 2});
+    for (const TreeTile tile : level_0()) {
+        stream.want(std::array{tile});
+        stream.wait({});
+        ASSERT_NE(stream.find(tile), nullptr);
+        ASSERT_LE(stream.stats().bytes, 9 * bytes_per_tile);
+    }
+    EXPECT_EQ(stream.find({0, 0, 0}), nullptr);
+    EXPECT_NE(stream.find({0, 7, 7}), nullptr);
+    EXPECT_EQ(stream.stats().evicted, 64 - static_cast<int>(stream.stats().tiles));
+}
+
+TEST(TileStreams, CancelWhatIsPassedBy) {
+    std::atomic<bool> go_on{false};
+    std::atomic<int> begun{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          ++begun;
+                          while (!stop.stop_requested() && !go_on) {
+                              std::this_thread::sleep_for(1ms);
+                          }
+                          return read_plane(tile, stop);
+                      },
+                      {.threads = 1});
+    stream.want(level_0());
+    while (begun == 0) {
+        std::this_thread::sleep_for(1ms);
+    }
+    go_on = false;
+    stream.want(std::array{TreeTile{3, 0, 0}});
+    while (begun < 2) {
+        std::this_thread::sleep_for(1ms);
+    }
+    go_on = true;
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(stream.stats().read, 1);
+    EXPECT_EQ(stream.stats().cancelled, 64);
+    EXPECT_NE(stream.find({3, 0, 0}), nullptr);
+}
+
+TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          if (++readings < 3) {
+                              reading.faults = {{"a.tif", "a.tif: is cut"}};
+                          }
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 1ms});
+    stream.want(std::array{TreeTile{0, 0, 0}});
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(readings, 3);
+    EXPECT_NE(stream.find({0, 0, 0}), nullptr);
+    EXPECT_EQ(stream.stats().failed, 2);
+    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
+    EXPECT_TRUE(stream.take_faults().empty());
+    EXPECT_EQ(stream.faulty_files(), 1U);
+}
+
+TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
+    TileStream stream(maker(),
+                      [](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          if (tile.col == 3) {
+                              reading.faults = {{"b.tif", "b.tif: is cut"}};
+                          }
+                          return reading;
+                      },
+                      {.threads = 2, .first_pause = 1ms});
+    stream.want(level_0());
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(stream.stats().read, 56);
+    EXPECT_EQ(stream.stats().failed, 8 * TileStream::most_attempts);
+    EXPECT_FALSE(stream.is_busy());
+}
+
+TEST(TileStreams, EndInTheMiddleOfReading) {
+    std::atomic<int> begun{0};
+    for (int round = 0; round < 20; ++round) {
+        TileStream stream(maker(), [&](TreeTile tile, const std::stop_token& stop) {
+            ++begun;
+            for (int i = 0; i < 1000 && !stop.stop_requested(); ++i) {
+                std::this_thread::sleep_for(1ms);
+            }
+            return read_plane(tile, stop);
+        });
+        stream.want(level_0());
+        std::stop_source stopped;
+        stopped.request_stop();
+        EXPECT_FALSE(stream.wait(stopped.get_token()));
+    }
+    EXPECT_LE(begun, 20 * static_cast<int>(thread_count(0)));
+}
+
+TEST(TileStreams, KnowTheGroundAtTheFinestTileThatIsThere) {
+    auto stream = std::make_shared<TileStream>(maker(), read_plane);
+    const TerrainNode node{overview(), {}, stream};
+    EXPECT_FALSE(stream->finest_at({64.0, 64.0}));
+    stream->want(std::array{TreeTile{3, 0, 0}, TreeTile{0, 4, 4}});
+    stream->wait({});
+    EXPECT_EQ(stream->finest_at({70.0, 70.0})->tile->id.level, 0);
+    EXPECT_EQ(stream->finest_at({20.0, 70.0})->tile->id.level, 3);
+    const auto z = height_at(node, 100.0, -50.0);
+    ASSERT_TRUE(z);
+    EXPECT_NEAR(*z, *node.surface->height_at(100.0, -50.0), 1e-3);
+}
+
+} // namespace
+} // namespace reljef::scene
