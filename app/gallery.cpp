@@ -58,9 +58,9 @@ glm::dmat4 place_of(const terrains::GalleryModel& model) {
 class Sets {
 public:
     Sets(std::string asked_for, const io::SceneDescription& description,
-         const TerrainChoice& terrain, bool needs_cones)
+         const TerrainChoice& terrain, bool needs_cones, std::stop_token stop)
         : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
-          needs_cones_(needs_cones) {}
+          needs_cones_(needs_cones), stop_(std::move(stop)) {}
 
     Result<Set> of(const terrains::GalleryModel& model) {
         const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
@@ -106,7 +106,7 @@ private:
     [[nodiscard]] Result<void> add_cones(terrain::TextureSet& set) const {
         ProgressLine line("cones of " + set.name, terrain_.quiet);
         io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-        options.parallel = {static_cast<unsigned>(terrain_.threads), {}, line.callback()};
+        options.parallel = {static_cast<unsigned>(terrain_.threads), stop_, line.callback()};
         const auto field = terrain::cone_field(set.heights.view(), terrain::TileBorder::wrap);
         auto cached = io::cached_cones(field.view(), options);
         if (!cached) {
@@ -131,6 +131,7 @@ private:
     const io::SceneDescription& description_;
     const TerrainChoice& terrain_;
     bool needs_cones_;
+    std::stop_token stop_;
     std::map<std::string, Set> sets_;
 };
 
@@ -168,15 +169,15 @@ scene::Material material_of(const terrains::GalleryModel& model, Set set,
 
 Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const io::SceneDescription& description,
-                                              const TerrainChoice& terrain,
-                                              const ViewChoice& view) {
+                                              const TerrainChoice& terrain, const ViewChoice& view,
+                                              const std::stop_token& stop) {
     const auto technique = chosen_technique(description, view);
     if (!technique) {
         return technique.error();
     }
     const bool needs_cones = *technique && (*technique)->id == scene::TechniqueId::cone;
     Sets sets(terrain.textures.value_or(description.gallery_textures), description, terrain,
-              needs_cones);
+              needs_cones, stop);
     std::vector<scene::Node*> nodes;
     for (const terrains::GalleryModel& model : terrains::gallery_models()) {
         const auto set = sets.of(model);

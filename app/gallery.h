@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "app/options.h"
@@ -9,10 +10,11 @@
 namespace reljef::app {
 
 /// Puts the gallery's models into the scene, each with its tile of detail; returns their nodes,
-/// which the scene owns. Fails on a texture set that is unknown or cannot be read, and on a
-/// technique of the scene file that is none.
+/// which the scene owns. Fails on a texture set that is unknown or cannot be read, on a
+/// technique of the scene file that is none, and where it is stopped.
 Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const io::SceneDescription& description,
-                                              const TerrainChoice& terrain, const ViewChoice& view);
+                                              const TerrainChoice& terrain, const ViewChoice& view,
+                                              const std::stop_token& stop);
 
 } // namespace reljef::app

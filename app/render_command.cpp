@@ -175,6 +175,8 @@ std::vector<NamedFile> inputs_of(const RenderChoice& choice,
             {"the terrain's heights", description.heights},
             {"the terrain's imagery", description.imagery},
             {"--imagery", choice.terrain.imagery},
+            {"--textures", choice.terrain.textures.value_or("")},
+            {"the gallery's textures", description.gallery_textures},
             {"--path", choice.view.path}};
 }
 
@@ -256,7 +258,7 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
         return ready;
     }
     const std::size_t faults = source->terrain.faults.size();
-    auto scene = make_scene(std::move(*source), choice.terrain, choice.view);
+    auto scene = make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
     if (!scene) {
         return scene.error();
     }

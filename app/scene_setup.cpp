@@ -207,7 +207,7 @@ Result<void> TerrainScene::check(const scene::Technique& technique) const {
 }
 
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
-                                const ViewChoice& view) {
+                                const ViewChoice& view, const std::stop_token& stop) {
     TerrainScene result;
     const auto options = terrain_options(terrain, view, source.description);
     auto node = result.scene.add_terrain(std::move(source.terrain), options);
@@ -219,7 +219,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     shown.stream = make_stream(source, shown.surface);
     result.bounds = result.terrain->world_bounds();
     if (source.description.generator == "gallery") {
-        auto models = add_gallery(result.scene, source.description, terrain, view);
+        auto models = add_gallery(result.scene, source.description, terrain, view, stop);
         if (!models) {
             return models.error();
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "app/options.h"
@@ -30,7 +31,7 @@ struct TerrainScene {
 
 /// Builds the scene. Fails where the placement or the camera does not fit the terrain.
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
-                                const ViewChoice& view);
+                                const ViewChoice& view, const std::stop_token& stop = {});
 
 /// The path that --path names; nothing without one.
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view);

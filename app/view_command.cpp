@@ -210,7 +210,7 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
         !ready) {
         return ready;
     }
-    auto scene = make_scene(std::move(*source), choice.terrain, choice.view);
+    auto scene = make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
     if (!scene) {
         return scene.error();
     }

@@ -68,6 +68,12 @@ bool move_on(vec2 exits, ivec2 forward, inout vec3 start, inout Walk walk) {
 
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     const int start_level = 5;
+    part = 1.0;
+    place = vec2(0.0);
+    // No number where the mesh has no tangent frame: such a ray would never leave.
+    if (!(dot(abs(start) + abs(span), vec3(1.0)) < 1e30)) {
+        return false;
+    }
     ivec2 forward = ivec2(greaterThan(span.xy, vec2(0.0)));
     // A ray along an axis never leaves through that axis's borders.
     vec2 inverse = vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0);
@@ -107,7 +113,5 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             inside = move_on(exits, forward, start, walk);
         }
     }
-    part = 1.0;
-    place = vec2(0.0);
     return false;
 }

@@ -30,7 +30,7 @@
 #endif
 
 uniform float mesh_height; // of the tile's heights in [0,1]: where the mesh lies
-uniform float near_part;   // of the way to the eye that is not seen
+uniform float near_depth;  // metres, in perspective
 
 #ifdef HIT
 layout(location = 0) out vec4 hit; // col, row, height, depth
@@ -53,8 +53,8 @@ struct TileRay {
     float way_per_height;
 };
 
-// `to_eye` in tangent space.
-TileRay ray_through(vec3 to_eye) {
+// `to_eye` in tangent space; `near_part` of the way is not seen.
+TileRay ray_through(vec3 to_eye, float near_part) {
     vec2 samples = tile_samples();
     vec2 samples_per_metre = tiles_per_metre * samples;
     float way = lift / max(to_eye.z, 1e-30);
@@ -130,7 +130,8 @@ void main() {
     mat3 space = tangent_space();
     vec3 way = way_to_eye();
     metres_per_unit = vec3(1.0 / max(tiles_per_metre * tile_samples(), vec2(1e-30)), lift);
-    TileRay ray = ray_through((local_from_relative * way) * space);
+    float near_part = near_depth / max(dot(relative, view_forward.xyz), near_depth);
+    TileRay ray = ray_through((local_from_relative * way) * space, near_part);
     vec2 right = dFdx(tile_coordinate);
     vec2 up = dFdy(tile_coordinate);
     bool inside = cut_to_tile(ray);

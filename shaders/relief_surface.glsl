@@ -4,6 +4,7 @@ layout(binding = 1) uniform sampler2D height_map;
 uniform vec2 height_texel; // 1 / samples
 #ifdef TILE
 vec3 metres_per_unit = vec3(1.0); // of the search space's axes, at this fragment of a mesh
+bool is_off_tile(vec2 coordinate); // tile_surface.glsl
 #else
 uniform vec3 metres_per_unit; // of the search space's axes
 #endif
@@ -51,10 +52,10 @@ float outward() {
 }
 #endif
 
-// Whether the surface has such a place; what is beyond a tile on a mesh is the sampler's answer.
+// Whether the surface has such a place.
 bool is_on_surface(vec2 place) {
 #ifdef TILE
-    return true;
+    return !is_off_tile((place + 0.5) * height_texel);
 #else
     vec2 last = vec2(textureSize(height_map, 0) - 1);
     return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, last));

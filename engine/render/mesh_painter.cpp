@@ -106,6 +106,7 @@ void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& r
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
     program.set_uniform("local_from_relative", glm::mat3(local_from_world));
     program.set_uniform("perspective", is_perspective ? 1.0F : 0.0F);
+    program.set_uniform("near_depth", static_cast<float>(camera.near));
     program.set_uniform("repeats", detail.repeats);
     program.set_uniform("lift", lift_of(draw));
     program.set_uniform("mesh_height", mesh_height(draw));

@@ -16,8 +16,10 @@ constexpr double margin = 1.0 / 4096.0;
 Grid<float> cell_maxima(GridView<const float> heights) {
     const int cols = heights.cols() - 1;
     const int rows = heights.rows() - 1;
-    const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(cols, rows))));
-    Grid<float> maxima(side, side, 0.0F);
+    const auto side_for = [](int cells) {
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(cells)));
+    };
+    Grid<float> maxima(side_for(cols), side_for(rows), 0.0F);
     for (int row = 0; row < rows; ++row) {
         for (int col = 0; col < cols; ++col) {
             maxima(col, row) = std::max({heights(col, row), heights(col + 1, row),
@@ -28,12 +30,12 @@ Grid<float> cell_maxima(GridView<const float> heights) {
 }
 
 Grid<float> halved(const Grid<float>& fine) {
-    Grid<float> coarse(fine.cols() / 2, fine.rows() / 2);
+    Grid<float> coarse(std::max(fine.cols() / 2, 1), std::max(fine.rows() / 2, 1));
     for (int row = 0; row < coarse.rows(); ++row) {
         for (int col = 0; col < coarse.cols(); ++col) {
-            coarse(col, row) =
-                std::max({fine(2 * col, 2 * row), fine(2 * col + 1, 2 * row),
-                          fine(2 * col, 2 * row + 1), fine(2 * col + 1, 2 * row + 1)});
+            coarse(col, row) = std::max(
+                {fine.clamped(2 * col, 2 * row), fine.clamped(2 * col + 1, 2 * row),
+                 fine.clamped(2 * col, 2 * row + 1), fine.clamped(2 * col + 1, 2 * row + 1)});
         }
     }
     return coarse;
@@ -82,7 +84,7 @@ Grid<glm::vec2> cone_texels(const terrain::ConeMaps& cones) {
 std::vector<Grid<float>> greatest_heights(GridView<const float> relief_heights) {
     std::vector<Grid<float>> levels;
     levels.push_back(cell_maxima(relief_heights));
-    while (levels.back().cols() > 1) {
+    while (levels.back().cols() > 1 || levels.back().rows() > 1) {
         levels.push_back(halved(levels.back()));
     }
     return levels;

@@ -173,16 +173,14 @@ std::string_view take_assignment(std::string_view& list) {
 // Sets a parameter or an option; `seen` are the options set so far.
 Result<void> assign(Technique& technique, std::string_view assignment,
                     std::vector<std::string_view>& seen) {
-    if (!is_option(assignment)) {
-        return set_parameter(technique, assignment);
-    }
     const auto name = split(assignment, '=').first;
     if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
-        return Error{fmt::format("technique {}: option '{}' found twice, once was expected",
+        return Error{fmt::format("technique {}: '{}' found twice, once was expected",
                                  technique_info(technique.id).name, name)};
     }
     seen.push_back(name);
-    return set_option(technique.options, technique.id, assignment);
+    return is_option(assignment) ? set_option(technique.options, technique.id, assignment)
+                                 : set_parameter(technique, assignment);
 }
 
 std::size_t index_of(const TechniqueInfo& info, std::string_view name) {

@@ -114,11 +114,12 @@ float steepest_way(const Relief& block, ConeKind kind) {
 // may: both cells' own extents count for much of their distance there.
 constexpr int near_cells = 8;
 
-// [n]: of ways among the cells up to n away.
-std::vector<Grid<float>> steepest_ways(const Grid<Relief>& cells, ConeKind kind) {
+// [n]: of ways among the cells up to n away; fewer where it was stopped.
+std::vector<Grid<float>> steepest_ways(const Grid<Relief>& cells, ConeKind kind,
+                                       const std::stop_token& stop) {
     std::vector<Grid<float>> ways;
     Grid<Relief> blocks = cells;
-    for (int n = 0; n <= near_cells; ++n) {
+    for (int n = 0; n <= near_cells && !stop.stop_requested(); ++n) {
         Grid<float> steepest(cells.cols(), cells.rows());
         for (std::size_t i = 0; i < cells.size(); ++i) {
             steepest.samples()[i] = steepest_way(blocks.samples()[i], kind);
@@ -338,7 +339,8 @@ std::optional<Grid<float>> cone_map(GridView<const float> heights, ConeKind kind
                                     const ConeOptions& options) {
     check(heights.cols() >= 2 && heights.rows() >= 2, "cones need at least 2x2 samples");
     const std::vector<Grid<Relief>> levels = relief_pyramid(heights);
-    const std::vector<Grid<float>> steepest = steepest_ways(levels.front(), kind);
+    const std::vector<Grid<float>> steepest =
+        steepest_ways(levels.front(), kind, options.parallel.stop);
     Grid<float> ratios(heights.cols() - 1, heights.rows() - 1);
     const bool done = parallel_for(
         ratios.rows(),

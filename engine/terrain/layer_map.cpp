@@ -75,6 +75,21 @@ std::optional<double> height_on(const glm::dvec3& a, const glm::dvec3& b, const 
     return (sides[0].first * a.z + sides[1].first * b.z + sides[2].first * c.z) / sum;
 }
 
+Result<void> check_positions(const TileMesh& mesh) {
+    constexpr float most_copies = 64.0F;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3& place = mesh.positions[i];
+        const float farthest = std::max(std::abs(place.x), std::abs(place.y));
+        if (!(farthest <= most_copies) || !std::isfinite(place.z)) {
+            return Error{
+                fmt::format("vertex {} of the mesh lies at {}, {}, {}; a place within {} copies "
+                            "of the tile was expected",
+                            i, place.x, place.y, place.z, most_copies)};
+        }
+    }
+    return {};
+}
+
 struct Crossing {
     double height = 0.0;
     int turn = 0; // 1: into the solid, from above
@@ -111,8 +126,9 @@ void add_crossings(Grid<Column>& columns, const TileMesh& mesh, std::size_t firs
 
 // What is solid along a plumb line, from above.
 std::vector<Solid> solids_of(Column column) {
-    std::sort(column.begin(), column.end(),
-              [](const Crossing& one, const Crossing& other) { return one.height > other.height; });
+    std::sort(column.begin(), column.end(), [](const Crossing& one, const Crossing& other) {
+        return one.height != other.height ? one.height > other.height : one.turn > other.turn;
+    });
     std::vector<Solid> solids;
     int depth = 0;
     for (const Crossing& crossing : column) {
@@ -120,7 +136,7 @@ std::vector<Solid> solids_of(Column column) {
             solids.push_back({crossing.height, crossing.height});
         }
         depth += crossing.turn;
-        if (depth == 0 && !solids.empty()) {
+        if (depth == 0 && crossing.turn < 0 && !solids.empty()) {
             solids.back().bottom = crossing.height;
         }
     }
@@ -306,6 +322,9 @@ LayerNormals layer_normals(const LayerMap& layers, float scale, TileBorder borde
 }
 
 Result<MeshLayers> layers_of_mesh(const TileMesh& mesh, int cols, int rows) {
+    if (auto good = check_positions(mesh); !good) {
+        return good.error();
+    }
     Grid<Column> columns(cols, rows);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         add_crossings(columns, mesh, i);

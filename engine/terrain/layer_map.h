@@ -72,7 +72,8 @@ struct MeshLayers {
 };
 /// What plumb lines through the texel centres meet of it, the uppermost solid first. A hole lies
 /// where the middle of the solid next to it does, so that surfaces close on their way there. Fails
-/// where a height is outside [0,1]. Precondition: cols, rows > 0, indices below the positions.
+/// where a height is outside [0,1] or a place is farther than 64 copies of the tile. Precondition:
+/// cols, rows > 0, indices below the positions.
 Result<MeshLayers> layers_of_mesh(const TileMesh& mesh, int cols, int rows);
 
 } // namespace reljef::terrain

@@ -5,8 +5,9 @@
 namespace reljef::terrain {
 namespace {
 
+// By the shorter side: a strip's field stays a strip.
 int field_margin(int cols, int rows, TileBorder border) {
-    return border == TileBorder::wrap ? std::max(std::max(cols, rows) / 4, 1) : 0;
+    return border == TileBorder::wrap ? std::max(std::min(cols, rows) / 4, 1) : 0;
 }
 
 int wrapped_index(int index, int count) {
@@ -46,8 +47,11 @@ Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, TileBord
 }
 
 ConeMaps tile_cones(const ConeMaps& of_field, int cols, int rows, TileBorder border) {
-    return {tile_cones(of_field.plain, cols, rows, border),
-            tile_cones(of_field.relaxed, cols, rows, border)};
+    Grid<float> plain = tile_cones(of_field.plain, cols, rows, border);
+    if (border != TileBorder::wrap) {
+        return {plain, plain};
+    }
+    return {std::move(plain), tile_cones(of_field.relaxed, cols, rows, border)};
 }
 
 } // namespace reljef::terrain

@@ -156,6 +156,26 @@ TEST_F(SameFile, OutputOverATileOfAFolder) {
     EXPECT_EQ(test::read_bytes(tiles / "0001.png"), photo_);
 }
 
+TEST_F(SameFile, OutputOverATextureOfTheGallery) {
+    std::filesystem::create_directory(folder_.path() / "tile");
+    for (const char* name : {"tile/a_color.png", "tile/a_height.png"}) {
+        folder_.write(name, photo_);
+    }
+    folder_.write("scene.toml",
+                  "[terrain]\ngenerator = \"gallery\"\n[gallery]\ntextures = \"tile\"\n");
+    test::ProgramOptions options;
+    options.folder = folder_.path();
+    for (const std::vector<std::string>& terrain :
+         {std::vector<std::string>{"gallery", "--textures", "tile"}, {"scene.toml"}}) {
+        std::vector<std::string> arguments{"render", "-o",     "tile/a_height.png",
+                                           "--size", "64x48",  "--context",
+                                           "osmesa", "--quiet"};
+        arguments.insert(arguments.begin() + 1, terrain.begin(), terrain.end());
+        expect_refusal(test::reljef(arguments, options), 1, {"a_height.png", "textures"});
+        EXPECT_EQ(test::read_bytes(folder_.path() / "tile" / "a_height.png"), photo_);
+    }
+}
+
 TEST_F(SameFile, OutputOverWhatTheSceneFileNames) {
     folder_.write("scene.toml", "[terrain]\nheights = \"photo.png\"\n");
     test::ProgramOptions options;

@@ -132,7 +132,8 @@ TEST(TechniqueOptions, OneThatMakesNoSenseIsRefusedWithTheReason) {
     EXPECT_THAT(refusal_of("polygons:depth=write"), HasSubstr("looks for no surface"));
     EXPECT_THAT(refusal_of("texture:fade=0..1"), HasSubstr("looks for no surface"));
     EXPECT_THAT(refusal_of("relief:steps=8..32,n=3,steps=8..32"),
-                HasSubstr("technique relief: option 'steps' found twice, once was expected"));
+                HasSubstr("technique relief: 'steps' found twice, once was expected"));
+    EXPECT_THAT(refusal_of("relief:n=1,n=2"), HasSubstr("'n' found twice, once was expected"));
 }
 
 TEST(TechniqueOptions, AValueThatIsNoneIsToldWithWhatWasExpected) {

@@ -110,6 +110,25 @@ struct MadeMesh {
     [[nodiscard]] TileMesh mesh() const { return {positions, indices}; }
 };
 
+// Both sides of a leaf at one height turn a plumb line in and out there, in any order.
+TEST(LayersOfMesh, ALeafWithoutThicknessPullsNothingDown) {
+    MadeMesh made;
+    made.add_box({0.1F, 0.1F, 0.8F}, {0.9F, 0.9F, 0.9F});
+    made.add_box({0.1F, 0.1F, 0.5F}, {0.9F, 0.9F, 0.5F});
+    const auto layers = layers_of_mesh(made.mesh(), 20, 20);
+    ASSERT_TRUE(layers) << layers.error().message;
+    EXPECT_NEAR(layers->layers.heights()(10, 10).y, 0.8F, 1e-6F);
+}
+
+TEST(LayersOfMesh, PlacesThatAreNoNumbersAreTold) {
+    for (const float bad : {std::nanf(""), 1e30F, -65.0F}) {
+        MadeMesh made;
+        made.add_box({0.1F, 0.1F, 0.2F}, {0.9F, 0.9F, 0.4F});
+        made.positions[3].x = bad;
+        EXPECT_THAT(layers_of_mesh(made.mesh(), 8, 8).error().message, HasSubstr("vertex 3"));
+    }
+}
+
 TEST(LayersOfMesh, AreTheBoxesThatStandOverEachOther) {
     MadeMesh made;
     made.add_box({0.1F, 0.1F, 0.6F}, {0.6F, 0.6F, 0.8F});

@@ -64,5 +64,21 @@ TEST(TileCones, OfATileThatDoesNotRepeatHaveACellBetweenEachTwoTexels) {
     EXPECT_NEAR(cones.plain(3, 0), widest_cone, 1e-3F); // rounded down
 }
 
+// A ridge that rises towards the tile's border is a wall beyond it: what rises along every way on
+// the tile falls out there.
+TEST(TileCones, OfATileThatDoesNotRepeatTrustNothingBeyondItsBorder) {
+    Grid<float> ridge(24, 24, 0.0F);
+    for (int col = 0; col < 24; ++col) {
+        ridge(col, 0) = 1.0F - 0.04F * static_cast<float>(col);
+    }
+    for (const TileBorder border : {TileBorder::clamp, TileBorder::discard}) {
+        const ConeMaps cones =
+            tile_cones(*cone_maps(cone_field(ridge.view(), border).view()), 24, 24, border);
+        for (std::size_t i = 0; i < cones.plain.size(); ++i) {
+            EXPECT_EQ(cones.relaxed.samples()[i], cones.plain.samples()[i]);
+        }
+    }
+}
+
 } // namespace
 } // namespace reljef::terrain

@@ -307,6 +307,19 @@ TEST_F(MeshTechniquesGlTest, TheTechniquesBorderComesBeforeTheMaterials) {
     }
 }
 
+// What parallax leads to off a tile that is bounded is nothing, as for those that follow the ray.
+TEST_F(MeshTechniquesGlTest, ParallaxShowsNothingBeyondABoundedTile) {
+    Panel panel(noise_tile(16, 16, 13));
+    const auto shown = [&](const std::string& technique) {
+        const HitBuffer hits = panel.hits(technique);
+        return std::count_if(hits.samples().begin(), hits.samples().end(), shows_terrain);
+    };
+    for (const std::string technique : {"parallax", "parallax-limited", "parallax-iterated"}) {
+        EXPECT_LT(shown(technique + ":border=discard"), shown(technique + ":border=clamp") - 5)
+            << technique;
+    }
+}
+
 // Whether the sun reaches what the pixel of a picture without any other light shows; nothing where
 // the surface nearly lies along its rays.
 std::optional<bool> truly_lit(const Panel& panel, const ReliefPlane& relief, glm::dvec3 to_light,
