@@ -48,7 +48,7 @@ constexpr std::array<ParameterInfo, 4> cone_parameters{
     {{"relaxed", 1.0, 0.0, 1.0, true, "1: cones that a ray may meet the surface in once"},
      {"n", 32.0, 1.0, 4096.0, true, "cones at the most"},
      {"k", 2.0, 0.0, 32.0, true, "times the bracket is halved before the chord"},
-     {"step", 2.0, 0.0, 16.0, false, "samples a step goes at least; 0: passes over nothing"}}};
+     {"step", 1.5, 0.0, 16.0, false, "samples a step goes at least; 0: passes over nothing"}}};
 
 constexpr std::array<ParameterInfo, 2> layers_parameters{
     {{"n", 32.0, 1.0, 4096.0, true, "equal steps along the ray"},
