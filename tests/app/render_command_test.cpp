@@ -89,6 +89,7 @@ TEST(RenderCommand, sequence_and_contact_sheet) {
 }
 
 TEST(RenderCommand, the_gallery_shows_its_tiles_by_any_technique) {
+    RELJEF_RELEASE_ONLY("each technique has tests of its own");
     const test::TemporaryFolder folder;
     const auto render = [&](const char* name, std::vector<std::string> options) {
         const auto file = (folder.path() / name).string();

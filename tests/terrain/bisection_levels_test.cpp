@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_bisection.h"
 
@@ -100,6 +101,7 @@ int finest_level(const std::vector<Triangle>& triangles, int col) {
 }
 
 TEST(BisectionLevels, TilesOfEveryPairOfLevelsMeetEdgeToEdge) {
+    RELJEF_RELEASE_ONLY("every pair by the same few lines");
     constexpr int levels = 13; // down to the samples
     for (int west = 0; west <= levels; ++west) {
         for (int east = west; east <= levels; ++east) {

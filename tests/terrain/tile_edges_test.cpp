@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/release_only.h"
+
 namespace reljef::terrain {
 namespace {
 
@@ -77,6 +79,7 @@ std::vector<TreeVertex> outline(const TileTree& tree, const std::set<TreeTile>& 
 }
 
 TEST(TileEdges, TilesOfAnyLevelsMeetVertexOnVertex) {
+    RELJEF_RELEASE_ONLY("thousands of covers by the same few lines");
     // Each edge of an outline is its neighbour's, the other way round; what is left over is the
     // raster's own border. Vertices are told apart by whose height they have: no step either.
     std::mt19937 random(7);
