@@ -142,8 +142,8 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-/// Degrees north of the upper edge of row y among `count`.
-double latitude_of_row(int y, double count) {
+/// Degrees north of a place in tiles from the north, of `count` tiles.
+double latitude_at(double y, double count) {
     return std::atan(std::sinh(std::numbers::pi * (1.0 - 2.0 * y / count))) * 180.0 /
            std::numbers::pi;
 }
@@ -191,9 +191,11 @@ std::optional<GeodeticArea> tile_pyramid_area(const fs::path& path) {
         return std::nullopt;
     }
     const double count = std::ldexp(1.0, finest.level);
-    return GeodeticArea{latitude_of_row(finest.y.high + 1, count),
-                        360.0 * finest.x.low / count - 180.0, latitude_of_row(finest.y.low, count),
-                        360.0 * (finest.x.high + 1) / count - 180.0};
+    constexpr double half_pixel = 0.5 / 256.0; // of a tile
+    return GeodeticArea{latitude_at(finest.y.high + 1 - half_pixel, count),
+                        360.0 * (finest.x.low + half_pixel) / count - 180.0,
+                        latitude_at(finest.y.low + half_pixel, count),
+                        360.0 * (finest.x.high + 1 - half_pixel) / count - 180.0};
 }
 
 } // namespace reljef::io

@@ -33,7 +33,8 @@ inline bool is_tile_pyramid(const std::filesystem::path& path) {
 /// lacks {z}, {x} or {y}. Precondition: is_tile_pyramid.
 Result<std::string> tile_pyramid_description(const std::filesystem::path& path);
 
-/// Where a folder has tiles of its finest level; nothing for addresses.
+/// Where a folder has tiles of its finest level, from their outermost pixels' middles on; nothing
+/// for addresses.
 std::optional<GeodeticArea> tile_pyramid_area(const std::filesystem::path& path);
 
 } // namespace reljef::io
