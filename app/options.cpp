@@ -222,9 +222,11 @@ template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::s
 
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command
-        .add_option("TERRAIN", choice.terrain,
-                    "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
-                    "reads, a folder of them, or the https:// address of one")
+        .add_option(
+            "TERRAIN", choice.terrain,
+            "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
+            "reads, a folder of them, the https:// address of one, or tiles z/x/y.png of "
+            "heights in colours: terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
         ->required();
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/core/geometry.h"
 #include "engine/gl/draw.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
@@ -283,9 +284,9 @@ private:
 
     void set_eye(const glm::dmat4& world_from_local) {
         const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(list_.camera.eye, 1.0));
-        const glm::vec3 rounded(eye);
-        program_->set_uniform("eye", rounded);
-        program_->set_uniform("eye_rest", glm::vec3(eye - glm::dvec3(rounded)));
+        const SplitPoint split = split_into_floats(eye);
+        program_->set_uniform("eye", split.rounded);
+        program_->set_uniform("eye_rest", split.rest);
         program_->set_uniform("world_from_local", glm::mat3(glm::dmat3(world_from_local)));
     }
 
