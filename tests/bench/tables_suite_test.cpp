@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/bench_program.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {
@@ -117,6 +118,7 @@ TEST_F(TablesSuite, every_row_tells_its_error) {
 }
 
 TEST_F(TablesSuite, gallery_is_its_tiles_each_technique_with_its_error_where_it_suits) {
+    RELJEF_RELEASE_ONLY("the suite has tests on terrains, the tiles' truth and programs their own");
     auto options = small_options();
     options.terrains = {"gallery"};
     options.suite.rounds = 1;
