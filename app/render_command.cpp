@@ -242,9 +242,7 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
         return source.error();
     }
     const auto inputs = inputs_of(choice, source->description);
-    if (auto apart = check_apart(outputs_of(choice, inputs), inputs); !apart) {
-        return apart;
-    }
+    expect_apart(outputs_of(choice, inputs), inputs);
     if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
                                        interrupt.token());
         !ready) {
@@ -304,6 +302,10 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         "print what the last frame took and skipped, and all frames' times and memory");
     arguments->callback([choice] {
         check_view_options(choice->view);
+        if (choice->truth && choice->view.max_error) {
+            throw CLI::ValidationError("--max-error: found beside --truth, which has no error; one "
+                                       "of them was expected");
+        }
         expect_outputs(*choice);
     });
     arguments->footer(

@@ -168,6 +168,10 @@ void set_projection(scene::Camera& camera, const Box& bounds, const ViewChoice& 
 
 // How the terrain is drawn.
 Result<void> choose_look(TerrainScene& scene, const ViewChoice& view) {
+    if (view.mixed) {
+        return Error{"--technique: mixed found, the gallery was expected: a terrain is drawn with "
+                     "one technique"};
+    }
     const scene::Technique technique = technique_of(view);
     if (auto good = scene.check(technique); !good) {
         return good;

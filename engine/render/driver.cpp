@@ -18,6 +18,7 @@
 #include "engine/render/frame_block.h"
 #include "engine/render/mesh_painter.h"
 #include "engine/render/relief_options.h"
+#include "engine/render/technique_support.h"
 
 #include <glad/gl.h>
 
@@ -427,8 +428,8 @@ glm::vec4 channels_of(const Hit& hit) {
 } // namespace
 
 Driver::Driver(const DriverOptions& options, gl::Framebuffer target)
-    : options_(options), color_target_(std::move(target)), no_vertices_(gl::VertexArray::create()),
-      shaders_(options.shader_dir) {}
+    : options_(options), limits_(gl::query_limits()), color_target_(std::move(target)),
+      no_vertices_(gl::VertexArray::create()), shaders_(options.shader_dir) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
     auto target = gl::Framebuffer::create({.size = options.size});
@@ -515,6 +516,9 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
     if (auto good = check_techniques(list); !good) {
+        return good;
+    }
+    if (auto good = check_support(list, limits_); !good) {
         return good;
     }
     const FrameBlock block = frame_block(list);
