@@ -90,22 +90,24 @@ Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
 
 std::string DeviceFrames::stats() const {
     return stream_stats_ + times_text(times_) + memory_text(times_.memory_before) +
-           fmt::format("renderer: {}\n"
-                       "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
-                       "uploads: {} ({:.1f} MB)\n"
-                       "tiles cut: {}\n"
-                       "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
-                       "frustum, {} "
-                       "triangles under the error, {} cuts and {} uploads that were there\n"
-                       "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
-                       device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles,
-                       stats_.draws, stats_.state_changes, stats_.uploads,
-                       static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
-                       stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
-                       stats_.skipped.tiles_outside_frustum,
-                       stats_.skipped.triangles_outside_frustum,
-                       stats_.skipped.triangles_under_error, stats_.skipped.cuts_unchanged,
-                       stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
+           fmt::format(
+               "renderer: {}\n"
+               "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
+               "uploads: {} ({:.1f} MB)\n"
+               "tiles cut: {}\n"
+               "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
+               "frustum, {} "
+               "triangles under the error, {} details too small, {} cuts and {} uploads that "
+               "were there\n"
+               "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
+               device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles,
+               stats_.draws, stats_.state_changes, stats_.uploads,
+               static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
+               stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
+               stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
+               stats_.skipped.triangles_under_error, stats_.skipped.details_too_small,
+               stats_.skipped.cuts_unchanged, stats_.skipped.uploads_unchanged, stats_.cpu_ms,
+               stats_.gpu_ms);
 }
 
 Result<void> TruthFrames::prepare(const scene::Scene& scene) {

@@ -1,20 +1,14 @@
 #include "app/gallery.h"
 
-#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/message.h"
-#include "app/progress_line.h"
-#include "engine/io/cone_cache.h"
-#include "engine/io/texture_files.h"
-#include "engine/terrain/tile_cones.h"
-#include "terrains/detail_tiles.h"
+#include "app/texture_sets.h"
 #include "terrains/gallery.h"
 
 namespace reljef::app {
@@ -58,82 +52,39 @@ glm::dmat4 place_of(const terrains::GalleryModel& model) {
 class Sets {
 public:
     Sets(std::string asked_for, const io::SceneDescription& description,
-         const TerrainChoice& terrain, bool needs_cones, std::stop_token stop)
+         const TerrainChoice& terrain, std::optional<scene::Technique> technique,
+         std::stop_token stop)
         : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
-          needs_cones_(needs_cones), stop_(std::move(stop)) {}
+          technique_(std::move(technique)), stop_(std::move(stop)) {}
 
     Result<Set> of(const terrains::GalleryModel& model) {
         const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
         if (const auto found = sets_.find(name); found != sets_.end()) {
             return found->second;
         }
-        auto set = open(name);
+        auto set = open_textures(
+            {name, terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder,
+             terrain_.textures ? "--textures" : terrain_.terrain, description_.seed,
+             file_tile_width, "mixed, "},
+            terrain_);
         if (!set) {
             return set.error();
         }
-        if (needs_cones_) {
-            if (auto made = add_cones(*set); !made) {
+        if (technique_) {
+            if (auto made = add_cones(*set, *technique_, terrain_, stop_); !made) {
                 return made.error();
             }
         }
-        tell_notes(*set);
+        tell_texture_notes(*set, terrain_);
         return sets_.emplace(name, std::make_shared<const terrain::TextureSet>(std::move(*set)))
             .first->second;
     }
 
 private:
-    [[nodiscard]] Result<terrain::TextureSet> open(const std::string& name) const {
-        const auto names = terrains::detail_names();
-        if (std::find(names.begin(), names.end(), name) != names.end()) {
-            return terrains::generate_detail(
-                name,
-                {.seed = description_.seed, .threads = static_cast<unsigned>(terrain_.threads)});
-        }
-        const std::filesystem::path folder =
-            terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder;
-        std::error_code ignored;
-        if (!std::filesystem::is_directory(folder, ignored)) {
-            return Error{fmt::format("{}: texture set '{}' found, one of mixed, {} or a folder of "
-                                     "pictures was expected",
-                                     terrain_.textures ? "--textures" : terrain_.terrain, name,
-                                     fmt::join(names, ", "))};
-        }
-        const auto files = io::find_texture_files(folder);
-        if (!files) {
-            return files.error();
-        }
-        return io::read_texture_set(*files, {.width = file_tile_width});
-    }
-
-    // From the cache where they were made before.
-    [[nodiscard]] Result<void> add_cones(terrain::TextureSet& set) const {
-        ProgressLine line("cones of " + set.name, terrain_.quiet);
-        io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-        options.parallel = {static_cast<unsigned>(terrain_.threads), stop_, line.callback()};
-        const auto field = terrain::cone_field(set.heights.view(), terrain::TileBorder::wrap);
-        auto cached = io::cached_cones(field.view(), options);
-        if (!cached) {
-            return Error{fmt::format("{}: stopped while its cones were made", set.name)};
-        }
-        if (!cached->note.empty()) {
-            set.notes.push_back(cached->note);
-        }
-        set.cones_of_field = std::move(cached->cones);
-        return {};
-    }
-
-    void tell_notes(const terrain::TextureSet& set) const {
-        for (const std::string& note : set.notes) {
-            if (!terrain_.quiet) {
-                tell(fmt::format("reljef: note: {}\n", note));
-            }
-        }
-    }
-
     std::string asked_for_;
     const io::SceneDescription& description_;
     const TerrainChoice& terrain_;
-    bool needs_cones_;
+    std::optional<scene::Technique> technique_; // of all models; none: each its own, without cones
     std::stop_token stop_;
     std::map<std::string, Set> sets_;
 };
@@ -178,9 +129,8 @@ Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
     if (!technique) {
         return technique.error();
     }
-    const bool needs_cones = *technique && (*technique)->id == scene::TechniqueId::cone;
     Sets sets(terrain.textures.value_or(description.gallery_textures), description, terrain,
-              needs_cones, stop);
+              *technique, stop);
     std::vector<scene::Node*> nodes;
     for (const terrains::GalleryModel& model : terrains::gallery_models()) {
         const auto set = sets.of(model);

@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
@@ -12,6 +13,7 @@
 #include "app/parsed_option.h"
 #include "engine/core/geometry.h"
 #include "engine/render/error_view.h"
+#include "engine/scene/ground_detail.h"
 #include "engine/scene/terrain_node.h"
 
 namespace reljef::app {
@@ -79,6 +81,38 @@ Result<io::GeodeticArea> parse_area(const std::string& text) {
     return io::GeodeticArea{south, west, north, east};
 }
 
+Result<scene::Technique> parse_detail_technique(const std::string& text) {
+    auto technique = scene::parse_technique(text);
+    if (technique) {
+        if (auto good = scene::check_ground_technique(*technique); !good) {
+            return Error{"--detail-technique: " + good.error().message};
+        }
+    }
+    return technique;
+}
+
+// One of the numbers behind a tile's name.
+Result<void> set_detail_number(DetailChoice& choice, const std::string& assignment) {
+    const auto equals = assignment.find('=');
+    const std::string key = assignment.substr(0, equals);
+    const std::string text =
+        equals == std::string::npos ? std::string() : assignment.substr(equals + 1);
+    if (key != "width" && key != "scale") {
+        return Error{
+            fmt::format("--detail: '{}' found, width=METRES or scale=S was expected", assignment)};
+    }
+    const bool is_width = key == "width";
+    const auto value =
+        is_width ? number_in("--detail: width", terrain::least_tile_width,
+                             terrain::most_tile_width)(text)
+                 : number_in("--detail: scale", 0.0, terrain::most_tile_scale, true)(text);
+    if (!value) {
+        return value.error();
+    }
+    (is_width ? choice.width : choice.scale) = *value;
+    return {};
+}
+
 Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
     const auto kind = platform::context_kind_from_string(text);
     if (!kind && text != "auto") {
@@ -125,6 +159,14 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "polygons: no pixel farther from where it belongs, with as few triangles as that "
                "takes (every sample a vertex)",
                "PX");
+    add_parsed(command, "--detail", choice.detail, parse_detail,
+               "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
+               "heights S widths: brick, rock, cobble, or a folder of pictures",
+               "NAME|FOLDER[:width=W,scale=S]");
+    add_parsed(
+        command, "--detail-technique", choice.detail_technique,
+        [](const std::string& text) { return parse_detail_technique(text); },
+        "how the tile of detail is drawn where it is near (relief)", "ID[:key=value,...]");
     command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
@@ -185,6 +227,26 @@ Result<scene::Pose> parse_pose(std::string_view text) {
             "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
     }
     return *pose;
+}
+
+Result<DetailChoice> parse_detail(const std::string& text) {
+    const auto colon = text.rfind(':');
+    const bool has_numbers =
+        colon != std::string::npos && text.find('=', colon) != std::string::npos;
+    DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
+    if (choice.textures.empty()) {
+        return Error{
+            fmt::format("--detail: '{}' found, a tile's name or folder was expected", text)};
+    }
+    std::string rest = has_numbers ? text.substr(colon + 1) : std::string();
+    while (!rest.empty()) {
+        const auto comma = std::min(rest.find(','), rest.size());
+        if (auto set = set_detail_number(choice, rest.substr(0, comma)); !set) {
+            return set.error();
+        }
+        rest = rest.substr(std::min(comma + 1, rest.size()));
+    }
+    return choice;
 }
 
 Result<glm::ivec2> parse_size(std::string_view text) {
@@ -295,6 +357,11 @@ void check_view_options(const ViewChoice& choice) {
         choice.technique->id != scene::TechniqueId::polygons) {
         throw CLI::ValidationError(
             fmt::format("--max-error: technique {} found, polygons was expected",
+                        scene::technique_info(choice.technique->id).name));
+    }
+    if (choice.detail && choice.technique && choice.technique->id != scene::TechniqueId::polygons) {
+        throw CLI::ValidationError(
+            fmt::format("--detail: technique {} found, polygons was expected, which it lies on",
                         scene::technique_info(choice.technique->id).name));
     }
     const scene::Technique plain = scene::make_technique(scene::TechniqueId::polygons);

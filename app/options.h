@@ -51,6 +51,13 @@ struct GeodeticView {
     double pitch = 0.0;   ///< degrees above the horizon
 };
 
+/// A tile of detail over the terrain: --detail.
+struct DetailChoice {
+    std::string textures;        ///< a built-in tile or a folder
+    std::optional<double> width; ///< metres; absent: the scene file's, else 4
+    std::optional<double> scale; ///< absent: the scene file's, else the tile's own
+};
+
 /// Where the camera stands and what the picture is like.
 struct ViewChoice {
     std::optional<platform::ContextKind> context; ///< absent: auto
@@ -59,7 +66,9 @@ struct ViewChoice {
         technique;      ///< absent: polygons; the gallery's own on its models
     bool mixed = false; ///< the technique of each of the gallery's models is its own, whatever the
                         ///< scene file says
-    std::optional<double> max_error; ///< pixels, of polygons; absent: as the technique says
+    std::optional<double> max_error;    ///< pixels, of polygons; absent: as the technique says
+    std::optional<DetailChoice> detail; ///< absent: the scene file's, else none
+    std::optional<scene::Technique> detail_technique; ///< absent: the scene file's, else relief
     bool wireframe = false;
     double vertical_fov = 57.3;
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;
@@ -81,6 +90,9 @@ inline constexpr int largest_picture_side = 16384;
 Result<scene::Pose> parse_pose(std::string_view text);
 /// Parses "1024x768". Each side 1 … largest_picture_side.
 Result<glm::ivec2> parse_size(std::string_view text);
+
+/// Parses "NAME", or "NAME:width=METRES,scale=S", NAME a built-in tile or a folder.
+Result<DetailChoice> parse_detail(const std::string& text);
 
 /// Parses exactly `N` finite numbers separated by commas; `option` is named in the error.
 template <std::size_t N>

@@ -170,6 +170,8 @@ std::vector<NamedFile> inputs_of(const RenderChoice& choice,
             {"--imagery", choice.terrain.imagery},
             {"--textures", choice.terrain.textures.value_or("")},
             {"the gallery's textures", description.gallery_textures},
+            {"--detail", choice.view.detail.value_or(DetailChoice{}).textures},
+            {"the tile of detail", description.detail.value_or(io::DetailDescription{}).textures},
             {"--path", choice.view.path}};
 }
 
@@ -288,7 +290,8 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
     auto* truth = arguments->add_flag(
         "--truth", choice->truth,
         "draw with exact rays on the CPU: the picture that every technique approximates");
-    for (const char* option : {"--wireframe", "--context", "--technique", "--shader-dir"}) {
+    for (const char* option :
+         {"--wireframe", "--context", "--technique", "--shader-dir", "--detail"}) {
         truth->excludes(arguments->get_option(option));
     }
     arguments
@@ -317,6 +320,7 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
         "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
         "  reljef render dem.tif --technique texture --hit hit.exr\n"
+        "  reljef render urban --detail cobble:width=3 -o street.png\n"
         "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
         "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr");
     return {arguments, [choice, &interrupt] { return render(*choice, interrupt); }};

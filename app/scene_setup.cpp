@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/gallery.h"
+#include "app/ground_detail.h"
 #include "app/streaming.h"
 #include "engine/io/flight_file.h"
 #include "engine/scene/animators.h"
@@ -238,6 +239,12 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     } else if (auto done = choose_look(result, view); !done) {
         return done.error();
     }
+
+    auto detail = open_detail(source.description, terrain, view, stop);
+    if (!detail) {
+        return detail.error();
+    }
+    shown.detail = std::move(*detail);
 
     scene::Light sun;
     sun.azimuth = view.sun ? view.sun->x : source.description.sun_azimuth;

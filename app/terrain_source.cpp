@@ -274,7 +274,8 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
 Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
                                    const std::stop_token& stop, Notes notes) {
     if (choice.textures && description.generator != "gallery") {
-        return Error{fmt::format("--textures: {} found, but only the gallery shows tiles, not {}",
+        return Error{fmt::format("--textures: {} found, but only the gallery shows tiles, not {}; "
+                                 "--detail lays one over a terrain",
                                  *choice.textures, description.name)};
     }
     auto source = read_source(choice, std::move(description), stop);

@@ -178,8 +178,9 @@ settings_over_range(const std::vector<scene::TechniqueInfo>& techniques) {
 
 std::vector<scene::Technique> settings_of_options() {
     std::vector<scene::Technique> settings;
-    for (const char* const option : {"steps=8..32", "fade=0..1", "shadow=hard", "shadow=soft",
-                                     "edges=smooth", "sides=two", "border=wrap", "depth=write"}) {
+    for (const char* const option :
+         {"steps=8..32", "fade=0..1", "shadow=hard", "shadow=soft", "edges=smooth", "sides=two",
+          "border=wrap", "depth=write", "silhouettes=true"}) {
         settings.push_back(scene::parse_technique(fmt::format("relief:{}", option)).value());
     }
     return settings;

@@ -16,6 +16,9 @@ out vec2 tile_place; // samples from the tile's first
 #ifdef HIT
 out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
+#ifdef GROUND
+out vec3 local_from_eye; // metres
+#endif
 
 // Where the rasterizer puts the vertex anyway, before it interpolates: else triangles seen edge-on show
 // places beyond their own border, and on cliffs those lie pixels away.
@@ -32,6 +35,9 @@ void main() {
     precise vec3 from_eye = (position - eye) + (rest - eye_rest);
     vec3 relative = world_from_local * from_eye;
     tile_place = place;
+#ifdef GROUND
+    local_from_eye = from_eye;
+#endif
 #ifdef HIT
     height_and_depth = vec2(height, dot(relative, view_forward.xyz));
 #endif

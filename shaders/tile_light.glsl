@@ -60,11 +60,22 @@ vec3 world_normal_of(vec3 tangent_normal, mat3 space) {
     return normalize(world_from_normal * (space * tangent_normal));
 }
 
-// `upright`: the mesh's own normal; where that looks away from the sun, nothing on it is lit.
+// Where the mesh itself looks away from the sun, nothing on it is lit: a share that goes to none over
+// a few degrees, on a terrain over one, whose own light knows of no such share.
+float facing_of(vec3 upright) {
+#ifdef GROUND
+    const float steepness = 64.0;
+#else
+    const float steepness = 8.0;
+#endif
+    return clamp(steepness * dot(upright, to_sun.xyz), 0.0, 1.0);
+}
+
+// `upright`: the mesh's own normal.
 // `visibility`: share of the sun's disc that is seen.
 vec3 shiny_color(vec3 albedo, vec3 normal, vec3 upright, vec3 to_eye, float visibility) {
 #ifdef LIT
-    float facing = clamp(8.0 * dot(upright, to_sun.xyz), 0.0, 1.0) * visibility;
+    float facing = facing_of(upright) * visibility;
     float sun = max(dot(normal, to_sun.xyz), 0.0) * facing;
     float sky = 0.5 + 0.5 * normal.z;
     float mirrored = max(dot(normal, normalize(to_sun.xyz + to_eye)), 0.0);

@@ -9,6 +9,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/io/toml_reader.h"
 #include "engine/terrain/placement.h"
+#include "engine/terrain/texture_set.h"
 
 namespace reljef::io {
 namespace {
@@ -22,6 +23,8 @@ constexpr NumberRange seeds{0.0, 4294967295.0, false};
 constexpr NumberRange exaggerations{0.0, terrain::largest_exaggeration, true};
 constexpr NumberRange azimuths{-360.0, 360.0, false};
 constexpr NumberRange altitudes{0.0, 90.0, true};
+constexpr NumberRange tile_widths{terrain::least_tile_width, terrain::most_tile_width, false};
+constexpr NumberRange tile_scales{0.0, terrain::most_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
@@ -111,18 +114,39 @@ void read_camera_keys(TomlTable& table, SceneDescription& scene) {
     }
 }
 
+// The name of what is built in, or a folder beside the scene file; where that is to be.
+std::filesystem::path read_textures(TomlTable& table, const std::filesystem::path& folder,
+                                    std::string& textures) {
+    table.read("textures", textures);
+    std::filesystem::path beside = folder / textures;
+    std::error_code ignored;
+    if (!textures.empty() && std::filesystem::is_directory(beside, ignored)) {
+        textures = beside.string();
+    }
+    return beside;
+}
+
 void read_gallery_keys(TomlTable& table, const std::filesystem::path& folder,
                        SceneDescription& scene) {
     if (scene.generator != "gallery") {
         refuse(table, {"textures", "technique"}, "the generator gallery");
     }
-    table.read("textures", scene.gallery_textures);
-    scene.gallery_folder = folder / scene.gallery_textures;
-    std::error_code ignored;
-    if (std::filesystem::is_directory(scene.gallery_folder, ignored)) {
-        scene.gallery_textures = scene.gallery_folder.string();
-    }
+    scene.gallery_folder = read_textures(table, folder, scene.gallery_textures);
     table.read("technique", scene.gallery_technique);
+}
+
+void read_detail_keys(TomlTable& table, const std::filesystem::path& folder,
+                      SceneDescription& scene) {
+    DetailDescription detail;
+    detail.folder = read_textures(table, folder, detail.textures);
+    table.read("width", detail.width, tile_widths);
+    table.read("scale", detail.scale, tile_scales);
+    table.read("technique", detail.technique);
+    if (table.has("textures")) {
+        scene.detail = std::move(detail);
+    } else if (table.has("width") || table.has("scale") || table.has("technique")) {
+        table.fail("textures", "is missing, the name of a tile or its folder was expected");
+    }
 }
 
 } // namespace
@@ -139,17 +163,20 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     TomlTable terrain = root.table("terrain");
     TomlTable area = root.table("area");
     TomlTable gallery = root.table("gallery");
+    TomlTable detail = root.table("detail");
     TomlTable sun = root.table("sun");
     TomlTable air = root.table("air");
     TomlTable camera = root.table("camera");
     read_terrain_keys(terrain, folder, scene);
     read_area_keys(area, scene);
     read_gallery_keys(gallery, folder, scene);
+    read_detail_keys(detail, folder, scene);
     sun.read("azimuth", scene.sun_azimuth, azimuths);
     sun.read("altitude", scene.sun_altitude, altitudes);
     air.read("visibility", scene.visibility, positive);
     read_camera_keys(camera, scene);
-    for (const TomlTable* table : {&root, &terrain, &area, &gallery, &sun, &air, &camera}) {
+    for (const TomlTable* table :
+         {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {
         if (auto good = table->finish(); !good) {
             return good.error();
         }

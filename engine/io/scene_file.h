@@ -14,6 +14,15 @@
 
 namespace reljef::io {
 
+/// A tile of surface detail that repeats over the terrain: [detail].
+struct DetailDescription {
+    std::string textures; ///< a built-in set, or a folder of pictures, relative to the scene file
+    std::filesystem::path folder;     ///< where that folder is to be, whether it is there or not
+    double width = 4.0;               ///< metres that a tile covers
+    std::optional<double> scale;      ///< of its heights, in tile widths; absent: the set's own
+    std::string technique = "relief"; ///< as --detail-technique has it
+};
+
 /// What a scene file (TOML) asks for; everything but where the heights come from has a default.
 /// terrains/natural.toml, urban.toml and gallery.toml show every key.
 struct SceneDescription {
@@ -45,6 +54,8 @@ struct SceneDescription {
     std::filesystem::path
         gallery_folder; ///< where that folder is to be, whether it is there or not
     std::string gallery_technique = "mixed"; ///< as --technique has it, or "mixed"
+
+    std::optional<DetailDescription> detail; ///< absent: the terrain as it is
 
     // [sun]: degrees
     double sun_azimuth = 300.0; ///< [-360, 360], clockwise from north, where the light comes from

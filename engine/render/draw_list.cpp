@@ -107,8 +107,8 @@ private:
             scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
         TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local);
         for (TileChoice::Drawn& drawn : choice.drawn) {
-            list_.streamed_tiles.push_back(
-                {&terrain, world_from_local, std::move(drawn.tile), flat, drawn.distance});
+            list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
+                                            drawn.distance, detail_of(terrain, drawn.distance)});
         }
         list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
         list_.stats.tiles_missing += static_cast<int>(choice.wanted.size());
@@ -124,9 +124,10 @@ private:
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Box bounds = transformed(world_from_local, tiles[i].bounds);
             if (frustum_.may_see(bounds)) {
+                const double distance = distance_to(list_.camera.eye, bounds);
                 list_.tiles.push_back({&terrain, world_from_local, static_cast<int>(i), flat,
-                                       distance_to(list_.camera.eye, bounds),
-                                       coarseness.has_value()});
+                                       distance, coarseness.has_value(),
+                                       detail_of(terrain, distance)});
             } else {
                 ++list_.stats.skipped.tiles_outside_frustum;
                 list_.stats.skipped.triangles_outside_frustum +=
@@ -138,6 +139,14 @@ private:
         } else if (coarseness) {
             list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
         }
+    }
+
+    // What is seen of the tile of detail on a terrain, and how often it is too far.
+    DetailLevel detail_of(const scene::TerrainNode& terrain, double distance) {
+        const DetailLevel seen = seen_detail(terrain, list_.camera, list_.size, distance);
+        const bool is_skipped = terrain.detail != nullptr && seen == DetailLevel::none;
+        list_.stats.skipped.details_too_small += is_skipped ? 1 : 0;
+        return seen;
     }
 
     DrawList& list_;
@@ -201,6 +210,14 @@ Result<void> check_techniques(const DrawList& list) {
         }
     }
     return {};
+}
+
+std::optional<scene::TerrainLight> light_on(const DrawList& list,
+                                            const glm::dmat4& world_from_local) {
+    if (!list.sun) {
+        return std::nullopt;
+    }
+    return scene::TerrainLight{*list.sun, glm::dmat3(world_from_local)};
 }
 
 } // namespace reljef::render

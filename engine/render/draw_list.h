@@ -11,8 +11,10 @@
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/render/frame_stats.h"
+#include "engine/render/ground_view.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/streamed_tile.h"
+#include "engine/scene/terrain_light.h"
 #include "engine/terrain/bisection_mesh.h"
 
 namespace reljef::render {
@@ -29,6 +31,7 @@ struct TileDraw {
     bool flat = false;     ///< the reference surface instead of the heightfield
     double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
     bool coarse = false;   ///< as DrawList::coarse_terrains says, instead of every sample
+    DetailLevel detail = DetailLevel::none; ///< of what lies over the terrain
 };
 
 /// One terrain whose tiles need not have every sample as a vertex.
@@ -49,8 +52,9 @@ struct StreamedDraw {
     const scene::TerrainNode* terrain = nullptr;
     glm::dmat4 world_from_local{1.0};
     std::shared_ptr<const scene::StreamedTile> tile;
-    bool flat = false;     ///< on the reference surface instead of its heights
-    double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+    bool flat = false;                      ///< on the reference surface instead of its heights
+    double distance = 0.0;                  ///< from the eye to its bounds' nearest point, metres
+    DetailLevel detail = DetailLevel::none; ///< of what lies over the terrain
 };
 
 struct MeshDraw {
@@ -80,5 +84,9 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size);
 /// Whether each terrain and mesh can be drawn as it is asked to be; fails as
 /// scene::check_technique.
 Result<void> check_techniques(const DrawList& list);
+
+/// The list's sun over a terrain that is placed so; nothing without a sun.
+std::optional<scene::TerrainLight> light_on(const DrawList& list,
+                                            const glm::dmat4& world_from_local);
 
 } // namespace reljef::render

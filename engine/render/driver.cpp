@@ -16,6 +16,7 @@
 #include "engine/render/beams.h"
 #include "engine/render/error_view.h"
 #include "engine/render/frame_block.h"
+#include "engine/render/ground_painter.h"
 #include "engine/render/mesh_painter.h"
 #include "engine/render/relief_options.h"
 #include "engine/render/technique_support.h"
@@ -101,7 +102,9 @@ public:
             return {};
         }
         for (const TileDraw& draw : list_.tiles) {
-            if (auto used = use_for(*draw.terrain); !used) {
+            if (auto used =
+                    use_for(*draw.terrain, shown_detail(draw.detail), draw.world_from_local);
+                !used) {
                 return used;
             }
             draw_tile(draw);
@@ -113,10 +116,13 @@ public:
         if (list_.streamed_tiles.empty()) {
             return {};
         }
-        if (auto used = use({ShaderKind::terrain, features_}); !used) {
-            return used;
-        }
+        tiles_of_ = nullptr;
         for (const StreamedDraw& draw : list_.streamed_tiles) {
+            if (auto used =
+                    use_for(*draw.terrain, shown_detail(draw.detail), draw.world_from_local);
+                !used) {
+                return used;
+            }
             draw_streamed(draw);
         }
         return {};
@@ -212,25 +218,47 @@ private:
         return {};
     }
 
+    // A hit is the terrain's own.
+    [[nodiscard]] DetailLevel shown_detail(DetailLevel detail) const {
+        return hits_ ? DetailLevel::none : detail;
+    }
+
     // The program that draws the tiles of a terrain, if it is not in use.
-    Result<void> use_for(const scene::TerrainNode& terrain) {
-        if (tiles_of_ == &terrain) {
+    Result<void> use_for(const scene::TerrainNode& terrain, DetailLevel detail,
+                         const glm::dmat4& world_from_local) {
+        if (tiles_of_ == &terrain && detail == detail_) {
             return {};
         }
-        const bool warped = terrain.material.technique.id == scene::TechniqueId::prewarp;
-        if (tiles_of_ == nullptr || warped != tiles_warped_) {
-            if (auto used = use({ShaderKind::terrain, features_ | (warped ? feature_warped : 0U)});
-                !used) {
+        const ShaderVariant variant = variant_for(terrain, detail);
+        if (tiles_of_ == nullptr || variant != tiles_variant_) {
+            if (auto used = use(variant); !used) {
                 return used;
             }
             maps_of_ = nullptr;
         }
-        if (warped) {
+        if (detail != DetailLevel::none) {
+            set_ground(*program_, terrain, world_from_local, list_.camera, list_.size,
+                       residency_.ground().tiles());
+            maps_of_ = nullptr; // other textures
+        } else if (is_warped(terrain)) {
             residency_.warped(terrain).bind(4);
         }
         tiles_of_ = &terrain;
-        tiles_warped_ = warped;
+        tiles_variant_ = variant;
+        detail_ = detail;
         return {};
+    }
+
+    [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
+                                            DetailLevel detail) const {
+        if (detail != DetailLevel::none) {
+            return ground_variant(*terrain.detail, detail, features_);
+        }
+        return {ShaderKind::terrain, features_ | (is_warped(terrain) ? feature_warped : 0U)};
+    }
+
+    static bool is_warped(const scene::TerrainNode& terrain) {
+        return terrain.material.technique.id == scene::TechniqueId::prewarp;
     }
 
     void bind_maps(const scene::TerrainNode& terrain) {
@@ -239,12 +267,22 @@ private:
         }
         maps_of_ = &terrain;
         const ResidentMaps& maps = residency_.maps(terrain);
-        maps.lit.bind(0);
+        const bool has_ground = tiles_of_ == &terrain && detail_ != DetailLevel::none;
+        maps.lit.bind(has_ground ? 3 : 0);
         if (maps.sun) {
             maps.sun->bind(3);
         }
         program_->set_uniform("lit_from_sample", maps.lit_from_sample);
+        if (has_ground) {
+            bind_ground(residency_.ground().ground(terrain));
+        }
         ++stats_.state_changes;
+    }
+
+    void bind_ground(const ResidentGround& ground) {
+        ground.albedo.bind(7);
+        ground.surface.bind(8);
+        program_->set_uniform("ground_from_sample", ground.ground_from_sample);
     }
 
     void draw_tile(const TileDraw& draw) {
@@ -273,9 +311,13 @@ private:
             program_->set_uniform("tile_sample",
                                   glm::vec2(terrain::TileTree::first(draw.tile->id)));
         } else {
-            resident.lit->bind(0);
+            const bool has_ground = detail_ != DetailLevel::none;
+            resident.lit->bind(has_ground ? 3 : 0);
             program_->set_uniform("tile_sample", glm::vec2(0.0F));
             program_->set_uniform("lit_from_sample", resident.lit_from_sample);
+            if (has_ground) {
+                bind_ground(*resident.ground);
+            }
         }
         set_eye(draw.world_from_local);
         draw_resident(resident.mesh, gl::IndexType::uint16);
@@ -303,6 +345,7 @@ private:
             return used;
         }
         maps_of_ = nullptr; // another program
+        tiles_of_ = nullptr;
         bind_maps(*draw.terrain);
         set_wireframe(draw.terrain->material.wireframe);
         set_relief(draw, residency_.relief(draw));
@@ -395,7 +438,24 @@ private:
             set_tile(*program_, draw, residency_.meshes(), list_.camera);
             ++stats_.state_changes;
         }
-        draw_resident(residency_.meshes().mesh(draw), gl::IndexType::uint32);
+        if (draw.mesh->material.detail.set != nullptr &&
+            draw.mesh->material.technique.options.true_silhouettes) {
+            draw_hull(residency_.meshes().hull(draw));
+        } else {
+            draw_resident(residency_.meshes().mesh(draw), gl::IndexType::uint32);
+        }
+    }
+
+    void draw_hull(const ResidentHull& hull) {
+        if (hull.count == 0) {
+            return;
+        }
+        constexpr int strip_vertices = 6; // relief_hull.vert
+        hull.vertex_array.bind();
+        gl::draw_arrays(gl::Primitive::triangle_strip, 0, strip_vertices, hull.count);
+        stats_.triangles += 4U * static_cast<std::size_t>(hull.count);
+        ++stats_.draws;
+        ++stats_.state_changes;
     }
 
     void draw_resident(const ResidentMesh& mesh, gl::IndexType type) {
@@ -416,7 +476,8 @@ private:
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* maps_of_ = nullptr;
     const scene::TerrainNode* tiles_of_ = nullptr;
-    bool tiles_warped_ = false;
+    ShaderVariant tiles_variant_;
+    DetailLevel detail_ = DetailLevel::none; // of the tiles that are drawn
     bool wireframe_ = false;
     bool from_behind_ = false;
 };

@@ -22,6 +22,7 @@ struct FrameStats {
         int tiles_outside_frustum = 0;
         std::size_t triangles_outside_frustum = 0;
         std::size_t triangles_under_error = 0; ///< that the samples have more than was drawn
+        int details_too_small = 0; ///< terrain tiles too far for the tile of detail on them
         int cuts_unchanged = 0;    ///< tiles whose triangles are those of the frame before
         int uploads_unchanged = 0; ///< tiles and maps already where they are drawn from
         int sky = 0;               ///< 1: the scene has none

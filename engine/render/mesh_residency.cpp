@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/render/hull_mesh.h"
 #include "engine/render/mesh_warp.h"
 #include "engine/render/prewarp.h"
 #include "engine/render/uploads.h"
@@ -47,6 +48,17 @@ bool has_tile(const MeshDraw& draw) {
 
 bool is_displaced(const MeshDraw& draw) {
     return has_tile(draw) && draw.mesh->material.technique.id == scene::TechniqueId::displacement;
+}
+
+bool has_hull(const MeshDraw& draw) {
+    return has_tile(draw) && draw.mesh->material.technique.options.true_silhouettes;
+}
+
+// Which surface of its tile is shown.
+TileSide side_of(const MeshDraw& draw) {
+    const scene::Material& material = draw.mesh->material;
+    return {layers_for(material.technique.id),
+            scene::shown_detail(material).border == terrain::TileBorder::wrap, draw.from_behind};
 }
 
 std::vector<PlainVertex> plain_vertices(const scene::Mesh& mesh) {
@@ -92,17 +104,30 @@ Result<ResidentMesh> filled(const std::vector<Vertex>& vertices,
     return mesh;
 }
 
-std::optional<terrain::LayerKind> layers_for(scene::TechniqueId id) {
-    switch (id) {
-    case scene::TechniqueId::lattice:
-        return terrain::LayerKind::symmetric;
-    case scene::TechniqueId::dual_layer:
-        return terrain::LayerKind::dual;
-    case scene::TechniqueId::multi_layer:
-        return terrain::LayerKind::multi;
-    default:
-        return std::nullopt;
+Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, FrameStats& stats) {
+    if (parts.empty()) {
+        return ResidentHull{};
     }
+    auto buffer = gl::Buffer::create(bytes_of(parts));
+    if (!buffer) {
+        return buffer.error();
+    }
+    count_upload(stats, buffer->size());
+    std::vector<gl::VertexAttribute> attributes;
+    const auto add = [&](unsigned int location, int components, std::size_t offset) {
+        attributes.push_back({.location = location, .components = components, .offset = offset});
+    };
+    for (unsigned int i = 0; i < 4; ++i) {
+        add(i, 4, offsetof(HullPart, corners) + i * sizeof(glm::vec4));
+        add(6 + i, 3, offsetof(HullPart, normals) + i * sizeof(glm::vec3));
+    }
+    add(4, 4, offsetof(HullPart, coordinates));
+    add(5, 4, offsetof(HullPart, coordinates) + sizeof(glm::vec4));
+    ResidentHull hull{std::move(*buffer), gl::VertexArray::create(),
+                      static_cast<int>(parts.size())};
+    hull.vertex_array.set_vertices(0, hull.parts, {.stride = sizeof(HullPart), .divisor = 1},
+                                   attributes);
+    return hull;
 }
 
 } // namespace
@@ -117,13 +142,12 @@ Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, const sc
         }
         check(mesh.normals.size() == mesh.positions.size(),
               "a mesh needs a normal for every position");
-        auto done =
-            is_displaced(draw) ? prepare_displaced(draw, stats) : prepare_triangles(draw, stats);
+        auto done = has_hull(draw)       ? prepare_hull(draw, stats)
+                    : is_displaced(draw) ? prepare_displaced(draw, stats)
+                                         : prepare_triangles(draw, stats);
         if (done && has_tile(draw)) {
-            done = prepare_tile(draw, stats);
-        }
-        if (done && has_tile(draw)) {
-            done = prepare_surface(draw, stats);
+            const scene::Material& material = draw.mesh->material;
+            done = tiles_.prepare(material.detail.set, side_of(draw), material.technique.id, stats);
         }
         if (!done) {
             return done;
@@ -135,14 +159,33 @@ Result<void> MeshResidency::prepare(const std::vector<MeshDraw>& draws, const sc
 void MeshResidency::forget_unused(const std::vector<MeshDraw>& draws) {
     const auto is_gone = [](const auto& entry) { return entry.second.owner.expired(); };
     std::erase_if(triangles_, is_gone);
-    std::erase_if(tiles_, is_gone);
-    std::erase_if(surfaces_, is_gone);
+    tiles_.forget_unused();
     for (Displaced& entry : displaced_) {
         entry.drawn = std::any_of(draws.begin(), draws.end(), [&](const MeshDraw& draw) {
             return is_displaced(draw) && displaced(draw) == &entry;
         });
     }
     std::erase_if(displaced_, [](const Displaced& entry) { return !entry.drawn; });
+    for (Hull& entry : hulls_) {
+        entry.drawn = std::any_of(draws.begin(), draws.end(), [&](const MeshDraw& draw) {
+            return has_hull(draw) && find_hull(draw) == &entry;
+        });
+    }
+    std::erase_if(hulls_, [](const Hull& entry) { return !entry.drawn; });
+}
+
+Result<void> MeshResidency::prepare_hull(const MeshDraw& draw, FrameStats& stats) {
+    if (find_hull(draw) != nullptr) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    auto hull = resident_hull(hull_parts(*draw.mesh->mesh, detail), stats);
+    if (!hull) {
+        return hull.error();
+    }
+    hulls_.push_back({draw.mesh->mesh, detail, std::move(*hull), true});
+    return {};
 }
 
 Result<void> MeshResidency::prepare_triangles(const MeshDraw& draw, FrameStats& stats) {
@@ -182,52 +225,6 @@ Result<void> MeshResidency::prepare_displaced(const MeshDraw& draw, FrameStats& 
     return {};
 }
 
-MeshResidency::TileKey MeshResidency::tile_key(const MeshDraw& draw) {
-    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
-    return {detail.set.get(), detail.border == terrain::TileBorder::wrap};
-}
-
-MeshResidency::SurfaceKey MeshResidency::surface_key(const MeshDraw& draw) {
-    const auto [set, wraps] = tile_key(draw);
-    return {set, {layers_for(draw.mesh->material.technique.id), wraps, draw.from_behind}};
-}
-
-Result<void> MeshResidency::prepare_tile(const MeshDraw& draw, FrameStats& stats) {
-    const TileKey key = tile_key(draw);
-    if (tiles_.contains(key)) {
-        ++stats.skipped.uploads_unchanged;
-        return {};
-    }
-    auto tile = resident_tile(*key.first, key.second, stats);
-    if (!tile) {
-        return tile.error();
-    }
-    tiles_.emplace(key, Tile{draw.mesh->material.detail.set, std::move(*tile)});
-    return {};
-}
-
-Result<void> MeshResidency::prepare_surface(const MeshDraw& draw, FrameStats& stats) {
-    const SurfaceKey key = surface_key(draw);
-    const scene::TechniqueId technique = draw.mesh->material.technique.id;
-    auto found = surfaces_.find(key);
-    if (found == surfaces_.end()) {
-        auto surface = resident_surface(*key.first, key.second, stats);
-        if (!surface) {
-            return surface.error();
-        }
-        found = surfaces_.emplace(key, Surface{draw.mesh->material.detail.set, std::move(*surface)})
-                    .first;
-    }
-    ResidentSurface& surface = found->second.resident;
-    if (technique == scene::TechniqueId::exact && !surface.greatest) {
-        return keep(greatest_texture(*key.first, key.second, stats), surface.greatest);
-    }
-    if (technique == scene::TechniqueId::cone && !surface.cones) {
-        return keep(tile_cone_texture(*key.first, key.second, stats), surface.cones);
-    }
-    return {};
-}
-
 Result<void> MeshResidency::prepare_warps(const std::vector<MeshDraw>& draws,
                                           const scene::Camera& camera, FrameStats& stats) {
     std::map<const scene::MeshNode*, gl::Texture2D> before = std::exchange(warps_, {});
@@ -264,6 +261,20 @@ const MeshResidency::Displaced* MeshResidency::displaced(const MeshDraw& draw) c
     return found == displaced_.end() ? nullptr : &*found;
 }
 
+const MeshResidency::Hull* MeshResidency::find_hull(const MeshDraw& draw) const {
+    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    const auto found = std::find_if(hulls_.begin(), hulls_.end(), [&](const Hull& entry) {
+        return entry.owner.lock() == draw.mesh->mesh && entry.detail == detail;
+    });
+    return found == hulls_.end() ? nullptr : &*found;
+}
+
+const ResidentHull& MeshResidency::hull(const MeshDraw& draw) const {
+    const Hull* const entry = find_hull(draw);
+    check(entry != nullptr, "a hull that was not prepared");
+    return entry->resident;
+}
+
 const ResidentMesh& MeshResidency::mesh(const MeshDraw& draw) const {
     if (is_displaced(draw)) {
         const Displaced* const entry = displaced(draw);
@@ -275,7 +286,7 @@ const ResidentMesh& MeshResidency::mesh(const MeshDraw& draw) const {
 }
 
 const ResidentTile& MeshResidency::tile(const MeshDraw& draw) const {
-    return tiles_.at(tile_key(draw)).resident;
+    return tiles_.tile(draw.mesh->material.detail.set, side_of(draw));
 }
 
 const gl::Texture2D* MeshResidency::warp(const MeshDraw& draw) const {
@@ -284,7 +295,7 @@ const gl::Texture2D* MeshResidency::warp(const MeshDraw& draw) const {
 }
 
 const ResidentSurface& MeshResidency::surface(const MeshDraw& draw) const {
-    return surfaces_.at(surface_key(draw)).resident;
+    return tiles_.surface(draw.mesh->material.detail.set, side_of(draw));
 }
 
 } // namespace reljef::render

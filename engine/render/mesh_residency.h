@@ -13,9 +13,16 @@
 #include "engine/render/draw_list.h"
 #include "engine/render/frame_stats.h"
 #include "engine/render/resident_mesh.h"
-#include "engine/render/resident_tile.h"
+#include "engine/render/tile_residency.h"
 
 namespace reljef::render {
+
+/// The tetrahedra of a hull (hull_mesh.h), one an instance.
+struct ResidentHull {
+    gl::Buffer parts;
+    gl::VertexArray vertex_array;
+    int count = 0;
+};
 
 /// What of the meshes is in the driver's memory: triangles, tiles of detail, displaced triangles.
 /// Only what is drawn gets there, and stays while the scene holds it; displaced triangles while
@@ -30,6 +37,8 @@ public:
     [[nodiscard]] const ResidentMesh& mesh(const MeshDraw& draw) const;
     [[nodiscard]] const ResidentTile& tile(const MeshDraw& draw) const;
     [[nodiscard]] const ResidentSurface& surface(const MeshDraw& draw) const;
+    /// Precondition: prepared, with silhouettes.
+    [[nodiscard]] const ResidentHull& hull(const MeshDraw& draw) const;
     /// What prewarp shows on the mesh: warped_tile; null for other techniques.
     [[nodiscard]] const gl::Texture2D* warp(const MeshDraw& draw) const;
 
@@ -46,32 +55,27 @@ private:
         ResidentMesh resident;
         bool drawn = false;
     };
-    struct Tile {
-        std::weak_ptr<const terrain::TextureSet> owner;
-        ResidentTile resident;
-    };
-    struct Surface {
-        std::weak_ptr<const terrain::TextureSet> owner;
-        ResidentSurface resident;
-    };
-    using TileKey = std::pair<const terrain::TextureSet*, bool>; // whether it wraps
-    using SurfaceKey = std::pair<const terrain::TextureSet*, TileSide>;
 
-    static TileKey tile_key(const MeshDraw& draw);
-    static SurfaceKey surface_key(const MeshDraw& draw);
+    struct Hull {
+        std::weak_ptr<const scene::Mesh> owner;
+        scene::TextureDetail detail;
+        ResidentHull resident;
+        bool drawn = false;
+    };
+
+    [[nodiscard]] const Hull* find_hull(const MeshDraw& draw) const;
+    Result<void> prepare_hull(const MeshDraw& draw, FrameStats& stats);
     [[nodiscard]] const Displaced* displaced(const MeshDraw& draw) const;
     void forget_unused(const std::vector<MeshDraw>& draws);
     Result<void> prepare_triangles(const MeshDraw& draw, FrameStats& stats);
     Result<void> prepare_displaced(const MeshDraw& draw, FrameStats& stats);
-    Result<void> prepare_tile(const MeshDraw& draw, FrameStats& stats);
-    Result<void> prepare_surface(const MeshDraw& draw, FrameStats& stats);
     Result<void> prepare_warps(const std::vector<MeshDraw>& draws, const scene::Camera& camera,
                                FrameStats& stats);
 
     std::map<std::pair<const scene::Mesh*, Look>, Triangles> triangles_;
     std::vector<Displaced> displaced_;
-    std::map<TileKey, Tile> tiles_;
-    std::map<SurfaceKey, Surface> surfaces_;
+    std::vector<Hull> hulls_;
+    TileResidency tiles_;
     std::map<const scene::MeshNode*, gl::Texture2D> warps_; // of the last frame
 };
 

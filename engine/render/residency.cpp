@@ -18,13 +18,6 @@
 namespace reljef::render {
 namespace {
 
-// Sample coordinates of the heightfield onto texels whose outermost centres are the outermost
-// samples.
-glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
-    const glm::vec2 scale = glm::vec2(texels - 1) / (glm::vec2(samples - 1) * glm::vec2(texels));
-    return {scale, 0.5F / glm::vec2(texels)};
-}
-
 Result<gl::Texture2D> map_texture(const Image& map, FrameStats& stats) {
     return mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb, std::as_bytes(map.samples()),
                      stats);
@@ -53,14 +46,6 @@ Result<ResidentMaps> make_light_parts(const scene::TerrainSurface& surface,
     }
     auto sun = map_texture(parts.sun, stats);
     return sun ? with_place(surface, std::move(*sky), std::move(*sun)) : sun.error();
-}
-
-std::optional<scene::TerrainLight> light_on(const DrawList& list,
-                                            const glm::dmat4& world_from_local) {
-    if (!list.sun) {
-        return std::nullopt;
-    }
-    return scene::TerrainLight{*list.sun, glm::dmat3(world_from_local)};
 }
 
 Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<float>& heights,
@@ -92,6 +77,9 @@ Result<void> Residency::prepare(const DrawList& list, bool with_maps, FrameStats
     }
     if (with_maps) {
         if (auto done = prepare_all_maps(list, stats); !done) {
+            return done;
+        }
+        if (auto done = ground_.prepare(list, stats); !done) {
             return done;
         }
     }

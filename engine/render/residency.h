@@ -12,6 +12,7 @@
 #include "engine/render/coarse_tiles.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/ground_residency.h"
 #include "engine/render/mesh_residency.h"
 #include "engine/render/relief_maps.h"
 #include "engine/render/resident_mesh.h"
@@ -51,6 +52,7 @@ public:
     [[nodiscard]] const ResidentRelief& relief(const ReliefDraw& draw) const;
     [[nodiscard]] const StreamedTiles& streamed() const { return streamed_tiles_; }
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
+    [[nodiscard]] const GroundResidency& ground() const { return ground_; }
     /// What prewarp shows at each sample: warped_places.
     [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
@@ -88,6 +90,7 @@ private:
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     MeshResidency meshes_;
+    GroundResidency ground_;
     std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
 };
 

@@ -25,6 +25,15 @@ terrain::TileBorder border_as(bool wraps) {
     return wraps ? terrain::TileBorder::wrap : terrain::TileBorder::clamp;
 }
 
+// Linear.
+glm::vec3 mean_of(const Image& picture) {
+    glm::dvec3 sum(0.0);
+    for (const Rgba8 texel : picture.samples()) {
+        sum += glm::dvec3(linear_from_rgba8(texel));
+    }
+    return glm::vec3(sum / static_cast<double>(picture.size()));
+}
+
 // x and y of the normals, as rg16_snorm has them.
 std::vector<glm::i16vec2> packed_normals(const Grid<glm::vec3>& normals) {
     std::vector<glm::i16vec2> packed;
@@ -45,17 +54,6 @@ std::vector<glm::i16vec4> packed_layers(const Grid<glm::vec4>& component) {
     return packed;
 }
 
-// The heights as that side shows them.
-Grid<float> shown_heights(const terrain::TextureSet& set, const TileSide& side) {
-    Grid<float> heights = set.heights;
-    if (side.from_behind) {
-        for (float& height : heights.samples()) {
-            height = 1.0F - height;
-        }
-    }
-    return heights;
-}
-
 // The heights with those that lie between the tile and its next copies; at least one cell.
 Grid<float> with_next_copies(const Grid<float>& heights, bool wraps) {
     const int more = wraps ? 1 : 0;
@@ -72,6 +70,16 @@ Grid<float> with_next_copies(const Grid<float>& heights, bool wraps) {
 glm::ivec2 cells_of(int cols, int rows, bool wraps) {
     return wraps ? glm::ivec2(cols, rows)
                  : glm::ivec2(std::max(cols, 2) - 1, std::max(rows, 2) - 1);
+}
+
+// Null where they were not made beforehand.
+std::shared_ptr<const terrain::ConeMaps> known_cones(const terrain::TextureSet& set,
+                                                     const TileSide& side) {
+    const auto found =
+        std::find_if(set.cones.begin(), set.cones.end(), [&](const terrain::KnownCones& known) {
+            return known.border == border_as(side.wraps) && known.from_behind == side.from_behind;
+        });
+    return found == set.cones.end() ? nullptr : found->of_field;
 }
 
 Result<gl::Texture2D> layer_texture(const Grid<glm::vec4>& heights, bool wraps, FrameStats& stats) {
@@ -129,7 +137,7 @@ Result<ResidentTile> resident_tile(const terrain::TextureSet& set, bool wraps, F
     if (!normals) {
         return normals.error();
     }
-    return ResidentTile{std::move(*color), std::move(*normals)};
+    return ResidentTile{std::move(*color), std::move(*normals), mean_of(set.color)};
 }
 
 Result<ResidentSurface> resident_surface(const terrain::TextureSet& set, const TileSide& side,
@@ -137,7 +145,7 @@ Result<ResidentSurface> resident_surface(const terrain::TextureSet& set, const T
     if (side.layers) {
         return resident_layers(set, side, stats);
     }
-    const Grid<float> shown = shown_heights(set, side);
+    const Grid<float> shown = terrain::seen_heights(set.heights, side.from_behind);
     auto heights = tile_height_texture(shown, wrap_of(side.wraps), stats);
     if (!heights) {
         return heights.error();
@@ -148,19 +156,19 @@ Result<ResidentSurface> resident_surface(const terrain::TextureSet& set, const T
 
 Result<gl::Texture2D> greatest_texture(const terrain::TextureSet& set, const TileSide& side,
                                        FrameStats& stats) {
-    const Grid<float> heights = with_next_copies(shown_heights(set, side), side.wraps);
+    const Grid<float> heights =
+        with_next_copies(terrain::seen_heights(set.heights, side.from_behind), side.wraps);
     return pyramid_texture(greatest_heights(heights.view()), stats);
 }
 
 Result<gl::Texture2D> tile_cone_texture(const terrain::TextureSet& set, const TileSide& side,
                                         FrameStats& stats) {
     const terrain::TileBorder border = border_as(side.wraps);
-    const Grid<float> heights = shown_heights(set, side);
+    const Grid<float> heights = terrain::seen_heights(set.heights, side.from_behind);
     const Grid<float> field = terrain::cone_field(heights.view(), border);
-    const bool is_known = set.cones_of_field != nullptr && side.wraps && !side.from_behind;
-    const terrain::ConeMaps cones =
-        terrain::tile_cones(is_known ? *set.cones_of_field : *terrain::cone_maps(field.view()),
-                            heights.cols(), heights.rows(), border);
+    const auto known = known_cones(set, side);
+    const terrain::ConeMaps cones = terrain::tile_cones(
+        known ? *known : *terrain::cone_maps(field.view()), heights.cols(), heights.rows(), border);
     auto texture = gl::Texture2D::create({.size = {cones.plain.cols(), cones.plain.rows()},
                                           .format = gl::Format::rg32f,
                                           .filter = gl::Filter::nearest});

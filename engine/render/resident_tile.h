@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
 #include "engine/gl/texture.h"
@@ -16,6 +17,7 @@ namespace reljef::render {
 struct ResidentTile {
     gl::Texture2D color;
     gl::Texture2D normals;
+    glm::vec3 mean_color{1.0F}; ///< linear
 };
 /// Fails when the driver has no memory left.
 Result<ResidentTile> resident_tile(const terrain::TextureSet& set, bool wraps, FrameStats& stats);

@@ -11,13 +11,17 @@
 namespace reljef::render {
 namespace {
 
-constexpr std::array kinds{std::pair{ShaderKind::terrain, std::string_view("terrain")},
-                           std::pair{ShaderKind::relief, std::string_view("relief")},
-                           std::pair{ShaderKind::beams, std::string_view("beams")},
-                           std::pair{ShaderKind::mesh, std::string_view("mesh")},
-                           std::pair{ShaderKind::textured_mesh, std::string_view("textured_mesh")},
-                           std::pair{ShaderKind::relief_mesh, std::string_view("relief_mesh")},
-                           std::pair{ShaderKind::sky, std::string_view("sky")}};
+constexpr std::array kinds{
+    std::pair{ShaderKind::terrain, std::string_view("terrain")},
+    std::pair{ShaderKind::relief, std::string_view("relief")},
+    std::pair{ShaderKind::beams, std::string_view("beams")},
+    std::pair{ShaderKind::mesh, std::string_view("mesh")},
+    std::pair{ShaderKind::textured_mesh, std::string_view("textured_mesh")},
+    std::pair{ShaderKind::relief_mesh, std::string_view("relief_mesh")},
+    std::pair{ShaderKind::relief_hull, std::string_view("relief_hull")},
+    std::pair{ShaderKind::textured_terrain, std::string_view("textured_terrain")},
+    std::pair{ShaderKind::relief_terrain, std::string_view("relief_terrain")},
+    std::pair{ShaderKind::sky, std::string_view("sky")}};
 constexpr std::array features_by_name{
     std::pair{feature_lit, std::string_view("LIT")},
     std::pair{feature_fog, std::string_view("FOG")},
@@ -205,20 +209,28 @@ std::uint32_t look_of(std::uint32_t features) {
 // Whatever may mean something to a kind, alone or with others.
 std::uint32_t features_that_mean_something(ShaderKind kind) {
     constexpr std::uint32_t any = feature_lit | feature_fog | feature_hit;
-    constexpr std::uint32_t relief =
-        feature_exact | feature_parallax | feature_bisect | feature_secant | feature_limited |
-        feature_iterated | feature_view_steps | feature_fade | feature_hard_shadow |
-        feature_soft_shadow | feature_smooth_edges | feature_write_depth;
+    constexpr std::uint32_t search = feature_exact | feature_parallax | feature_bisect |
+                                     feature_secant | feature_limited | feature_iterated |
+                                     feature_view_steps | feature_cone;
+    constexpr std::uint32_t relief = search | feature_fade | feature_hard_shadow |
+                                     feature_soft_shadow | feature_smooth_edges |
+                                     feature_write_depth;
     switch (kind) {
     case ShaderKind::terrain:
         return any | feature_warped;
     case ShaderKind::relief:
-        return any | relief | feature_cone | feature_beams;
+        return any | relief | feature_beams;
     case ShaderKind::relief_mesh:
-        return any | relief | feature_cone | feature_layers | feature_wrap;
+        return any | relief | feature_layers | feature_wrap;
     case ShaderKind::textured_mesh:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
                feature_warped;
+    case ShaderKind::textured_terrain:
+        return any | feature_normal_map | feature_bump | feature_emboss;
+    case ShaderKind::relief_hull:
+        return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap;
+    case ShaderKind::relief_terrain:
+        return any | search | feature_hard_shadow | feature_soft_shadow;
     default:
         return any;
     }
@@ -230,9 +242,11 @@ std::uint32_t own_features(ShaderVariant variant) {
     const bool is_lit = (variant.features & feature_lit) != 0;
     const std::uint32_t wrap = variant.features & feature_wrap;
     const std::uint32_t look = is_lit ? look_of(variant.features) : 0U;
+    constexpr std::uint32_t shadows = feature_hard_shadow | feature_soft_shadow;
     const bool on_mesh = variant.kind == ShaderKind::relief_mesh;
-    const std::uint32_t search =
-        search_of(on_mesh ? variant.features : variant.features & ~feature_layers);
+    const std::uint32_t foreign = (on_mesh ? 0U : feature_layers) |
+                                  (variant.kind == ShaderKind::relief_hull ? feature_parallax : 0U);
+    const std::uint32_t search = search_of(variant.features & ~foreign);
     switch (variant.kind) {
     case ShaderKind::terrain:
         return variant.features & feature_warped;
@@ -242,19 +256,31 @@ std::uint32_t own_features(ShaderVariant variant) {
         return search | options_of(variant.features, search) | wrap;
     case ShaderKind::textured_mesh:
         return (variant.features & feature_warped) | (is_hit ? wrap : look);
+    case ShaderKind::textured_terrain:
+        return look;
+    case ShaderKind::relief_hull:
+        return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap;
+    case ShaderKind::relief_terrain:
+        return search | (options_of(variant.features, search) & shadows);
     default:
         return 0U;
     }
 }
 
-bool is_mesh(ShaderKind kind) {
+bool has_ground(ShaderKind kind) {
+    return kind == ShaderKind::textured_terrain || kind == ShaderKind::relief_terrain;
+}
+
+// Lit per pixel.
+bool has_own_light(ShaderKind kind) {
     return kind == ShaderKind::mesh || kind == ShaderKind::textured_mesh ||
-           kind == ShaderKind::relief_mesh;
+           kind == ShaderKind::relief_mesh || kind == ShaderKind::relief_hull || has_ground(kind);
 }
 
 } // namespace
 
 ShaderVariant without_meaningless(ShaderVariant variant) {
+    variant.features &= ~(has_ground(variant.kind) ? feature_hit : 0U);
     const std::uint32_t own = own_features(variant);
     variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::beams) {
@@ -264,7 +290,7 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
         variant.features &= feature_lit;
     } else if ((variant.features & feature_hit) != 0) {
         variant.features = feature_hit;
-    } else if (!is_mesh(variant.kind)) {
+    } else if (!has_own_light(variant.kind)) {
         variant.features &= ~feature_lit; // a terrain's light is in its map
     }
     variant.features |= own;

@@ -24,10 +24,13 @@ std::span<const EmbeddedShader> embedded_shaders();
 enum class ShaderKind {
     terrain,
     relief,
-    beams,         ///< how far a relief's rays meet nothing, by blocks of pixels
-    mesh,          ///< of one colour
-    textured_mesh, ///< with a tile of detail on it
-    relief_mesh,   ///< each pixel looks for the tile's surface
+    beams,            ///< how far a relief's rays meet nothing, by blocks of pixels
+    mesh,             ///< of one colour
+    textured_mesh,    ///< with a tile of detail on it
+    relief_mesh,      ///< each pixel looks for the tile's surface
+    relief_hull,      ///< the same in a hull around the mesh
+    textured_terrain, ///< a terrain with a tile of detail on it
+    relief_terrain,   ///< each pixel looks for the tile's surface
     sky
 };
 
@@ -69,8 +72,9 @@ struct ShaderVariant {
 };
 
 /// The variant without the features that mean nothing to it: a hit has neither light nor fog, the
-/// sky is not seen through air and is never hit, a terrain's light is in its map unless a relief
-/// casts shadows; parallax follows no ray, and a hit has neither shadow nor smooth edges.
+/// sky is not seen through air, it and tiles of detail on terrains are never hit, a terrain's light
+/// is in its map unless a relief casts shadows; parallax follows no ray, and a hit has neither
+/// shadow nor smooth edges.
 ShaderVariant without_meaningless(ShaderVariant variant);
 
 /// Every variant that means something, each once.

@@ -46,6 +46,24 @@ glm::vec4 lit_from_samples(const scene::StreamedTile& tile) {
     return {1.0F / (texels * step), 0.5F / texels};
 }
 
+// A tile's ground_map, a texel a vertex; the sun's shadows are the overview's.
+GroundMap streamed_ground(const scene::TileMaker& maker, const scene::StreamedTile& tile,
+                          const scene::TerrainIrradiance* irradiance) {
+    const Grid<float>& overview = maker.overview().heightfield().heights;
+    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
+    GroundMap map{tile.albedo, Grid<glm::vec4>(tile.albedo.cols(), tile.albedo.rows())};
+    for (int row = 0; row < map.surface.rows(); ++row) {
+        for (int col = 0; col < map.surface.cols(); ++col) {
+            const glm::dvec2 sample =
+                maker.on_overview(glm::dvec2(maker.tree().sample(tile.id, {col, row})));
+            const glm::dvec2 inside = glm::clamp(sample, glm::dvec2(0.0), last);
+            const float sun = irradiance != nullptr ? irradiance->visibility(inside) : 1.0F;
+            map.surface(col, row) = glm::vec4(tile.normals(col, row), sun);
+        }
+    }
+    return map;
+}
+
 } // namespace
 
 GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::EdgeMove>& moves,
@@ -83,6 +101,9 @@ Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameS
     }
     for (const StreamedDraw& draw : list.streamed_tiles) {
         if (auto done = with_maps ? prepare_light(list, draw, stats) : Result<void>(); !done) {
+            return done;
+        }
+        if (auto done = with_maps ? prepare_ground(draw, stats) : Result<void>(); !done) {
             return done;
         }
     }
@@ -160,17 +181,14 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
         entry.resident->mesh = std::move(made);
     } else {
         entry.resident.emplace(
-            ResidentStreamed{std::move(made), std::nullopt, lit_from_samples(*draw.tile)});
+            ResidentStreamed{std::move(made), std::nullopt, lit_from_samples(*draw.tile), {}});
     }
     return {};
 }
 
 Result<void> StreamedTiles::prepare_light(const DrawList& list, const StreamedDraw& draw,
                                           FrameStats& stats) {
-    std::optional<scene::TerrainLight> light;
-    if (list.sun) {
-        light = {*list.sun, glm::dmat3(draw.world_from_local)};
-    }
+    const auto light = light_on(list, draw.world_from_local);
     Entry& entry = entry_of(draw);
     if (entry.resident->lit && entry.light == light) {
         ++stats.skipped.uploads_unchanged;
@@ -185,7 +203,25 @@ Result<void> StreamedTiles::prepare_light(const DrawList& list, const StreamedDr
         return texture.error();
     }
     entry.resident->lit = std::move(*texture);
+    entry.resident->ground.reset();
     entry.light = light;
+    return {};
+}
+
+Result<void> StreamedTiles::prepare_ground(const StreamedDraw& draw, FrameStats& stats) {
+    Entry& entry = entry_of(draw);
+    if (draw.detail == DetailLevel::none || entry.resident->ground) {
+        return {};
+    }
+    const scene::TerrainIrradiance* const irradiance =
+        entry.light ? &irradiance_of(draw, *entry.light) : nullptr;
+    auto ground =
+        resident_ground(streamed_ground(draw.terrain->stream->maker(), *draw.tile, irradiance),
+                        entry.resident->lit_from_sample, stats);
+    if (!ground) {
+        return ground.error();
+    }
+    entry.resident->ground = std::move(*ground);
     return {};
 }
 

@@ -12,6 +12,7 @@
 #include "engine/gl/texture.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/grid_mesh.h"
+#include "engine/render/ground_residency.h"
 #include "engine/render/resident_mesh.h"
 #include "engine/terrain/tile_edges.h"
 
@@ -24,6 +25,7 @@ struct ResidentStreamed {
     ResidentMesh mesh;
     std::optional<gl::Texture2D> lit;
     glm::vec4 lit_from_sample{0.0F}; ///< texture coordinate = samples from the first · xy + zw
+    std::optional<ResidentGround> ground; ///< there where a detail is seen on it
 };
 
 /// The tiles of streamed terrains: uploaded when they are first drawn, again where a neighbour of
@@ -57,6 +59,7 @@ private:
     Result<void> upload_all(std::span<const StreamedDraw* const> draws, const StreamedByTile& drawn,
                             FrameStats& stats);
     Result<void> prepare_light(const DrawList& list, const StreamedDraw& draw, FrameStats& stats);
+    Result<void> prepare_ground(const StreamedDraw& draw, FrameStats& stats);
     Result<void> upload(const StreamedDraw& draw, const GridMesh& mesh, FrameStats& stats);
     const scene::TerrainIrradiance& irradiance_of(const StreamedDraw& draw,
                                                   const scene::TerrainLight& light);

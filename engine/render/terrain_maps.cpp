@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
 #include "engine/core/worker_pool.h"
+#include "engine/terrain/gradient.h"
 
 namespace reljef::render {
 namespace {
@@ -92,6 +95,33 @@ LightParts light_parts(const scene::TerrainSurface& surface, const scene::Terrai
                        parts.sun(texel.x, texel.y) = rgba8_from_linear(reflected * found.sun);
                    });
     return parts;
+}
+
+GroundMap ground_map(const scene::TerrainSurface& surface,
+                     const std::optional<scene::TerrainLight>& light, int largest_side) {
+    const Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    const Grid<glm::vec2> gradients =
+        terrain::scene_gradients(surface.heightfield(), surface.placement());
+    std::optional<scene::TerrainIrradiance> irradiance;
+    if (light) {
+        irradiance.emplace(surface, *light);
+    }
+    const glm::ivec2 size = map_size(surface, albedo, largest_side);
+    GroundMap map{Image(size.x, size.y), Grid<glm::vec4>(size.x, size.y)};
+    for_each_texel(surface, albedo, size,
+                   [&](glm::ivec2 texel, glm::dvec2 sample, glm::vec3 reflected) {
+                       const glm::vec2 gradient = bilinear(gradients, sample, std::identity());
+                       const glm::vec3 normal = glm::normalize(glm::vec3(-gradient, 1.0F));
+                       const float sun = irradiance ? irradiance->visibility(sample) : 1.0F;
+                       map.albedo(texel.x, texel.y) = rgba8_from_linear(reflected);
+                       map.surface(texel.x, texel.y) = glm::vec4(normal, sun);
+                   });
+    return map;
+}
+
+glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
+    const glm::vec2 scale = glm::vec2(texels - 1) / (glm::vec2(samples - 1) * glm::vec2(texels));
+    return {scale, 0.5F / glm::vec2(texels)};
 }
 
 } // namespace reljef::render

@@ -2,7 +2,11 @@
 
 #include <optional>
 
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
 #include "engine/core/color.h"
+#include "engine/core/grid.h"
 #include "engine/scene/terrain_light.h"
 
 namespace reljef::render {
@@ -22,5 +26,19 @@ struct LightParts {
 };
 LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
                        int largest_side);
+
+/// What a tile of detail on a terrain is lit by: its albedo, sRGB, and, in local directions, its
+/// normals (xyz), with the share of the sun's disc that the terrain around leaves (w; 1 without a
+/// light). Both of one size, as lit_map's.
+struct GroundMap {
+    Image albedo;
+    Grid<glm::vec4> surface;
+};
+GroundMap ground_map(const scene::TerrainSurface& surface,
+                     const std::optional<scene::TerrainLight>& light, int largest_side);
+
+/// How sample coordinates of a heightfield become texture coordinates, sample · xy + zw, where the
+/// outermost centres of texels are the outermost samples.
+glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels);
 
 } // namespace reljef::render

@@ -75,6 +75,13 @@ Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
     if (mesh.material.detail.set == nullptr) {
         return {};
     }
+    const TechniqueOptions& options = technique.options;
+    if (options.true_silhouettes && (options.fade || options.smooth_edges || options.two_sided)) {
+        return Error{
+            fmt::format("technique {}: silhouettes=true found beside fade, edges or sides, "
+                        "none of these was expected",
+                        name)};
+    }
     if (!draws_any_mesh(technique.id) && !texture_plane(*mesh.mesh)) {
         return Error{fmt::format("technique {}: a mesh that is not flat found, one plane was "
                                  "expected; relief draws both",
@@ -126,8 +133,10 @@ Box Node::local_bounds() const {
     if (const auto* mesh = get<MeshNode>()) {
         Box bounds = bounds_of(*mesh->mesh);
         if (mesh->material.detail.set != nullptr && !bounds.empty()) {
-            const double raised = raised_above(*mesh->mesh, mesh->material.detail);
-            bounds = {bounds.low - raised, bounds.high + raised};
+            const double reach = mesh->material.technique.options.true_silhouettes
+                                     ? hull_reach(*mesh->mesh, mesh->material.detail)
+                                     : raised_above(*mesh->mesh, mesh->material.detail);
+            bounds = {bounds.low - reach, bounds.high + reach};
         }
         return bounds;
     }

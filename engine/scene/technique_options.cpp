@@ -33,6 +33,7 @@ constexpr std::array<std::string_view, 2> edges_words{"none", "smooth"};
 constexpr std::array<std::string_view, 2> sides_words{"one", "two"};
 constexpr std::array<std::string_view, 3> border_words{"wrap", "clamp", "discard"};
 constexpr std::array<std::string_view, 2> depth_words{"none", "write"};
+constexpr std::array<std::string_view, 2> silhouettes_words{"none", "true"};
 
 constexpr OptionInfo steps_info{
     "steps",
@@ -83,6 +84,15 @@ constexpr OptionInfo depth_info{
     "depth", "none|write",
     "none",  "write: the depth of the hit, so that meshes cut the relief where it is seen",
     "",      {}};
+
+constexpr OptionInfo silhouettes_info{
+    "silhouettes",
+    "none|true",
+    "none",
+    "true: rays enter a mesh's relief through a hull around it, and what leaves that has met "
+    "nothing: its outline is that of its heights, its depth that of the hit",
+    "Hirche, Ehlert, Guthe and Doggett 2004; Porumbescu, Budge, Feng and Joy 2005",
+    {}};
 
 // One assignment: key=value,more.
 struct Assignment {
@@ -232,18 +242,28 @@ Result<void> set_depth(TechniqueOptions& options, const Assignment& found) {
     return {};
 }
 
+Result<void> set_silhouettes(TechniqueOptions& options, const Assignment& found) {
+    const auto word = word_of(silhouettes_info, found, silhouettes_words);
+    if (!word) {
+        return word.error();
+    }
+    options.true_silhouettes = *word == 1;
+    return {};
+}
+
 struct Entry {
     OptionInfo info;
     Result<void> (*set)(TechniqueOptions&, const Assignment&);
 };
 
-constexpr std::array<Entry, 7> entries{{{steps_info, set_steps},
+constexpr std::array<Entry, 8> entries{{{steps_info, set_steps},
                                         {fade_info, set_fade},
                                         {shadow_info, set_shadow},
                                         {edges_info, set_edges},
                                         {sides_info, set_sides},
                                         {border_info, set_border},
-                                        {depth_info, set_depth}}};
+                                        {depth_info, set_depth},
+                                        {silhouettes_info, set_silhouettes}}};
 
 constexpr auto option_infos = [] {
     std::array<OptionInfo, entries.size()> list;
@@ -274,6 +294,20 @@ std::string_view reason_without_ray(std::string_view option) {
                : "it looks for no surface along a ray; relief and exact do";
 }
 
+// Why one that looks for layers cannot.
+std::string_view reason_with_layers(std::string_view option) {
+    if (option == "steps") {
+        return "its steps are as many from wherever it is seen; steep, relief and interval take it";
+    }
+    if (option == "edges") {
+        return "what its rays miss may lie behind a hole; relief and exact take it";
+    }
+    if (option == "silhouettes") {
+        return "its sheets show both sides as they are; relief and exact take it";
+    }
+    return option == "sides" ? "it is seen from both sides as it is" : std::string_view();
+}
+
 // Why a technique cannot take an option; empty where it can.
 std::string_view reason_against(TechniqueId id, std::string_view option) {
     if (geometry_of(id) != Geometry::box) {
@@ -282,19 +316,13 @@ std::string_view reason_against(TechniqueId id, std::string_view option) {
     if (option == "steps" && id == TechniqueId::pom) {
         return "its own min and max say the same";
     }
-    if (option == "steps" && looks_for_layers(id)) {
-        return "its steps are as many from wherever it is seen; steep, relief and interval take it";
+    if (looks_for_layers(id)) {
+        return reason_with_layers(option);
     }
     if (option == "steps" && !steps_equally(id)) {
         return "it takes no equal steps; steep, relief and interval do";
     }
-    if (option == "edges" && looks_for_layers(id)) {
-        return "what its rays miss may lie behind a hole; relief and exact take it";
-    }
-    if (option == "sides" && looks_for_layers(id)) {
-        return "it is seen from both sides as it is";
-    }
-    if ((option == "shadow" || option == "edges") && looks_once(id)) {
+    if ((option == "shadow" || option == "edges" || option == "silhouettes") && looks_once(id)) {
         return "it follows no ray; relief and exact do";
     }
     return {};
@@ -357,6 +385,7 @@ std::string to_string(const TechniqueOptions& options) {
         text += fmt::format(",border={}", border_words[static_cast<std::size_t>(*options.border)]);
     }
     text += options.writes_depth ? ",depth=write" : "";
+    text += options.true_silhouettes ? ",silhouettes=true" : "";
     return text;
 }
 
@@ -383,6 +412,9 @@ std::vector<OptionNumber> option_numbers(const TechniqueOptions& options) {
     }
     if (options.writes_depth) {
         numbers.push_back({"depth", 1.0});
+    }
+    if (options.true_silhouettes) {
+        numbers.push_back({"silhouettes", 1.0});
     }
     return numbers;
 }

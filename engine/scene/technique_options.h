@@ -65,6 +65,7 @@ struct TechniqueOptions {
     bool two_sided = false;           ///< seen from behind, too
     std::optional<BorderRule> border; ///< absent: as the surface has it
     bool writes_depth = false;        ///< of the hit, so that meshes cut the relief
+    bool true_silhouettes = false;    ///< a mesh is drawn by a hull around its relief
     friend bool operator==(const TechniqueOptions&, const TechniqueOptions&) = default;
 };
 

@@ -98,6 +98,12 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
                                  "is not seen from beneath, detail tiles are",
                                  name)};
     }
+    if (technique.options.true_silhouettes) {
+        return Error{
+            fmt::format("technique {}: silhouettes=true found, none was expected: a terrain "
+                        "has its own, detail tiles on meshes have not",
+                        name)};
+    }
     if (technique.options.border && *technique.options.border != BorderRule::discard) {
         return Error{fmt::format("technique {}: a border other than discard found, discard was "
                                  "expected: a terrain ends at its border, detail tiles go on",

@@ -6,6 +6,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
+#include "engine/scene/ground_detail.h"
 #include "engine/scene/technique.h"
 #include "engine/scene/texture_detail.h"
 #include "engine/terrain/heightfield.h"
@@ -85,6 +86,8 @@ struct TerrainNode {
     Material material;
     /// Finer tiles of the same terrain, which is an overview then; null: it is all there is.
     std::shared_ptr<TileStream> stream = {};
+    /// Shown where the technique is polygons; null: none.
+    std::shared_ptr<const GroundDetail> detail = {};
 };
 
 /// Whether the technique draws the tiles of a stream; else it draws the overview.

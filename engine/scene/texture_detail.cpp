@@ -132,6 +132,11 @@ double raised_above(const Mesh& mesh, const TextureDetail& detail) {
     return (1.0 + detail.offset) * relief_height(mesh, detail);
 }
 
+double hull_reach(const Mesh& mesh, const TextureDetail& detail) {
+    const auto offset = static_cast<double>(detail.offset);
+    return (std::max(1.0 + offset, -offset) + hull_margin) * relief_height(mesh, detail);
+}
+
 Mesh tessellated(const Mesh& mesh, int n) {
     check(n >= 1, "a mesh cut into no parts");
     Mesh fine;

@@ -34,6 +34,11 @@ double relief_height(const Mesh& mesh, const TextureDetail& detail);
 /// bounds.
 double raised_above(const Mesh& mesh, const TextureDetail& detail);
 
+/// Metres that a hull around all heights goes off the mesh, either way: a height by hull_margin
+/// beyond the lowest and the highest.
+double hull_reach(const Mesh& mesh, const TextureDetail& detail);
+inline constexpr double hull_margin = 1.0 / 4096.0;
+
 /// The mesh with every triangle cut into n², its vertices' normals unit vectors between the
 /// corners'. Edges that two triangles share stay shared. Precondition: n >= 1.
 Mesh tessellated(const Mesh& mesh, int n);

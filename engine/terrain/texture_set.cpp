@@ -115,6 +115,16 @@ Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, TileBor
     return normals;
 }
 
+Grid<float> seen_heights(const Grid<float>& heights, bool from_behind) {
+    Grid<float> seen = heights;
+    if (from_behind) {
+        for (float& height : seen.samples()) {
+            height = 1.0F - height;
+        }
+    }
+    return seen;
+}
+
 bool has_seam(GridView<const float> heights) {
     check(!heights.empty(), "seam of an empty tile");
     return has_seam_along(heights.cols(), heights.rows(),

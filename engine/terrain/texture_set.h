@@ -16,6 +16,13 @@
 
 namespace reljef::terrain {
 
+/// The cones over one side of a tile, made beforehand: over cone_field() of seen_heights().
+struct KnownCones {
+    TileBorder border = TileBorder::wrap; ///< wrap, or clamp where the tile does not repeat
+    bool from_behind = false;
+    std::shared_ptr<const ConeMaps> of_field;
+};
+
 /// The maps of one tile of surface detail. Texture coordinates (u, v) in [0,1] cover the tile: u
 /// grows along the columns, v along the rows, texel (i, j) of an n × m map has its centre at
 /// ((i + ½)/n, (j + ½)/m). Maps may differ in size.
@@ -26,18 +33,25 @@ struct TextureSet {
     Grid<float> back_heights;       ///< off the back of a sheet, of as many texels; empty: none
     std::optional<LayerMap> layers; ///< where one height a place says too little
     Grid<glm::vec3> normals;        ///< unit length, z > 0: x along u, y along v, z off the surface
-    /// Over cone_field() of the heights where the tile wraps; none: made when they are needed.
-    std::shared_ptr<const ConeMaps> cones_of_field;
+    std::vector<KnownCones> cones;  ///< those not among them are made when they are needed
     float scale = 0.05F;     ///< of the normals: a height of 1 lifts a point so many tile widths
     float specular = 0.10F;  ///< linear, what a surface turned into the mirror direction adds
     float shininess = 32.0F; ///< exponent of Blinn and Phong
     std::vector<std::string> notes; ///< what a person should know about the maps
 };
 
+/// What a tile may cover, metres, and how high its relief may be, in tile widths.
+inline constexpr double least_tile_width = 1e-3;
+inline constexpr double most_tile_width = 1e6;
+inline constexpr double most_tile_scale = 10.0;
+
 /// Normals of a tile whose height of 1 lifts a point `scale` tile widths, from central differences
 /// over the border: at a texel's centre the mean of the two slopes that the bilinear surface has
 /// there, exactly. Precondition: not empty.
 Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, TileBorder border);
+
+/// The heights as a side of the tile shows them: from behind what is left of them to 1.
+Grid<float> seen_heights(const Grid<float>& heights, bool from_behind);
 
 /// Whether opposite borders do not fit together: across them the heights differ, in the mean, by
 /// more than `seam_limit` times what neighbouring texels differ by. Precondition: not empty.

@@ -124,6 +124,35 @@ TEST(RenderCommand, tiles_are_refused_where_there_are_none_and_where_they_are_un
             "a mesh that is not flat found");
 }
 
+TEST(RenderCommand, a_tile_of_detail_is_refused_where_it_is_unknown_or_nothing_shows_it) {
+    const test::TemporaryFolder folder;
+    const std::string dem =
+        folder
+            .write("dem.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n")
+            .string();
+    const auto refused = [&](int exit_code, std::vector<std::string> options,
+                             const std::string& words) {
+        std::vector<std::string> arguments{"render", dem,         "-o",     "never.png", "--size",
+                                           "64x48",  "--context", "osmesa", "--quiet"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        test::expect_refusal(test::reljef(arguments), exit_code, {words});
+        EXPECT_FALSE(std::filesystem::exists("never.png"));
+    };
+    refused(1, {"--detail", "nowhere/tiles"}, "'nowhere/tiles' found, one of brick, rock");
+    refused(1, {"--detail", folder.path().string()}, folder.path().string());
+    for (const std::string width : {"0", "-3", "nan", "inf", "1e7", "", "wide"}) {
+        refused(2, {"--detail", "rock:width=" + width}, "--detail: width");
+    }
+    refused(2, {"--detail", "rock:scale=0"}, "--detail: scale");
+    refused(2, {"--detail", "rock:wide=3"}, "width=METRES or scale=S was expected");
+    refused(2, {"--detail", ":width=3"}, "a tile's name or folder was expected");
+    refused(2, {"--detail", "rock", "--technique", "exact"}, "polygons was expected");
+    refused(2, {"--detail", "rock", "--detail-technique", "lattice"}, "normal, relief and exact");
+    refused(2, {"--detail", "rock", "--detail-technique", "relief:depth=write"},
+            "none beside steps and shadow");
+    refused(1, {"--detail-technique", "relief"}, "without --detail");
+}
+
 // Told apart by what is wrong first: the gallery's technique is chosen before its textures.
 TEST(RenderCommand, mixed_is_each_models_own_technique_and_a_terrains_none) {
     const test::TemporaryFolder folder;

@@ -53,6 +53,20 @@ std::vector<GoldenCase> golden_cases() {
                      "natural",
                      false,
                      {"--technique", "exact:shadow=hard,depth=write", "--context", "osmesa"}});
+    cases.push_back({"natural_detail",
+                     "natural",
+                     false,
+                     {"--detail", "rock:width=14,scale=0.1", "--detail-technique",
+                      "exact:shadow=hard", "--max-error", "1", "--eye", "0,-3000,774", "--look",
+                      "300,-2400,765", "--context", "osmesa"}});
+    cases.push_back({"gallery_silhouettes",
+                     "gallery",
+                     false,
+                     {"--technique", "exact:silhouettes=true", "--context", "osmesa"}});
+    cases.push_back({"urban_detail",
+                     "urban",
+                     false,
+                     {"--detail", "cobble:width=3", "--pose", "low", "--context", "osmesa"}});
     cases.push_back({"alps",
                      "natural/srtm3/N45E006.hgt",
                      true,

@@ -86,6 +86,24 @@ TEST(SceneFile, OnlyTheGalleryHasTexturesAndATechnique) {
                 HasSubstr("belongs to the generator gallery"));
 }
 
+TEST(SceneFile, ATileOfDetailHasAWidthAScaleAndATechnique) {
+    const std::string urban = "[terrain]\ngenerator = \"urban\"\n";
+    EXPECT_FALSE(parse(urban)->detail);
+    const auto scene = parse(urban + "[detail]\ntextures = \"rock\"\nwidth = 7.5\nscale = 0.2\n"
+                                     "technique = \"exact\"");
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->detail->textures, "rock");
+    EXPECT_EQ(scene->detail->width, 7.5);
+    EXPECT_EQ(scene->detail->scale, 0.2);
+    EXPECT_EQ(scene->detail->technique, "exact");
+    EXPECT_EQ(parse(urban + "[detail]\ntextures = \"rock\"")->detail->technique, "relief");
+    EXPECT_THAT(error_of(urban + "[detail]\nwidth = 2"), HasSubstr("textures is missing"));
+    for (const std::string width : {"0", "-1", "nan", "inf", "2e6"}) {
+        EXPECT_THAT(error_of(urban + "[detail]\ntextures = \"rock\"\nwidth = " + width),
+                    HasSubstr("width"));
+    }
+}
+
 TEST(SceneFile, ATextureFolderIsRelativeToTheSceneFile) {
     const test::TemporaryFolder folder;
     folder.write("wall/color.txt", "");
@@ -108,7 +126,8 @@ TEST(SceneFile, UnknownKeysAreRefusedWithTheKnownOnes) {
         error_of("[terrain]\ngenerator = \"urban\"\nsiez = 3\n"),
         HasSubstr("scene.toml:3: [terrain] siez is unknown, one of heights, generator, size"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sea]\nlevel = 1\n"),
-                HasSubstr("sea is unknown, one of name, terrain, area, gallery, sun, air, camera"));
+                HasSubstr("sea is unknown, one of name, terrain, area, gallery, detail, sun, air, "
+                          "camera"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sun]\nheight = 3\n"),
                 HasSubstr("[sun] height is unknown, one of azimuth, altitude"));
 }

@@ -31,7 +31,8 @@ std::vector<ShaderVariant> covering_variants() {
     std::erase_if(variants, [](const ShaderVariant& variant) {
         const int count = std::popcount(variant.features & options);
         const bool searches =
-            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh;
+            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh ||
+            variant.kind == ShaderKind::relief_hull || variant.kind == ShaderKind::relief_terrain;
         return searches && count > 1 && count < 5;
     });
     return variants;

@@ -20,7 +20,8 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     const auto variants = all_variants();
     for (const ShaderKind kind :
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
-          ShaderKind::relief_mesh, ShaderKind::sky}) {
+          ShaderKind::relief_mesh, ShaderKind::relief_hull, ShaderKind::textured_terrain,
+          ShaderKind::relief_terrain, ShaderKind::sky}) {
         for (std::uint32_t features = 0; features < feature_wrap << 1U; features += 7U) {
             const ShaderVariant variant = without_meaningless({kind, features});
             ASSERT_EQ(variant.kind, kind);
@@ -49,8 +50,15 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     constexpr std::size_t mesh_parallax = 2U * 4U * (4U + 1U) * 4U;
     constexpr std::size_t mesh_searches = 2U * 8U * (4U + 4U * 2U * 2U * (3U + 1U));
     constexpr std::size_t layers = 2U * (4U + 4U * 2U * (3U + 1U));
+    // A hull is lit with three shadows or not at all, wrapped or not.
+    // A terrain with a tile: lit in four ways or not; one that searches casts three shadows, or is
+    // not lit; none is ever hit.
+    constexpr std::size_t textured_ground = 2U * (4U + 1U);
+    constexpr std::size_t hull_searches = 2U * 8U * (1U + 2U * (1U + 3U));
+    constexpr std::size_t ground_searches = 2U * (4U * 2U + 8U * (1U + 3U));
     EXPECT_EQ(all_variants().size(), 2U * 3U + 5U + 2U + parallax + searches + beams + textured +
-                                         mesh_parallax + mesh_searches + layers);
+                                         mesh_parallax + mesh_searches + layers + textured_ground +
+                                         ground_searches + hull_searches);
 }
 
 TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
@@ -60,7 +68,9 @@ TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
         constexpr std::uint32_t options = shadows | feature_fade | feature_smooth_edges |
                                           feature_write_depth | feature_view_steps;
         EXPECT_FALSE(has(options) && variant.kind != ShaderKind::relief &&
-                     variant.kind != ShaderKind::relief_mesh);
+                     variant.kind != ShaderKind::relief_mesh &&
+                     variant.kind != ShaderKind::relief_hull &&
+                     variant.kind != ShaderKind::relief_terrain);
         EXPECT_FALSE(has(feature_parallax | feature_hit) && has(shadows | feature_smooth_edges));
         EXPECT_FALSE(has(feature_parallax | feature_exact | feature_cone) &&
                      has(feature_view_steps));
@@ -76,9 +86,10 @@ TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
                                         feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
-        EXPECT_LE(
-            ways,
-            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh ? 1 : 0);
+        const bool searches =
+            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh ||
+            variant.kind == ShaderKind::relief_hull || variant.kind == ShaderKind::relief_terrain;
+        EXPECT_LE(ways, searches ? 1 : 0);
     }
 }
 

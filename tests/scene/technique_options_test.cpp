@@ -66,6 +66,7 @@ TechniqueOptions any_options(TechniqueId id, test::Chance& chance) {
         options.border = static_cast<BorderRule>(chance.whole(0, 2));
     }
     options.writes_depth = has("depth");
+    options.true_silhouettes = has("silhouettes");
     return options;
 }
 

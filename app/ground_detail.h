@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <stop_token>
+
+#include "app/options.h"
+#include "engine/io/scene_file.h"
+#include "engine/scene/ground_detail.h"
+
+namespace reljef::app {
+
+/// The tile of detail that --detail or the scene file lays over the terrain; null: neither. Fails
+/// on a tile that is unknown or cannot be read, on a technique that does not show it, and where it
+/// is stopped.
+Result<std::shared_ptr<const scene::GroundDetail>>
+open_detail(const io::SceneDescription& description, const TerrainChoice& terrain,
+            const ViewChoice& view, const std::stop_token& stop);
+
+} // namespace reljef::app

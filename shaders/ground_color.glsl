@@ -1,0 +1,60 @@
+// What a terrain with a tile of detail sends to the eye: with the distance it becomes what the
+// terrain sends without one.
+uniform vec2 tile_sample;        // col, row of the terrain tile's first sample
+uniform vec4 lit_from_sample;    // texture coordinate = sample · xy + zw
+uniform vec4 ground_from_sample; // likewise
+uniform vec3 mean_color;         // of the tile, linear
+uniform vec2 metres_a_pixel;     // at the eye, and more for each metre away
+uniform vec4 seen_pixels; // from .. to: of a tile's width, for its look; of its heights, to be looked for
+
+layout(binding = 3) uniform sampler2D lit_map;    // what the surface sends to the eye, linear
+layout(binding = 7) uniform sampler2D albedo_map; // linear
+layout(binding = 8) uniform sampler2D ground_map; // local normal; w: share of the sun's disc seen
+
+layout(location = 0) out vec4 color;
+
+// The tile as it is seen along one axis, in the terrain's colour. `right`, `up`: what a pixel to the
+// right and one up add to the tile's coordinate. `height_share`: of the heights that are looked for.
+vec3 seen_in(mat3 space, vec3 albedo, vec2 right, vec2 up, float visibility, float height_share);
+
+// The terrain's colour, in the places of the tile as much brighter or darker as these are than all.
+vec3 tinted(vec3 albedo, vec2 coordinate, vec2 right, vec2 up) {
+    vec3 tile = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
+    return min(albedo * tile / mean_color, vec3(1.0));
+}
+
+vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_share) {
+    vec3 normal = normalize(ground.xyz);
+    vec3 shares = shares_of_axes(normal);
+    int axis = most_faced_axis(shares);
+    vec3 at = tiles_at_eye + local_from_eye / tile_width;
+    tiles_per_metre = vec2(1.0 / tile_width);
+    vec3 shown = vec3(0.0);
+    for (float left = 1.0; left > 1e-3; left -= shares[axis], axis = (axis + 1) % 3) {
+        if (shares[axis] > 0.0) {
+            mat2x3 directions = directions_along(axis, normal);
+            tile_coordinate = at * directions;
+            vec2 right = across * directions / tile_width;
+            vec2 up = down * directions / tile_width;
+            mat3 space = space_along(directions, normal);
+            shown += shares[axis] * seen_in(space, albedo, right, up, ground.w, height_share);
+        }
+    }
+    return shown;
+}
+
+void main() {
+    vec2 sample_place = tile_sample + tile_place;
+    vec2 on_ground = sample_place * ground_from_sample.xy + ground_from_sample.zw;
+    vec3 plain = texture(lit_map, sample_place * lit_from_sample.xy + lit_from_sample.zw).rgb;
+    vec3 albedo = texture(albedo_map, on_ground).rgb;
+    vec4 ground = texture(ground_map, on_ground);
+    vec3 across = dFdx(local_from_eye);
+    vec3 down = dFdy(local_from_eye);
+    relative = world_from_local * local_from_eye;
+    float pixel = metres_a_pixel.x + metres_a_pixel.y * length(relative);
+    float share = smoothstep(seen_pixels.x, seen_pixels.y, tile_width / pixel);
+    float height_share = smoothstep(seen_pixels.z, seen_pixels.w, lift / pixel);
+    vec3 shown = mix(plain, detailed(albedo, ground, across, down, height_share), share);
+    color = vec4(seen_through_air(shown, distance_to_eye()), 1.0);
+}

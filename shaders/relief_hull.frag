@@ -1,0 +1,83 @@
+// Each pixel looks for the tile's surface along its ray, in a hull that holds all of it: the mesh
+// moved inwards to the lowest and outwards to the highest. What leaves it has met nothing.
+#define TILE
+#define HULL
+#include "frame_block.glsl"
+#include "air.glsl"
+#include "relief_surface.glsl"
+#include "tile_surface.glsl"
+#include "tile_search.glsl"
+#ifndef HIT
+#include "tile_light.glsl"
+#include "tile_shadow.glsl"
+#include "tile_color.glsl"
+#endif
+
+#ifdef HIT
+layout(location = 0) out vec4 hit; // col, row, height, depth
+#else
+layout(location = 0) out vec4 color;
+#endif
+
+// So far the search goes beyond the sides of a tetrahedron, as a share of a corner, that none ends
+// before the next begins: rounding, and what rasterizers move vertices by, 1/256 of a pixel.
+float share_beyond() {
+    vec4 a_pixel = fwidth(shares);
+    float most = max(max(a_pixel.x, a_pixel.y), max(a_pixel.z, a_pixel.w));
+    return max(1.5 / 256.0 * most, 1.0 / 16384.0);
+}
+
+// How much of a way lies in the tetrahedron; `toward`: what the way adds to the shares.
+float way_inside(vec4 toward, float beyond) {
+    float inside = 3e38;
+    for (int i = 0; i < 4; ++i) {
+        float share = max(shares[i], 0.0) + beyond;
+        inside = toward[i] < 0.0 ? min(inside, share / -toward[i]) : inside;
+    }
+    return inside;
+}
+
+// In samples and height.
+vec3 in_tile(vec4 at, vec2 first_tile) {
+    vec2 coordinate = coordinates * at * repeats - first_tile;
+    return vec3(coordinate * tile_samples() - 0.5, dot(heights, at));
+}
+
+void main() {
+    vec3 way = way_to_eye();
+    vec4 toward = shares_along(local_from_relative * way);
+    float near_part = near_depth / max(dot(relative, view_forward.xyz), near_depth);
+    float beyond = share_beyond();
+    float more = way_inside(-toward, beyond);
+    float first = way_inside(toward, beyond);
+    first = perspective > 0.5 ? min(first, 1.0 - near_part) : first;
+    tile_coordinate = coordinates * shares * repeats;
+    vec2 right = dFdx(tile_coordinate);
+    vec2 up = dFdy(tile_coordinate);
+#ifdef WRAP
+    vec2 first_tile = floor(tile_coordinate);
+#else
+    vec2 first_tile = vec2(0.0);
+#endif
+    mat3 space = space_at(shares);
+    vec2 samples_per_metre = vec2(length(space[0]), length(space[1])) * tile_samples();
+    metres_per_unit = vec3(1.0 / max(samples_per_metre, vec2(1e-30)), lift);
+    vec3 start = in_tile(shares + first * toward, first_tile);
+    vec3 end = in_tile(shares - more * toward, first_tile);
+    vec3 span = end - start;
+    vec2 kept = part_on_tile(start, span);
+    float part;
+    vec2 place;
+    if (kept.x >= kept.y ||
+        !find_hit(start + kept.x * span, (kept.y - kept.x) * span, part, place)) {
+        discard;
+    }
+    vec3 where = relative + way * mix(first, -more, mix(kept.x, kept.y, part));
+    vec4 clip = clip_from_relative * vec4(where, 1.0);
+    gl_FragDepth = clip.z / clip.w;
+#ifdef HIT
+    hit = tile_hit(place, where);
+#else
+    color = vec4(seen_through_air(color_at(place, space, way, right, up), length(where)), 1.0);
+#endif
+}

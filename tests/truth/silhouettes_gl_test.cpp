@@ -1,0 +1,198 @@
+// The outlines of relief on meshes, drawn through a hull around it, against the exact relief.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/render/hull_mesh.h"
+#include "tests/support/release_only.h"
+#include "tests/truth/tile_panel.h"
+
+namespace reljef::truth {
+namespace {
+
+class SilhouettesGlTest : public test::GlTest {};
+
+// Every pixel, beside the square too: the first of what the reliefs show, each in its own frame.
+struct PlacedRelief {
+    ReliefPlane relief;
+    glm::dmat4 local_from_world{1.0};
+
+    [[nodiscard]] std::optional<ReliefHit> first_hit(const Ray& ray) const {
+        return relief.first_hit({glm::dvec3(local_from_world * glm::dvec4(ray.origin, 1.0)),
+                                 glm::dvec3(local_from_world * glm::dvec4(ray.direction, 0.0))});
+    }
+};
+
+std::optional<ReliefHit> first_of(const std::vector<PlacedRelief>& reliefs, const Ray& ray) {
+    std::optional<ReliefHit> first;
+    for (const PlacedRelief& placed : reliefs) {
+        const auto met = placed.first_hit(ray);
+        first = met && (!first || met->t < first->t) ? met : first;
+    }
+    return first;
+}
+
+TileErrors errors_everywhere(const Panel& panel, const std::vector<PlacedRelief>& reliefs,
+                             const HitBuffer& hits) {
+    TileErrors errors;
+    for (int y = 0; y < hits.rows(); ++y) {
+        for (int x = 0; x < hits.cols(); ++x) {
+            const Ray ray = scene::view_ray(panel.scene.camera(), mesh_picture, {x + 0.5, y + 0.5});
+            const auto first = first_of(reliefs, ray);
+            if (first || !hits(x, y).is_sky()) {
+                judge(hits(x, y), first, panel, errors);
+            }
+        }
+    }
+    return errors;
+}
+
+// One tile over the whole square.
+Panel bordered_panel(Grid<float> heights, float offset) {
+    Panel panel(std::move(heights), 1.0F);
+    panel.detail().border = TileBorder::discard;
+    panel.detail().offset = offset;
+    return panel;
+}
+
+TEST_F(SilhouettesGlTest, APlaneHasTheOutlineAndTheDepthOfItsRelief) {
+    RELJEF_RELEASE_ONLY("the box is six planes");
+    for (const MadeTile& tile : hard_tiles()) {
+        for (const float offset : {tile.heights.cols() > 16 ? -1.0F : 0.0F}) {
+            Panel panel = bordered_panel(tile.heights, offset);
+            const std::vector<PlacedRelief> relief{{PanelTruth::relief_of(panel)}};
+            for (const glm::dvec3 eye : {glm::dvec3(0.3, -6.0, 2.5), glm::dvec3(-7.0, -1.0, 0.9)}) {
+                panel.look(eye, {0.0, 0.0, 0.0});
+                const TileErrors found =
+                    errors_everywhere(panel, relief, panel.hits("exact:silhouettes=true"));
+                EXPECT_GT(found.pixels, 200) << tile.name;
+                EXPECT_LE(found.wrong_percent(), 0.3) << tile.name << ' ' << offset << ' ' << eye.z;
+                EXPECT_LE(found.depth, 1e-3) << tile.name;
+            }
+        }
+    }
+}
+
+// The frame of a box's side: as ReliefPlane has it, from its texture coordinates.
+glm::dmat4 side_frame(const scene::Mesh& box, std::size_t first) {
+    const auto vertex = [&](std::size_t i) { return box.indices[first + i]; };
+    const glm::dvec3 origin(box.positions[vertex(0)]);
+    const glm::dvec2 corner(box.texture_coordinates[vertex(0)]);
+    const glm::dmat2 coordinates(glm::dvec2(box.texture_coordinates[vertex(1)]) - corner,
+                                 glm::dvec2(box.texture_coordinates[vertex(2)]) - corner);
+    const glm::dmat2x3 edges(glm::dvec3(box.positions[vertex(1)]) - origin,
+                             glm::dvec3(box.positions[vertex(2)]) - origin);
+    const glm::dmat2x3 along = edges * glm::inverse(coordinates);
+    const glm::dvec3 middle = origin + along * (glm::dvec2(0.5) - corner);
+    return {glm::dvec4(glm::normalize(along[0]), 0.0), glm::dvec4(-glm::normalize(along[1]), 0.0),
+            glm::dvec4(glm::dvec3(box.normals[vertex(0)]), 0.0), glm::dvec4(middle, 1.0)};
+}
+
+TEST_F(SilhouettesGlTest, ABoxHasTheOutlinesOfItsSixSides) {
+    constexpr float side = 2.0F;
+    for (const float offset : {-0.5F, 0.0F}) {
+        Panel panel = bordered_panel(noise_tile(16, 16, 21), offset);
+        const scene::Mesh box = scene::box_mesh(glm::vec3(side));
+        panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(box);
+        const auto relief = ReliefPlane::create(
+            panel.detail().set->heights.view(),
+            {side, panel.detail().scale, panel.detail().offset, Border::discard});
+        std::vector<PlacedRelief> reliefs;
+        for (std::size_t first = 0; first < box.indices.size(); first += 6) {
+            reliefs.push_back({relief.value(), glm::inverse(side_frame(box, first))});
+        }
+        ASSERT_EQ(reliefs.size(), 6U);
+        panel.look({1.7, -3.4, 1.9}, {0.0, 0.0, 0.0});
+        const TileErrors found =
+            errors_everywhere(panel, reliefs, panel.hits("exact:silhouettes=true"));
+        EXPECT_GT(found.pixels, 5000);
+        EXPECT_LE(found.wrong_percent(), 0.3) << offset;
+        EXPECT_LE(found.depth, 1e-3);
+    }
+}
+
+// Between tetrahedra nothing is lost: a closed shape has no hole, and its outline is a sphere's.
+TEST_F(SilhouettesGlTest, CurvedMeshesHaveNoHolesAndTheRadiusOfTheirHeights) {
+    for (const float height : {0.0F, 0.5F, 1.0F}) {
+        Panel panel(Grid<float>(8, 8, height), 4.0F);
+        panel.node->get<scene::MeshNode>()->mesh =
+            std::make_shared<const scene::Mesh>(scene::sphere_mesh(1.0F, 96));
+        panel.detail().offset = 0.0F;
+        panel.look({0.0, -4.0, 0.5}, {0.0, 0.0, 0.0});
+        const double lift =
+            scene::relief_height(*panel.node->get<scene::MeshNode>()->mesh, panel.detail());
+        const double radius = 1.0 + static_cast<double>(height) * lift;
+        int wrong = 0;
+        int shown = 0;
+        const HitBuffer hits = panel.hits("exact:silhouettes=true");
+        for (int y = 0; y < hits.rows(); ++y) {
+            for (int x = 0; x < hits.cols(); ++x) {
+                const Ray ray =
+                    scene::view_ray(panel.scene.camera(), mesh_picture, {x + 0.5, y + 0.5});
+                const double away =
+                    glm::length(glm::cross(ray.origin, ray.direction)) / glm::length(ray.direction);
+                const bool meets = away < radius;
+                const bool near_outline = std::abs(away - radius) < 0.02;
+                wrong += !near_outline && meets == hits(x, y).is_sky() ? 1 : 0;
+                shown += hits(x, y).is_sky() ? 0 : 1;
+            }
+        }
+        EXPECT_GT(shown, 2000);
+        EXPECT_EQ(wrong, 0) << height;
+    }
+}
+
+TEST_F(SilhouettesGlTest, EveryShapeIsDrawnByEveryTechniqueThatFollowsARay) {
+    const std::vector<scene::Mesh> shapes{scene::torus_mesh(1.0F, 0.4F, 24),
+                                          scene::cylinder_mesh(1.0F, 2.0F, 24)};
+    for (const scene::Mesh& shape : shapes) {
+        Panel panel(wave_tile(16), 2.0F);
+        panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(shape);
+        panel.detail().offset = -0.5F;
+        panel.look({0.4, -4.0, 2.0}, {0.0, 0.0, 0.0});
+        const HitBuffer truth = panel.hits("exact:silhouettes=true");
+        for (const std::string technique : {"relief", "cone"}) {
+            const HitBuffer hits =
+                panel.hits(technique + (technique.find(':') == std::string::npos ? ":" : ",") +
+                           "silhouettes=true");
+            int differ = 0;
+            for (std::size_t i = 0; i < hits.size(); ++i) {
+                differ += hits.samples()[i].is_sky() != truth.samples()[i].is_sky() ? 1 : 0;
+            }
+            EXPECT_LT(differ, 60) << technique;
+        }
+    }
+}
+
+TEST(HullMesh, NeighboursShareTheirSidesAndPartsWithoutVolumeAreLeftOut) {
+    scene::TextureDetail detail;
+    detail.scale = 0.1F;
+    const scene::Mesh plane = scene::plane_mesh(glm::vec2(2.0F));
+    EXPECT_EQ(render::hull_parts(plane, detail).size(), 6U);
+    double sum = 0.0;
+    for (const render::HullPart& part : render::hull_parts(plane, detail)) {
+        const auto from_first = [&](std::size_t i) {
+            return glm::dvec3(part.corners[i]) - glm::dvec3(part.corners[0]);
+        };
+        const double volume =
+            glm::dot(from_first(1), glm::cross(from_first(2), from_first(3))) / 6.0;
+        EXPECT_GT(volume, 0.0);
+        sum += volume;
+    }
+    const double lift = scene::relief_height(plane, detail) * (1.0 + 2.0 * scene::hull_margin);
+    EXPECT_NEAR(sum, 4.0 * lift, 1e-6);
+    scene::Mesh point = plane;
+    std::fill(point.positions.begin(), point.positions.end(), glm::vec3(1.0F));
+    EXPECT_TRUE(render::hull_parts(point, detail).empty());
+}
+
+} // namespace
+} // namespace reljef::truth
