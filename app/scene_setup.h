@@ -36,4 +36,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
 /// The path that --path names; nothing without one.
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view);
 
+/// Puts the camera where frame `index` of so many evenly spread along a path sees from.
+void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
+
 } // namespace reljef::app
