@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/lod_suite.h"
+#include "bench/methods_suite.h"
 #include "bench/output_options.h"
 #include "bench/promise.h"
 #include "bench/promise_report.h"
@@ -25,6 +26,7 @@ struct LodChoice {
     OutputChoice outputs;
     std::optional<int> poses;
     double error = 1.0;
+    bool methods = false;
 };
 
 Result<void> run_poses(const LodChoice& choice, const app::Interrupt& interrupt) {
@@ -36,6 +38,13 @@ Result<void> run_poses(const LodChoice& choice, const app::Interrupt& interrupt)
     return report(run_promise(options, interrupt.token()), choice.outputs.json);
 }
 
+Result<void> run_triangle_methods(const LodChoice& choice, const app::Interrupt& interrupt) {
+    MethodsOptions options;
+    options.suite = choice.suite;
+    options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
+    return report(run_methods(options, interrupt.token()), choice.outputs.json);
+}
+
 Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
                              const app::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.terrains);
@@ -44,6 +53,9 @@ Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
     }
     if (choice.poses) {
         return run_poses(choice, interrupt);
+    }
+    if (choice.methods) {
+        return run_triangle_methods(choice, interrupt);
     }
     LodOptions options;
     options.suite = with_quick_size(choice.suite, command, lod_quick_size);
@@ -77,12 +89,22 @@ void add_poses_options(CLI::App& command, LodChoice& choice) {
             ""));
 }
 
+void add_methods_option(CLI::App& command, LodChoice& choice) {
+    command.add_flag("--methods", choice.methods,
+                     "instead of the tables: triangles and the worst error of several ways to "
+                     "triangulate, for errors of 0.3, 1 and 3 % of the height range");
+}
+
 void check_poses_options(const LodChoice& choice, const CLI::App& command) {
     const OutputChoice& outputs = choice.outputs;
-    if (choice.poses &&
+    if (choice.poses && choice.methods) {
+        throw CLI::ValidationError("--methods: --poses found, one of the two was expected");
+    }
+    if ((choice.poses || choice.methods) &&
         !(outputs.csv.empty() && outputs.markdown.empty() && outputs.html.empty())) {
         throw CLI::ValidationError(
-            "--poses: --csv, --markdown or --html found, only --json was expected with it");
+            fmt::format("{}: --csv, --markdown or --html found, only --json was expected with it",
+                        choice.poses ? "--poses" : "--methods"));
     }
     if (!choice.poses && command.count("--max-error") > 0) {
         throw CLI::ValidationError("--max-error: no --poses found, one was expected with it");
@@ -99,6 +121,7 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
     add_suite_options(*arguments, choice->suite);
     add_output_options(*arguments, choice->outputs);
     add_poses_options(*arguments, *choice);
+    add_methods_option(*arguments, *choice);
     arguments->callback([arguments, choice] { check_poses_options(*choice, *arguments); });
     arguments->footer(
         "Each terrain is seen from the poses overview, oblique, low and grazing, with a still "
@@ -107,7 +130,8 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
         "Examples:\n"
         "  reljef-bench lod --quick\n"
         "  reljef-bench lod --terrain N45E006.hgt --json lod.json\n"
-        "  reljef-bench lod --terrain N45E006.hgt --poses 10000 --max-error 1");
+        "  reljef-bench lod --terrain N45E006.hgt --poses 10000 --max-error 1\n"
+        "  reljef-bench lod --terrain N45E006.hgt --terrain urban --methods");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_lod_command(*choice, *arguments, interrupt);
             }};

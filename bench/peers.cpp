@@ -16,6 +16,7 @@
 #include "app/terrain_source.h"
 #include "bench/irrlicht/protocol.h"
 #include "bench/peer_process.h"
+#include "bench/peer_scene.h"
 #include "engine/core/memory_file.h"
 #include "engine/render/terrain_maps.h"
 #include "engine/scene/scene.h"
@@ -25,57 +26,8 @@ namespace {
 
 constexpr int default_rounds = 30;
 constexpr int warm_up = 2; // rounds
-
-// A terrain's middle, as both draw it.
-struct PeerScene {
-    scene::Scene scene;
-    scene::Node* terrain = nullptr;
-    scene::Node* camera = nullptr;
-
-    [[nodiscard]] const scene::TerrainSurface& surface() const {
-        return *terrain->get<scene::TerrainNode>()->surface;
-    }
-    [[nodiscard]] const scene::Camera& view() const { return *camera->get<scene::Camera>(); }
-};
-
-Result<PeerScene> open_peer_scene(const PeersOptions& options, const std::stop_token& stop) {
-    app::TerrainChoice choice;
-    choice.terrain = options.terrain;
-    choice.threads = options.suite.threads;
-    choice.quiet = options.suite.quiet;
-    const auto source = app::open_terrain(choice, stop);
-    if (!source) {
-        return source.error();
-    }
-    const terrain::Heightfield& whole = source->terrain.heightfield;
-    const int most = std::min(whole.heights.cols(), whole.heights.rows()) - 1;
-    if (most < 16) {
-        return Error{fmt::format("{}: {}x{} samples found, 17x17 or more were expected",
-                                 options.terrain, whole.heights.cols(), whole.heights.rows())};
-    }
-    const int side = static_cast<int>(std::bit_floor(static_cast<unsigned>(most))) + 1;
-    const glm::ivec2 first((whole.heights.cols() - side) / 2, (whole.heights.rows() - side) / 2);
-    terrain::Terrain middle;
-    middle.name = source->terrain.name;
-    middle.heightfield.spacing = whole.spacing;
-    middle.heightfield.heights = Grid<float>(side, side);
-    for (int row = 0; row < side; ++row) {
-        const auto from =
-            whole.heights.row(first.y + row)
-                .subspan(static_cast<std::size_t>(first.x), static_cast<std::size_t>(side));
-        std::copy(from.begin(), from.end(), middle.heightfield.heights.row(row).begin());
-    }
-    middle.heightfield.range = terrain::height_range(middle.heightfield.heights, {});
-    PeerScene made;
-    auto node =
-        made.scene.add_terrain(std::move(middle), {.placement = terrain::PlacementKind::plane});
-    if (!node) {
-        return node.error();
-    }
-    made.terrain = *node;
-    made.camera = &made.scene.add_camera();
-    return made;
-}
+// Of a camera that moves: as fast as one that flies over the terrain in 20 s at 25 frames a second.
+constexpr double frames_across = 500.0;
 
 // What Irrlicht reads, in files that have no name.
 struct PeerFiles {
@@ -196,7 +148,7 @@ HitBuffer hits_of(const PeerScene& scene, std::span<const float> depths, glm::iv
 // One way to draw.
 struct PeerEntry {
     PeerRow row;
-    std::function<Result<void>()> set_up; // for a pose
+    std::function<Result<void>()> set_up; // for where the camera is
     /// Milliseconds of a frame; fills in the row's triangles.
     std::function<Result<double>(PeerRow&)> draw;
     std::function<Result<HitBuffer>()> hits;
@@ -211,7 +163,8 @@ public:
     }
 
     Result<void> run() {
-        auto scene = open_peer_scene(options_, stop_);
+        auto scene = open_peer_scene(
+            {options_.terrain, options_.suite.threads, options_.suite.quiet}, stop_);
         if (!scene) {
             return scene.error();
         }
@@ -286,14 +239,17 @@ private:
                                      options_.terrain, scene::to_string(pose))};
         }
         camera.near = range_.near;
+        still_ = camera;
         auto entries = entries_for(pose);
         for (PeerEntry& entry : entries) {
             if (auto judged = judge(entry); !judged) {
                 return judged;
             }
         }
-        if (auto timed = time_all(entries); !timed) {
-            return timed;
+        for (const bool moving : {false, true}) { // apart: a camera that comes back has moved, too
+            if (auto timed = time_all(entries, moving); !timed) {
+                return timed;
+            }
         }
         for (PeerEntry& entry : entries) {
             if (!entry.ms.empty()) {
@@ -317,6 +273,10 @@ private:
         }
         for (const char* technique : {"polygons:error=1", "polygons:error=4", "polygons"}) {
             entries.push_back(own_entry(pose, technique));
+        }
+        entries.push_back(moving(irrlicht_entry(pose, peers_.back().first, peers_.back().second)));
+        for (const char* technique : {"polygons:error=1", "polygons:error=4"}) {
+            entries.push_back(moving(own_entry(pose, technique)));
         }
         return entries;
     }
@@ -368,6 +328,22 @@ private:
         return entry;
     }
 
+    static PeerEntry moving(PeerEntry entry) {
+        entry.row.moving = true;
+        return entry;
+    }
+
+    // `frame` of a camera that flies to its right, or the pose's own camera.
+    void place_camera(bool moving, int frame) {
+        const double step =
+            moving ? frame * scene_->terrain->world_bounds().size().x / frames_across : 0.0;
+        const glm::dvec3 offset = step * scene::view_axes(still_).right;
+        scene::Camera& camera = *scene_->camera->get<scene::Camera>();
+        camera = still_;
+        camera.eye += offset;
+        camera.look += offset;
+    }
+
     Result<HitBuffer> irrlicht_hits(PeerProcess& peer) {
         const glm::ivec2 size = options_.suite.size;
         std::vector<float> depths(static_cast<std::size_t>(size.x) *
@@ -389,6 +365,9 @@ private:
     }
 
     Result<void> judge(PeerEntry& entry) {
+        if (entry.row.moving) {
+            return {};
+        }
         if (auto ready = entry.set_up(); !ready) {
             return ready;
         }
@@ -400,22 +379,35 @@ private:
         return {};
     }
 
-    Result<void> time_all(std::vector<PeerEntry>& entries) {
+    Result<void> time_all(std::vector<PeerEntry>& entries, bool moving) {
         const int rounds = options_.suite.rounds > 0 ? options_.suite.rounds
                            : options_.suite.quick    ? 5
                                                      : default_rounds;
         app::ProgressLine line("measuring peers", options_.suite.quiet);
         for (int round = -warm_up; round < rounds && !stop_.stop_requested(); ++round) {
+            place_camera(moving, round);
             for (PeerEntry& entry : entries) {
-                const auto ms = entry.draw(entry.row);
-                if (!ms) {
-                    return ms.error();
-                }
-                if (round >= 0) {
-                    entry.ms.push_back(*ms);
+                const auto timed =
+                    entry.row.moving == moving ? time_one(entry, round >= 0) : Result<void>();
+                if (!timed) {
+                    return timed;
                 }
             }
             line.update(static_cast<double>(round + warm_up) / (rounds + warm_up));
+        }
+        return {};
+    }
+
+    static Result<void> time_one(PeerEntry& entry, bool counts) {
+        if (auto ready = entry.set_up(); !ready) {
+            return ready;
+        }
+        const auto ms = entry.draw(entry.row);
+        if (!ms) {
+            return ms.error();
+        }
+        if (counts) {
+            entry.ms.push_back(*ms);
         }
         return {};
     }
@@ -426,6 +418,7 @@ private:
     std::vector<std::pair<int, PeerProcess>> peers_; // by their levels
     std::optional<app::Device> device_;
     DepthRange range_;
+    scene::Camera still_; // of the pose
     PeersResults results_;
 };
 

@@ -21,11 +21,12 @@ struct PeersOptions {
 /// One way to draw the terrain from one pose.
 struct PeerRow {
     scene::Pose pose = scene::Pose::overview;
-    std::string what; ///< "irrlicht:lods=5", "polygons:error=1"
+    std::string what;    ///< "irrlicht:lods=5", "polygons:error=1"
+    bool moving = false; ///< the camera, from frame to frame; triangles are those of the last one
     std::size_t frames = 0;
     Summary ms;
     std::size_t triangles = 0;
-    std::optional<truth::Distribution> error; ///< reprojection, pixels
+    std::optional<truth::Distribution> error; ///< reprojection, pixels; of still cameras
 };
 
 struct PeersResults {
@@ -38,9 +39,11 @@ struct PeersResults {
 };
 
 /// Draws the terrain with Irrlicht's terrain node at 1, 3 and 5 levels and with polygons, frames in
-/// turns, each in a window of its own, with a still camera. Both show the same heights and colours,
-/// without light and sky. Irrlicht's error is that of the places its depth buffer names. Fails,
-/// saying how to get it, where the build found no Irrlicht.
+/// turns, each in a window of its own: with a still camera, whose triangles are chosen before
+/// they are timed, and those that choose by distance or error also with one that moves a 500th of
+/// the terrain's width to its right each frame. Both show the same heights and colours, without
+/// light and sky. Irrlicht's error is that of the places its depth buffer names. Fails, saying how
+/// to get it, where the build found no Irrlicht.
 PeersResults run_peers(const PeersOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -46,9 +46,10 @@ app::Command add_peers_command(CLI::App& program, app::Interrupt& interrupt) {
     arguments->footer(
         "Both draw the same 2^n+1 x 2^n+1 samples from the terrain's middle, from the poses "
         "overview "
-        "and\nlow, each in a window of its own, frames in turns. Needs a display: xvfb-run makes "
-        "one. Irrlicht is\nlooked for when the project is configured (apt-get install "
-        "libirrlicht-dev).\n"
+        "and\nlow, each in a window of its own, frames in turns, with a camera that is still and "
+        "with "
+        "one that\nmoves. Needs a display: xvfb-run makes one. Irrlicht is looked for when the "
+        "project is configured\n(apt-get install libirrlicht-dev).\n"
         "Example:\n"
         "  xvfb-run -a reljef-bench peers --terrain N45E006.hgt --json peers.json");
     return {arguments, [arguments, choice, &interrupt] {

@@ -14,9 +14,14 @@ namespace {
 
 using PeersJson = nlohmann::ordered_json;
 
+const char* camera_word(const PeerRow& row) {
+    return row.moving ? "moving" : "still";
+}
+
 PeersJson row_json(const PeerRow& row) {
     PeersJson json{{"pose", scene::to_string(row.pose)},
                    {"what", row.what},
+                   {"camera", camera_word(row)},
                    {"frames", row.frames},
                    {"ms", {{"median", row.ms.median}, {"p95", row.ms.p95}, {"p99", row.ms.p99}}},
                    {"fps", 1000.0 / row.ms.median},
@@ -30,10 +35,10 @@ PeersJson row_json(const PeerRow& row) {
     return json;
 }
 
-// Of the row that keeps an error of one pixel, at the same pose.
-double own_ms(const PeersResults& results, scene::Pose pose) {
+// Of the row that keeps an error of one pixel, as the other is seen.
+double own_ms(const PeersResults& results, const PeerRow& as) {
     const auto own = std::find_if(results.rows.begin(), results.rows.end(), [&](const auto& row) {
-        return row.pose == pose && row.what == "polygons:error=1";
+        return row.pose == as.pose && row.moving == as.moving && row.what == "polygons:error=1";
     });
     return own == results.rows.end() ? 0.0 : own->ms.median;
 }
@@ -42,9 +47,10 @@ std::string row_line(const PeersResults& results, const PeerRow& row) {
     const std::string error = row.error ? fmt::format("{:>9.3f} {:>9.3f} {:>9.3f}", row.error->max,
                                                       row.error->p99, row.error->rms)
                                         : fmt::format("{:>9} {:>9} {:>9}", "-", "-", "-");
-    return fmt::format("{:<9} {:<18} {:>6} {:>8.2f} {:>8.2f} {:>9.2f} {:>10} {}\n",
-                       scene::to_string(row.pose), row.what, row.frames, row.ms.median, row.ms.p95,
-                       row.ms.median / own_ms(results, row.pose), row.triangles, error);
+    return fmt::format("{:<9} {:<18} {:<6} {:>6} {:>8.2f} {:>8.2f} {:>9.2f} {:>10} {}\n",
+                       scene::to_string(row.pose), row.what, camera_word(row), row.frames,
+                       row.ms.median, row.ms.p95, row.ms.median / own_ms(results, row),
+                       row.triangles, error);
 }
 
 } // namespace
@@ -72,9 +78,9 @@ std::string peers_table(const PeersResults& results) {
         "{}, {} x {} samples, {}x{}, {}, {} threads\n", app::printable(results.options.terrain),
         results.side, results.side, results.options.suite.size.x, results.options.suite.size.y,
         app::printable(results.environment.renderer), results.environment.threads);
-    text += fmt::format("{:<9} {:<18} {:>6} {:>8} {:>8} {:>9} {:>10} {:>9} {:>9} {:>9}\n", "pose",
-                        "what", "frames", "ms", "p95", "x error=1", "triangles", "max px", "p99 px",
-                        "rms px");
+    text += fmt::format("{:<9} {:<18} {:<6} {:>6} {:>8} {:>8} {:>9} {:>10} {:>9} {:>9} {:>9}\n",
+                        "pose", "what", "camera", "frames", "ms", "p95", "x error=1", "triangles",
+                        "max px", "p99 px", "rms px");
     for (const PeerRow& row : results.rows) {
         text += row_line(results, row);
     }

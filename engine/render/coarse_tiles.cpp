@@ -16,21 +16,39 @@ struct NewCut {
     std::vector<std::vector<GridVertex>> vertices;
 };
 
+// What a tile had before.
+struct LastCut {
+    const std::vector<terrain::Triangulation>& parts;
+    const std::vector<std::vector<GridVertex>>& vertices;
+};
+
+std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Triangulation>& parts,
+                                                 const scene::TerrainSurface& surface,
+                                                 const terrain::Tile& tile, const LastCut& last) {
+    VertexPlacer placer(surface.heightfield(), surface.placement(), tile);
+    for (std::size_t i = 0; i < last.parts.size(); ++i) {
+        placer.know(last.parts[i], last.vertices[i]);
+    }
+    std::vector<std::vector<GridVertex>> vertices;
+    vertices.reserve(parts.size());
+    for (const terrain::Triangulation& part : parts) {
+        vertices.push_back(placer.place(part));
+    }
+    return vertices;
+}
+
 // `bisection` is there where the coarseness is an error.
 NewCut cut_tile(const terrain::Bisection* bisection, const Coarseness& coarseness,
                 const scene::TerrainSurface& surface, const terrain::Tile& tile,
-                const std::vector<terrain::Triangulation>& before) {
+                const LastCut& last) {
     NewCut cut;
     if (const auto* view = std::get_if<terrain::ErrorView>(&coarseness)) {
         cut.parts = terrain::triangulate(*bisection, tile, *view);
     } else {
         cut.parts = {terrain::triangulate_patches(std::get<Grid<std::uint8_t>>(coarseness), tile)};
     }
-    if (cut.parts != before) {
-        for (const terrain::Triangulation& part : cut.parts) {
-            cut.vertices.push_back(
-                placed_vertices(surface.heightfield(), surface.placement(), tile, part));
-        }
+    if (cut.parts != last.parts) {
+        cut.vertices = vertices_of(cut.parts, surface, tile, last);
     }
     return cut;
 }
@@ -102,8 +120,9 @@ Result<void> CoarseTiles::prepare(const DrawList& list, const CoarseTerrain& ter
     std::vector<NewCut> cuts(outdated.size());
     parallel_for(static_cast<int>(outdated.size()), [&](int i) {
         const auto at = static_cast<std::size_t>(i);
+        const CutTile& last = cut.tiles[outdated[at]];
         cuts[at] = cut_tile(bisection, cut.coarseness, surface, surface.tiles()[outdated[at]],
-                            cut.tiles[outdated[at]].parts);
+                            {last.parts, last.vertices});
     });
     for (std::size_t i = 0; i < outdated.size(); ++i) {
         CutTile& tile = cut.tiles[outdated[i]];
@@ -118,6 +137,7 @@ Result<void> CoarseTiles::prepare(const DrawList& list, const CoarseTerrain& ter
         }
         tile.meshes = std::move(*meshes);
         tile.parts = std::move(cuts[i].parts);
+        tile.vertices = std::move(cuts[i].vertices);
     }
     return {};
 }

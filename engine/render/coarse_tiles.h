@@ -8,6 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/render/draw_list.h"
+#include "engine/render/grid_mesh.h"
 #include "engine/render/resident_mesh.h"
 #include "engine/terrain/bisection.h"
 
@@ -31,7 +32,8 @@ private:
     struct CutTile {
         int choice = -1; // that it was cut for
         std::vector<terrain::Triangulation> parts;
-        std::vector<ResidentMesh> meshes; // one a part
+        std::vector<std::vector<GridVertex>> vertices; // of each part
+        std::vector<ResidentMesh> meshes;              // one a part
     };
     struct Cut {
         std::weak_ptr<const scene::TerrainSurface> owner;

@@ -42,18 +42,39 @@ GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Place
     });
 }
 
-std::vector<GridVertex> placed_vertices(const terrain::Heightfield& heightfield,
-                                        const terrain::Placement& placement,
-                                        const terrain::Tile& tile,
-                                        const terrain::Triangulation& part) {
+void VertexPlacer::know(const terrain::Triangulation& part, std::span<const GridVertex> vertices) {
+    check(vertices.size() == part.vertices.size(), "a triangulation and the vertices of another");
+    if (at_samples_.empty()) {
+        at_samples_ = Grid<const GridVertex*>(tile_.cols + 1, tile_.rows + 1, nullptr);
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const glm::ivec2 sample = part.vertices[i] / terrain::steps_per_sample;
+        if (sample * terrain::steps_per_sample == part.vertices[i]) {
+            at_samples_(sample.x - tile_.col, sample.y - tile_.row) = &vertices[i];
+        }
+    }
+}
+
+const GridVertex* VertexPlacer::known(glm::ivec2 steps) const {
+    const glm::ivec2 sample = steps / terrain::steps_per_sample;
+    return at_samples_.empty() || sample * terrain::steps_per_sample != steps
+               ? nullptr
+               : at_samples_(sample.x - tile_.col, sample.y - tile_.row);
+}
+
+GridVertex VertexPlacer::placed(glm::ivec2 steps) const {
+    const glm::dvec2 sample = glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
+    const double height = terrain::bilinear_height(heightfield_.heights.view(), sample);
+    return grid_vertex(placement_.world_from_sample({sample, height}), height,
+                       sample - glm::dvec2(tile_.col, tile_.row));
+}
+
+std::vector<GridVertex> VertexPlacer::place(const terrain::Triangulation& part) const {
     std::vector<GridVertex> vertices;
     vertices.reserve(part.vertices.size());
     for (const glm::ivec2 steps : part.vertices) {
-        const glm::dvec2 sample =
-            glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
-        const double height = terrain::bilinear_height(heightfield.heights.view(), sample);
-        vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}), height,
-                                       sample - glm::dvec2(tile.col, tile.row)));
+        const GridVertex* const there = known(steps);
+        vertices.push_back(there != nullptr ? *there : placed(steps));
     }
     return vertices;
 }

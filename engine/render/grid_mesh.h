@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -36,11 +37,28 @@ struct GridMesh {
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile);
 
-/// The vertices of a part of a tile.
-std::vector<GridVertex> placed_vertices(const terrain::Heightfield& heightfield,
-                                        const terrain::Placement& placement,
-                                        const terrain::Tile& tile,
-                                        const terrain::Triangulation& part);
+/// Finds the vertices of parts of a tile. Those of samples that are known already it only looks up:
+/// on an ellipsoid a place takes longer than all else. All that it is given outlives it.
+class VertexPlacer {
+public:
+    VertexPlacer(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
+                 const terrain::Tile& tile)
+        : heightfield_(heightfield), placement_(placement), tile_(tile) {}
+
+    /// Precondition: `vertices` are place(part), of a placer of the same tile.
+    void know(const terrain::Triangulation& part, std::span<const GridVertex> vertices);
+
+    [[nodiscard]] std::vector<GridVertex> place(const terrain::Triangulation& part) const;
+
+private:
+    [[nodiscard]] const GridVertex* known(glm::ivec2 steps) const;
+    [[nodiscard]] GridVertex placed(glm::ivec2 steps) const;
+
+    const terrain::Heightfield& heightfield_;
+    const terrain::Placement& placement_;
+    const terrain::Tile& tile_;
+    Grid<const GridVertex*> at_samples_; // of the tile; empty where nothing is known
+};
 
 /// Quads along a side of a tile of the flat reference surface: one on a plane, a few on an
 /// ellipsoid.

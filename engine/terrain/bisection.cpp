@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -227,6 +226,8 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      const ParallelOptions& parallel)
     : heights_(heightfield.heights.view()), placement_(&placement),
       end_(steps_per_sample * glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
+      middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
+      metres_(heightfield.spacing, placement.exaggeration()),
       bending_(bending_of(heightfield, placement)) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
     if (placement.kind() == PlacementKind::ellipsoid) {
@@ -294,13 +295,6 @@ void Bisection::make_levels() {
     }
 }
 
-const Bisection::KeptSplit& Bisection::kept(glm::ivec2 sample, int size, bool on_side) const {
-    const auto level = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(size)));
-    const auto shift = static_cast<int>(level);
-    return on_side ? on_sides_[level](sample.x >> shift, sample.y >> (shift - 1))
-                   : in_middles_[level](sample.x >> shift, sample.y >> shift);
-}
-
 void Bisection::keep_cells(const ParallelOptions& parallel) {
     for_runs(in_middles_[0].rows(), samples_at_once, parallel,
              [&](int first, int last) { keep_cell_rows(first, last); });
@@ -335,11 +329,6 @@ glm::dvec3 Bisection::place_of(int col, int row) const {
     return offsets_.empty()
                ? placement_->world_from_sample({col, row, heights_(col, row)})
                : origins_(col / tile_cells, row / tile_cells) + glm::dvec3(offsets_(col, row));
-}
-
-glm::dvec3 Bisection::place_of(glm::ivec2 sample, const KeptSplit& split) const {
-    return offsets_.empty() ? placement_->world_from_sample({sample, split.height})
-                            : place_of(sample.x, sample.y);
 }
 
 // Bilinear between the cell's corners: on an ellipsoid off by less than its curvature.
@@ -397,15 +386,6 @@ Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
     const double samples = static_cast<double>(size) / steps_per_sample;
     return {0.25 * samples * samples * bend, place_in_cell(place),
             longest * reach / steps_per_sample * ball_growth + bending_.curvature};
-}
-
-Split Bisection::split(glm::ivec2 place, int size, bool on_side) const {
-    if (size <= steps_per_sample) {
-        return split_in_cell(place, size, on_side);
-    }
-    const glm::ivec2 sample = place / steps_per_sample;
-    const KeptSplit& split = kept(sample, size / steps_per_sample, on_side);
-    return {split.error, place_of(sample, split), split.radius};
 }
 
 double Bisection::height(glm::ivec2 place) const {

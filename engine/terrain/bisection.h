@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -46,7 +47,21 @@ public:
 
     /// The split at `place` of triangles in a square of `size` steps: at its middle, or with
     /// `on_side` in the middle of one of its sides. Precondition: on the heightfield.
-    [[nodiscard]] Split split(glm::ivec2 place, int size, bool on_side) const;
+    [[nodiscard]] Split split(glm::ivec2 place, int size, bool on_side) const {
+        if (size <= steps_per_sample) {
+            return split_in_cell(place, size, on_side);
+        }
+        const glm::ivec2 sample = place / steps_per_sample;
+        const KeptSplit& split = kept(sample, size / steps_per_sample, on_side);
+        return {split.error, place_of(sample, split), split.radius};
+    }
+
+    /// Asks for what split() reads to be at hand soon. Precondition: as split().
+    void prefetch(glm::ivec2 place, int size, bool on_side) const {
+        if (size > steps_per_sample) {
+            __builtin_prefetch(&kept(place / steps_per_sample, size / steps_per_sample, on_side));
+        }
+    }
 
     /// Height of the surface, metres.
     [[nodiscard]] double height(glm::ivec2 place) const;
@@ -76,14 +91,24 @@ private:
     static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
     void keep_places(const ParallelOptions& parallel);
     void make_levels();
-    [[nodiscard]] const KeptSplit& kept(glm::ivec2 sample, int size, bool on_side) const;
+    [[nodiscard]] const KeptSplit& kept(glm::ivec2 sample, int size, bool on_side) const {
+        const int shift = std::countr_zero(static_cast<unsigned>(size));
+        const auto level = static_cast<std::size_t>(shift);
+        return on_side ? on_sides_[level](sample.x >> shift, sample.y >> (shift - 1))
+                       : in_middles_[level](sample.x >> shift, sample.y >> shift);
+    }
     [[nodiscard]] KeptSplit& kept(glm::ivec2 sample, int size, bool on_side) {
         return const_cast<KeptSplit&>(std::as_const(*this).kept(sample, size, on_side));
     }
     void keep_cells(const ParallelOptions& parallel);
     void keep_cell_rows(int first, int last);
     [[nodiscard]] glm::dvec3 place_of(int col, int row) const;
-    [[nodiscard]] glm::dvec3 place_of(glm::ivec2 sample, const KeptSplit& split) const;
+    [[nodiscard]] glm::dvec3 place_of(glm::ivec2 sample, const KeptSplit& split) const {
+        return offsets_.empty()
+                   ? glm::dvec3((sample.x - middle_.x) * metres_.x,
+                                (middle_.y - sample.y) * metres_.y, split.height * metres_.z)
+                   : place_of(sample.x, sample.y);
+    }
     [[nodiscard]] glm::dvec3 place_in_cell(glm::ivec2 place) const;
     [[nodiscard]] CellBend bend_of_cell(int col, int row) const;
     [[nodiscard]] Split split_in_cell(glm::ivec2 place, int size, bool on_side) const;
@@ -91,6 +116,8 @@ private:
     GridView<const float> heights_;
     const Placement* placement_;
     glm::ivec2 end_{0};
+    glm::dvec2 middle_{0.0}; // sample; on a plane
+    glm::dvec3 metres_{1.0}; // scene metres by sample, sample and metre; on a plane
     Bending bending_;
     // Of squares of 1, 2, 4 … samples: those a view asks for together lie side by side.
     static constexpr std::size_t levels = 8;

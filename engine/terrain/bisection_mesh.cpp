@@ -18,6 +18,16 @@ struct BisectionTriangle {
     glm::ivec2 right;
 };
 
+// Which split halves a triangle: in the middle of a square of `size` steps, or of one of its sides.
+struct SplitKind {
+    int size = 0;
+    bool on_side = true;
+};
+
+SplitKind kind_below(SplitKind kind) {
+    return kind.on_side ? SplitKind{kind.size / 2, false} : SplitKind{kind.size, true};
+}
+
 constexpr std::uint16_t no_vertex = std::numeric_limits<std::uint16_t>::max();
 // Three vertices more must fit.
 constexpr std::size_t most_vertices = no_vertex - 3;
@@ -93,30 +103,37 @@ bool shows_more(const ErrorView& view, const Split& split) {
     }
     const double reach = view.stretch * split.radius;
     const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
-    const double lateral =
-        glm::length(view.lateral_axes * split.center + view.lateral_origin) + reach;
+    const double shown = view.scale * split.error;
+    // shown * (lateral + reach) > most_error * depth², without a root.
+    const double room = view.most_error * depth * depth - shown * reach;
+    const glm::dvec3 lateral = view.lateral_axes * split.center + view.lateral_origin;
     return split.error > 0.0 &&
-           (depth <= 0.0 || view.scale * split.error * lateral > view.most_error * depth * depth);
+           (depth <= 0.0 || room < 0.0 || shown * shown * glm::dot(lateral, lateral) > room * room);
 }
 
 class TileBisector {
 public:
     TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
         : bisection_(bisection), view_(view), first_(tile.col, tile.row),
+          is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
           at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {}
 
-    // `is_seen`: the ball of the split that made it is seen as a whole, and so are those below.
-    void add(const BisectionTriangle& triangle, bool is_seen = false) {
-        const Reach reach = reach_of(triangle);
+    // `kind` is that of the split that halves it; `is_seen`: the ball of the split that made it is
+    // seen as a whole, and so are those below.
+    void add(const BisectionTriangle& triangle, SplitKind kind, bool is_seen = false) {
+        const Reach reach = is_whole_ ? Reach::inside : reach_of(triangle);
         if (reach == Reach::outside) {
             return;
         }
         const glm::ivec2 middle = (triangle.left + triangle.right) / 2;
         const Choice choice =
-            reach == Reach::across ? Choice{true, is_seen} : choice_at(triangle, middle, is_seen);
+            reach == Reach::across ? Choice{true, is_seen} : choice_at(middle, kind, is_seen);
         if (choice.splits) {
-            add({middle, triangle.apex, triangle.left}, choice.is_seen);
-            add({middle, triangle.right, triangle.apex}, choice.is_seen);
+            if (is_whole_) {
+                prefetch_below(triangle, middle, kind);
+            }
+            add({middle, triangle.apex, triangle.left}, kind_below(kind), choice.is_seen);
+            add({middle, triangle.right, triangle.apex}, kind_below(kind), choice.is_seen);
         } else {
             writer_.add(triangle);
         }
@@ -132,6 +149,18 @@ private:
         bool is_made = true;
     };
 
+    // The splits of the two halves, and of theirs: they lie far apart in memory.
+    void prefetch_below(const BisectionTriangle& triangle, glm::ivec2 middle,
+                        SplitKind kind) const {
+        const SplitKind next = kind_below(kind);
+        for (const glm::ivec2 end : {triangle.left, triangle.right}) {
+            bisection_.prefetch((triangle.apex + end) / 2, next.size, next.on_side);
+            const SplitKind last = kind_below(next);
+            bisection_.prefetch((middle + triangle.apex) / 2, last.size, last.on_side);
+            bisection_.prefetch((middle + end) / 2, last.size, last.on_side);
+        }
+    }
+
     [[nodiscard]] Reach reach_of(const BisectionTriangle& triangle) const {
         const glm::ivec2 high = glm::max(triangle.apex, glm::max(triangle.left, triangle.right));
         const glm::ivec2 end = bisection_.end();
@@ -142,23 +171,19 @@ private:
         return low.x < end.x && low.y < end.y ? Reach::across : Reach::outside;
     }
 
-    [[nodiscard]] Choice choice_at(const BisectionTriangle& triangle, glm::ivec2 middle,
-                                   bool is_seen) {
-        const glm::ivec2 edge = glm::abs(triangle.right - triangle.left);
-        const int size = std::max(edge.x, edge.y);
+    [[nodiscard]] Choice choice_at(glm::ivec2 middle, SplitKind kind, bool is_seen) {
         constexpr int least_size = 2; // steps: their middle is a step
-        if (size < least_size) {
+        if (kind.size < least_size) {
             return {false, is_seen};
         }
-        const bool on_side = edge.x != edge.y;
-        if (size <= steps_per_sample) {
-            return choice_of(bisection_.split(middle, size, on_side), is_seen);
+        if (kind.size <= steps_per_sample) {
+            return choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
         }
         // Each is asked for by the triangles on its two sides.
         const glm::ivec2 sample = middle / steps_per_sample - first_;
         Choice& choice = at_samples_(sample.x, sample.y);
         if (!choice.is_made) {
-            choice = choice_of(bisection_.split(middle, size, on_side), is_seen);
+            choice = choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
         }
         return choice;
     }
@@ -177,6 +202,7 @@ private:
     const Bisection& bisection_;
     const ErrorView& view_;
     glm::ivec2 first_;        // sample of the tile
+    bool is_whole_;           // no triangle of it ends beyond the heightfield
     Grid<Choice> at_samples_; // of the tile, where made
     TriangulationWriter writer_;
 };
@@ -197,7 +223,7 @@ std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& t
                              first + glm::ivec2(side, 0)};
     TileBisector bisector(bisection, tile, view);
     for (std::size_t i = 0; i < 4; ++i) {
-        bisector.add({middle, corners[i], corners[(i + 1) % 4]});
+        bisector.add({middle, corners[i], corners[(i + 1) % 4]}, {side, true});
     }
     return bisector.take();
 }

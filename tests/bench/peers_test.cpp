@@ -72,8 +72,8 @@ TEST(BenchPeers, BothShowTheSameTerrain) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto report = nlohmann::json::parse(test::read_bytes(json));
     EXPECT_EQ(report.at("complete"), true);
-    ASSERT_EQ(report.at("rows").size(), 12U);
-    for (std::size_t i = 0; i < 12; i += 6) {
+    ASSERT_EQ(report.at("rows").size(), 18U);
+    for (std::size_t i = 0; i < 18; i += 9) {
         const auto& irrlicht = report.at("rows").at(i); // every sample a vertex
         const auto& polygons = report.at("rows").at(i + 5);
         EXPECT_EQ(irrlicht.at("triangles"), 2048);
@@ -83,6 +83,11 @@ TEST(BenchPeers, BothShowTheSameTerrain) {
                     polygons.at("reprojection_px").at("rms").get<double>(), 0.1);
         EXPECT_NEAR(irrlicht.at("reprojection_px").at("count").get<double>(),
                     polygons.at("reprojection_px").at("count").get<double>(), 200.0);
+        for (std::size_t row = i; row < i + 9; ++row) {
+            EXPECT_EQ(report.at("rows").at(row).at("camera"), row < i + 6 ? "still" : "moving");
+        }
+        EXPECT_EQ(report.at("rows").at(i + 6).at("what"), "irrlicht:lods=5");
+        EXPECT_EQ(report.at("rows").at(i + 7).at("what"), "polygons:error=1");
     }
 }
 

@@ -1,5 +1,8 @@
 #include "engine/render/grid_mesh.h"
 
+#include <cstring>
+#include <random>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -80,7 +83,7 @@ TEST(GridMesh, NeighboursHaveTheSameBitsForAVertexTheyShare) {
     const GridMesh east = full_mesh(heightfield, placement, tiles[1]);
     const terrain::Triangulation border{
         {terrain::steps_per_sample * glm::ivec2(terrain::tile_cells, 7)}, {}};
-    const auto cut = placed_vertices(heightfield, placement, tiles[1], border);
+    const auto cut = VertexPlacer(heightfield, placement, tiles[1]).place(border);
     for (int row = 0; row <= west.rows; ++row) {
         const GridVertex& a =
             west.vertices[static_cast<std::size_t>(row * (west.cols + 1) + west.cols)];
@@ -90,6 +93,42 @@ TEST(GridMesh, NeighboursHaveTheSameBitsForAVertexTheyShare) {
         if (row == 7) {
             EXPECT_EQ(a.position, cut.front().position);
             EXPECT_EQ(a.rest, cut.front().rest);
+        }
+    }
+}
+
+TEST(GridMesh, KnownVerticesHaveTheBitsOfNewOnes) {
+    std::mt19937 random(11);
+    const auto heightfield = test::geographic_heightfield(
+        test::random_heights(300, 140, -50.0F, 900.0F, 2), 46.0, 7.0, 1.0 / 1200.0);
+    const terrain::Placement placement = placed(heightfield);
+    for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement)) {
+        const auto chance_part = [&] {
+            terrain::Triangulation part;
+            for (int i = 0; i < 2000; ++i) {
+                // Every second one at a sample.
+                const int scale = i % 2 == 0 ? terrain::steps_per_sample : 1;
+                const glm::ivec2 most(terrain::steps_per_sample / scale *
+                                      glm::ivec2(tile.cols, tile.rows));
+                const glm::ivec2 place(std::uniform_int_distribution(0, most.x)(random),
+                                       std::uniform_int_distribution(0, most.y)(random));
+                part.vertices.push_back(terrain::steps_per_sample * glm::ivec2(tile.col, tile.row) +
+                                        scale * place);
+            }
+            return part;
+        };
+        const VertexPlacer fresh(heightfield, placement, tile);
+        VertexPlacer knowing(heightfield, placement, tile);
+        const terrain::Triangulation before = chance_part();
+        const auto known = fresh.place(before);
+        knowing.know(before, known);
+        for (const terrain::Triangulation& part : {before, chance_part(), chance_part()}) {
+            const auto expected = fresh.place(part);
+            const auto found = knowing.place(part);
+            ASSERT_EQ(found.size(), expected.size());
+            ASSERT_EQ(
+                std::memcmp(found.data(), expected.data(), expected.size() * sizeof(GridVertex)),
+                0);
         }
     }
 }
