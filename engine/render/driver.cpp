@@ -16,6 +16,7 @@
 #include "engine/render/error_view.h"
 #include "engine/render/frame_block.h"
 #include "engine/render/mesh_painter.h"
+#include "engine/render/occlusion.h"
 #include "engine/render/relief_options.h"
 
 #include <glad/gl.h>
@@ -455,7 +456,7 @@ Result<void> Driver::resize(glm::ivec2 size) {
 
 Result<FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
     const auto start = Clock::now();
-    const DrawList list = select(scene, size());
+    const DrawList list = list_of(scene);
     FrameStats stats = list.stats;
     if (auto done = prepare(list, false, stats); !done) {
         return done.error();
@@ -491,7 +492,7 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
         hit_target_ = std::move(*target);
     }
-    const DrawList list = select(scene, size());
+    const DrawList list = list_of(scene);
     FrameStats stats;
     if (auto done = prepare(list, true, stats); !done) {
         return done.error();
@@ -510,6 +511,14 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
     }
     return hits;
+}
+
+DrawList Driver::list_of(const scene::Scene& scene) const {
+    DrawList list = select(scene, size());
+    if (options_.occlusion) {
+        drop_occluded(list);
+    }
+    return list;
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {

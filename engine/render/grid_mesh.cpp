@@ -47,11 +47,13 @@ std::vector<GridVertex> placed_vertices(const terrain::Heightfield& heightfield,
                                         const terrain::Triangulation& part) {
     std::vector<GridVertex> vertices;
     vertices.reserve(part.vertices.size());
-    for (const glm::ivec2 steps : part.vertices) {
+    for (std::size_t i = 0; i < part.vertices.size(); ++i) {
         const glm::dvec2 sample =
-            glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
+            glm::dvec2(part.vertices[i]) / static_cast<double>(terrain::steps_per_sample);
         const double height = terrain::bilinear_height(heightfield.heights.view(), sample);
-        vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}), height,
+        const terrain::VertexMove move = part.moves.empty() ? terrain::VertexMove{} : part.moves[i];
+        vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}) + move.offset,
+                                       height + move.height,
                                        sample - glm::dvec2(tile.col, tile.row)));
     }
     return vertices;

@@ -11,11 +11,14 @@
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<ParameterInfo, 2> polygons_parameters{
+constexpr std::array<ParameterInfo, 3> polygons_parameters{
     {{"lods", 1.0, 1.0, 5.0, true,
       "levels of detail at most, by distance; 1: every sample is a vertex"},
      {"error", 0.0, 0.0, 16.0, false,
       "pixels that no pixel is farther from where it belongs, instead of levels; 0: by levels",
+      true},
+     {"morph", 0.0, 0.0, 1.0, true,
+      "with error, 1: vertices rise to their places as the view nears, so that nothing jumps",
       true}}};
 
 constexpr ParameterInfo offset_parameter{

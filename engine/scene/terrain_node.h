@@ -8,6 +8,7 @@
 #include "engine/core/result.h"
 #include "engine/scene/technique.h"
 #include "engine/scene/texture_detail.h"
+#include "engine/terrain/bisection.h"
 #include "engine/terrain/heightfield.h"
 #include "engine/terrain/min_max_pyramid.h"
 #include "engine/terrain/placement.h"
@@ -85,6 +86,8 @@ struct TerrainNode {
     Material material;
     /// Finer tiles of the same terrain, which is an overview then; null: it is all there is.
     std::shared_ptr<TileStream> stream = {};
+    /// Of the surface, where it was made or read before; null: made when it is first needed.
+    std::shared_ptr<const terrain::Bisection> bisection = {};
 };
 
 /// Whether the technique draws the tiles of a stream; else it draws the overview.
