@@ -40,15 +40,41 @@ if(RELJEF_SANITIZE)
   target_compile_options(reljef_test_build INTERFACE -O0 -fno-sanitize=undefined)
 endif()
 
+if(RELJEF_CHECK_HEADERS)
+  add_custom_target(headers)
+endif()
+
 function(reljef_room NAME)
   cmake_parse_arguments(ROOM "" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   set(target reljef_${NAME})
   add_library(${target} STATIC ${ROOM_SOURCES})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${ROOM_HEADERS})
-  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX VERIFY_INTERFACE_HEADER_SETS ON)
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
   target_link_libraries(${target} PUBLIC reljef_options ${ROOM_LINK}
                                   PRIVATE reljef_warnings ${ROOM_PRIVATE_LINK})
   target_precompile_headers(${target} REUSE_FROM reljef_precompiled)
+  if(RELJEF_CHECK_HEADERS)
+    reljef_check_headers(${target})
+  endif()
+endfunction()
+
+# Compiles each header of a room by itself (target `headers` does all rooms).
+function(reljef_check_headers ROOM_TARGET)
+  get_target_property(headers ${ROOM_TARGET} HEADER_SET)
+  set(sources)
+  foreach(header IN LISTS headers)
+    cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/headers/${header}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${header}\"\n")
+    list(APPEND sources ${source})
+  endforeach()
+  if(sources)
+    add_library(${ROOM_TARGET}_headers OBJECT EXCLUDE_FROM_ALL ${sources})
+    set_target_properties(${ROOM_TARGET}_headers PROPERTIES UNITY_BUILD OFF)
+    target_link_libraries(${ROOM_TARGET}_headers PRIVATE ${ROOM_TARGET} reljef_warnings)
+    target_precompile_headers(${ROOM_TARGET}_headers REUSE_FROM reljef_precompiled)
+    add_dependencies(headers ${ROOM_TARGET}_headers)
+  endif()
 endfunction()
 
 # One process that runs each SHARDS-th test of a program; ./dev adds up what the reports tell.
@@ -69,7 +95,10 @@ function(reljef_test ROOM)
   endif()
   set(properties TIMEOUT 900 LABELS ${ROOM})
   if("address" IN_LIST RELJEF_SANITIZE)
+    # Where the runtime of g++ 12 watches thread-local storage, it takes some of glibc's blocks for
+    # those of a glibc before 2.25, and the search for leaks ends with a fault of its own, now and then.
     list(APPEND properties ENVIRONMENT
+         "ASAN_OPTIONS=intercept_tls_get_addr=0"
          "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
     target_link_libraries(${target} PRIVATE reljef_keep_loaded)
   endif()

@@ -1,4 +1,5 @@
-// Compiled once for all rooms. Every file still includes what it uses: lint compiles without this.
+// Compiled once for all rooms. Headers still include what they name: tests/architecture
+// holds them to it.
 #pragma once
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <glm/vec2.hpp>
 #include <ogr_spatialref.h>

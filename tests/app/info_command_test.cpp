@@ -2,12 +2,14 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/command_line.h"
+#include "tests/support/release_only.h"
 #include "tests/support/test_data.h"
 
 namespace reljef {
 namespace {
 
 TEST(InfoCommand, generated_terrain) {
+    RELJEF_RELEASE_ONLY("the generators have tests of their own");
     const auto result = test::reljef({"info", "natural", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto info = nlohmann::json::parse(result.out);

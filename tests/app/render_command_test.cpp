@@ -76,6 +76,7 @@ TEST(RenderCommand, drapes_imagery) {
 }
 
 TEST(RenderCommand, sequence_and_contact_sheet) {
+    RELJEF_RELEASE_ONLY("the gallery and the flights have other tests");
     const test::TemporaryFolder folder;
     const auto result = test::reljef({"render", "urban", "--path", "orbit", "--frames", "3",
                                       "--size", "160x120", "--context", "osmesa", "--technique",
@@ -124,6 +125,7 @@ TEST(RenderCommand, tiles_are_refused_where_there_are_none_and_where_they_are_un
 }
 
 TEST(RenderCommand, same_command_same_bits) {
+    RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;
     for (const char* name : {"a.png", "b.png"}) {
         ASSERT_EQ(test::reljef({"render", "natural", "--size", "200x150", "--context", "osmesa",
@@ -135,6 +137,7 @@ TEST(RenderCommand, same_command_same_bits) {
 }
 
 TEST(RenderCommand, works_from_any_folder) {
+    RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;
     test::ProgramOptions options;
     options.folder = folder.path();

@@ -110,6 +110,123 @@ bool may_use_gl(std::string_view path) {
            (path.starts_with("tests/") && path.ends_with("_gl_test.cpp"));
 }
 
+// Who declares what, as far as cmake/precompiled.h includes it.
+const std::map<std::string_view, std::string_view>& declaring_headers() {
+    static const std::map<std::string_view, std::string_view> headers{
+        {"abs", "cmath"},
+        {"acos", "cmath"},
+        {"array", "array"},
+        {"atan2", "cmath"},
+        {"byte", "cstddef"},
+        {"ceil", "cmath"},
+        {"chrono", "chrono"},
+        {"clamp", "algorithm"},
+        {"cos", "cmath"},
+        {"error_code", "system_error"},
+        {"errc", "system_error"},
+        {"exchange", "utility"},
+        {"filesystem", "filesystem"},
+        {"floor", "cmath"},
+        {"forward", "utility"},
+        {"from_chars", "charconv"},
+        {"function", "functional"},
+        {"get_if", "variant"},
+        {"hypot", "cmath"},
+        {"int16_t", "cstdint"},
+        {"int32_t", "cstdint"},
+        {"int64_t", "cstdint"},
+        {"isfinite", "cmath"},
+        {"isnan", "cmath"},
+        {"less", "functional"},
+        {"lround", "cmath"},
+        {"make_shared", "memory"},
+        {"make_unique", "memory"},
+        {"map", "map"},
+        {"max", "algorithm"},
+        {"min", "algorithm"},
+        {"monostate", "variant"},
+        {"move", "utility"},
+        {"nullopt", "optional"},
+        {"numeric_limits", "limits"},
+        {"optional", "optional"},
+        {"pair", "utility"},
+        {"ptrdiff_t", "cstddef"},
+        {"reference_wrapper", "functional"},
+        {"shared_ptr", "memory"},
+        {"sin", "cmath"},
+        {"size_t", "cstddef"},
+        {"sort", "algorithm"},
+        {"span", "span"},
+        {"sqrt", "cmath"},
+        {"stop_source", "stop_token"},
+        {"stop_token", "stop_token"},
+        {"string", "string"},
+        {"string_view", "string_view"},
+        {"swap", "utility"},
+        {"to_string", "string"},
+        {"uint16_t", "cstdint"},
+        {"uint32_t", "cstdint"},
+        {"uint64_t", "cstdint"},
+        {"uint8_t", "cstdint"},
+        {"unique_ptr", "memory"},
+        {"variant", "variant"},
+        {"vector", "vector"},
+        {"visit", "variant"},
+        {"weak_ptr", "memory"},
+    };
+    return headers;
+}
+
+// "vector" for each std::vector in the code, "glm/" for each glm::, "fmt/" for each fmt::.
+std::set<std::string> declarations_needed(const std::string& code) {
+    static const std::regex name(R"(\b(std|glm|fmt)::(\w+))");
+    std::set<std::string> needed;
+    for (std::sregex_iterator match(code.begin(), code.end(), name), end; match != end; ++match) {
+        const auto known = declaring_headers().find(match->str(2));
+        if (match->str(1) != "std") {
+            needed.insert(match->str(1) + "/");
+        } else if (known != declaring_headers().end()) {
+            needed.emplace(known->second);
+        }
+    }
+    return needed;
+}
+
+// The libraries' headers that come with each of the project's files.
+class LibraryIncludes {
+public:
+    explicit LibraryIncludes(std::span<const SourceFile> files) {
+        for (const SourceFile& file : files) {
+            includes_[file.path] = includes_of(file.text);
+        }
+    }
+
+    std::set<std::string> of(const std::string& path) const {
+        std::set<std::string> found;
+        std::set<std::string> seen;
+        collect(path, found, seen);
+        return found;
+    }
+
+private:
+    void collect(const std::string& path, std::set<std::string>& found,
+                 std::set<std::string>& seen) const {
+        const auto known = includes_.find(path);
+        if (known == includes_.end() || !seen.insert(path).second) {
+            return;
+        }
+        for (const Include& include : known->second) {
+            if (include.quoted) {
+                collect(include.path, found, seen);
+            } else {
+                found.insert(include.path);
+            }
+        }
+    }
+
+    std::map<std::string, std::vector<Include>> includes_;
+};
+
 class CircleSearch {
 public:
     explicit CircleSearch(std::span<const SourceFile> files) {
@@ -269,6 +386,27 @@ Complaints machine_paths(const SourceFile& file) {
     for (std::sregex_iterator match(file.text.begin(), file.text.end(), path), end; match != end;
          ++match) {
         complaints.push_back(file.path + " names " + match->str(1) + ", a place on one machine");
+    }
+    return complaints;
+}
+
+Complaints missing_includes(std::span<const SourceFile> files) {
+    const LibraryIncludes includes(files);
+    Complaints complaints;
+    for (const SourceFile& file : files) {
+        if (!file.path.ends_with(".h")) {
+            continue;
+        }
+        const std::set<std::string> there = includes.of(file.path);
+        for (const std::string& needed : declarations_needed(code_of(file.text))) {
+            const auto found = there.lower_bound(needed); // "glm/": whatever begins so
+            const bool included =
+                found != there.end() &&
+                (*found == needed || (needed.ends_with('/') && found->starts_with(needed)));
+            if (!included) {
+                complaints.push_back(file.path + " needs <" + needed + "> and includes it nowhere");
+            }
+        }
     }
     return complaints;
 }

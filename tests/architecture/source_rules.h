@@ -47,6 +47,11 @@ Complaints gl_outside_its_rooms(const SourceFile& file);
 /// Folders that exist on one machine only.
 Complaints machine_paths(const SourceFile& file);
 
+/// Names of the standard library, of fmt and of glm in headers that include what declares them
+/// neither themselves nor through the project's headers: what all rooms have precompiled would hide
+/// it.
+Complaints missing_includes(std::span<const SourceFile> files);
+
 /// Files that include each other in a circle, each circle once.
 Complaints include_circles(std::span<const SourceFile> files);
 

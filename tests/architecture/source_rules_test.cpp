@@ -191,6 +191,18 @@ TEST(IncludeCircles, SharedHeadersAreNone) {
     EXPECT_THAT(include_circles(files), IsEmpty());
 }
 
+TEST(MissingIncludes, AreThoseOfHeadersThatNobodyBrings) {
+    const std::vector<SourceFile> files{
+        {"engine/a.h", "#include <vector>\n#include <glm/vec3.hpp>\n"},
+        {"engine/b.h", "#include \"engine/a.h\"\nstd::vector<glm::vec3> all; // std::map\n"},
+        {"engine/c.h", "std::string s = fmt::format(x);\nstd::strange t;\n"},
+        {"engine/c.cpp", "std::map<int, int> m;\n"},
+    };
+    EXPECT_THAT(missing_includes(files),
+                ElementsAre("engine/c.h needs <fmt/> and includes it nowhere",
+                            "engine/c.h needs <string> and includes it nowhere"));
+}
+
 TEST(UnlistedFiles, AreNamed) {
     const std::vector<SourceFile> files{
         {"engine/core/CMakeLists.txt", "reljef_room(core HEADERS a.h\n  SOURCES a.cpp)"},

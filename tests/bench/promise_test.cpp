@@ -6,6 +6,7 @@
 
 #include "bench/promise_report.h"
 #include "tests/bench/bench_program.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {
@@ -22,6 +23,7 @@ PromiseOptions few_poses(const std::string& terrain) {
 }
 
 TEST(Promise, judges_random_poses_and_two_flights_the_same_each_time) {
+    RELJEF_RELEASE_ONLY("drawing and judging have tests of their own");
     const test::TemporaryFolder folder;
     const auto dem = folder.write("dem.asc", test::small_dem).string();
     const PromiseResults results = run_promise(few_poses(dem), {});

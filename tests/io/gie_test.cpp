@@ -7,6 +7,7 @@
 #include "engine/io/raster.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/gie.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -53,6 +54,7 @@ bool is_exact(const GiePoint& point) {
 }
 
 TEST(Gie, RastersLieWhereProjsOwnPointsAre) {
+    RELJEF_RELEASE_ONLY("thousands of points by the same few lines");
     RELJEF_NEED_DATA("geodesy/proj_gie/builtins.gie");
     const test::TemporaryFolder folder;
     int checked = 0;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <thread>
 

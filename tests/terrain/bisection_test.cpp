@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/terrain/bisection_mesh.h"
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_bisection.h"
 #include "tests/terrain/made_heightfield.h"
@@ -98,6 +99,7 @@ ErrorView chance_view(test::Chance& chance, const Heightfield& heightfield) {
 }
 
 TEST(Bisection, CoversTheHeightfieldOnceWithTrianglesThatMeetEdgeToEdge) {
+    RELJEF_RELEASE_ONLY("thousands of covers by the same few lines");
     test::Chance chance(3);
     for (MadeTerrain& made : hard_terrains()) {
         const PlacedTerrain terrain(std::move(made));
@@ -146,6 +148,7 @@ double displacement(const PlacedTerrain& terrain, const Triangle& triangle, glm:
 constexpr double place_rounding = 1e5 * 0x1p-23;
 
 TEST(Bisection, NoPointIsFartherFromTheSurfaceThanTheViewAllows) {
+    RELJEF_RELEASE_ONLY("thousands of points by the same few lines");
     test::Chance chance(4);
     int points = 0;
     for (MadeTerrain& made : hard_terrains()) {

@@ -13,6 +13,7 @@
 
 #include "engine/render/driver.h"
 #include "engine/render/frame_block.h"
+#include "tests/support/release_only.h"
 #include "tests/truth/tile_panel.h"
 
 namespace reljef::truth {
@@ -21,6 +22,7 @@ namespace {
 class MeshTechniquesGlTest : public test::GlTest {};
 
 TEST_F(MeshTechniquesGlTest, ExactShowsTheTrueFirstHitBeyondEveryBorder) {
+    RELJEF_RELEASE_ONLY("the same shader on the tiles of other tests");
     for (const MadeTile& tile : hard_tiles()) {
         for (const TileBorder border : {TileBorder::wrap, TileBorder::clamp, TileBorder::discard}) {
             Panel panel(tile.heights);

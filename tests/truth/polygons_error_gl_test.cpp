@@ -124,9 +124,9 @@ TEST_F(PolygonsErrorGlTest, NorWhileVerticesRise) {
                      15, 12, {}, 1));
 }
 
-// Walls that are seen edge-on, from a step away. Where the picture's border or the near plane cuts
-// such a triangle, the rasterizer moves the corners that it makes there, and what is interpolated
-// between them is off by some pixels.
+// Walls that are seen edge-on, from a step away: what floats interpolate over a triangle much narrower
+// than a step of the rasterizer's grid is off by pixels. (A guard band about the picture, so that
+// none is cut, makes the worst seven times as bad: the triangles get longer.)
 TEST_F(PolygonsErrorGlTest, NorBetweenTowersWhereNoSliverIsCut) {
     const Promise promise = promise_over(
         test::plane_heightfield(test::made_heights(129, 129,
@@ -144,6 +144,7 @@ TEST_F(PolygonsErrorGlTest, NorBetweenTowersWhereNoSliverIsCut) {
 }
 
 TEST_F(PolygonsErrorGlTest, NorOverTheCurvedEarth) {
+    RELJEF_RELEASE_ONLY("the same lines draw flat terrain");
     expect_kept(promise_over(
         test::geographic_heightfield(test::hills(161, 140, 600.0), 46.0, 7.0, 0.004), 30, 3));
 }

@@ -12,6 +12,7 @@
 
 #include "engine/truth/image_error.h"
 #include "engine/truth/sun_ray.h"
+#include "tests/support/release_only.h"
 #include "tests/truth/relief_stage.h"
 
 namespace reljef::truth {
@@ -168,6 +169,7 @@ double wrongly_lit(ReliefStage& stage, const std::string& technique) {
 }
 
 TEST_F(TechniqueOptionsGlTest, HardShadowIsTheShadowRayOfTheTruth) {
+    RELJEF_RELEASE_ONLY("the rays of the truth have tests of their own");
     const std::array surfaces{test::hills(129, 97, 12.0), blocks()};
     for (const Grid<float>& heights : surfaces) {
         for (const double altitude : {8.0, 35.0}) {
@@ -258,6 +260,7 @@ TEST_F(TechniqueOptionsGlTest, ASunBelowTheHorizonLightsNothing) {
 // Behind an edge lies what is darker or lighter: the pixels along it are a mix of both. A pixel
 // here is about a hundredth of the range of heights.
 TEST_F(TechniqueOptionsGlTest, SmoothEdgesComeNearerToTheMeanOverThePixel) {
+    RELJEF_RELEASE_ONLY("the mean is many pictures by the same lines");
     const Grid<float> heights = blocks();
     Image color(heights.cols(), heights.rows());
     for (std::size_t i = 0; i < color.size(); ++i) {

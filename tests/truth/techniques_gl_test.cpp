@@ -15,6 +15,7 @@
 #include "engine/truth/geometric_error.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/support/release_only.h"
 
 namespace reljef::truth {
 namespace {
@@ -180,6 +181,7 @@ TEST_F(TechniquesGlTest, ExactIsFiniteWhateverTheExaggeration) {
 // Rays that enter beneath the surface at the border go on in equal steps, and may miss where they
 // come out: that is all that is wrong.
 TEST_F(TechniquesGlTest, RelaxedConesMissNothingButBehindTheBorder) {
+    RELJEF_RELEASE_ONLY("many tiles by the same few lines");
     for (const MadeSurface& surface : hard_surfaces()) {
         Stage stage(surface.heights);
         for (const Pose pose : {Pose::overview, Pose::grazing}) {
@@ -234,6 +236,7 @@ TEST_F(TechniquesGlTest, ChordsConvergeWithTheSecondPower) {
 }
 
 TEST_F(TechniquesGlTest, MoreStepsAreNeverMoreWrong) {
+    RELJEF_RELEASE_ONLY("each number of steps is the same shader");
     Stage stage(test::hills(129, 97, 12.0));
     for (const Pose pose : {Pose::overview, Pose::low}) {
         stage.look(pose);
