@@ -63,8 +63,8 @@ protected:
             occluded += test::must(with.draw(scene)).skipped.tiles_occluded;
             EXPECT_EQ(test::must(without.draw(scene)).skipped.tiles_occluded, 0);
             EXPECT_EQ(with.read_color(), without.read_color()) << technique << ' ' << i;
-            EXPECT_TRUE(same_bits(test::must(with.draw_hits(scene)),
-                                  test::must(without.draw_hits(scene))))
+            EXPECT_TRUE(
+                same_bits(test::must(with.draw_hits(scene)), test::must(without.draw_hits(scene))))
                 << technique << ' ' << i;
         }
         return occluded;

@@ -104,6 +104,7 @@ std::vector<glm::dvec2> places_of(const PlacedTerrain& made, int count, unsigned
     test::Chance chance(seed);
     const glm::ivec2 end = made.bisection.end();
     std::vector<glm::dvec2> places;
+    places.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         places.emplace_back(chance.between(0, end.x), chance.between(0, end.y));
     }
