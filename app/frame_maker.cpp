@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "app/process_memory.h"
 #include "app/streaming.h"
+#include "engine/core/statistics.h"
 
 namespace reljef::app {
 namespace {
@@ -20,15 +22,62 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+constexpr double megabyte = 1e6;
+
+// As many triangles as a view of a terrain has, of few vertices: software renderers keep what they
+// are about to draw, tens of megabytes, whatever draws with them.
+scene::Scene busy_scene() {
+    scene::Mesh mesh = scene::plane_mesh(glm::vec2(0.01F));
+    const std::vector<std::uint32_t> once = mesh.indices;
+    constexpr int times = 200'000;
+    mesh.indices.reserve(times * once.size());
+    for (int i = 1; i < times; ++i) {
+        mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
+    }
+    scene::Scene scene;
+    scene.add_mesh(std::move(mesh));
+    scene::Camera above;
+    above.eye = {0.0, 0.0, 1.0};
+    scene.add_camera(above);
+    return scene;
+}
+
+std::string times_text(const FrameTimes& times) {
+    const Summary drawing = summarize(times.drawing_ms);
+    const Summary waiting = summarize(times.waiting_ms);
+    return fmt::format("frames: {}, half drawn within {:.2f} ms, 99 % within {:.2f} ms; waited for "
+                       "tiles: half {:.2f} ms, 99 % at most {:.2f} ms\n",
+                       times.drawing_ms.size(), drawing.median, drawing.p99, waiting.median,
+                       waiting.p99);
+}
+
+std::string memory_text(std::size_t before) {
+    return fmt::format("memory: {:.1f} MB of the process at most, {:.1f} MB before the terrain was "
+                       "read\n",
+                       static_cast<double>(process_memory().most) / megabyte,
+                       static_cast<double>(before) / megabyte);
+}
+
 } // namespace
 
+DeviceFrames::DeviceFrames(Device device, bool timed) : device_(std::move(device)), timed_(timed) {
+    if (timed_) {
+        static_cast<void>(device_.driver().draw(busy_scene(), true));
+        static_cast<void>(device_.driver().draw(scene::Scene(), true)); // the other's mesh is gone
+        times_.memory_before = process_memory().most;
+    }
+}
+
 Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
+    const Stopwatch waiting;
     bring_tiles(scene, device_.driver().size(), parallel.stop);
+    times_.waiting_ms.push_back(waiting.ms());
     stream_stats_ = stream_stats(scene);
     const auto stats = device_.driver().draw(scene, timed_);
     if (!stats) {
         return stats.error();
     }
+    times_.drawing_ms.push_back(stats->cpu_ms + stats->gpu_ms);
     stats_ = *stats;
     return device_.driver().read_color();
 }
@@ -40,7 +89,7 @@ Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
 }
 
 std::string DeviceFrames::stats() const {
-    return stream_stats_ +
+    return stream_stats_ + times_text(times_) + memory_text(times_.memory_before) +
            fmt::format("renderer: {}\n"
                        "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
                        "uploads: {} ({:.1f} MB)\n"

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -27,18 +28,28 @@ public:
     [[nodiscard]] virtual std::string stats() const = 0;
 };
 
+/// What frames took; nothing of it before the first one.
+struct FrameTimes {
+    std::vector<double> waiting_ms; ///< of each, for tiles that are read part by part
+    std::vector<double> drawing_ms; ///< of each, until it is there
+    std::size_t memory_before = 0;  ///< that the process had at most before the terrain was read
+};
+
 /// Draws with OpenGL; `timed` also waits for each frame's end.
 class DeviceFrames : public FrameMaker {
 public:
-    DeviceFrames(Device device, bool timed) : device_(std::move(device)), timed_(timed) {}
+    DeviceFrames(Device device, bool timed);
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
     [[nodiscard]] std::string stats() const override;
+    [[nodiscard]] const FrameTimes& times() const { return times_; }
+    [[nodiscard]] const platform::Context& context() const { return device_.context(); }
 
 private:
     Device device_;
     bool timed_;
+    FrameTimes times_;
     render::FrameStats stats_;
     std::string stream_stats_; // after the last frame
 };

@@ -89,13 +89,16 @@ private:
                 name,
                 {.seed = description_.seed, .threads = static_cast<unsigned>(terrain_.threads)});
         }
+        const std::filesystem::path folder =
+            terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder;
         std::error_code ignored;
-        if (!std::filesystem::is_directory(name, ignored)) {
-            return Error{fmt::format("texture set '{}' found, one of mixed, {} or a folder of "
+        if (!std::filesystem::is_directory(folder, ignored)) {
+            return Error{fmt::format("{}: texture set '{}' found, one of mixed, {} or a folder of "
                                      "pictures was expected",
-                                     name, fmt::join(names, ", "))};
+                                     terrain_.textures ? "--textures" : terrain_.terrain, name,
+                                     fmt::join(names, ", "))};
         }
-        const auto files = io::find_texture_files(name);
+        const auto files = io::find_texture_files(folder);
         if (!files) {
             return files.error();
         }
@@ -137,20 +140,20 @@ private:
 
 // None: each model's own.
 Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescription& description,
+                                                         const std::string& file,
                                                          const ViewChoice& view) {
     using Choice = std::optional<scene::Technique>;
     if (view.max_error) {
         return Error{fmt::format("--max-error: {} found, a terrain was expected: its models are "
                                  "drawn as they are",
-                                 description.name)};
+                                 file)};
     }
-    if (view.technique || description.gallery_technique == "mixed") {
+    if (view.technique || view.mixed || description.gallery_technique == "mixed") {
         return Choice(view.technique);
     }
     auto technique = scene::parse_technique(description.gallery_technique);
     return technique ? Result<Choice>(Choice(std::move(*technique)))
-                     : Error{fmt::format("{}: [gallery] {}", description.name,
-                                         technique.error().message)};
+                     : Error{fmt::format("{}: [gallery] {}", file, technique.error().message)};
 }
 
 scene::Material material_of(const terrains::GalleryModel& model, Set set,
@@ -171,7 +174,7 @@ Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const io::SceneDescription& description,
                                               const TerrainChoice& terrain, const ViewChoice& view,
                                               const std::stop_token& stop) {
-    const auto technique = chosen_technique(description, view);
+    const auto technique = chosen_technique(description, terrain.terrain, view);
     if (!technique) {
         return technique.error();
     }

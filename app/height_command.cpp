@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "app/message.h"
 #include "app/options.h"
 #include "app/terrain_source.h"
+#include "engine/core/worker_pool.h"
 
 namespace reljef::app {
 namespace {
@@ -142,17 +145,43 @@ Result<std::vector<Line>> lines_of(std::string_view text, std::size_t& number) {
     return lines;
 }
 
-void append_answer(std::string_view place, const io::HeightAnswer& answer,
-                   fmt::memory_buffer& out) {
-    if (answer.kind == io::HeightAnswer::Kind::height) {
-        fmt::format_to(std::back_inserter(out), "{},{:.6f}\n", place, answer.height);
-    } else {
-        fmt::format_to(std::back_inserter(out), "{},nan\n", place);
+constexpr int digits_of_heights = 6; // after the point: micrometres
+
+void append_answer(std::string_view place, const io::HeightAnswer& answer, std::string& out) {
+    out += place;
+    if (answer.kind != io::HeightAnswer::Kind::height) {
+        out += ",nan\n";
+        return;
     }
+    std::array<char, 64> text{}; // heights are below 1e9 m
+    const auto written = std::to_chars(text.data(), text.data() + text.size(), answer.height,
+                                       std::chars_format::fixed, digits_of_heights);
+    out += ',';
+    out.append(text.data(), written.ptr);
+    out += '\n';
 }
 
-void print(const fmt::memory_buffer& out) {
+void print(const std::string& out) {
     static_cast<void>(std::fwrite(out.data(), 1, out.size(), stdout));
+}
+
+// The answers as text, by several threads; in order.
+void print_answers(std::span<const Line> lines, std::span<const io::HeightAnswer> answers,
+                   unsigned threads) {
+    constexpr std::size_t lines_a_part = 1U << 14U;
+    std::vector<std::string> parts((lines.size() + lines_a_part - 1) / lines_a_part);
+    const auto append_part = [&](int number) {
+        const auto part = static_cast<std::size_t>(number);
+        const std::size_t end = std::min(lines.size(), (part + 1) * lines_a_part);
+        for (std::size_t i = part * lines_a_part; i < end; ++i) {
+            append_answer(lines[i].text, answers[i], parts[part]);
+        }
+    };
+    parallel_for(static_cast<int>(parts.size()), append_part,
+                 {.threads = threads, .stop = {}, .progress = {}});
+    for (const std::string& part : parts) {
+        print(part);
+    }
 }
 
 void keep_faults(std::vector<io::TileFault> found, const TerrainChoice& choice,
@@ -170,7 +199,7 @@ void keep_faults(std::vector<io::TileFault> found, const TerrainChoice& choice,
 Result<void> print_places(const HeightChoice& choice, const io::TileSet& tiles,
                           std::vector<io::TileFault>& faults) {
     auto found = tiles.heights(choice.places);
-    fmt::memory_buffer out;
+    std::string out;
     for (std::size_t i = 0; i < choice.places.size(); ++i) {
         const glm::dvec2 place = choice.places[i];
         if (found.answers[i].kind == io::HeightAnswer::Kind::outside) {
@@ -204,11 +233,7 @@ Result<void> print_points(const HeightChoice& choice, const io::TileSet& tiles,
         std::transform(lines->begin(), lines->end(), places.begin(),
                        [](const Line& line) { return line.place; });
         auto found = tiles.heights(places);
-        fmt::memory_buffer out;
-        for (std::size_t i = 0; i < lines->size(); ++i) {
-            append_answer((*lines)[i].text, found.answers[i], out);
-        }
-        print(out);
+        print_answers(*lines, found.answers, static_cast<unsigned>(choice.terrain.threads));
         keep_faults(std::move(found.faults), choice.terrain, faults);
     }
     return {};

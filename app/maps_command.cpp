@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <initializer_list>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "app/command.h"
+#include "app/message.h"
 #include "app/output_files.h"
 #include "app/parsed_option.h"
 #include "app/progress_line.h"
@@ -36,6 +40,7 @@ struct MapChoice {
     MapInput input = MapInput::heights;
     terrain::TileBorder border = terrain::TileBorder::wrap;
     double scale = 0.05;
+    bool green_up = false; // y of stored normals
     bool sobel = false;
     bool dark_is_high = false;
     int octaves = terrain::ColorReliefOptions{}.octaves;
@@ -49,17 +54,33 @@ struct MapChoice {
                                       {MapKind::layers, "--layers", {}}}};
 };
 
-terrain::MapBorder map_border(const MapChoice& choice) {
-    return choice.border == terrain::TileBorder::wrap ? terrain::MapBorder::wrap
-                                                      : terrain::MapBorder::clamp;
-}
-
 // Steps between texels, of a height of 1.
 glm::dvec2 texel_spacing(const MapChoice& choice, int cols, int rows) {
     return 1.0 / (choice.scale * glm::dvec2(cols, rows));
 }
 
-Result<Grid<float>> read_heights(const std::string& file) {
+void tell_note(const MapChoice& choice, const std::string& note) {
+    if (!choice.quiet) {
+        tell(fmt::format("reljef: note: {}\n", note));
+    }
+}
+
+// What is known of a file of heights that are all in [0,1].
+void tell_heights(const MapChoice& choice, const std::string& file, const io::Channels& channels,
+                  const Grid<float>& heights) {
+    if (channels.bits == 8) {
+        tell_note(choice, fmt::format("{}: heights of 8 bits; over a picture a metre wide, at "
+                                      "--scale {}, they come in steps of {:.2g} m",
+                                      file, choice.scale, choice.scale / 255.0));
+    }
+    if (choice.border == terrain::TileBorder::wrap && terrain::has_seam(heights.view())) {
+        tell_note(choice, fmt::format("{}: opposite borders do not fit together; where the tile "
+                                      "repeats, a seam shows",
+                                      file));
+    }
+}
+
+Result<Grid<float>> read_heights(const MapChoice& choice, const std::string& file) {
     const auto channels = io::read_channels(file);
     if (!channels) {
         return channels.error();
@@ -74,7 +95,26 @@ Result<Grid<float>> read_heights(const std::string& file) {
             }
         }
     }
+    tell_heights(choice, file, *channels, heights);
     return heights;
+}
+
+// Zero, infinite or away from the surface: what is integrated as if it stood upright.
+void tell_bad_normals(const MapChoice& choice, const Grid<glm::vec3>& normals) {
+    const auto is_bad = [](const glm::vec3& normal) {
+        const float length = glm::length(normal);
+        return !(length > 0.0F && std::isfinite(length) && normal.z > 0.0F);
+    };
+    const auto samples = normals.samples();
+    const auto count = std::count_if(samples.begin(), samples.end(), is_bad);
+    if (count > 0) {
+        const auto first = std::find_if(samples.begin(), samples.end(), is_bad) - samples.begin();
+        tell_note(choice,
+                  fmt::format("{}: {} of {} normals are zero or point into the surface, the first "
+                              "at column {}, row {}; they stand upright now",
+                              choice.picture, count, samples.size(), first % normals.cols(),
+                              first / normals.cols()));
+    }
 }
 
 // y as it is stored: along the rows. What is none stands upright.
@@ -114,12 +154,13 @@ Result<Grid<float>> integrated(const MapChoice& choice, const std::stop_token& s
     if (!normals) {
         return normals.error();
     }
+    tell_bad_normals(choice, *normals);
     for (glm::vec3& normal : normals->samples()) {
-        normal.y = -normal.y; // along the rows, north against them
+        normal.y *= choice.green_up ? 1.0F : -1.0F; // north is against the rows
     }
     terrain::IntegrationOptions options;
     options.spacing = texel_spacing(choice, normals->cols(), normals->rows());
-    options.border = map_border(choice);
+    options.border = choice.border;
     options.stop = stop;
     auto made = terrain::heights_from_normals(normals->view(), options);
     if (stop.stop_requested()) {
@@ -131,7 +172,7 @@ Result<Grid<float>> integrated(const MapChoice& choice, const std::stop_token& s
 
 Result<Grid<float>> heights_of(const MapChoice& choice, const std::stop_token& stop) {
     if (choice.input == MapInput::heights) {
-        return read_heights(choice.picture);
+        return read_heights(choice, choice.picture);
     }
     if (choice.input == MapInput::normals) {
         return integrated(choice, stop);
@@ -140,8 +181,17 @@ Result<Grid<float>> heights_of(const MapChoice& choice, const std::stop_token& s
     if (!picture) {
         return picture.error();
     }
-    return terrain::heights_from_colors(
-        *picture, {.octaves = choice.octaves, .dark_is_high = choice.dark_is_high});
+    const auto channels = io::read_channels(choice.picture);
+    if (!channels) {
+        return channels.error();
+    }
+    if (auto finite = io::check_finite(*channels, 3, choice.picture, "a colour"); !finite) {
+        return finite.error();
+    }
+    return terrain::heights_from_colors(*picture,
+                                        {.octaves = choice.octaves,
+                                         .dark_is_high = choice.dark_is_high,
+                                         .wraps = choice.border == terrain::TileBorder::wrap});
 }
 
 io::Channels height_channels(const Grid<float>& heights) {
@@ -150,17 +200,18 @@ io::Channels height_channels(const Grid<float>& heights) {
     return channels;
 }
 
-// Normals as (n + 1) / 2, y along the rows; and the heights.
+// Normals as (n + 1) / 2, y along the rows or against them; and the heights.
 io::Channels normal_channels(const MapChoice& choice, const Grid<float>& heights, bool combined) {
     terrain::NormalOptions options;
     options.spacing = texel_spacing(choice, heights.cols(), heights.rows());
-    options.border = map_border(choice);
+    options.border = choice.border;
     options.filter = choice.sobel ? terrain::NormalFilter::sobel : terrain::NormalFilter::bilinear;
     const Grid<glm::vec3> normals = terrain::normals_from_heights(heights.view(), options);
     io::Channels channels = io::make_channels(heights.cols(), heights.rows(), combined ? 4 : 3);
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 0; col < heights.cols(); ++col) {
-            const glm::vec3 normal = normals(col, row) * glm::vec3(1.0F, -1.0F, 1.0F);
+            const glm::vec3 normal =
+                normals(col, row) * glm::vec3(1.0F, choice.green_up ? 1.0F : -1.0F, 1.0F);
             for (int i = 0; i < 3; ++i) {
                 channels.at(col, row, i) = 0.5F + 0.5F * normal[i];
             }
@@ -197,15 +248,19 @@ Result<io::Channels> made_cones(const MapChoice& choice, const Grid<float>& heig
     if (!cones) {
         return Error{"interrupted"};
     }
-    const auto tile = terrain::tile_cones(*cones, heights.cols(), heights.rows(), choice.border);
-    return cone_channels(tile, output.file);
+    const Grid<float> at_samples = terrain::cones_at_samples(*cones);
+    return cone_channels(
+        choice.border == terrain::TileBorder::wrap
+            ? terrain::tile_cones(at_samples, heights.cols(), heights.rows(), choice.border)
+            : at_samples,
+        output.file);
 }
 
 // Depths of the layers of a sheet.
 Result<io::Channels> layer_channels(const MapChoice& choice, const Grid<float>& heights) {
     terrain::LayerMap layers = terrain::symmetric_layers(heights.view());
     if (!choice.back.empty()) {
-        const auto back = read_heights(choice.back);
+        const auto back = read_heights(choice, choice.back);
         if (!back) {
             return back.error();
         }
@@ -251,22 +306,10 @@ Result<void> check_targets(const MapChoice& choice) {
         }
     }
     const std::array<NamedFile, 2> inputs{{{"PICTURE", choice.picture}, {"--back", choice.back}}};
-    if (auto apart = check_apart(files, inputs); !apart) {
-        return apart;
-    }
+    expect_apart(files, inputs);
     for (const NamedFile& file : files) {
         if (auto good = io::check_map_target(file.path); !good) {
             return good;
-        }
-    }
-    return {};
-}
-
-// All of them or none.
-Result<void> put_files(std::vector<AtomicFile> files) {
-    for (AtomicFile& file : files) {
-        if (auto done = file.commit(); !done) {
-            return done;
         }
     }
     return {};
@@ -300,21 +343,53 @@ Result<void> make_maps(const MapChoice& choice, const Interrupt& interrupt) {
         }
         files.push_back(std::move(*file));
     }
-    return interrupt.requested() ? Error{"interrupted"} : put_files(std::move(files));
+    return interrupt.requested() ? Error{"interrupted"} : commit_all(files);
 }
 
 void add_map_outputs(CLI::App& arguments, MapChoice& choice) {
     constexpr std::array meanings{
         "heights, lowest black and highest white where they are made",
-        "normals of the heights: r, g, b for x, y along the rows, z",
+        "normals of the heights: r, g, b for x, y as --green says, z",
         "normals and, as alpha, heights",
-        "cones that hold nothing of the surface (Dummer 2006): .exr holds texels a height of 1, "
-        "others the root of their share of 1024",
+        "cones over each texel that hold nothing of the surface, also between texels (Dummer "
+        "2006): .exr holds texels a height of 1, others the root of their share of 1024",
         "cones that a ray may meet the surface in once, likewise (GPU Gems 3 ch. 18)",
         "depths of the layers of a sheet, its back from --back or as its front"};
     for (std::size_t i = 0; i < choice.outputs.size(); ++i) {
         arguments.add_option(choice.outputs[i].option, choice.outputs[i].file, meanings[i])
             ->type_name("FILE");
+    }
+}
+
+bool asks_for(const MapChoice& choice, std::initializer_list<MapKind> kinds) {
+    return std::any_of(choice.outputs.begin(), choice.outputs.end(), [&](const MapOutput& output) {
+        return !output.file.empty() &&
+               std::find(kinds.begin(), kinds.end(), output.kind) != kinds.end();
+    });
+}
+
+// What has nothing to do there is a mistake (CLI::ParseError).
+void expect_used(const CLI::App& arguments, const MapChoice& choice) {
+    const bool makes_normals = asks_for(choice, {MapKind::normals, MapKind::combined});
+    const bool has_normals = makes_normals || choice.input == MapInput::normals;
+    const bool makes_cones = asks_for(choice, {MapKind::cones, MapKind::relaxed_cones});
+    const bool has_border = has_normals || makes_cones || choice.input == MapInput::colors;
+    struct Use {
+        const char* option;
+        bool has_use;
+        const char* expected;
+    };
+    for (const Use& use : {Use{"--back", asks_for(choice, {MapKind::layers}), "--layers"},
+                           Use{"--octaves", choice.input == MapInput::colors, "--from colors"},
+                           Use{"--dark-is-high", choice.input == MapInput::colors, "--from colors"},
+                           Use{"--sobel", makes_normals, "--normals or --combined"},
+                           Use{"--green", has_normals, "normals, read or made,"},
+                           Use{"--scale", has_normals, "normals, read or made,"},
+                           Use{"--border", has_border, "normals, cones or --from colors"}}) {
+        if (arguments.count(use.option) > 0 && !use.has_use) {
+            throw CLI::ValidationError(fmt::format(
+                "{}: found without a use, beside it {} was expected", use.option, use.expected));
+        }
     }
 }
 
@@ -336,6 +411,10 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
     add_parsed(arguments, "--octaves", choice.octaves, whole_number_in("--octaves", 1, 12),
                "from colors: what is coarser than so many doublings is no relief (5)", "N");
     arguments.add_flag("--dark-is-high", choice.dark_is_high, "from colors: the darker the higher");
+    add_parsed(arguments, "--green", choice.green_up,
+               word_of<bool>("--green", {{"down", false}, {"up", true}}),
+               "of normals read and written: down, along the rows, or up, against them (down)",
+               "WAY");
     arguments.add_flag("--sobel", choice.sobel,
                        "normals by Sobel's filter instead of the bilinear surface's slopes");
     add_parsed(arguments, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
@@ -350,12 +429,13 @@ Command add_maps_command(CLI::App& program, Interrupt& interrupt) {
     auto choice = std::make_shared<MapChoice>();
     add_map_options(*arguments, *choice);
     add_map_outputs(*arguments, *choice);
-    arguments->callback([choice] {
+    arguments->callback([arguments, choice] {
         if (std::none_of(choice->outputs.begin(), choice->outputs.end(),
                          [](const MapOutput& output) { return !output.file.empty(); })) {
             throw CLI::ValidationError("maps: no output found, --heights, --normals, --combined, "
                                        "--cones, --relaxed-cones or --layers was expected");
         }
+        expect_used(*arguments, *choice);
     });
     arguments->footer(
         "Maps are .png or .tif of 16 bits a channel or .exr of floats; all appear or none does. "

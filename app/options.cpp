@@ -12,6 +12,7 @@
 #include "app/parsed_option.h"
 #include "engine/core/geometry.h"
 #include "engine/render/error_view.h"
+#include "engine/scene/terrain_node.h"
 
 namespace reljef::app {
 namespace {
@@ -105,9 +106,19 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         "of the picture, pixels (1024x768)", "WxH");
     add_parsed(
         command, "--technique", choice.technique,
-        [](const std::string& text) { return scene::parse_technique(text); },
-        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: as suits "
-        "each model)",
+        [&choice](const std::string& text) -> Result<std::optional<scene::Technique>> {
+            choice.mixed = text == "mixed";
+            if (choice.mixed) {
+                return std::optional<scene::Technique>();
+            }
+            auto technique = scene::parse_technique(text);
+            if (!technique) {
+                return technique.error();
+            }
+            return std::optional(std::move(*technique));
+        },
+        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: mixed, as "
+        "suits each model)",
         "ID[:key=value,...]");
     add_parsed(command, "--max-error", choice.max_error,
                number_in("--max-error", render::least_error, render::most_error),
@@ -222,9 +233,11 @@ template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::s
 
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command
-        .add_option("TERRAIN", choice.terrain,
-                    "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
-                    "reads, a folder of them, or the https:// address of one")
+        .add_option(
+            "TERRAIN", choice.terrain,
+            "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
+            "reads, a folder of them, the https:// address of one, or tiles z/x/y.png of "
+            "heights in colours: terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
         ->required();
     command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
         ->type_name("FILE");
@@ -283,6 +296,13 @@ void check_view_options(const ViewChoice& choice) {
         throw CLI::ValidationError(
             fmt::format("--max-error: technique {} found, polygons was expected",
                         scene::technique_info(choice.technique->id).name));
+    }
+    const scene::Technique plain = scene::make_technique(scene::TechniqueId::polygons);
+    if (choice.max_error && choice.technique && choice.technique->values != plain.values) {
+        throw CLI::ValidationError(
+            fmt::format("--max-error: --technique {} found beside it, which says how coarse "
+                        "triangles may be too; one of them was expected",
+                        scene::to_string(*choice.technique)));
     }
     if (choice.pose == scene::Pose::map && !choice.path.empty()) {
         throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "

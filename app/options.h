@@ -56,7 +56,9 @@ struct ViewChoice {
     std::optional<platform::ContextKind> context; ///< absent: auto
     glm::ivec2 size{1024, 768};
     std::optional<scene::Technique>
-        technique;                   ///< absent: polygons; the gallery's own on its models
+        technique;      ///< absent: polygons; the gallery's own on its models
+    bool mixed = false; ///< the technique of each of the gallery's models is its own, whatever the
+                        ///< scene file says
     std::optional<double> max_error; ///< pixels, of polygons; absent: as the technique says
     bool wireframe = false;
     double vertical_fov = 57.3;

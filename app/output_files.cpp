@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace reljef::app {
@@ -35,25 +36,23 @@ bool would_replace(const fs::path& output, const fs::path& input) {
 
 } // namespace
 
-Result<void> check_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
+void expect_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (const NamedFile& input : inputs) {
             if (would_replace(outputs[i].path, input.path)) {
-                return Error{fmt::format("{}: {} found, which is read as {}; another file was "
-                                         "expected",
-                                         outputs[i].option, outputs[i].path.string(),
-                                         input.option)};
+                throw CLI::ValidationError(
+                    fmt::format("{}: {} found, which is read as {}; another file was expected",
+                                outputs[i].option, outputs[i].path.string(), input.option));
             }
         }
         for (const NamedFile& other : outputs.subspan(i + 1)) {
             if (is_same_file(outputs[i].path, other.path)) {
-                return Error{fmt::format("{}: {} found, which {} writes too; another file was "
-                                         "expected",
-                                         other.option, other.path.string(), outputs[i].option)};
+                throw CLI::ValidationError(
+                    fmt::format("{}: {} found, which {} writes too; another file was expected",
+                                other.option, other.path.string(), outputs[i].option));
             }
         }
     }
-    return {};
 }
 
 } // namespace reljef::app

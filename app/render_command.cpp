@@ -13,7 +13,6 @@
 #include "app/scene_setup.h"
 #include "app/streaming.h"
 #include "engine/io/image.h"
-#include "engine/scene/animators.h"
 
 namespace reljef::app {
 namespace {
@@ -48,12 +47,6 @@ Result<std::unique_ptr<FrameMaker>> make_frame_maker(const RenderChoice& choice)
     auto device = Device::create(options);
     return device ? Result<Maker>(Maker(new DeviceFrames(std::move(*device), choice.stats)))
                   : device.error();
-}
-
-void move_camera(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
-    const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
-    auto& camera = *scene.camera->get<scene::Camera>();
-    camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
 }
 
 // The pictures on a contact sheet: as many of the frames as fit, evenly spread.
@@ -104,7 +97,7 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameM
     ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (path) {
-            move_camera(scene, *path, index, frames);
+            fly_to(scene, *path, index, frames);
         }
         auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
                                       line.update((index + part) / frames);
@@ -223,7 +216,7 @@ Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, Frame
         return path.error();
     }
     if (*path) {
-        move_camera(scene, **path, 0, 1);
+        fly_to(scene, **path, 0, 1);
     }
     if (!choice.hits.empty()) {
         if (auto written = write_hit_file(choice, scene, maker, interrupt); !written) {
@@ -249,9 +242,7 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
         return source.error();
     }
     const auto inputs = inputs_of(choice, source->description);
-    if (auto apart = check_apart(outputs_of(choice, inputs), inputs); !apart) {
-        return apart;
-    }
+    expect_apart(outputs_of(choice, inputs), inputs);
     if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
                                        interrupt.token());
         !ready) {
@@ -311,9 +302,15 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         ->type_name("N")
         ->check(CLI::Range(1, 16))
         ->needs(truth);
-    arguments->add_flag("--stats", choice->stats, "print what the last frame took and skipped");
+    arguments->add_flag(
+        "--stats", choice->stats,
+        "print what the last frame took and skipped, and all frames' times and memory");
     arguments->callback([choice] {
         check_view_options(choice->view);
+        if (choice->truth && choice->view.max_error) {
+            throw CLI::ValidationError("--max-error: found beside --truth, which has no error; one "
+                                       "of them was expected");
+        }
         expect_outputs(*choice);
     });
     arguments->footer(

@@ -14,6 +14,7 @@
 #include "engine/io/bisection_cache.h"
 #include "engine/io/cone_cache.h"
 #include "engine/io/flight_file.h"
+#include "engine/scene/animators.h"
 
 namespace reljef::app {
 namespace {
@@ -171,6 +172,10 @@ void set_projection(scene::Camera& camera, const Box& bounds, const ViewChoice& 
 
 // How the terrain is drawn.
 Result<void> choose_look(TerrainScene& scene, const ViewChoice& view) {
+    if (view.mixed) {
+        return Error{"--technique: mixed found, the gallery was expected: a terrain is drawn with "
+                     "one technique"};
+    }
     const scene::Technique technique = technique_of(view);
     if (auto good = scene.check(technique); !good) {
         return good;
@@ -311,6 +316,12 @@ Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const
         return path.error();
     }
     return Path(std::move(*path));
+}
+
+void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
+    const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
+    auto& camera = *scene.camera->get<scene::Camera>();
+    camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
 }
 
 } // namespace reljef::app

@@ -42,4 +42,7 @@ Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain
 /// The path that --path names; nothing without one.
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view);
 
+/// Puts the camera where frame `index` of so many evenly spread along a path sees from.
+void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
+
 } // namespace reljef::app

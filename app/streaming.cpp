@@ -2,6 +2,10 @@
 
 #include <functional>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <fmt/format.h>
 
 #include "app/message.h"
@@ -22,8 +26,18 @@ void for_each_stream(const scene::Scene& scene, const Visit& visit) {
     });
 }
 
+// glibc takes freed blocks for the size that is worth a mapping of its own, and so keeps more and
+// more of what tiles leave behind: a flight would take half as much again as its tiles.
+void return_freed_blocks() {
+#ifdef __GLIBC__
+    constexpr int mapped_from = 1 << 16; // bytes: less than the arrays of a tile
+    ::mallopt(M_MMAP_THRESHOLD, mapped_from);
+#endif
+}
+
 scene::TileReading reading_of(const io::TileWindow& window) {
     scene::TileReading reading;
+    reading.bytes_read = window.bytes_read;
     reading.heights = Grid<float>(window.heights.cols(), window.heights.rows());
     for (std::size_t i = 0; i < window.heights.size(); ++i) {
         reading.heights.samples()[i] = static_cast<float>(window.heights.samples()[i]);
@@ -41,6 +55,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     if (!source.stream || !source.tiles) {
         return nullptr;
     }
+    return_freed_blocks();
     const io::TileGrid grid = source.stream->plan.grid;
     const terrain::TileTree tree(grid.cols, grid.rows);
     const auto read = [tiles = *source.tiles, grid, tree,
@@ -119,11 +134,12 @@ std::string stream_stats(const scene::Scene& scene) {
     std::string text;
     for_each_stream(scene, [&](scene::TileStream& stream) {
         const scene::TileStreamStats stats = stream.stats();
-        text += fmt::format("streamed: {} tiles read, {} failed, {} cancelled, {} evicted; {} kept "
-                            "({:.1f} MB, at most {:.1f} MB)\n",
-                            stats.read, stats.failed, stats.cancelled, stats.evicted, stats.tiles,
-                            static_cast<double>(stats.bytes) * 1e-6,
-                            static_cast<double>(stats.most_bytes) * 1e-6);
+        text += fmt::format(
+            "streamed: {} tiles read ({:.1f} MB of files), {} failed, {} cancelled, "
+            "{} evicted; {} kept ({:.1f} MB, at most {:.1f} MB)\n",
+            stats.read, static_cast<double>(stats.bytes_read) * 1e-6, stats.failed, stats.cancelled,
+            stats.evicted, stats.tiles, static_cast<double>(stats.bytes) * 1e-6,
+            static_cast<double>(stats.most_bytes) * 1e-6);
     });
     return text;
 }

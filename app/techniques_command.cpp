@@ -16,9 +16,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const scene::ParameterInfo& parameter) {
-    return {{"name", parameter.name},   {"default", parameter.default_value},
-            {"low", parameter.low},     {"high", parameter.high},
-            {"whole", parameter.whole}, {"meaning", parameter.meaning}};
+    Json json{{"name", parameter.name},   {"default", parameter.default_value},
+              {"low", parameter.low},     {"high", parameter.high},
+              {"whole", parameter.whole}, {"meaning", parameter.meaning}};
+    if (parameter.least > parameter.low) {
+        json["least"] = parameter.least;
+    }
+    return json;
 }
 
 Json to_json(const scene::OptionInfo& option) {

@@ -11,6 +11,7 @@
 #include "engine/io/cone_cache.h"
 #include "engine/io/geoid_file.h"
 #include "engine/io/raster.h"
+#include "engine/io/tile_pyramid.h"
 #include "engine/io/tree_tile.h"
 #include "terrains/built_in.h"
 #include "terrains/gallery.h"
@@ -114,15 +115,20 @@ io::TileTerrainOptions tile_options(const TerrainChoice& choice,
     io::TileTerrainOptions options;
     options.raster = raster_options(choice, description, stop);
     options.area = choice.area ? choice.area : description.area;
+    if (!options.area && io::is_tile_pyramid(description.heights)) {
+        options.area = io::tile_pyramid_area(description.heights);
+    }
     options.gaps =
         choice.gaps.value_or(description.gaps == "sea" ? io::Gaps::sea : io::Gaps::holes);
     options.threads = static_cast<unsigned>(choice.threads);
     return options;
 }
 
-// Shares of the memory where not all of a terrain fits: its overview, GDAL's blocks, and the tiles.
+// Shares of the memory where not all of a terrain fits: an eighth each for its overview, for GDAL's
+// blocks, and for what is being read or uploaded; the rest is for tiles.
 constexpr std::size_t overview_part = 8;
 constexpr std::size_t blocks_part = 8;
+constexpr std::size_t work_part = 8;
 
 // Files halve their samples again and again for their own overviews: of the next such reduction
 // there is least to be read before the first picture.
@@ -154,7 +160,8 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
     }
     io::limit_block_cache(budget / blocks_part);
     return StreamSource{*overview, options.gaps,
-                        budget - budget / overview_part - budget / blocks_part, options.threads};
+                        budget - budget / overview_part - budget / blocks_part - budget / work_part,
+                        options.threads};
 }
 
 Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
@@ -213,7 +220,7 @@ Result<void> refuse_folder_options(const TerrainChoice& choice,
 
 Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescription description,
                                   const std::stop_token& stop) {
-    if (is_folder(description.heights)) {
+    if (is_folder(description.heights) || io::is_tile_pyramid(description.heights)) {
         auto tiles = open_set(choice, description, stop);
         if (!tiles) {
             return tiles.error();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/streaming.h"
+#include "engine/geo/place.h"
 #include "engine/scene/animators.h"
 #include "engine/scene/poses.h"
 #include "engine/terrain/heightfield.h"
@@ -24,6 +25,21 @@ constexpr double highest_clearance = 2.0;
 constexpr double first_step = 1.0 / 60.0;
 // Of a path, seconds.
 constexpr double least_duration = 1e-9;
+
+// Metres on the way ahead over which a heading is told: the compass's own points are farther apart.
+constexpr double heading_length = 100.0;
+
+/// Degrees clockwise from true north, [0, 360), of what is up in the picture where that is farther
+/// along than what is straight ahead. Precondition: the placement is on the Earth.
+double heading_at(const terrain::Placement& placement, const scene::Camera& camera) {
+    const scene::ViewAxes axes = scene::view_axes(camera);
+    const glm::dvec3 up = placement.up(camera.eye);
+    const bool steep = std::abs(glm::dot(axes.forward, up)) > std::abs(glm::dot(axes.up, up));
+    const glm::dvec3 ahead = camera.eye + heading_length * (steep ? axes.up : axes.forward);
+    const geo::Geodesic way = geo::geodesic_between(*placement.geodetic_from_world(camera.eye),
+                                                    *placement.geodetic_from_world(ahead));
+    return std::fmod(std::round(way.azimuth_start) + 360.0, 360.0);
+}
 
 double width_of(const TerrainScene& scene) {
     return std::max(scene.bounds.size().x, scene.bounds.size().y);
@@ -369,7 +385,9 @@ std::string Viewer::place() const {
         text = "beside the terrain";
     }
     if (const auto place = surface.placement().geodetic_from_world(eye)) {
-        text += fmt::format(" - {:.5f}, {:.5f}", place->latitude, place->longitude);
+        text += fmt::format(" - {} above sea - {:.5f}, {:.5f} - {} - heading {:.0f}\u00b0",
+                            length_text(place->height), place->latitude, place->longitude,
+                            geo::mgrs_text(*place), heading_at(surface.placement(), camera()));
     }
     return text + fmt::format(" - speed {}/s", length_text(flight_.speed()));
 }

@@ -1,5 +1,6 @@
 #include "app/program.h"
 #include "bench/compare_command.h"
+#include "bench/flight_command.h"
 #include "bench/lod_command.h"
 #include "bench/pareto_command.h"
 #include "bench/peers_command.h"
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
                    "  reljef-bench compare before.json after.json\n"
                    "'reljef-bench SUITE --help' says more.",
          .commands = {bench::add_tables_command, bench::add_pareto_command, bench::add_lod_command,
-                      bench::add_peers_command, bench::add_compare_command}},
+                      bench::add_peers_command, bench::add_flight_command,
+                      bench::add_compare_command}},
         argc, argv);
 }

@@ -70,15 +70,6 @@ Result<std::vector<AtomicFile>> prepare_outputs(const Results& results,
     return files;
 }
 
-Result<void> commit_all(std::vector<AtomicFile>& files) {
-    for (AtomicFile& file : files) {
-        if (auto committed = file.commit(); !committed) {
-            return committed;
-        }
-    }
-    return {};
-}
-
 // All are written before the first takes its place.
 Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
     auto files = prepare_outputs(results, choice);
@@ -89,8 +80,10 @@ Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
     if (!page) {
         return page.error();
     }
+    files->push_back(std::move(page->file));
     auto committed = commit_all(*files);
-    return committed ? page->file.commit() : committed;
+    files->clear(); // before the page's folder
+    return committed;
 }
 
 } // namespace
@@ -108,9 +101,7 @@ void add_output_options(CLI::App& command, OutputChoice& choice) {
 
 Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs) {
     const std::vector<app::NamedFile> outputs = outputs_of(choice);
-    if (auto apart = app::check_apart(with_page(outputs, choice.html), inputs); !apart) {
-        return apart;
-    }
+    app::expect_apart(with_page(outputs, choice.html), inputs);
     for (const app::NamedFile& output : outputs) {
         if (const auto writable = AtomicFile::create(output.path); !writable) {
             return writable.error();

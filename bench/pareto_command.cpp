@@ -19,7 +19,7 @@ struct ParetoChoice {
 };
 
 void add_pareto_options(CLI::App& command, ParetoChoice& choice) {
-    add_terrains_option(command, choice.options.terrains, "natural and urban");
+    add_terrains_option(command, choice.options.terrains, "gallery, natural and urban", true);
     add_techniques_option(command, choice.options.techniques, "all, over their parameters' ranges");
     add_suite_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
@@ -45,7 +45,10 @@ app::Command add_pareto_command(CLI::App& program, app::Interrupt& interrupt) {
     auto choice = std::make_shared<ParetoChoice>();
     add_pareto_options(*arguments, *choice);
     arguments->footer(
-        "Each terrain is seen from the poses overview, oblique, low and grazing.\n"
+        "Each terrain is seen from the poses overview, oblique, low and grazing; the gallery's "
+        "tiles,\n"
+        "copies of one over a square, from oblique: there stand the techniques and options of "
+        "meshes.\n"
         "The area is that below the front, time and error on logarithmic axes: 0 the best, 1 the "
         "worst.\n"
         "With --quick pictures are 320x240 unless --size says otherwise, natural and urban have "

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
+#include <fmt/format.h>
+
+#include "bench/gallery_tiles.h"
 #include "bench/pareto_front.h"
 #include "bench/suite.h"
 
@@ -12,6 +16,8 @@ namespace {
 
 constexpr std::array poses{scene::Pose::overview, scene::Pose::oblique, scene::Pose::low,
                            scene::Pose::grazing};
+
+constexpr scene::Pose tile_pose = scene::Pose::oblique; // that of the sources' figures
 
 constexpr int most_view_cols = 512; // there are hundreds of rows
 
@@ -47,8 +53,7 @@ int cost_rank(const scene::TechniqueInfo& info) {
     return is_full ? triangles : found == ranks.end() ? searches : found->second;
 }
 
-std::vector<scene::TechniqueInfo> catalogue_by_cost() {
-    std::vector<scene::TechniqueInfo> infos = scene::terrain_techniques();
+std::vector<scene::TechniqueInfo> by_cost(std::vector<scene::TechniqueInfo> infos) {
     std::stable_sort(infos.begin(), infos.end(),
                      [](const scene::TechniqueInfo& a, const scene::TechniqueInfo& b) {
                          return cost_rank(a) < cost_rank(b);
@@ -85,11 +90,23 @@ std::vector<scene::Technique> settings_of_ring(const scene::TechniqueInfo& info,
     return settings;
 }
 
-std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& chosen) {
+// The cheap kinds first; the options of what is measured nowhere else.
+std::vector<scene::Technique> usual_settings(const StageChoice& stage) {
+    const std::vector<scene::TechniqueInfo> infos = techniques_of(stage);
+    std::vector<scene::Technique> settings = settings_over_range(infos);
+    if (suits(scene::TechniqueId::relief, stage) && !stage.tile.empty()) {
+        const auto options = settings_of_options();
+        settings.insert(settings.begin() + static_cast<std::ptrdiff_t>(infos.size()),
+                        options.begin(), options.end());
+    }
+    return settings;
+}
+
+std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& settings) {
     const std::string texture =
         scene::to_string(scene::make_technique(scene::TechniqueId::texture));
     std::vector<Candidate> candidates{candidate_named(texture)};
-    for (const scene::Technique& technique : chosen.empty() ? settings_over_range() : chosen) {
+    for (const scene::Technique& technique : settings) {
         if (scene::to_string(technique) != texture) {
             candidates.push_back(candidate_of(technique));
         }
@@ -98,25 +115,32 @@ std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& ch
 }
 
 std::vector<StageChoice> pareto_stages(const ParetoOptions& options) {
-    if (options.terrains.empty()) {
-        const int samples = options.suite.quick ? quick_samples : 0;
-        return {{"natural", samples}, {"urban", samples}};
-    }
+    const std::vector<std::string> built_in{"gallery", "natural", "urban"};
+    const bool by_itself = options.terrains.empty();
     std::vector<StageChoice> stages;
-    for (const std::string& terrain : options.terrains) {
-        stages.push_back({terrain});
+    for (const std::string& terrain : by_itself ? built_in : options.terrains) {
+        if (terrain == "gallery") {
+            const auto tiles = gallery_stages();
+            stages.insert(stages.end(), tiles.begin(), tiles.end());
+        } else {
+            stages.push_back({terrain, by_itself && options.suite.quick ? quick_samples : 0});
+        }
     }
     return stages;
 }
 
-std::vector<Group> pareto_groups(const ParetoOptions& options) {
-    std::vector<Group> groups;
-    for (const StageChoice& stage : pareto_stages(options)) {
-        for (const scene::Pose pose : poses) {
-            groups.push_back({"", stage, pose, pareto_candidates(options.techniques)});
-        }
+// Of those that were chosen; empty: all that suit it. A terrain that was named is to be drawn as
+// it was asked for, or the run says why not.
+std::vector<scene::Technique> settings_on(const StageChoice& stage, const ParetoOptions& options) {
+    if (options.techniques.empty()) {
+        return usual_settings(stage);
     }
-    return groups;
+    const bool takes_any = stage.tile.empty() && !options.terrains.empty();
+    std::vector<scene::Technique> settings;
+    std::copy_if(
+        options.techniques.begin(), options.techniques.end(), std::back_inserter(settings),
+        [&](const scene::Technique& setting) { return takes_any || suits(setting.id, stage); });
+    return settings;
 }
 
 bool lacks_a_technique(const Front& front, const std::vector<LeftOut>& left_out) {
@@ -137,8 +161,9 @@ std::vector<double> values_over_range(const scene::ParameterInfo& parameter) {
     return values;
 }
 
-std::vector<scene::Technique> settings_over_range() {
-    const std::vector<scene::TechniqueInfo> catalogue = catalogue_by_cost();
+std::vector<scene::Technique>
+settings_over_range(const std::vector<scene::TechniqueInfo>& techniques) {
+    const std::vector<scene::TechniqueInfo> catalogue = by_cost(techniques);
     std::vector<scene::Technique> all;
     std::transform(catalogue.begin(), catalogue.end(), std::back_inserter(all),
                    [](const scene::TechniqueInfo& info) { return scene::make_technique(info.id); });
@@ -149,6 +174,28 @@ std::vector<scene::Technique> settings_over_range() {
         }
     }
     return all;
+}
+
+std::vector<scene::Technique> settings_of_options() {
+    std::vector<scene::Technique> settings;
+    for (const char* const option : {"steps=8..32", "fade=0..1", "shadow=hard", "shadow=soft",
+                                     "edges=smooth", "sides=two", "border=wrap", "depth=write"}) {
+        settings.push_back(scene::parse_technique(fmt::format("relief:{}", option)).value());
+    }
+    return settings;
+}
+
+std::vector<Group> pareto_groups(const ParetoOptions& options) {
+    std::vector<Group> groups;
+    for (const StageChoice& stage : pareto_stages(options)) {
+        const auto settings = settings_on(stage, options);
+        for (const scene::Pose pose : poses) {
+            if (!settings.empty() && (stage.tile.empty() || pose == tile_pose)) {
+                groups.push_back({"", stage, pose, pareto_candidates(settings)});
+            }
+        }
+    }
+    return groups;
 }
 
 Results run_pareto(const ParetoOptions& options, const std::stop_token& stop) {

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "app/device.h"
 #include "app/progress_line.h"
 #include "bench/chance_views.h"
 #include "bench/stage.h"
+#include "bench/suite_device.h"
 #include "engine/scene/animators.h"
 #include "engine/scene/fly_path.h"
 #include "engine/truth/geometric_error.h"
@@ -129,17 +129,6 @@ void add_frame(PromiseRow& row, const FrameJudgement& frame, const scene::Camera
     }
 }
 
-Result<app::Device> open_device(const SuiteOptions& options) {
-    app::DeviceOptions device;
-    device.threads = options.threads;
-    device.context = options.context;
-    device.context_options.size = options.size;
-    device.context_options.visible = false;
-    device.driver.size = options.size;
-    device.driver.shader_dir = options.shader_dir;
-    return app::Device::create(device);
-}
-
 class PromiseRun {
 public:
     PromiseRun(const PromiseOptions& options, std::stop_token stop)
@@ -149,7 +138,7 @@ public:
     }
 
     Result<void> run() {
-        auto device = open_device(options_.suite);
+        auto device = make_device(options_.suite);
         if (!device) {
             return device.error();
         }

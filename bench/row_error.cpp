@@ -33,14 +33,6 @@ bool has_terrain(const HitBuffer& hits) {
     return std::any_of(pixels.begin(), pixels.end(), truth::shows_terrain);
 }
 
-Result<truth::GeometricErrors> geometric_errors_of(const Stage& stage, const HitBuffer& shown,
-                                                   const HitBuffer& truth, unsigned threads) {
-    const scene::TerrainSurface& surface = *stage.terrain().get<scene::TerrainNode>()->surface;
-    const truth::SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
-                                  stage.terrain().world_from_local(), stage.scene().camera()};
-    return truth::geometric_errors(view, shown, truth, threads);
-}
-
 std::optional<RowError::Geometric> geometric_of(const truth::PixelErrors& errors) {
     if (!errors.distribution) {
         return std::nullopt;
@@ -77,7 +69,7 @@ Result<Judgement> judge(Stage& stage, const scene::Technique& technique, render:
                                  "expected",
                                  stage.name(), scene::to_string(truth->get().pose))};
     }
-    auto geometric = geometric_errors_of(stage, shown->hits, truth->get().hits, options.threads);
+    auto geometric = stage.errors(shown->hits, truth->get().hits, options.threads);
     if (!geometric) {
         return geometric.error();
     }

@@ -1,8 +1,12 @@
 #include "bench/stage.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
+
+#include "bench/gallery_tiles.h"
+#include "engine/io/scene_file.h"
 
 namespace reljef::bench {
 namespace {
@@ -21,10 +25,58 @@ Result<app::TerrainSource> open_source(const StageChoice& choice, const app::Ter
     return app::open_terrain(std::move(description), terrain, stop);
 }
 
+bool shows_gallery(const std::string& terrain) {
+    if (std::filesystem::path(terrain).extension() != ".toml") {
+        return terrain == "gallery";
+    }
+    const auto scene = io::read_scene_file(terrain);
+    return scene && scene->generator == "gallery"; // else opening it will tell
+}
+
+constexpr int tile_rays_per_side = 2; // of its true picture: texels are as small as pixels
+
+scene::Material material_of(const truth::TileSquare& square) {
+    scene::Material material;
+    material.detail = {.set = square.set,
+                       .repeats = glm::vec2(static_cast<float>(square.repeats)),
+                       .scale = static_cast<float>(square.scale),
+                       .offset = static_cast<float>(square.offset)};
+    return material;
+}
+
 } // namespace
+
+Result<Stage> Stage::open_tile(const StageChoice& choice, const StageOptions& options) {
+    const auto square = tile_square(choice.tile, static_cast<unsigned>(options.threads));
+    if (!square) {
+        return square.error();
+    }
+    auto tile = truth::TilePlane::create(*square);
+    if (!tile) {
+        return tile.error();
+    }
+    app::TerrainScene scene;
+    scene::Mesh mesh = scene::plane_mesh(glm::vec2(static_cast<float>(square->side)));
+    scene.bounds = scene::bounds_of(mesh);
+    scene.models = {&scene.scene.add_mesh(std::move(mesh), material_of(*square))};
+    scene.light = &scene.scene.add_light(square->light);
+    scene.camera = &scene.scene.add_camera({});
+    Stage stage("tile " + choice.tile, std::move(scene), options);
+    stage.tile_ = std::move(*tile);
+    return stage;
+}
 
 Result<Stage> Stage::open(const StageChoice& choice, const StageOptions& options,
                           const std::stop_token& stop) {
+    if (!choice.tile.empty()) {
+        return open_tile(choice, options);
+    }
+    if (shows_gallery(choice.terrain)) {
+        return Error{fmt::format("{}: the gallery found, a terrain was expected: the truth of its "
+                                 "models is not known; tables and pareto measure its tiles, "
+                                 "--terrain gallery",
+                                 choice.terrain)};
+    }
     app::TerrainChoice terrain;
     terrain.terrain = choice.terrain;
     terrain.threads = options.threads;
@@ -59,12 +111,15 @@ void Stage::set_camera(const scene::Camera& camera) {
 }
 
 void Stage::set_technique(const scene::Technique& technique) {
-    scene_.terrain->get<scene::TerrainNode>()->material.technique = technique;
+    for (scene::Material* const material : scene_.materials()) {
+        material->technique = technique;
+    }
 }
 
-Result<std::reference_wrapper<const TruePicture>> Stage::truth(const std::stop_token& stop) {
-    if (truth_ && truth_->pose == pose_) {
-        return std::cref(*truth_);
+Result<truth::Picture> Stage::true_picture(const ParallelOptions& parallel) {
+    if (tile_) {
+        return tile_->draw(scene().camera(), options_.size,
+                           {.rays_per_side = tile_rays_per_side, .parallel = parallel});
     }
     if (!caster_) {
         auto caster = truth::SceneCaster::create(scene());
@@ -74,15 +129,32 @@ Result<std::reference_wrapper<const TruePicture>> Stage::truth(const std::stop_t
         caster_ = std::move(*caster);
         shading_.emplace(scene(), *caster_);
     }
-    const ParallelOptions parallel{static_cast<unsigned>(options_.threads), stop, {}};
-    auto picture =
-        truth::draw(*caster_, *shading_, scene().camera(), options_.size, {.parallel = parallel});
+    return truth::draw(*caster_, *shading_, scene().camera(), options_.size,
+                       {.parallel = parallel});
+}
+
+Result<std::reference_wrapper<const TruePicture>> Stage::truth(const std::stop_token& stop) {
+    if (truth_ && truth_->pose == pose_) {
+        return std::cref(*truth_);
+    }
+    auto picture = true_picture({static_cast<unsigned>(options_.threads), stop, {}});
     if (!picture) {
         return picture.error();
     }
     truth_ = TruePicture{pose_, std::move(picture->hits),
                          std::make_shared<const Image>(std::move(picture->image))};
     return std::cref(*truth_);
+}
+
+Result<truth::GeometricErrors> Stage::errors(const HitBuffer& shown, const HitBuffer& truth,
+                                             unsigned threads) const {
+    if (tile_) {
+        return tile_->errors(scene().camera(), shown, truth, threads);
+    }
+    const scene::TerrainSurface& surface = *terrain().get<scene::TerrainNode>()->surface;
+    const truth::SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
+                                  terrain().world_from_local(), scene().camera()};
+    return truth::geometric_errors(view, shown, truth, threads);
 }
 
 Result<Stage*> Stages::get(const StageChoice& choice) {

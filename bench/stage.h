@@ -12,6 +12,8 @@
 #include "app/scene_setup.h"
 #include "engine/core/result.h"
 #include "engine/truth/draw.h"
+#include "engine/truth/geometric_error.h"
+#include "engine/truth/tile_plane.h"
 
 namespace reljef::bench {
 
@@ -22,6 +24,8 @@ struct StageChoice {
     std::string terrain;
     int size = 0;          ///< samples a side of a generated terrain; 0: as `terrain` has it
     bool tileable = false; ///< of a generated urban
+    /// Of terrains::detail_names(): no terrain, but copies of this tile over a level square.
+    std::string tile = {};
 
     friend bool operator==(const StageChoice&, const StageChoice&) = default;
 };
@@ -40,15 +44,18 @@ struct TruePicture {
     std::shared_ptr<const Image> image;
 };
 
-/// A terrain under a sun and a sky, and what is right there, found when first asked for.
+/// A terrain under a sun and a sky, or a tile of detail on a square under a sun, and what is right
+/// there, found when first asked for.
 class Stage {
 public:
+    /// Fails on the gallery, whose models have no truth: its tiles have stages of their own.
     static Result<Stage> open(const StageChoice& choice, const StageOptions& options,
                               const std::stop_token& stop);
 
     /// The title of its scene, "urban 512 tile" for a generated one of a size of its own.
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_.scene; }
+    /// Precondition: it is no tile's.
     [[nodiscard]] const scene::Node& terrain() const { return *scene_.terrain; }
 
     void set_pose(scene::Pose pose);
@@ -59,9 +66,15 @@ public:
     /// Seen from the pose that was set last. Kept for the next call. Fails where it is stopped.
     Result<std::reference_wrapper<const TruePicture>> truth(const std::stop_token& stop);
 
+    /// Of a frame seen from that pose, see truth::geometric_errors().
+    [[nodiscard]] Result<truth::GeometricErrors>
+    errors(const HitBuffer& shown, const HitBuffer& truth, unsigned threads) const;
+
 private:
+    static Result<Stage> open_tile(const StageChoice& choice, const StageOptions& options);
     Stage(std::string name, app::TerrainScene scene, const StageOptions& options)
         : name_(std::move(name)), scene_(std::move(scene)), options_(options) {}
+    Result<truth::Picture> true_picture(const ParallelOptions& parallel);
 
     std::string name_;
     app::TerrainScene scene_;
@@ -69,6 +82,7 @@ private:
     scene::Pose pose_ = scene::Pose::overview;
     std::optional<truth::SceneCaster> caster_;
     std::optional<truth::Shading> shading_;
+    std::optional<truth::TilePlane> tile_; // where it is one's
     std::optional<TruePicture> truth_;
 };
 

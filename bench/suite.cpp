@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/device.h"
 #include "app/progress_line.h"
 #include "bench/measure.h"
 #include "bench/row_error.h"
+#include "bench/suite_device.h"
 #include "bench/time_table.h"
 
 namespace reljef::bench {
@@ -58,17 +58,6 @@ private:
     double judging_; // the share of a group's time, about
     double index_ = 0.0;
 };
-
-Result<app::Device> make_device(const SuiteOptions& options) {
-    app::DeviceOptions device;
-    device.threads = options.threads;
-    device.context = options.context;
-    device.context_options.size = options.size;
-    device.context_options.visible = false;
-    device.driver.size = options.size;
-    device.driver.shader_dir = options.shader_dir;
-    return app::Device::create(device);
-}
 
 std::vector<Entry> entries_of(const Group& group, std::string_view suite, const std::string& scene,
                               glm::ivec2 size) {
@@ -187,6 +176,11 @@ public:
           views_(suite.most_view_cols) {}
 
     Result<void> run() {
+        if (suite_.groups.empty()) {
+            return Error{"--technique: none found that draws what is measured; the gallery shows "
+                         "what bump, emboss, normal, displacement and the layers draw, terrains "
+                         "what polygons draws"};
+        }
         auto device = make_device(options_);
         if (!device) {
             return device.error();

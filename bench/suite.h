@@ -34,7 +34,7 @@ struct Suite {
 /// Measures a suite group by group: first how wrong each candidate's picture is, then how fast it
 /// is drawn. The rows are in the groups' order, each group's null row last. A run that is stopped
 /// or fails on the way keeps the rows it has, and says why in Results::stopped; stopped, it still
-/// draws once what it has judged.
+/// draws once what it has judged. Fails without groups.
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -85,12 +85,12 @@ SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm:
 }
 
 void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
-                         const std::string& otherwise) {
+                         const std::string& otherwise, bool with_gallery) {
     command
         .add_option("--terrain", terrains,
-                    fmt::format("natural, urban, a scene file (.toml) or a DEM file; may be given "
-                                "again ({})",
-                                otherwise))
+                    fmt::format("natural, urban, a scene file (.toml) or a DEM file{}; may be "
+                                "given again ({})",
+                                with_gallery ? "; gallery: its tiles on a square" : "", otherwise))
         ->type_name("TERRAIN")
         ->allow_extra_args(false);
 }

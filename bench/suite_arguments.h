@@ -24,9 +24,10 @@ void add_suite_options(CLI::App& command, SuiteOptions& options);
 /// The options with pictures of `size` where --quick is given and --size is not.
 SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm::ivec2 size);
 
-/// Adds --terrain, which may be given again; `otherwise` says what is measured without it.
+/// Adds --terrain, which may be given again; `otherwise` says what is measured without it,
+/// `with_gallery` that the gallery's tiles can be.
 void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
-                         const std::string& otherwise);
+                         const std::string& otherwise, bool with_gallery = false);
 
 /// Adds --technique, which may be given again; `otherwise` says what is measured without it.
 void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& techniques,

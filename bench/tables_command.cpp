@@ -21,7 +21,8 @@ struct TablesChoice {
 void add_tables_options(CLI::App& command, TablesChoice& choice) {
     add_terrains_option(command, choice.options.terrains,
                         "the sources' tests on generated terrains; with --technique natural and "
-                        "urban");
+                        "urban",
+                        true);
     add_techniques_option(command, choice.options.techniques, "all of them");
     add_pose_option(command, choice.options.pose);
     add_suite_options(command, choice.options.suite);

@@ -1,9 +1,11 @@
 #include "bench/tables_suite.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
+#include "bench/gallery_tiles.h"
 #include "bench/source_tests.h"
 #include "bench/suite.h"
 
@@ -12,14 +14,25 @@ namespace {
 
 constexpr glm::ivec2 sources_size{1024, 768};
 
-std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& chosen) {
-    const scene::Technique texture = scene::make_technique(scene::TechniqueId::texture);
-    std::vector<scene::Technique> others = chosen;
-    if (others.empty()) {
-        for (const scene::TechniqueInfo& info : scene::terrain_techniques()) {
-            others.push_back(scene::make_technique(info.id));
+// Of a tile those of the chosen ones that suit it.
+std::vector<scene::Technique> techniques_on(const StageChoice& stage,
+                                            const std::vector<scene::Technique>& chosen) {
+    std::vector<scene::Technique> techniques;
+    if (chosen.empty()) {
+        for (const scene::TechniqueInfo& info : techniques_of(stage)) {
+            techniques.push_back(scene::make_technique(info.id));
         }
+        return techniques;
     }
+    std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(techniques),
+                 [&](const scene::Technique& technique) {
+                     return stage.tile.empty() || suits(technique.id, stage);
+                 });
+    return techniques;
+}
+
+std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& others) {
+    const scene::Technique texture = scene::make_technique(scene::TechniqueId::texture);
     std::vector<Candidate> candidates{candidate_of(texture)};
     for (const scene::Technique& technique : others) {
         if (technique.id != texture.id) {
@@ -29,14 +42,25 @@ std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& chosen
     return candidates;
 }
 
+void add_group(std::vector<Group>& groups, const StageChoice& stage, scene::Pose usual_pose,
+               const TablesOptions& options) {
+    const auto techniques = techniques_on(stage, options.techniques);
+    if (!techniques.empty()) {
+        groups.push_back({"", stage, options.pose.value_or(usual_pose), candidates_of(techniques)});
+    }
+}
+
 std::vector<Group> terrain_groups(const TablesOptions& options) {
     const std::vector<std::string> built_in{"natural", "urban"};
     std::vector<Group> groups;
     for (const std::string& terrain : options.terrains.empty() ? built_in : options.terrains) {
-        groups.push_back({"",
-                          {terrain},
-                          options.pose.value_or(scene::Pose::overview),
-                          candidates_of(options.techniques)});
+        if (terrain != "gallery") {
+            add_group(groups, {terrain}, scene::Pose::overview, options);
+            continue;
+        }
+        for (const StageChoice& tile : gallery_stages()) {
+            add_group(groups, tile, scene::Pose::oblique, options);
+        }
     }
     return groups;
 }

@@ -12,13 +12,13 @@ namespace reljef::bench {
 
 struct TablesOptions {
     SuiteOptions suite;
-    /// Every technique on each of them; empty, and `techniques` too: the sources' tests; empty
-    /// otherwise: natural and urban.
+    /// Every technique on each of them, of the gallery on its tiles (gallery_tiles.h); empty, and
+    /// `techniques` too: the sources' tests; empty otherwise: natural and urban.
     std::vector<std::string> terrains;
     /// On the terrains, beside texture, which is always measured; empty: every technique as it is
     /// by default.
     std::vector<scene::Technique> techniques;
-    /// From where; absent: the sources' tests, or overview.
+    /// From where; absent: the sources' tests, or overview, of the gallery's tiles oblique.
     std::optional<scene::Pose> pose;
 };
 

@@ -35,9 +35,11 @@ target_precompile_headers(reljef_precompiled PRIVATE ${CMAKE_SOURCE_DIR}/cmake/p
 add_library(reljef_quick_build INTERFACE)
 target_compile_options(reljef_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
 add_library(reljef_test_build INTERFACE)
-target_link_libraries(reljef_test_build INTERFACE reljef_quick_build)
 if(RELJEF_SANITIZE)
+  target_compile_options(reljef_quick_build INTERFACE -Og) # of -O1's precompiled header, in 2/3 of the time
   target_compile_options(reljef_test_build INTERFACE -O0 -fno-sanitize=undefined)
+else()
+  target_link_libraries(reljef_test_build INTERFACE reljef_quick_build)
 endif()
 
 if(RELJEF_CHECK_HEADERS)
@@ -97,9 +99,8 @@ function(reljef_test ROOM)
   if("address" IN_LIST RELJEF_SANITIZE)
     # Where the runtime of g++ 12 watches thread-local storage, it takes some of glibc's blocks for
     # those of a glibc before 2.25, and the search for leaks ends with a fault of its own, now and then.
-    list(APPEND properties ENVIRONMENT
-         "ASAN_OPTIONS=intercept_tls_get_addr=0"
-         "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
+    set(leaks "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
+    list(APPEND properties ENVIRONMENT "${leaks}\\;ASAN_OPTIONS=intercept_tls_get_addr=0")
     target_link_libraries(${target} PRIVATE reljef_keep_loaded)
   endif()
   # A process for each test would start programs that take a second under the sanitizers: the tests

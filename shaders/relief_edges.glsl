@@ -28,21 +28,28 @@ float near_miss(vec3 start, vec3 span, float part, out vec2 place) {
     if (!find_hit(start - vec3(0.0, 0.0, edge_distance), way, at, place)) {
         return 1.0;
     }
-    // On from there, a sample at a time, as long as the surface comes nearer.
+    // On from there, a sample at a time, to the nearest of all places that it passes.
     float samples = max(max(abs(way.x), abs(way.y)), 1.0);
     float stride = max(1.0 / samples, (1.0 - at) / most_steps);
-    float distance = edge_distance;
+    float before = edge_distance;
+    float least = edge_distance;
+    float passed = -1.0;
     bool nearing = true;
-    while (nearing && at < 1.0) {
+    while (at < 1.0) {
         at += stride;
         float now = clearance(start + min(at, 1.0) * way);
-        nearing = now <= distance;
-        distance = nearing ? now : distance;
+        if (nearing && now > before && before <= least) {
+            least = before;
+            passed = at;
+        }
+        nearing = now <= before;
+        before = now;
     }
-    if (nearing) {
+    if (passed < 0.0) {
         return 1.0;
     }
-    vec3 nearest = start + nearest_part(start, way, max(at - 2.0 * stride, 0.0), min(at, 1.0)) * way;
+    float begin = max(passed - 2.0 * stride, 0.0);
+    vec3 nearest = start + nearest_part(start, way, begin, min(passed, 1.0)) * way;
     place = nearest.xy;
     return clamp(clearance(nearest) / edge_distance, 0.0, 1.0);
 }

@@ -40,13 +40,15 @@ Result<AtomicFile> AtomicFile::create(fs::path target) {
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
+      replaced_(std::exchange(other.replaced_, {})) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
     if (this != &other) {
         remove();
         target_ = std::move(other.target_);
         temporary_ = std::exchange(other.temporary_, {});
+        replaced_ = std::exchange(other.replaced_, {});
     }
     return *this;
 }
@@ -65,11 +67,51 @@ Result<void> AtomicFile::commit() {
     return {};
 }
 
-void AtomicFile::remove() noexcept {
-    if (!temporary_.empty()) {
-        std::error_code ignored;
-        fs::remove(temporary_, ignored);
+// A second name of the same file; a copy where the file system has none.
+Result<void> AtomicFile::commit_revertibly() {
+    std::error_code code;
+    if (fs::exists(target_, code)) {
+        fs::path aside = temporary_;
+        aside += ".replaced";
+        fs::create_hard_link(target_, aside, code);
+        if (code && !fs::copy_file(target_, aside, code)) {
+            return Error{
+                fmt::format("{}: cannot be replaced: {}", target_.string(), code.message())};
+        }
+        replaced_ = std::move(aside);
     }
+    return commit();
+}
+
+void AtomicFile::revert() noexcept {
+    std::error_code ignored;
+    if (replaced_.empty()) {
+        fs::remove(target_, ignored);
+    } else {
+        fs::rename(replaced_, target_, ignored);
+        replaced_.clear();
+    }
+}
+
+void AtomicFile::remove() noexcept {
+    std::error_code ignored;
+    for (const fs::path* const left : {&temporary_, &replaced_}) {
+        if (!left->empty()) {
+            fs::remove(*left, ignored);
+        }
+    }
+}
+
+Result<void> commit_all(std::span<AtomicFile> files) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (auto done = files[i].commit_revertibly(); !done) {
+            while (i > 0) {
+                files[--i].revert();
+            }
+            return done;
+        }
+    }
+    return {};
 }
 
 Result<void> write_text_file(const fs::path& path, std::string_view text) {

@@ -29,6 +29,11 @@ public:
 
     /// Renames the temporary file to the target.
     Result<void> commit();
+    /// The same, and keeps what was at the target beside it until this is destroyed.
+    Result<void> commit_revertibly();
+    /// What is there now goes; what was there before comes back. Precondition: commit_revertibly()
+    /// was called and succeeded.
+    void revert() noexcept;
 
 private:
     AtomicFile(std::filesystem::path target, std::filesystem::path temporary)
@@ -37,7 +42,12 @@ private:
 
     std::filesystem::path target_;
     std::filesystem::path temporary_;
+    std::filesystem::path replaced_; // what the target was; empty: nothing was there
 };
+
+/// Commits all files; where one cannot be, those before it are put back as they were. A reader
+/// sees each as it was or as it is now, at any time.
+Result<void> commit_all(std::span<AtomicFile> files);
 
 /// Writes `bytes` beside `path`; a commit() puts them there.
 Result<AtomicFile> prepare_file(const std::filesystem::path& path,

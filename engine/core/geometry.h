@@ -15,6 +15,13 @@ namespace reljef {
 /// ten-thousandth of a millimetre apart, and the whole Earth is well inside.
 inline constexpr double world_reach = 1e9;
 
+/// A point as the nearest floats and what those leave of it, in floats: together twice the digits.
+struct SplitPoint {
+    glm::vec3 rounded{0.0F};
+    glm::vec3 rest{0.0F};
+};
+SplitPoint split_into_floats(glm::dvec3 point);
+
 /// An axis-aligned box; the default one is empty.
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/io/image_encoder.h"
 #include "engine/io/image_limits.h"
+#include "engine/io/picture_file.h"
 
 namespace reljef::io {
 namespace {
@@ -75,22 +75,8 @@ Channels make_channels(int cols, int rows, int count) {
 }
 
 Result<Channels> read_channels(const fs::path& path) {
-    if (auto file = check_image_file(path); !file) {
-        return file.error();
-    }
-    try {
-        OIIO::ImageSpec wanted;
-        wanted.attribute("oiio:UnassociatedAlpha", 1);
-        const auto input = OIIO::ImageInput::open(path.string(), &wanted);
-        if (input == nullptr) {
-            return Error{fmt::format("{}: cannot be read ({}), a picture was expected",
-                                     path.string(), OIIO::geterror())};
-        }
-        return read_open_channels(*input, path);
-    } catch (const std::exception& problem) {
-        return Error{fmt::format("{}: cannot be read ({}), a picture was expected", path.string(),
-                                 problem.what())};
-    }
+    return read_picture<Channels>(
+        path, [&](OIIO::ImageInput& input) { return read_open_channels(input, path); });
 }
 
 Grid<float> channel_of(const Channels& channels, int channel) {
@@ -101,6 +87,23 @@ Grid<float> channel_of(const Channels& channels, int channel) {
         }
     }
     return grid;
+}
+
+Result<void> check_finite(const Channels& channels, int count, const fs::path& path,
+                          std::string_view what) {
+    for (int row = 0; row < channels.rows; ++row) {
+        for (int col = 0; col < channels.cols; ++col) {
+            for (int i = 0; i < std::min(count, channels.count); ++i) {
+                const float value = channels.at(col, row, i);
+                if (!std::isfinite(value)) {
+                    return Error{fmt::format("{}: {} of {} found at column {}, row {}, finite "
+                                             "numbers were expected",
+                                             path.string(), what, value, col, row)};
+                }
+            }
+        }
+    }
+    return {};
 }
 
 Result<std::vector<std::byte>> encode_channels(const fs::path& path, const Channels& channels) {

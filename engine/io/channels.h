@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/grid.h"
@@ -41,6 +42,11 @@ Channels make_channels(int cols, int rows, int count);
 Result<Channels> read_channels(const std::filesystem::path& path);
 /// One of them. Precondition: it is there.
 Grid<float> channel_of(const Channels& channels, int channel);
+
+/// Whether the first `count` channels hold no NaN and no infinity; fails with the first place that
+/// does, and `what` they are.
+Result<void> check_finite(const Channels& channels, int count, const std::filesystem::path& path,
+                          std::string_view what);
 
 /// The bytes of a map's file, by its extension: .png and .tif of 16 bits a channel, which hold
 /// [0,1] and cut off what is beyond, .exr of 32-bit floats. Fails on another extension.

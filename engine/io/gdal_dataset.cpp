@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/raster.h"
+#include "engine/io/tile_pyramid.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -57,7 +58,10 @@ std::string raster_in_zip(const fs::path& path) {
     return path.string();
 }
 
-std::string name_for_gdal(const fs::path& path) {
+Result<std::string> name_for_gdal(const fs::path& path) {
+    if (is_tile_pyramid(path)) {
+        return tile_pyramid_description(path);
+    }
     if (is_remote(path)) {
         const std::string name = path.string();
         return name.starts_with("/vsi") ? name : "/vsicurl/" + name;
@@ -119,7 +123,8 @@ void set_default(const char* option, const char* value) {
 bool is_remote(const fs::path& path) {
     const std::string name = path.string();
     const std::array<std::string_view, 4> beginnings{"http://", "https://", "ftp://", "/vsi"};
-    return std::any_of(beginnings.begin(), beginnings.end(),
+    return is_tile_pyramid(path) ||
+           std::any_of(beginnings.begin(), beginnings.end(),
                        [&](std::string_view beginning) { return name.starts_with(beginning); });
 }
 
@@ -183,10 +188,14 @@ Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) 
     if (auto file = remote ? Result<void>() : check_file(path); !file) {
         return file.error();
     }
+    const auto name = name_for_gdal(path);
+    if (!name) {
+        return name.error();
+    }
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     // What lies beside a file on a server is not asked for: it would cost a request for each name.
     constexpr std::array<const char*, 1> nothing_beside{nullptr};
-    Dataset dataset(GDALDataset::Open(name_for_gdal(path).c_str(), flags, nullptr, nullptr,
+    Dataset dataset(GDALDataset::Open(name->c_str(), flags, nullptr, nullptr,
                                       remote ? nothing_beside.data() : nullptr));
     if (dataset == nullptr) {
         return Error{

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -16,6 +15,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/io/image_encoder.h"
 #include "engine/io/image_limits.h"
+#include "engine/io/picture_file.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -124,22 +124,8 @@ void paste(const Image& picture, int col, int row, Image& sheet) {
 } // namespace
 
 Result<Image> read_image(const fs::path& path) {
-    if (auto file = check_image_file(path); !file) {
-        return file.error();
-    }
-    try {
-        OIIO::ImageSpec wanted;
-        wanted.attribute("oiio:UnassociatedAlpha", 1);
-        const auto input = OIIO::ImageInput::open(path.string(), &wanted);
-        if (input == nullptr) {
-            return Error{fmt::format("{}: cannot be read ({}), a picture was expected",
-                                     path.string(), OIIO::geterror())};
-        }
-        return read_open_image(*input, path);
-    } catch (const std::exception& problem) {
-        return Error{fmt::format("{}: cannot be read ({}), a picture was expected", path.string(),
-                                 problem.what())};
-    }
+    return read_picture<Image>(
+        path, [&](OIIO::ImageInput& input) { return read_open_image(input, path); });
 }
 
 Result<void> check_image_target(const fs::path& path) {

@@ -110,7 +110,10 @@ Result<SampleDecoder> SampleDecoder::create(GDALDataset& dataset, const std::str
     }
     SampleDecoder decoder;
     decoder.kind_ = kind_of_values(dataset);
-    note_kind(decoder.kind_, dataset, notes);
+    decoder.encoding_ = height_encoding_of(name);
+    if (decoder.encoding_ == HeightEncoding::none) {
+        note_kind(decoder.kind_, dataset, notes);
+    }
     if (decoder.kind_ == ValueKind::palette) {
         decoder.palette_ = palette_values(*band.GetColorTable());
     }
@@ -146,6 +149,14 @@ double SampleDecoder::metres(double value) {
     return bounded(scale_ * value + offset_);
 }
 
+double SampleDecoder::of_color(double red, double green, double blue) {
+    if (encoding_ == HeightEncoding::none) {
+        return metres(luminance(red, green, blue));
+    }
+    const double height = encoded_height(encoding_, red, green, blue);
+    return std::isnan(height) ? void_value : metres(height);
+}
+
 double SampleDecoder::bounded(double height) {
     if (std::abs(height) > highest_height) {
         ++found_absurd_;
@@ -162,7 +173,7 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
         if (!mask.empty() && mask[i] == 0) {
             first[i] = void_value;
         } else if (kind_ == ValueKind::color) {
-            first[i] = metres(luminance(value, others[i], others[first.size() + i]));
+            first[i] = of_color(value, others[i], others[first.size() + i]);
         } else if (kind_ == ValueKind::palette) {
             const auto index = static_cast<std::size_t>(std::clamp(value, 0.0, 255.0));
             first[i] = nodata_ == value ? void_value : bounded(scale_ * palette_[index] + offset_);

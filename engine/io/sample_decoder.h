@@ -12,6 +12,7 @@
 
 #include "engine/core/result.h"
 #include "engine/io/raster.h"
+#include "engine/io/tile_pyramid.h"
 
 namespace reljef::io {
 
@@ -45,9 +46,11 @@ public:
 
 private:
     [[nodiscard]] double metres(double value);
+    [[nodiscard]] double of_color(double red, double green, double blue);
     [[nodiscard]] double bounded(double height);
 
     ValueKind kind_ = ValueKind::plain;
+    HeightEncoding encoding_ = HeightEncoding::none; ///< of colours; none: their luminance
     std::array<double, 256> palette_{};
     std::optional<double> nodata_; ///< as the band's own type holds it
     bool sentinels_ = false;       ///< −32768 and −32767 are voids

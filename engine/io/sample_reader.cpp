@@ -12,8 +12,11 @@
 namespace reljef::io {
 namespace {
 
-constexpr int most_taps = 4;          // stored samples a side that are averaged into one
-constexpr int tile_samples = 1 << 21; // stored values read at a time
+constexpr int most_taps = 4; // stored samples a side that are averaged into one
+// Stored values read at a time: of a whole raster, by one thread, in rows as long as they come; of
+// a window, by many.
+constexpr int samples_of_raster = 1 << 21;
+constexpr int samples_of_window = 1 << 18;
 
 /// A part of the result, in its own samples.
 struct Tile {
@@ -23,7 +26,7 @@ struct Tile {
     int rows = 0;
 };
 
-std::vector<Tile> tiles_of(const SampleGrid& grid, int taps) {
+std::vector<Tile> tiles_of(const SampleGrid& grid, int taps, int tile_samples) {
     const int cols = std::clamp(tile_samples / (taps * taps), 1, grid.cols);
     const int rows = std::clamp(tile_samples / (taps * taps) / cols, 1, grid.rows);
     std::vector<Tile> tiles;
@@ -136,13 +139,15 @@ Error reading_failed(const std::string& name, const Tile& tile, const ReadPlan& 
                         plan.row + tile.row * plan.reduction, messages.reason())};
 }
 
-/// Reads and decodes all of a plan; store(col, row, height) gets each sample.
+/// Reads and decodes all of a plan, so many stored values at a time; store(col, row, height) gets
+/// each sample.
 template <class Store>
-Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, SampleDecoder& decoder,
-                       const std::string& name, const RasterOptions& options,
-                       const GdalMessages& messages, const Store& store) {
+Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time,
+                       SampleDecoder& decoder, const std::string& name,
+                       const RasterOptions& options, const GdalMessages& messages,
+                       const Store& store) {
     TileReader reader(source_of(dataset, plan, decoder.bands()), plan);
-    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps());
+    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), at_a_time);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (options.stop.stop_requested()) {
             return Error{fmt::format("{}: reading was stopped", name)};
@@ -176,7 +181,9 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
         samples.void_mask(col, row) = is_void ? 1 : 0;
         samples.void_count += is_void ? 1 : 0;
     };
-    if (auto read = read_plan(dataset, plan, *decoder, name, options, messages, store); !read) {
+    if (auto read =
+            read_plan(dataset, plan, samples_of_raster, *decoder, name, options, messages, store);
+        !read) {
         return read.error();
     }
     for (std::string note : {decoder->undeclared_voids_note(), decoder->doubtful_heights_note()}) {
@@ -200,7 +207,9 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
     }
     Grid<double> heights(plan.grid.cols, plan.grid.rows);
     const auto store = [&](int col, int row, double height) { heights(col, row) = height; };
-    if (auto read = read_plan(dataset, plan, *decoder, name, options, messages, store); !read) {
+    if (auto read =
+            read_plan(dataset, plan, samples_of_window, *decoder, name, options, messages, store);
+        !read) {
         return read.error();
     }
     return heights;

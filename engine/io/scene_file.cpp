@@ -117,9 +117,10 @@ void read_gallery_keys(TomlTable& table, const std::filesystem::path& folder,
         refuse(table, {"textures", "technique"}, "the generator gallery");
     }
     table.read("textures", scene.gallery_textures);
+    scene.gallery_folder = folder / scene.gallery_textures;
     std::error_code ignored;
-    if (std::filesystem::is_directory(folder / scene.gallery_textures, ignored)) {
-        scene.gallery_textures = (folder / scene.gallery_textures).string();
+    if (std::filesystem::is_directory(scene.gallery_folder, ignored)) {
+        scene.gallery_textures = scene.gallery_folder.string();
     }
     table.read("technique", scene.gallery_technique);
 }

@@ -42,6 +42,8 @@ struct SceneDescription {
     // [gallery]: its generator only
     /// A built-in set, "mixed", or a folder of pictures, relative to the scene file.
     std::string gallery_textures = "mixed";
+    std::filesystem::path
+        gallery_folder; ///< where that folder is to be, whether it is there or not
     std::string gallery_technique = "mixed"; ///< as --technique has it, or "mixed"
 
     // [sun]: degrees

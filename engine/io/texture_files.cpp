@@ -3,30 +3,55 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "engine/io/channels.h"
 #include "engine/io/image.h"
+#include "engine/io/texture_role.h"
 
 namespace reljef::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-void take_heights(const Channels& channels, int channel, const TextureOptions& options,
+// First channel of a file, or another.
+Result<Grid<float>> heights_in(const Channels& channels, int channel, const fs::path& path) {
+    Grid<float> heights = channel_of(channels, channel);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            if (!(heights(col, row) >= 0.0F && heights(col, row) <= 1.0F)) {
+                return Error{fmt::format("{}: a height of {} found at column {}, row {}, heights "
+                                         "in [0, 1] were expected",
+                                         path.string(), heights(col, row), col, row)};
+            }
+        }
+    }
+    return heights;
+}
+
+// Once a set.
+void note_quantum(const Channels& channels, const TextureOptions& options,
                   terrain::TextureSet& set) {
-    set.heights = channel_of(channels, channel);
-    if (channels.bits == 8) {
+    if (channels.bits == 8 && set.notes.empty()) {
         const double range = static_cast<double>(options.scale) * options.width;
         set.notes.push_back(
             fmt::format("{}: heights of 8 bits; over a range of {:.4g} m they come in steps of "
                         "{:.2g} m",
                         set.name, range, range / 255.0));
     }
+}
+
+Result<void> take_heights(const Channels& channels, int channel, const fs::path& path,
+                          const TextureOptions& options, terrain::TextureSet& set) {
+    auto heights = heights_in(channels, channel, path);
+    if (!heights) {
+        return heights.error();
+    }
+    set.heights = std::move(*heights);
+    note_quantum(channels, options, set);
+    return {};
 }
 
 glm::vec3 decoded_normal(const Channels& channels, int col, int row) {
@@ -64,35 +89,39 @@ void take_normals(const Channels& channels, const TextureOptions& options,
     }
 }
 
+// A file of normals, with heights where there is no other file of them.
+Result<Channels> read_normal_file(const TextureFiles& files) {
+    auto normals = read_channels(files.normals);
+    const int needed = files.heights.empty() ? 4 : 3;
+    if (normals && normals->count < needed) {
+        return Error{fmt::format("{}: {} channels found, {} were expected: {}",
+                                 files.normals.string(), normals->count, needed,
+                                 needed == 4 ? "a normal and a height" : "a normal")};
+    }
+    return normals;
+}
+
+Result<void> read_height_file(const TextureFiles& files, const TextureOptions& options,
+                              terrain::TextureSet& set) {
+    const auto heights = read_channels(files.heights);
+    return heights ? take_heights(*heights, 0, files.heights, options, set) : heights.error();
+}
+
 Result<void> read_heights_and_normals(const TextureFiles& files, const TextureOptions& options,
                                       terrain::TextureSet& set) {
-    std::optional<Channels> normals;
-    if (!files.normals.empty()) {
-        auto channels = read_channels(files.normals);
-        if (!channels) {
-            return channels.error();
-        }
-        normals = std::move(*channels);
-        const int needed = files.heights.empty() ? 4 : 3;
-        if (normals->count < needed) {
-            return Error{fmt::format("{}: {} channels found, {} were expected: {}",
-                                     files.normals.string(), normals->count, needed,
-                                     needed == 4 ? "a normal and a height" : "a normal")};
-        }
+    if (files.normals.empty()) {
+        return files.heights.empty() ? Result<void>() : read_height_file(files, options, set);
     }
-    if (!files.heights.empty()) {
-        const auto heights = read_channels(files.heights);
-        if (!heights) {
-            return heights.error();
-        }
-        take_heights(*heights, 0, options, set);
-    } else if (normals) {
-        take_heights(*normals, 3, options, set);
+    const auto normals = read_normal_file(files);
+    if (!normals) {
+        return normals.error();
     }
-    if (normals) {
+    auto taken = files.heights.empty() ? take_heights(*normals, 3, files.normals, options, set)
+                                       : read_height_file(files, options, set);
+    if (taken) {
         take_normals(*normals, options, set);
     }
-    return {};
+    return taken;
 }
 
 Result<void> read_layers(const fs::path& path, terrain::TextureSet& set) {
@@ -132,6 +161,9 @@ Result<void> punch_holes(const fs::path& path, terrain::TextureSet& set) {
                                  path.string(), mask->cols, mask->rows, set.heights.cols(),
                                  set.heights.rows())};
     }
+    if (auto finite = check_finite(*mask, 1, path, "a mask"); !finite) {
+        return finite;
+    }
     for (int row = 0; row < mask->rows; ++row) {
         for (int col = 0; col < mask->cols; ++col) {
             set.heights(col, row) *= mask->at(col, row, 0) < 0.5F ? 0.0F : 1.0F;
@@ -141,7 +173,8 @@ Result<void> punch_holes(const fs::path& path, terrain::TextureSet& set) {
 }
 
 // What sheets and layers have besides.
-Result<void> read_sides(const TextureFiles& files, terrain::TextureSet& set) {
+Result<void> read_sides(const TextureFiles& files, const TextureOptions& options,
+                        terrain::TextureSet& set) {
     if (!files.layers.empty()) {
         if (auto read = read_layers(files.layers, set); !read) {
             return read;
@@ -155,53 +188,72 @@ Result<void> read_sides(const TextureFiles& files, terrain::TextureSet& set) {
         if (!back) {
             return back.error();
         }
-        set.back_heights = channel_of(*back, 0);
+        auto heights = heights_in(*back, 0, files.back_heights);
+        if (!heights) {
+            return heights.error();
+        }
+        set.back_heights = std::move(*heights);
+        note_quantum(*back, options, set);
     }
     return files.mask.empty() || set.heights.empty() ? Result<void>()
                                                      : punch_holes(files.mask, set);
 }
 
-std::string lower_stem(const fs::path& file) {
-    std::string stem = file.stem().string();
-    std::transform(stem.begin(), stem.end(), stem.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return stem;
-}
-
-bool names_any(const std::string& stem, std::span<const std::string_view> words) {
-    return std::any_of(words.begin(), words.end(),
-                       [&](std::string_view word) { return stem.find(word) != std::string::npos; });
-}
-
-void sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::path>& others) {
-    constexpr std::array<std::string_view, 1> layer_words{"layers"};
-    constexpr std::array<std::string_view, 3> mask_words{"mask", "alpha", "opacity"};
-    constexpr std::array<std::string_view, 1> back_words{"back"};
-    constexpr std::array<std::string_view, 1> normal_words{"norm"};
-    constexpr std::array<std::string_view, 2> height_words{"height", "disp"};
-    constexpr std::array<std::string_view, 4> color_words{"col", "clr", "diff", "albedo"};
-    const std::string stem = lower_stem(file);
-    if (names_any(stem, layer_words)) {
-        files.layers = file;
-    } else if (names_any(stem, mask_words)) {
-        files.mask = file;
-    } else if (names_any(stem, back_words)) {
-        files.back_heights = file;
-    } else if (names_any(stem, normal_words)) {
-        files.normals = file;
-    } else if (names_any(stem, height_words)) {
-        files.heights = file;
-    } else if (names_any(stem, color_words)) {
-        files.color = file;
-    } else {
-        others.push_back(file);
+fs::path& file_of(TextureFiles& files, TextureRole role) {
+    switch (role) {
+    case TextureRole::color:
+        return files.color;
+    case TextureRole::heights:
+        return files.heights;
+    case TextureRole::normals:
+        return files.normals;
+    case TextureRole::layers:
+        return files.layers;
+    case TextureRole::back_heights:
+        return files.back_heights;
+    case TextureRole::mask:
+        return files.mask;
     }
+    abort_with("a texture without a role");
+}
+
+Result<void> sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::path>& others) {
+    const auto role = texture_role(file.stem().string());
+    if (!role) {
+        others.push_back(file);
+        return {};
+    }
+    fs::path& place = file_of(files, *role);
+    if (!place.empty()) {
+        return Error{fmt::format("{}: {} and {} found, which both name {}, one was expected",
+                                 file.parent_path().string(), place.filename().string(),
+                                 file.filename().string(), to_string(*role))};
+    }
+    place = file;
+    return {};
 }
 
 bool is_picture(const fs::path& file) {
     constexpr std::array<std::string_view, 9> extensions{".png", ".jpg", ".jpeg", ".bmp", ".dds",
                                                          ".tga", ".tif", ".tiff", ".exr"};
-    return std::find(extensions.begin(), extensions.end(), file.extension()) != extensions.end();
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+// Floats may hold what no colour is, and a picture of 8 bits would not tell.
+Result<Image> read_color(const fs::path& path) {
+    auto image = read_image(path);
+    if (!image) {
+        return image;
+    }
+    const auto channels = read_channels(path);
+    if (!channels) {
+        return channels.error();
+    }
+    const auto finite = check_finite(*channels, 3, path, "a colour");
+    return finite ? std::move(image) : finite.error();
 }
 
 Result<std::vector<fs::path>> pictures_in(const fs::path& folder) {
@@ -230,7 +282,9 @@ Result<TextureFiles> find_texture_files(const fs::path& folder) {
     TextureFiles files;
     std::vector<fs::path> others;
     for (const fs::path& file : *pictures) {
-        sort_in(file, files, others);
+        if (auto sorted = sort_in(file, files, others); !sorted) {
+            return sorted.error();
+        }
     }
     if (files.color.empty() && others.size() == 1) {
         files.color = others.front();
@@ -251,7 +305,7 @@ Result<terrain::TextureSet> read_texture_set(const TextureFiles& files,
     terrain::TextureSet set;
     set.name = files.color.parent_path().filename().string();
     set.scale = options.scale;
-    auto color = read_image(files.color);
+    auto color = read_color(files.color);
     if (!color) {
         return color.error();
     }
@@ -259,10 +313,13 @@ Result<terrain::TextureSet> read_texture_set(const TextureFiles& files,
     if (auto read = read_heights_and_normals(files, options, set); !read) {
         return read.error();
     }
-    if (auto read = read_sides(files, set); !read) {
+    if (auto read = read_sides(files, options, set); !read) {
         return read.error();
     }
-    return terrain::completed(std::move(set), options.border);
+    auto whole = terrain::completed(std::move(set), options.border);
+    return whole ? std::move(whole)
+                 : Error{fmt::format("{}: {}", files.color.parent_path().string(),
+                                     whole.error().message)};
 }
 
 } // namespace reljef::io

@@ -27,15 +27,16 @@ struct TextureOptions {
     terrain::TileBorder border = terrain::TileBorder::wrap;
 };
 
-/// The files in a folder by what their names say: layers; mask, alpha, opacity; back; normal,
-/// height, disp(lacement); col(our), clr, diff(use), albedo, or, beside another map, the one that
-/// is left. Fails where no colour or no heights are found.
+/// The pictures in a folder by what their names say (texture_role.h); of colours, where no name
+/// says it, the one that is left. Fails where no colour or no heights are found, and where two
+/// files are the same map.
 Result<TextureFiles> find_texture_files(const std::filesystem::path& folder);
 
-/// Heights in [0,1] of the values the file can hold; those of 8 bits get a note that tells their
+/// Heights in [0,1] of the values the file can hold; those of 8 bits get one note that tells their
 /// quantum in metres. Normals whose green points against the rows are turned, when the heights say
 /// so. Layers without heights are seen from above. Fails as terrain::completed and
-/// terrain::LayerMap::create, and where a file cannot be read or lacks a channel.
+/// terrain::LayerMap::create, and where a file cannot be read, lacks a channel, or holds a height
+/// outside [0,1] or a colour or mask that is not finite, with the first such place.
 Result<terrain::TextureSet> read_texture_set(const TextureFiles& files,
                                              const TextureOptions& options = {});
 

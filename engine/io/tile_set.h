@@ -73,6 +73,7 @@ struct TileGrid {
 struct TileWindow {
     Grid<double> heights;          ///< metres; NaN at voids and holes
     std::vector<TileFault> faults; ///< of the files that were to be read; each once
+    std::size_t bytes_read = 0;    ///< of samples taken from the files
 };
 
 /// What is known of a place on Earth.

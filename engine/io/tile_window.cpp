@@ -264,9 +264,11 @@ bool may_meet(const std::string& grid_crs, const TileGrid& grid, const TileLayer
 TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) const {
     check(grid.cols >= 1 && grid.rows >= 1, "TileSet::read of an empty grid");
     Grid<double> edges(grid.cols, grid.rows, std::numeric_limits<double>::quiet_NaN());
-    TileWindow result{edges, {}};
+    TileWindow result{edges, {}, 0};
     const GdalMessages unheard; // of places that a projection does not have
-    const TileReading reading = state_->reading(stop);
+    std::atomic<std::size_t> bytes_read{0};
+    TileReading reading = state_->reading(stop);
+    reading.bytes_read = &bytes_read;
     std::vector<std::optional<LayerPoints>> points;
     for (const TileLayer& layer : state_->layers) {
         points.push_back(may_meet(state_->crs, grid, layer)
@@ -281,6 +283,8 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
         fill_sea(state_->layers, points, grid, result.heights);
     }
     keep_each_once(result.faults);
+    result.bytes_read = bytes_read;
+    state_->bytes_read += result.bytes_read;
     return result;
 }
 

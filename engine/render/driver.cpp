@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/core/geometry.h"
 #include "engine/gl/draw.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
@@ -18,6 +19,7 @@
 #include "engine/render/mesh_painter.h"
 #include "engine/render/occlusion.h"
 #include "engine/render/relief_options.h"
+#include "engine/render/technique_support.h"
 
 #include <glad/gl.h>
 
@@ -284,9 +286,9 @@ private:
 
     void set_eye(const glm::dmat4& world_from_local) {
         const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(list_.camera.eye, 1.0));
-        const glm::vec3 rounded(eye);
-        program_->set_uniform("eye", rounded);
-        program_->set_uniform("eye_rest", glm::vec3(eye - glm::dvec3(rounded)));
+        const SplitPoint split = split_into_floats(eye);
+        program_->set_uniform("eye", split.rounded);
+        program_->set_uniform("eye_rest", split.rest);
         program_->set_uniform("world_from_local", glm::mat3(glm::dmat3(world_from_local)));
     }
 
@@ -427,8 +429,8 @@ glm::vec4 channels_of(const Hit& hit) {
 } // namespace
 
 Driver::Driver(const DriverOptions& options, gl::Framebuffer target)
-    : options_(options), color_target_(std::move(target)), no_vertices_(gl::VertexArray::create()),
-      shaders_(options.shader_dir) {}
+    : options_(options), limits_(gl::query_limits()), color_target_(std::move(target)),
+      no_vertices_(gl::VertexArray::create()), shaders_(options.shader_dir) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
     auto target = gl::Framebuffer::create({.size = options.size});
@@ -523,6 +525,9 @@ DrawList Driver::list_of(const scene::Scene& scene) const {
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
     if (auto good = check_techniques(list); !good) {
+        return good;
+    }
+    if (auto good = check_support(list, limits_); !good) {
         return good;
     }
     const FrameBlock block = frame_block(list);

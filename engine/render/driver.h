@@ -9,6 +9,7 @@
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
 #include "engine/gl/framebuffer.h"
+#include "engine/gl/limits.h"
 #include "engine/gl/timer_query.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/frame_stats.h"
@@ -31,7 +32,8 @@ public:
     /// Fails when the size is outside what the driver can draw.
     static Result<Driver> create(const DriverOptions& options = {});
 
-    /// Draws a frame; `wait` also waits until it is finished and fills FrameStats::gpu_ms.
+    /// Draws a frame; fails as check_techniques() and check_support() do. `wait` also waits until
+    /// it is finished and fills FrameStats::gpu_ms.
     Result<FrameStats> draw(const scene::Scene& scene, bool wait = false);
 
     /// Draws what each pixel of the scene shows instead of its colour.
@@ -54,6 +56,7 @@ private:
     Result<void> draw_content(const DrawList& list, bool hits, FrameStats& stats);
 
     DriverOptions options_;
+    gl::Limits limits_;
     gl::Framebuffer color_target_;
     gl::Framebuffer hit_target_;  // made when first asked for
     gl::Framebuffer beam_target_; // likewise

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/scene/camera.h"
+#include "engine/scene/technique.h"
 #include "engine/terrain/bisection_mesh.h"
 #include "engine/terrain/placement.h"
 
@@ -16,8 +17,8 @@ inline constexpr float vertex_steps = 256.0F;
 inline constexpr double rasterizer_error = 1.5 / 256.0;
 
 /// The least and the greatest error that can be asked for, pixels.
-inline constexpr double least_error = 0.02;
-inline constexpr double most_error = 16.0;
+inline constexpr double least_error = scene::least_polygons_error;
+inline constexpr double most_error = scene::most_polygons_error;
 
 /// Where vertices rise: terrain::ErrorView::morph_from. A smaller share takes more triangles, a
 /// greater one lets them rise faster.

@@ -1,5 +1,7 @@
 #include "engine/render/grid_mesh.h"
 
+#include "engine/core/geometry.h"
+
 namespace reljef::render {
 namespace {
 
@@ -28,9 +30,8 @@ GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& til
 } // namespace
 
 GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place) {
-    const glm::vec3 position(local);
-    return {position, static_cast<float>(height), glm::vec2(place),
-            glm::vec3(local - glm::dvec3(position))};
+    const SplitPoint position = split_into_floats(local);
+    return {position.rounded, static_cast<float>(height), glm::vec2(place), position.rest};
 }
 
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,

@@ -37,10 +37,8 @@ std::map<const scene::TileStream*, StreamedByTile> draws_by_stream(const DrawLis
     return streams;
 }
 
-struct TileToUpload {
-    const StreamedDraw* draw = nullptr;
-    GridMesh mesh;
-};
+// Vertices of so many tiles are made at a time: what waits to be uploaded takes memory, too.
+constexpr std::size_t uploaded_together = 8;
 
 glm::vec4 lit_from_samples(const scene::StreamedTile& tile) {
     const glm::vec2 texels(tile.cells + 1);
@@ -100,7 +98,7 @@ Result<void> StreamedTiles::prepare_meshes(const scene::TileStream& stream,
     for (const auto& entry : drawn) {
         ids.insert(entry.first);
     }
-    std::vector<TileToUpload> uploads;
+    std::vector<const StreamedDraw*> changed;
     for (const auto& [id, draw] : drawn) {
         auto moves = terrain::edge_moves(stream.tree(), ids, id);
         Entry& entry = entry_of(*draw);
@@ -110,15 +108,28 @@ Result<void> StreamedTiles::prepare_meshes(const scene::TileStream& stream,
         }
         entry.moves = std::move(moves);
         entry.flat = draw->flat;
-        uploads.push_back({draw, {}});
+        changed.push_back(draw);
     }
-    parallel_for(static_cast<int>(uploads.size()), [&](int i) {
-        TileToUpload& tile = uploads[static_cast<std::size_t>(i)];
-        tile.mesh =
-            streamed_mesh(*tile.draw, entries_.at({&stream, tile.draw->tile->id}).moves, drawn);
+    for (std::size_t i = 0; i < changed.size(); i += uploaded_together) {
+        const auto part = std::span(changed).subspan(i);
+        const std::size_t count = std::min(part.size(), uploaded_together);
+        if (auto done = upload_all(part.first(count), drawn, stats); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+Result<void> StreamedTiles::upload_all(std::span<const StreamedDraw* const> draws,
+                                       const StreamedByTile& drawn, FrameStats& stats) {
+    std::vector<GridMesh> meshes(draws.size());
+    parallel_for(static_cast<int>(draws.size()), [&](int i) {
+        const StreamedDraw& draw = *draws[static_cast<std::size_t>(i)];
+        meshes[static_cast<std::size_t>(i)] =
+            streamed_mesh(draw, entries_.at(key_of(draw)).moves, drawn);
     });
-    for (const TileToUpload& tile : uploads) {
-        if (auto done = upload(*tile.draw, tile.mesh, stats); !done) {
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        if (auto done = upload(*draws[i], meshes[i], stats); !done) {
             return done;
         }
     }
@@ -126,7 +137,7 @@ Result<void> StreamedTiles::prepare_meshes(const scene::TileStream& stream,
 }
 
 StreamedTiles::Entry& StreamedTiles::entry_of(const StreamedDraw& draw) {
-    Entry& entry = entries_[{draw.terrain->stream.get(), draw.tile->id}];
+    Entry& entry = entries_[key_of(draw)];
     if (entry.owner.lock() != draw.tile) {
         entry = {};
         entry.owner = draw.tile;
@@ -268,7 +279,7 @@ Result<const gl::Buffer*> StreamedTiles::indices_for(glm::ivec2 cells, FrameStat
 }
 
 const ResidentStreamed& StreamedTiles::tile(const StreamedDraw& draw) const {
-    return *entries_.at({draw.terrain->stream.get(), draw.tile->id}).resident;
+    return *entries_.at(key_of(draw)).resident;
 }
 
 } // namespace reljef::render

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -67,11 +68,16 @@ private:
     Result<void> set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats);
     Result<void> set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
                                FrameStats& stats);
+    Result<void> upload_all(std::span<const StreamedDraw* const> draws, const StreamedByTile& drawn,
+                            FrameStats& stats);
     Result<void> prepare_light(const DrawList& list, const StreamedDraw& draw, FrameStats& stats);
     Result<void> upload(const StreamedDraw& draw, const GridMesh& mesh, FrameStats& stats);
     const scene::TerrainIrradiance& irradiance_of(const StreamedDraw& draw,
                                                   const scene::TerrainLight& light);
     Result<const gl::Buffer*> indices_for(glm::ivec2 cells, FrameStats& stats);
+    static Key key_of(const StreamedDraw& draw) {
+        return {draw.terrain->stream.get(), draw.tile->id};
+    }
     Entry& entry_of(const StreamedDraw& draw);
 
     std::map<Key, Entry> entries_;

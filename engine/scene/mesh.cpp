@@ -101,6 +101,20 @@ Mesh box_mesh(glm::vec3 size) {
     return mesh;
 }
 
+TriangleEdges triangle_edges(const Mesh& mesh, std::size_t first) {
+    const std::uint32_t a = mesh.indices[first];
+    const std::uint32_t b = mesh.indices[first + 1];
+    const std::uint32_t c = mesh.indices[first + 2];
+    TriangleEdges edges;
+    edges.corner = glm::dvec3(mesh.positions[a]);
+    edges.p = glm::dvec3(mesh.positions[b]) - edges.corner;
+    edges.q = glm::dvec3(mesh.positions[c]) - edges.corner;
+    edges.coordinate = glm::dvec2(mesh.texture_coordinates[a]);
+    edges.s = glm::dvec2(mesh.texture_coordinates[b]) - edges.coordinate;
+    edges.t = glm::dvec2(mesh.texture_coordinates[c]) - edges.coordinate;
+    return edges;
+}
+
 Mesh plane_mesh(glm::vec2 size) {
     Mesh mesh;
     add_quad(mesh, glm::vec3(-0.5F * size, 0.0F), {size.x, 0.0F, 0.0F}, {0.0F, size.y, 0.0F});

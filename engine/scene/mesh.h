@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,18 @@ struct Mesh {
 
 /// The box around the positions.
 Box bounds_of(const Mesh& mesh);
+
+/// One corner of a triangle, and the ways from it to the other two.
+struct TriangleEdges {
+    glm::dvec3 corner{0.0}; ///< metres, as p and q
+    glm::dvec3 p{0.0};
+    glm::dvec3 q{0.0};
+    glm::dvec2 coordinate{0.0}; ///< of the texture, as s and t
+    glm::dvec2 s{0.0};
+    glm::dvec2 t{0.0};
+};
+/// Of the triangle whose indices begin at `first`.
+TriangleEdges triangle_edges(const Mesh& mesh, std::size_t first);
 
 // The shapes' texture coordinates: a picture whose row 0 is at v = 0 stands upright and is not
 // mirrored, seen from outside.

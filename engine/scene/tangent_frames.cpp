@@ -31,14 +31,11 @@ bool is_length(double length) {
 
 // Of one triangle; all zero where its texture coordinates or its corners span nothing.
 Gradients gradients_of(const Mesh& mesh, std::size_t first) {
-    const std::uint32_t a = mesh.indices[first];
-    const std::uint32_t b = mesh.indices[first + 1];
-    const std::uint32_t c = mesh.indices[first + 2];
-    const glm::dvec3 p = glm::dvec3(mesh.positions[b]) - glm::dvec3(mesh.positions[a]);
-    const glm::dvec3 q = glm::dvec3(mesh.positions[c]) - glm::dvec3(mesh.positions[a]);
-    const glm::dvec2 corner(mesh.texture_coordinates[a]);
-    const glm::dvec2 s = glm::dvec2(mesh.texture_coordinates[b]) - corner;
-    const glm::dvec2 t = glm::dvec2(mesh.texture_coordinates[c]) - corner;
+    const TriangleEdges edges = triangle_edges(mesh, first);
+    const glm::dvec3 p = edges.p;
+    const glm::dvec3 q = edges.q;
+    const glm::dvec2 s = edges.s;
+    const glm::dvec2 t = edges.t;
     const double area = glm::length(glm::cross(p, q));
     const double determinant = s.x * t.y - t.x * s.y;
     const glm::dvec3 along_u = (t.y * p - s.y * q) / determinant;

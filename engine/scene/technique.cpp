@@ -14,9 +14,9 @@ namespace {
 constexpr std::array<ParameterInfo, 3> polygons_parameters{
     {{"lods", 1.0, 1.0, 5.0, true,
       "levels of detail at most, by distance; 1: every sample is a vertex"},
-     {"error", 0.0, 0.0, 16.0, false,
+     {"error", 0.0, 0.0, most_polygons_error, false,
       "pixels that no pixel is farther from where it belongs, instead of levels; 0: by levels",
-      true},
+      true, least_polygons_error},
      {"morph", 0.0, 0.0, 1.0, true,
       "with error, 1: vertices rise to their places as the view nears, so that nothing jumps",
       true}}};
@@ -186,6 +186,21 @@ Result<void> assign(Technique& technique, std::string_view assignment,
                                  : set_parameter(technique, assignment);
 }
 
+// Levels that an error takes the place of.
+bool is_replaced(const Technique& technique, const ParameterInfo& known) {
+    return technique.id == TechniqueId::polygons && known.name == "lods" &&
+           parameter(technique, "error") > 0.0;
+}
+
+// What no parameter shows by itself.
+Result<Technique> without_contradiction(Technique technique) {
+    if (technique.id == TechniqueId::polygons && parameter(technique, "error") > 0.0 &&
+        parameter(technique, "lods") > 1.0) {
+        return Error{"technique polygons: lods and error found, one of them was expected"};
+    }
+    return technique;
+}
+
 std::size_t index_of(const TechniqueInfo& info, std::string_view name) {
     const auto found =
         std::find_if(info.parameters.begin(), info.parameters.end(),
@@ -293,7 +308,7 @@ Result<Technique> parse_technique(std::string_view text) {
             return set.error();
         }
     }
-    return technique;
+    return without_contradiction(std::move(technique));
 }
 
 std::string to_string(const Technique& technique) {
@@ -301,7 +316,8 @@ std::string to_string(const Technique& technique) {
     std::string list;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
         const ParameterInfo& known = info.parameters[i];
-        if (!known.is_tacit || technique.values[i] != known.default_value) {
+        const bool is_usual = known.is_tacit && technique.values[i] == known.default_value;
+        if (!is_usual && !is_replaced(technique, known)) {
             list += fmt::format(",{}={}", known.name, technique.values[i]);
         }
     }

@@ -10,6 +10,10 @@
 
 namespace reljef::scene {
 
+/// The range of an error that polygons can promise, pixels: a rasterizer's own takes most of less.
+inline constexpr double least_polygons_error = 0.02;
+inline constexpr double most_polygons_error = 16.0;
+
 /// How a terrain's surface is drawn.
 enum class TechniqueId {
     texture,           ///< colour over the flat reference surface
@@ -90,11 +94,13 @@ bool is_two_sided(const Technique& technique);
 Technique make_technique(TechniqueId id);
 
 /// From "ID" or "ID:key=value,key=value", parameters and options in any order; what has no '='
-/// belongs to the option before it. Errors name what was found and what was expected.
+/// belongs to the option before it. Errors name what was found and what was expected; levels and
+/// an error contradict each other.
 Result<Technique> parse_technique(std::string_view text);
 
-/// "ID:key=value,…" with every parameter, but tacit ones that are as by default, and those options
-/// it has: parse_technique gives the same technique back.
+/// "ID:key=value,…" with every parameter, but tacit ones that are as by default and, where
+/// polygons has an error, its levels; and those options it has: parse_technique gives the same
+/// technique back.
 std::string to_string(const Technique& technique);
 
 } // namespace reljef::scene

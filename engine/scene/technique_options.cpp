@@ -61,7 +61,8 @@ constexpr OptionInfo edges_info{
     "edges",
     "none|smooth[,E]",
     "none",
-    "a place that the ray passes by less than E is blended into the one it hits, by distance/E",
+    "the nearest place that the ray passes by less than E is blended into the one it hits, by "
+    "distance/E",
     "GPU surface-detail survey (2008) ch. 3.6.7",
     edges_numbers};
 constexpr OptionInfo sides_info{
@@ -267,10 +268,16 @@ bool looks_once(TechniqueId id) {
            id == TechniqueId::parallax_iterated;
 }
 
+std::string_view reason_without_ray(std::string_view option) {
+    return option == "border"
+               ? "it shows what lies beyond the tile as its material says; relief and exact take it"
+               : "it looks for no surface along a ray; relief and exact do";
+}
+
 // Why a technique cannot take an option; empty where it can.
 std::string_view reason_against(TechniqueId id, std::string_view option) {
     if (geometry_of(id) != Geometry::box) {
-        return "it looks for no surface along a ray; relief and exact do";
+        return reason_without_ray(option);
     }
     if (option == "steps" && id == TechniqueId::pom) {
         return "its own min and max say the same";
@@ -386,11 +393,15 @@ Result<double> parse_number(std::string_view subject, const ParameterInfo& param
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool is_number = code == std::errc{} && end == text.data() + text.size();
     const bool fits = is_number && value >= parameter.low && value <= parameter.high &&
+                      (value == parameter.low || value >= parameter.least) &&
                       (!parameter.whole || value == std::round(value));
     if (!fits) {
-        return Error{fmt::format("{}: {}={} found, a {}number from {} to {} was expected", subject,
-                                 parameter.name, text, parameter.whole ? "whole " : "",
-                                 parameter.low, parameter.high)};
+        const bool has_gap = parameter.least > parameter.low;
+        return Error{fmt::format("{}: {}={} found, {}a {}number from {} to {} was expected",
+                                 subject, parameter.name, text,
+                                 has_gap ? fmt::format("{} or ", parameter.low) : std::string(),
+                                 parameter.whole ? "whole " : "",
+                                 has_gap ? parameter.least : parameter.low, parameter.high)};
     }
     return value;
 }

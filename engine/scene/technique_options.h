@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,8 @@ struct ParameterInfo {
     bool whole = false; ///< whole numbers only
     std::string_view meaning;
     bool is_tacit = false; ///< named in a technique's text only where it is not the default
+    /// Of the values above `low` the least allowed, where it is above `low`.
+    double least = std::numeric_limits<double>::lowest();
 };
 
 /// Equal steps by the angle of view: n = low + (high − low)(1 − cos α), α between the view ray and

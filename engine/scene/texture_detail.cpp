@@ -22,17 +22,9 @@ struct Areas {
 Areas areas_of(const Mesh& mesh) {
     Areas areas;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::uint32_t a = mesh.indices[i];
-        const std::uint32_t b = mesh.indices[i + 1];
-        const std::uint32_t c = mesh.indices[i + 2];
-        const glm::dvec3 origin(mesh.positions[a]);
-        const glm::dvec3 p = glm::dvec3(mesh.positions[b]) - origin;
-        const glm::dvec3 q = glm::dvec3(mesh.positions[c]) - origin;
-        const glm::dvec2 corner(mesh.texture_coordinates[a]);
-        const glm::dvec2 s = glm::dvec2(mesh.texture_coordinates[b]) - corner;
-        const glm::dvec2 t = glm::dvec2(mesh.texture_coordinates[c]) - corner;
-        areas.surface += glm::length(glm::cross(p, q));
-        areas.texture += std::abs(s.x * t.y - s.y * t.x);
+        const TriangleEdges edges = triangle_edges(mesh, i);
+        areas.surface += glm::length(glm::cross(edges.p, edges.q));
+        areas.texture += std::abs(edges.s.x * edges.t.y - edges.s.y * edges.t.x);
     }
     return areas;
 }

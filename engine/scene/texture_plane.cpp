@@ -11,15 +11,7 @@ namespace {
 
 // The plane of one triangle; absent where it has no area or no texture coordinates.
 std::optional<TexturePlane> plane_of_triangle(const Mesh& mesh, std::size_t first) {
-    const std::uint32_t a = mesh.indices[first];
-    const std::uint32_t b = mesh.indices[first + 1];
-    const std::uint32_t c = mesh.indices[first + 2];
-    const glm::dvec3 corner(mesh.positions[a]);
-    const glm::dvec3 p = glm::dvec3(mesh.positions[b]) - corner;
-    const glm::dvec3 q = glm::dvec3(mesh.positions[c]) - corner;
-    const glm::dvec2 coordinate(mesh.texture_coordinates[a]);
-    const glm::dvec2 s = glm::dvec2(mesh.texture_coordinates[b]) - coordinate;
-    const glm::dvec2 t = glm::dvec2(mesh.texture_coordinates[c]) - coordinate;
+    const auto [corner, p, q, coordinate, s, t] = triangle_edges(mesh, first);
     const double area = s.x * t.y - s.y * t.x;
     const glm::dvec3 across = glm::cross(p, q);
     if (area == 0.0 || glm::length(across) == 0.0) {

@@ -195,6 +195,7 @@ void TileStream::work(const std::stop_token& stop) {
 void TileStream::finish(terrain::TreeTile tile, TileReading reading,
                         std::shared_ptr<const StreamedTile> made, bool stopped) {
     in_flight_.erase(tile);
+    stats_.bytes_read += reading.bytes_read;
     if (stopped) {
         ++stats_.cancelled;
         return;

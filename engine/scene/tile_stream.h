@@ -28,6 +28,7 @@ struct TileReading {
         std::string message;
     };
     std::vector<Fault> faults;
+    std::size_t bytes_read = 0; ///< that it took from its files
 };
 
 /// Reads a tile; called from several threads at a time. May give up where a stop is asked for.
@@ -48,6 +49,7 @@ struct TileStreamStats {
     int failed = 0;    ///< readings with faults
     int cancelled = 0; ///< no longer wanted before they were there
     int evicted = 0;
+    std::size_t bytes_read = 0; ///< by all readings
 };
 
 /// The tiles of a terrain that are in memory, and the threads that read those that are wanted. The

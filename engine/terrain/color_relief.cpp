@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/terrain/tile_border.h"
+
 namespace reljef::terrain {
 namespace {
 
@@ -28,8 +30,12 @@ int mirrored_index(int index, int count) {
     return inside < count ? inside : period - 1 - inside;
 }
 
+int index_outside(int index, int count, bool wraps) {
+    return wraps ? index_beyond(index, count, TileBorder::wrap) : mirrored_index(index, count);
+}
+
 // Binomial, its taps `step` samples apart along one axis.
-Grid<float> blurred_along(const Grid<float>& values, int step, bool south) {
+Grid<float> blurred_along(const Grid<float>& values, int step, bool south, bool wraps) {
     constexpr std::array taps{0.0625F, 0.25F, 0.375F, 0.25F, 0.0625F};
     Grid<float> blurred(values.cols(), values.rows());
     for (int row = 0; row < values.rows(); ++row) {
@@ -38,8 +44,8 @@ Grid<float> blurred_along(const Grid<float>& values, int step, bool south) {
                 const int away = (i - 2) * step;
                 blurred(col, row) +=
                     taps[static_cast<std::size_t>(i)] *
-                    values(south ? col : mirrored_index(col + away, values.cols()),
-                           south ? mirrored_index(row + away, values.rows()) : row);
+                    values(south ? col : index_outside(col + away, values.cols(), wraps),
+                           south ? index_outside(row + away, values.rows(), wraps) : row);
             }
         }
     }
@@ -72,7 +78,8 @@ Grid<float> heights_from_colors(const Image& image, const ColorReliefOptions& op
     }
     for (int octave = 0; octave < options.octaves; ++octave) {
         const int step = 1 << octave; // à trous (Holschneider et al. 1989)
-        Grid<float> coarser = blurred_along(blurred_along(finer, step, false), step, true);
+        Grid<float> coarser = blurred_along(blurred_along(finer, step, false, options.wraps), step,
+                                            true, options.wraps);
         const float weight = static_cast<float>(step) * (options.dark_is_high ? -1.0F : 1.0F);
         for (std::size_t i = 0; i < heights.size(); ++i) {
             heights.samples()[i] += weight * (finer.samples()[i] - coarser.samples()[i]);

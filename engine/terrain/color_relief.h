@@ -9,6 +9,8 @@ struct ColorReliefOptions {
     int octaves =
         5; ///< bands of detail, each twice as coarse; what is coarser is no relief, 1 to 12
     bool dark_is_high = false;
+    /// Whether the picture goes on in its own copies; else it is mirrored at its border.
+    bool wraps = false;
 };
 
 /// Heights in [0,1] guessed from a picture, of its size: an impression of relief, not a

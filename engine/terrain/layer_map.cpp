@@ -45,10 +45,6 @@ template <class Heights> LayerMap made_layers(int cols, int rows, const Heights&
     return LayerMap::create(std::move(heights)).value();
 }
 
-int index_beyond(int index, int count, TileBorder border) {
-    return border == TileBorder::wrap ? (index + count) % count : std::clamp(index, 0, count - 1);
-}
-
 // Whether the triangle is met by the plumb line through a place, and at which height; edges belong
 // to the triangle on their one side only.
 std::optional<double> height_on(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,

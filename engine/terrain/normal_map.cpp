@@ -11,16 +11,12 @@
 namespace reljef::terrain {
 namespace {
 
-int neighbour_index(int index, int count, MapBorder border) {
-    return border == MapBorder::wrap ? (index + count) % count : std::clamp(index, 0, count - 1);
-}
-
 // Rise per sample along the columns (east) and the rows (south), from the 3×3 around a sample: the
 // middle line's central difference, or a part of it and of the lines beside it.
 glm::dvec2 rise_by(GridView<const float> heights, int col, int row, const NormalOptions& options) {
     const auto at = [&](int east, int south) -> double {
-        return heights(neighbour_index(col + east, heights.cols(), options.border),
-                       neighbour_index(row + south, heights.rows(), options.border));
+        return heights(index_beyond(col + east, heights.cols(), options.border),
+                       index_beyond(row + south, heights.rows(), options.border));
     };
     const double beside = options.filter == NormalFilter::sobel ? 0.25 : 0.0;
     glm::dvec2 rise(0.0);

@@ -7,11 +7,9 @@
 
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
+#include "engine/terrain/tile_border.h"
 
 namespace reljef::terrain {
-
-/// What lies beyond a map: its own copies, or its border, drawn out for ever.
-enum class MapBorder { wrap, clamp };
 
 /// How a slope is found from heights.
 enum class NormalFilter {
@@ -25,7 +23,7 @@ enum class NormalFilter {
 struct NormalOptions {
     glm::dvec2 spacing{1.0}; ///< between samples, in the heights' unit, > 0
     NormalFilter filter = NormalFilter::bilinear;
-    MapBorder border = MapBorder::clamp;
+    TileBorder border = TileBorder::clamp; ///< discard is as clamp
 };
 
 /// Unit normals of a height surface at its samples: x east, y north, z up. At a clamped border the

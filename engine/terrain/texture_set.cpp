@@ -62,19 +62,26 @@ void note_sizes(TextureSet& set) {
 // Unit vectors in eight bits are good to a few hundredths: half the length is none.
 bool is_normal(glm::vec3 normal) {
     constexpr float least_length = 0.5F;
-    return glm::length(normal) >= least_length && normal.z > 0.0F;
+    const float length = glm::length(normal);
+    return length >= least_length && std::isfinite(length) && normal.z > 0.0F;
 }
 
 void mend_normals(TextureSet& set) {
     std::size_t mended = 0;
-    for (glm::vec3& normal : set.normals.samples()) {
-        mended += is_normal(normal) ? 0U : 1U;
-        normal = is_normal(normal) ? glm::normalize(normal) : glm::vec3(0.0F, 0.0F, 1.0F);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < set.normals.size(); ++i) {
+        glm::vec3& normal = set.normals.samples()[i];
+        const bool is_good = is_normal(normal);
+        first = mended == 0 && !is_good ? i : first;
+        mended += is_good ? 0U : 1U;
+        normal = is_good ? glm::normalize(normal) : glm::vec3(0.0F, 0.0F, 1.0F);
     }
     if (mended > 0) {
-        set.notes.push_back(fmt::format("{}: {} of {} normals are zero or point into the surface; "
-                                        "they stand upright now",
-                                        set.name, mended, set.normals.size()));
+        const auto cols = static_cast<std::size_t>(set.normals.cols());
+        set.notes.push_back(fmt::format("{}: {} of {} normals are zero or point into the surface, "
+                                        "the first at column {}, row {}; they stand upright now",
+                                        set.name, mended, set.normals.size(), first % cols,
+                                        first / cols));
     }
 }
 
@@ -100,7 +107,7 @@ Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, TileBor
     NormalOptions options;
     options.spacing =
         1.0 / (static_cast<double>(scale) * glm::dvec2(heights.cols(), heights.rows()));
-    options.border = border == TileBorder::wrap ? MapBorder::wrap : MapBorder::clamp;
+    options.border = border;
     Grid<glm::vec3> normals = normals_from_heights(heights, options);
     for (glm::vec3& normal : normals.samples()) {
         normal.y = -normal.y; // v grows along the rows, north against them

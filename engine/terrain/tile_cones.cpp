@@ -10,10 +10,6 @@ int field_margin(int cols, int rows, TileBorder border) {
     return border == TileBorder::wrap ? std::max(std::min(cols, rows) / 4, 1) : 0;
 }
 
-int wrapped_index(int index, int count) {
-    return ((index % count) + count) % count;
-}
-
 } // namespace
 
 Grid<float> cone_field(GridView<const float> heights, TileBorder border) {
@@ -25,9 +21,8 @@ Grid<float> cone_field(GridView<const float> heights, TileBorder border) {
     Grid<float> field(cols, rows);
     for (int row = 0; row < rows; ++row) {
         for (int col = 0; col < cols; ++col) {
-            field(col, row) = wraps ? heights(wrapped_index(col - margin, heights.cols()),
-                                              wrapped_index(row - margin, heights.rows()))
-                                    : heights.clamped(col, row);
+            field(col, row) = heights(index_beyond(col - margin, heights.cols(), border),
+                                      index_beyond(row - margin, heights.rows(), border));
         }
     }
     return field;

@@ -14,7 +14,7 @@ Grid<float> cone_field(GridView<const float> heights, TileBorder border);
 /// those that a ray may trust in any copy. Cells as of ConeMaps; where the tile wraps there is one
 /// for each texel, the last between it and the first of the next copy. Where it does not, relaxed
 /// cones are plain ones: beyond the border, drawn out, the surface may fall where it rises on the
-/// tile.
+/// tile. Where it wraps, cones_at_samples() of the field gives those at the texels.
 Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, TileBorder border);
 ConeMaps tile_cones(const ConeMaps& of_field, int cols, int rows, TileBorder border);
 

@@ -17,7 +17,7 @@ struct DrawOptions {
     /// of the pixel's centre. >= 1.
     int rays_per_side = 1;
     SunShadow shadow = SunShadow::sweep; ///< where the shading is made from the scene
-    ParallelOptions parallel; ///< stopped, drawing fails; the result depends on nothing of it
+    ParallelOptions parallel = {}; ///< stopped, drawing fails; the result depends on nothing of it
 };
 
 /// What every pixel shows.

@@ -59,17 +59,16 @@ GeometricErrors blank_errors(int cols, int rows) {
     return errors;
 }
 
-void judge_pixel(const SurfaceView& view, const HitBuffer& shown, const HitBuffer& truth,
+void judge_pixel(const PixelMeasure& measure, const HitBuffer& shown, const HitBuffer& truth,
                  glm::ivec2 pixel, GeometricErrors& errors) {
     const Hit& hit = shown(pixel.x, pixel.y);
     const Hit& true_hit = truth(pixel.x, pixel.y);
     double texels_off = no_bound;
     if (shows_terrain(hit)) {
-        const glm::ivec2 size(shown.cols(), shown.rows());
         errors.reprojection.map(pixel.x, pixel.y) =
-            static_cast<float>(reprojection_error(view, size, pixel, hit));
+            static_cast<float>(bounded(measure.reprojection(pixel, hit)));
         if (shows_terrain(true_hit)) {
-            texels_off = hit_error(hit, true_hit);
+            texels_off = bounded(measure.hit(hit, true_hit));
             errors.hit.map(pixel.x, pixel.y) = static_cast<float>(texels_off);
         }
     }
@@ -144,13 +143,22 @@ double hit_error(const Hit& shown, const Hit& true_hit) {
 
 Result<GeometricErrors> geometric_errors(const SurfaceView& view, const HitBuffer& shown,
                                          const HitBuffer& truth, unsigned threads) {
+    const glm::ivec2 size(shown.cols(), shown.rows());
+    const auto reprojection = [&](glm::ivec2 pixel, const Hit& hit) {
+        return reprojection_error(view, size, pixel, hit);
+    };
+    return geometric_errors({reprojection, hit_error}, shown, truth, threads);
+}
+
+Result<GeometricErrors> geometric_errors(const PixelMeasure& measure, const HitBuffer& shown,
+                                         const HitBuffer& truth, unsigned threads) {
     if (const auto fit = check_frames(shown, truth); !fit) {
         return fit.error();
     }
     GeometricErrors errors = blank_errors(shown.cols(), shown.rows());
     const auto judge_row = [&](int row) {
         for (int col = 0; col < shown.cols(); ++col) {
-            judge_pixel(view, shown, truth, {col, row}, errors);
+            judge_pixel(measure, shown, truth, {col, row}, errors);
         }
     };
     parallel_for(shown.rows(), judge_row, {threads, {}, {}});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include <glm/mat4x4.hpp>
@@ -70,6 +71,14 @@ double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 p
 /// How far two hits lie apart on the heightfield, texels; infinity where one is not finite.
 double hit_error(const Hit& shown, const Hit& true_hit);
 
+/// How one pixel's errors are told.
+struct PixelMeasure {
+    /// How far from a pixel's centre the place falls that it shows, pixels.
+    std::function<double(glm::ivec2 pixel, const Hit& hit)> reprojection;
+    /// How far two places lie apart, texels.
+    std::function<double(const Hit& shown, const Hit& true_hit)> hit;
+};
+
 /// The errors of a technique's frame, by the definitions that hold for every technique and for
 /// polygons: reprojection error over the pixels where the technique shows terrain, whatever the
 /// truth shows there; hit error over the pixels where both show terrain; wrong surface, and holes,
@@ -77,6 +86,11 @@ double hit_error(const Hit& shown, const Hit& true_hit);
 /// Fails where the two frames differ in size and where neither shows terrain at any pixel: such a
 /// frame has no error, not a small one.
 Result<GeometricErrors> geometric_errors(const SurfaceView& view, const HitBuffer& shown,
+                                         const HitBuffer& truth, unsigned threads = 0);
+
+/// The same of a surface that is no heightfield. What `measure` gives that is not finite has no
+/// bound.
+Result<GeometricErrors> geometric_errors(const PixelMeasure& measure, const HitBuffer& shown,
                                          const HitBuffer& truth, unsigned threads = 0);
 
 } // namespace reljef::truth

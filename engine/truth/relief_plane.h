@@ -9,11 +9,11 @@
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
 #include "engine/terrain/min_max_pyramid.h"
+#include "engine/terrain/tile_border.h"
 
 namespace reljef::truth {
 
-/// What lies beyond a tile: its own copies; its border, drawn out for ever; nothing.
-enum class Border { wrap, clamp, discard };
+using Border = terrain::TileBorder;
 
 struct ReliefOptions {
     double width = 1.0;   ///< metres that texture coordinates 0 … 1 cover, both ways; > 0

@@ -99,7 +99,7 @@ protected:
         test::ProgramOptions options;
         options.folder = folder_.path();
         const auto names = folder_.names();
-        expect_refusal(test::reljef(arguments, options), 1, parts);
+        expect_refusal(test::reljef(arguments, options), 2, parts);
         EXPECT_EQ(folder_.names(), names);
         EXPECT_EQ(test::read_bytes(folder_.path() / "photo.png"), photo_);
     }
@@ -130,7 +130,7 @@ TEST_F(SameFile, OutputOverTheTerrainByAnotherName) {
     expect_refusal(test::reljef({"render", "photo.png", "-o", "link.png", "--size", "64x48",
                                  "--context", "osmesa", "--quiet"},
                                 options),
-                   1, {"link.png", "TERRAIN"});
+                   2, {"link.png", "TERRAIN"});
 }
 
 TEST_F(SameFile, OutputOverATileOfAFolder) {
@@ -151,7 +151,7 @@ TEST_F(SameFile, OutputOverATileOfAFolder) {
         std::vector<std::string> arguments{"render",    "tiles",  "--size", "64x48",
                                            "--context", "osmesa", "--quiet"};
         arguments.insert(arguments.end(), output.begin(), output.end());
-        expect_refusal(test::reljef(arguments, options), 1, {"0001.png", "TERRAIN"});
+        expect_refusal(test::reljef(arguments, options), 2, {"0001.png", "TERRAIN"});
     }
     EXPECT_EQ(test::read_bytes(tiles / "0001.png"), photo_);
 }
@@ -171,7 +171,7 @@ TEST_F(SameFile, OutputOverATextureOfTheGallery) {
                                            "--size", "64x48",  "--context",
                                            "osmesa", "--quiet"};
         arguments.insert(arguments.begin() + 1, terrain.begin(), terrain.end());
-        expect_refusal(test::reljef(arguments, options), 1, {"a_height.png", "textures"});
+        expect_refusal(test::reljef(arguments, options), 2, {"a_height.png", "textures"});
         EXPECT_EQ(test::read_bytes(folder_.path() / "tile" / "a_height.png"), photo_);
     }
 }
@@ -183,7 +183,7 @@ TEST_F(SameFile, OutputOverWhatTheSceneFileNames) {
     expect_refusal(test::reljef({"render", "scene.toml", "-o", "photo.png", "--size", "64x48",
                                  "--context", "osmesa", "--quiet"},
                                 options),
-                   1, {"photo.png", "heights"});
+                   2, {"photo.png", "heights"});
     EXPECT_EQ(test::read_bytes(folder_.path() / "photo.png"), photo_);
 }
 

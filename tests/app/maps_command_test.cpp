@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/core/atomic_file.h"
@@ -107,6 +110,27 @@ TEST_F(MapsCommand, ConesInFloatsAndWholeNumbersAreTheSameAndTheRelaxedOnesWider
     }
 }
 
+// What lies between texels is interpolated: the surface within a cell is under none of its corners'
+// cones.
+TEST_F(MapsCommand, ConesStandOverEachTexelAndNoneReachesIntoTheNextOnesSurface) {
+    for (const std::string border : {"wrap", "clamp"}) {
+        const auto made = test::reljef({"maps", file("height.png"), "--cones", file("cones.exr"),
+                                        "--border", border, "--quiet"});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        const io::Channels cones = read(file("cones.exr"));
+        ASSERT_EQ(cones.cols, 32);
+        ASSERT_EQ(cones.rows, 32);
+        for (int row = 0; row < 32; ++row) {
+            for (int col = 0; col + 1 < 32; ++col) {
+                const float rise = wave(col + 1, row) - wave(col, row);
+                if (rise > 0.01F) { // the next texel's top is beside the cone
+                    ASSERT_LE(cones.at(col, row, 0), 1.02F / rise) << col << ' ' << row;
+                }
+            }
+        }
+    }
+}
+
 TEST_F(MapsCommand, HeightsAreGuessedFromAPicture) {
     Image picture(64, 64, Rgba8{40, 40, 40, 255});
     for (int row = 24; row < 40; ++row) {
@@ -131,9 +155,9 @@ TEST_F(MapsCommand, BadInputIsOneSentenceAndLeavesNothing) {
     refused({file("height.png"), "--normals", file("n.jpg")}, 1,
             {"n.jpg", "cannot be written", ".png, .tif or .exr"});
     refused({file("height.png"), "--normals", file("no/n.png")}, 1, {"no/n.png"});
-    refused({file("height.png"), "--normals", file("height.png")}, 1,
+    refused({file("height.png"), "--normals", file("height.png")}, 2,
             {"--normals", "read as PICTURE"});
-    refused({file("height.png"), "--normals", file("a.png"), "--cones", file("a.png")}, 1,
+    refused({file("height.png"), "--normals", file("a.png"), "--cones", file("a.png")}, 2,
             {"--cones", "--normals writes too"});
     refused({file("height.png"), "--from", "depths", "--normals", file("n.png")}, 2,
             {"--from: 'depths' found", "heights, normals, colors"});
@@ -152,8 +176,100 @@ TEST_F(MapsCommand, BadInputIsOneSentenceAndLeavesNothing) {
             {"high.exr", "a height of 1.5", "column 5, row 2"});
     folder_.write("empty.png", "");
     folder_.write("text.png", "no picture at all");
+    small.at(5, 2, 0) = std::nanf("");
+    write(file("nan.exr"), small);
+    refused({file("nan.exr"), "--from", "colors", "--heights", file("h.png")}, 1,
+            {"nan.exr: a colour of nan", "column 5, row 2"});
     refused({file("empty.png"), "--normals", file("n.png")}, 1, {"empty.png"});
     refused({file("text.png"), "--from", "colors", "--heights", file("h.png")}, 1, {"text.png"});
+}
+
+TEST_F(MapsCommand, OptionsWithoutAUseAreMisuse) {
+    const std::string out = file("out.png");
+    const std::string in = file("height.png");
+    refused({in, "--normals", out, "--back", in}, 2, {"--back", "--layers was expected"});
+    refused({in, "--normals", out, "--octaves", "3"}, 2, {"--octaves", "--from colors"});
+    refused({in, "--normals", out, "--dark-is-high"}, 2, {"--dark-is-high", "--from colors"});
+    refused({in, "--cones", out, "--sobel"}, 2, {"--sobel", "--normals or --combined"});
+    refused({in, "--cones", out, "--green", "up"}, 2, {"--green", "normals"});
+    refused({in, "--cones", out, "--scale", "0.1"}, 2, {"--scale", "normals"});
+    refused({in, "--layers", out, "--border", "clamp"}, 2, {"--border", "normals, cones"});
+}
+
+// A wave across the border: mirrored there, its blur would be another one.
+TEST_F(MapsCommand, HeightsGuessedFromATileFitTogetherWhereItWraps) {
+    const auto made = [&](const std::vector<int>& shift, const char* border) {
+        Image picture(32, 32);
+        for (int row = 0; row < 32; ++row) {
+            for (int col = 0; col < 32; ++col) {
+                const auto value =
+                    static_cast<std::uint8_t>(255.0F * wave((col + shift[0]) % 32, row));
+                picture(col, row) = {value, value, value, 255};
+            }
+        }
+        EXPECT_TRUE(io::write_image(file("tile.png"), picture));
+        const auto run = test::reljef({"maps", file("tile.png"), "--from", "colors", "--border",
+                                       border, "--heights", file("h.exr")});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return read(file("h.exr"));
+    };
+    const io::Channels here = made({0}, "wrap");
+    const io::Channels shifted = made({5}, "wrap");
+    const io::Channels clamped = made({5}, "clamp");
+    double off = 0.0;
+    for (int row = 0; row < 32; ++row) {
+        for (int col = 0; col < 32; ++col) {
+            ASSERT_NEAR(shifted.at(col, row, 0), here.at((col + 5) % 32, row, 0), 1e-4);
+            off = std::max(off, std::abs(static_cast<double>(clamped.at(col, row, 0)) -
+                                         here.at((col + 5) % 32, row, 0)));
+        }
+    }
+    EXPECT_GT(off, 0.02);
+}
+
+TEST_F(MapsCommand, NormalsOfEitherConventionAreReadAndWritten) {
+    for (const std::string green : {"down", "up"}) {
+        const auto made = test::reljef({"maps", file("height.png"), "--normals", file("n.png"),
+                                        "--green", green, "--scale", "0.2"});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        const io::Channels normals = read(file("n.png"));
+        // North of the crest the surface falls to the north: against the rows.
+        EXPECT_EQ(normals.at(3, 29, 1) < 0.45F, green == "down") << green;
+        const auto back = test::reljef({"maps", file("n.png"), "--from", "normals", "--green",
+                                        green, "--scale", "0.2", "--heights", file("h.exr")});
+        ASSERT_EQ(back.exit_code, 0) << back.err;
+        EXPECT_NEAR(read(file("h.exr")).at(3, 29, 0), wave(3, 29), 0.01);
+    }
+}
+
+TEST_F(MapsCommand, WhatAPersonShouldKnowOfItsInputIsANoteOnce) {
+    Image ramp(32, 32);
+    for (int row = 0; row < 32; ++row) {
+        for (int col = 0; col < 32; ++col) {
+            const auto value = static_cast<std::uint8_t>(8 * col);
+            ramp(col, row) = {value, value, value, 255};
+        }
+    }
+    ASSERT_TRUE(io::write_image(file("ramp.png"), ramp));
+    const auto made =
+        test::reljef({"maps", file("ramp.png"), "--normals", file("n.png"), "--scale", "0.255"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err, testing::HasSubstr("ramp.png: heights of 8 bits"));
+    EXPECT_THAT(made.err, testing::HasSubstr("in steps of 0.001 m"));
+    EXPECT_THAT(made.err, testing::HasSubstr("do not fit together"));
+    EXPECT_EQ(std::count(made.err.begin(), made.err.end(), '\n'), 2);
+    io::Channels normals = io::make_channels(8, 8, 3);
+    std::fill(normals.values.begin(), normals.values.end(), 1.0F);
+    for (int i = 0; i < 3; ++i) {
+        normals.at(5, 2, i) = 0.5F; // zero
+        normals.at(6, 2, i) = std::numeric_limits<float>::infinity();
+    }
+    write(file("bad.exr"), normals);
+    const auto flat =
+        test::reljef({"maps", file("bad.exr"), "--from", "normals", "--heights", file("h.png")});
+    ASSERT_EQ(flat.exit_code, 0) << flat.err;
+    EXPECT_THAT(flat.err, testing::HasSubstr("2 of 64 normals are zero"));
+    EXPECT_THAT(flat.err, testing::HasSubstr("column 5, row 2"));
 }
 
 TEST_F(MapsCommand, CtrlCLeavesNothing) {

@@ -124,6 +124,48 @@ TEST(RenderCommand, tiles_are_refused_where_there_are_none_and_where_they_are_un
             "a mesh that is not flat found");
 }
 
+// Told apart by what is wrong first: the gallery's technique is chosen before its textures.
+TEST(RenderCommand, mixed_is_each_models_own_technique_and_a_terrains_none) {
+    const test::TemporaryFolder folder;
+    const auto refused = [&](const char* keys, const std::vector<std::string>& arguments,
+                             const char* words) {
+        const auto scene =
+            folder.write("s.toml", std::string("[terrain]\nsize = 33\n") + keys).string();
+        std::vector<std::string> all{"render", scene,     "--context", "osmesa", "--size",
+                                     "64x48",  "--quiet", "-o",        "a.png"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const auto result = test::reljef(all);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    };
+    const char* const gallery =
+        "generator = \"gallery\"\n[gallery]\ntechnique = \"magic\"\ntextures = \"wood\"\n";
+    refused(gallery, {}, "technique 'magic' found");
+    refused(gallery, {"--technique", "mixed"}, "texture set 'wood' found");
+    refused("generator = \"natural\"\n", {"--technique", "mixed"}, "--technique: mixed found");
+}
+
+// A folder of that name where the program runs is another one.
+TEST(RenderCommand, textures_of_a_scene_file_are_beside_it_and_its_faults_name_it) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "wall");
+    std::filesystem::create_directories(folder.path() / "scenes");
+    test::ProgramOptions options;
+    options.folder = folder.path();
+    const auto refused = [&](const char* keys, const char* words) {
+        folder.write("scenes/halls.toml",
+                     std::string("[terrain]\ngenerator = \"gallery\"\nsize = 33\n[gallery]\n") +
+                         keys);
+        const auto result = test::reljef({"render", "scenes/halls.toml", "--context", "osmesa",
+                                          "--size", "64x48", "--quiet", "-o", "a.png"},
+                                         options);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    };
+    refused("textures = \"wall\"\n", "scenes/halls.toml: texture set 'wall' found");
+    refused("technique = \"magic\"\n", "scenes/halls.toml: [gallery] technique 'magic' found");
+}
+
 TEST(RenderCommand, same_command_same_bits) {
     RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;

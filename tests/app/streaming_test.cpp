@@ -1,11 +1,14 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <future>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/app/command_line.h"
+#include "tests/support/http_server.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 #include "tests/support/test_program.h"
@@ -88,6 +91,69 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("N44E006.hgt"));
     EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
+}
+
+class BadServer : public Streaming {
+protected:
+    void SetUp() override {
+        RELJEF_RELEASE_ONLY("waits for what is tried again");
+        if (!std::filesystem::exists("/usr/bin/gdal_translate")) {
+            GTEST_SKIP() << "gdal_translate of gdal-bin is not here";
+        }
+        Streaming::SetUp();
+        const auto made =
+            test::run_program("/usr/bin/gdal_translate",
+                              {"-q", "-of", "COG", "-co", "BLOCKSIZE=128", "-co", "COMPRESS=NONE",
+                               path("tiles/N44E006.hgt"), path("dem.tif")});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        options_.environment["GDAL_HTTP_MAX_RETRY"] = "0";
+    }
+    /// So little memory that only coarse overviews are read at the beginning.
+    [[nodiscard]] test::ProgramResult render_from(const test::HttpServer& server,
+                                                  const std::string& picture) const {
+        return test::reljef({"render", server.url("dem.tif"), "-o", path(picture), "--size",
+                             "160x120", "--context", "osmesa", "--memory", "1", "--camera",
+                             "44.6,6.6,2600,60,-12"},
+                            options_);
+    }
+};
+
+TEST_F(BadServer, that_is_slow_gives_the_same_picture) {
+    test::HttpServer server(folder_.path());
+    ASSERT_EQ(render_from(server, "a.png").exit_code, 0);
+    server.set_delay(20);
+    EXPECT_EQ(render_from(server, "b.png").exit_code, 0);
+    EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
+}
+
+// All at the same time: they wait more than they work.
+TEST_F(BadServer, is_drawn_coarser_tried_again_and_told_once) {
+    using Fault = test::HttpServer::Fault;
+    // A cloud-optimized file begins with its overviews: the samples are the last 128 x 128 blocks.
+    const std::size_t overviews = std::filesystem::file_size(path("dem.tif")) - 100 * 128 * 128 * 2;
+    std::vector<std::future<void>> runs;
+    for (const Fault fault :
+         {Fault::not_found, Fault::server_error, Fault::cut, Fault::lying_length}) {
+        runs.push_back(std::async(std::launch::async, [this, fault, overviews] {
+            test::HttpServer server(folder_.path());
+            server.set_fault(fault, overviews);
+            const std::string picture = std::to_string(static_cast<int>(fault)) + ".png";
+            const auto result = render_from(server, picture);
+            EXPECT_GT(test::read_bytes(path(picture)).size(), 100U);
+            if (fault == Fault::lying_length && result.exit_code == 0) {
+                return; // all of it came, and no more
+            }
+            EXPECT_EQ(result.exit_code, 1) << picture << result.err;
+            const std::string told = "shown coarser: ";
+            const auto first = result.err.find(told);
+            ASSERT_NE(first, std::string::npos) << picture << result.err;
+            EXPECT_EQ(result.err.find(told, first + 1), std::string::npos) << result.err;
+            EXPECT_THAT(result.err, HasSubstr("dem.tif"));
+        }));
+    }
+    for (auto& run : runs) {
+        run.get();
+    }
 }
 
 } // namespace

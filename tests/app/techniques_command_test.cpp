@@ -1,3 +1,10 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -31,6 +38,49 @@ TEST(TechniquesCommand, json_lists_the_catalogue_with_ranges) {
             }
         }
     }
+}
+
+// "| `relief` | `n` | 11 | 1 to 4096 | equal steps along the ray |"
+std::string table_row(const std::string& owner, const nlohmann::json& number) {
+    const std::string range =
+        number.contains("least")
+            ? fmt::format("{}, {} to {}", number["low"].get<double>(),
+                          number["least"].get<double>(), number["high"].get<double>())
+            : fmt::format("{} to {}", number["low"].get<double>(), number["high"].get<double>());
+    return fmt::format("| `{}` | `{}` | {} | {} | {} |", owner, number["name"].get<std::string>(),
+                       number["default"].get<double>(), range,
+                       number["meaning"].get<std::string>());
+}
+
+// The rows of the pages' tables of parameters.
+std::multiset<std::string> shown_rows() {
+    std::multiset<std::string> rows;
+    for (const auto& entry : std::filesystem::directory_iterator(RELJEF_TECHNIQUE_PAGES)) {
+        std::ifstream page(entry.path());
+        for (std::string line; std::getline(page, line);) {
+            if (line.rfind("| `", 0) == 0 && std::count(line.begin(), line.end(), '|') == 6) {
+                rows.insert(line);
+            }
+        }
+    }
+    return rows;
+}
+
+TEST(TechniquesCommand, every_parameter_stands_once_in_the_pages_as_it_is) {
+    const auto list = nlohmann::json::parse(test::reljef({"techniques", "--json"}).out);
+    std::set<std::string> expected;
+    for (const auto& technique : list) {
+        for (const auto& parameter : technique["parameters"]) {
+            expected.insert(table_row(technique["id"], parameter));
+        }
+        for (const auto& option : technique["options"]) {
+            for (const auto& number : option["numbers"]) {
+                expected.insert(table_row(option["name"], number));
+            }
+        }
+    }
+    const auto shown = shown_rows();
+    EXPECT_EQ(shown, std::multiset<std::string>(expected.begin(), expected.end()));
 }
 
 TEST(TechniquesCommand, version_and_help_succeed) {

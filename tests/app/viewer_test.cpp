@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "app/viewer.h"
+#include "engine/geo/place.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/terrain/made_heightfield.h"
 
 namespace reljef::app {
 namespace {
@@ -425,6 +427,24 @@ TEST_F(ViewerTest, TitleSaysWhereTheEyeIs) {
     EXPECT_THAT(walker.title({}, {}), HasSubstr("50 m above ground"));
     press(Key::o);
     EXPECT_THAT(title(), HasSubstr("map, 326 m high"));
+}
+
+TEST(ViewerOnEarth, TitleTellsPlaceHeightAndHeading) {
+    TerrainSource source;
+    source.terrain.name = "alps";
+    source.terrain.heightfield =
+        test::geographic_heightfield(Grid<float>(33, 33, 1000.0F), 46.0, 7.0, 1e-3);
+    ViewChoice view;
+    view.geodetic = GeodeticView{45.99, 7.01, 1500.0, 250.0, -30.0};
+    TerrainScene over = make_scene(std::move(source), {}, view).value();
+    const std::string title =
+        Viewer(over, scene::orbit_path(over.bounds), {400, 300}).title({}, {});
+    for (const std::string& part :
+         {std::string("500 m above ground"), std::string("1500 m above sea"),
+          std::string("45.99000, 7.01000"), geo::mgrs_text({45.99, 7.01, 0.0}),
+          std::string("heading 250\u00b0")}) {
+        EXPECT_THAT(title, HasSubstr(part));
+    }
 }
 
 TEST(Viewer, HelpNamesEveryKeyOnce) {

@@ -34,7 +34,7 @@ TEST(ValuesOverRange, go_in_even_steps_of_the_range_or_of_its_logarithm) {
 
 TEST(SettingsOverRange, hold_every_technique_as_it_is_none_twice_and_none_refused) {
     std::set<std::string> labels;
-    for (const scene::Technique& technique : settings_over_range()) {
+    for (const scene::Technique& technique : settings_over_range(scene::terrain_techniques())) {
         const std::string label = scene::to_string(technique);
         EXPECT_TRUE(scene::parse_technique(label)) << label;
         EXPECT_TRUE(labels.insert(label).second) << label;
@@ -45,7 +45,7 @@ TEST(SettingsOverRange, hold_every_technique_as_it_is_none_twice_and_none_refuse
 }
 
 TEST(SettingsOverRange, begin_with_every_technique_the_cheap_kinds_first) {
-    const std::vector<scene::Technique> settings = settings_over_range();
+    const std::vector<scene::Technique> settings = settings_over_range(scene::terrain_techniques());
     const std::size_t techniques = scene::terrain_techniques().size();
     std::vector<std::string> names;
     for (std::size_t i = 0; i < techniques; ++i) {
@@ -65,7 +65,7 @@ TEST(SettingsOverRange, begin_with_every_technique_the_cheap_kinds_first) {
 
 // Else a run short of time would look at all of one technique and at nothing of the next.
 TEST(SettingsOverRange, go_through_the_techniques_in_turns_from_their_defaults_outward) {
-    const std::vector<scene::Technique> settings = settings_over_range();
+    const std::vector<scene::Technique> settings = settings_over_range(scene::terrain_techniques());
     const auto place = [&](const std::string& label) {
         const auto found =
             std::find_if(settings.begin(), settings.end(), [&](const scene::Technique& setting) {
@@ -77,6 +77,75 @@ TEST(SettingsOverRange, go_through_the_techniques_in_turns_from_their_defaults_o
     EXPECT_LT(place("steep:n=8"), place("steep:n=4096"));
     EXPECT_LT(place("pom:min=64,max=32"), place("steep:n=4096"));
     EXPECT_LT(place("relief:n=8,k=8"), place("parallax-iterated:offset=-0.5,k=64"));
+}
+
+// "tile fence oblique lattice:n=32,k=6"
+std::vector<std::string> planned(const std::vector<std::string>& techniques,
+                                 const std::vector<std::string>& terrains = {}) {
+    ParetoOptions options;
+    options.terrains = terrains;
+    for (const std::string& technique : techniques) {
+        options.techniques.push_back(scene::parse_technique(technique).value());
+    }
+    std::vector<std::string> rows;
+    for (const Group& group : pareto_groups(options)) {
+        const std::string stage = group.stage.tile.empty() ? group.stage.terrain : group.stage.tile;
+        for (const Candidate& candidate : group.candidates) {
+            rows.push_back(stage + " " + std::string(scene::to_string(group.pose)) + " " +
+                           candidate.setting.label);
+        }
+    }
+    return rows;
+}
+
+TEST(ParetoGroups, technique_of_meshes_stands_where_it_suits) {
+    const auto rows = planned({"lattice", "bump", "relief:shadow=hard"});
+    for (const char* row :
+         {"fence oblique lattice:n=32,k=6", "fence oblique texture", "brick oblique bump",
+          "brick oblique relief:n=11,k=8,shadow=hard", "natural low relief:n=11,k=8,shadow=hard"}) {
+        EXPECT_THAT(rows, testing::Contains(row));
+    }
+    for (const char* row : {"copper oblique texture", "natural oblique bump", "brick low bump",
+                            "fence oblique relief:n=11,k=8,shadow=hard"}) {
+        EXPECT_THAT(rows, testing::Not(testing::Contains(row)));
+    }
+}
+
+TEST(ParetoGroups, hold_every_technique_and_option_by_themselves) {
+    std::string all;
+    for (const std::string& row : planned({})) {
+        all += row + "\n";
+    }
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        EXPECT_THAT(all, HasSubstr(" " + scene::to_string(scene::make_technique(info.id)) + "\n"));
+    }
+    for (const scene::Technique& setting : settings_of_options()) {
+        EXPECT_THAT(all, HasSubstr("brick oblique " + scene::to_string(setting) + "\n"));
+    }
+}
+
+TEST(ParetoGroups, terrain_that_is_named_is_drawn_as_asked_for_or_the_run_says_why_not) {
+    EXPECT_THAT(planned({"bump"}, {"natural"}), testing::Contains("natural oblique bump"));
+    EXPECT_THAT(planned({"polygons"}, {"gallery"}), testing::IsEmpty());
+}
+
+TEST(ParetoSuite, technique_that_nothing_suits_costs_no_measuring) {
+    ParetoOptions options;
+    options.techniques = {scene::make_technique(scene::TechniqueId::polygons)};
+    options.terrains = {"gallery"};
+    const Results results = run_pareto(options, {});
+    ASSERT_TRUE(results.stopped);
+    EXPECT_THAT(results.stopped->message, HasSubstr("--technique"));
+}
+
+TEST(SettingsOfOptions, hold_every_option_there_is) {
+    std::string labels;
+    for (const scene::Technique& setting : settings_of_options()) {
+        labels += scene::to_string(setting) + " ";
+    }
+    for (const scene::OptionInfo& option : scene::option_catalogue()) {
+        EXPECT_THAT(labels, HasSubstr("," + std::string(option.name) + "="));
+    }
 }
 
 TEST(ParetoSuite, front_that_lacks_a_technique_has_no_area) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/bench_program.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {
@@ -114,6 +115,43 @@ TEST_F(TablesSuite, every_row_tells_its_error) {
         }
         EXPECT_FALSE(row.view);
     }
+}
+
+TEST_F(TablesSuite, gallery_is_its_tiles_each_technique_with_its_error_where_it_suits) {
+    RELJEF_RELEASE_ONLY("the suite has tests on terrains, the tiles' truth and programs their own");
+    auto options = small_options();
+    options.terrains = {"gallery"};
+    options.suite.rounds = 1;
+    for (const char* const technique : {"exact", "bump", "multi-layer:n=64"}) {
+        options.techniques.push_back(scene::parse_technique(technique).value());
+    }
+    const Results results = run_tables(options, {});
+    ASSERT_FALSE(results.stopped) << results.stopped->message;
+    ASSERT_EQ(results.rows.size(), 4U + 3U); // brick, rings; texture and its null row on each
+    for (const Row& row : results.rows) {
+        EXPECT_EQ(row.pose, scene::Pose::oblique);
+        ASSERT_TRUE(row.timing && row.error && row.error->reprojection_px);
+        const double rms = row.error->reprojection_px->distribution.rms;
+        if (row.setting.technique == "exact") { // that of a float's texture coordinate
+            EXPECT_LT(rms, 0.01);
+            EXPECT_LT(row.error->wrong_percent, 0.05);
+        } else if (row.setting.technique == "multi-layer") {
+            EXPECT_EQ(row.scene, "tile rings");
+            EXPECT_LT(rms, 1.0);
+        } else {
+            EXPECT_GT(rms, 0.1) << row.scene; // they shift nothing
+        }
+    }
+}
+
+TEST_F(TablesSuite, scene_file_of_the_gallery_is_refused_at_once) {
+    auto options = small_options();
+    options.terrains = {
+        folder_.write("halls.toml", "[terrain]\ngenerator = \"gallery\"\n").string()};
+    const Results results = run_tables(options, {});
+    ASSERT_TRUE(results.stopped);
+    EXPECT_THAT(results.stopped->message, testing::HasSubstr("halls.toml: the gallery found"));
+    EXPECT_TRUE(results.rows.empty());
 }
 
 TEST_F(TablesSuite, views_are_kept_where_they_are_asked_for) {

@@ -55,6 +55,28 @@ TEST(AtomicFile, KeepsTheOldFileUntilCommit) {
     EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
 }
 
+TEST(CommitAll, PutsAllFilesInPlaceOrLeavesAllAsTheyWere) {
+    for (const bool fails : {false, true}) {
+        const TemporaryFolder folder;
+        folder.write("a.txt", "old");
+        std::vector<AtomicFile> files;
+        for (const char* const name : {"a.txt", "b.txt", "c.txt"}) {
+            auto file = AtomicFile::create(folder.path() / name);
+            ASSERT_TRUE(file);
+            std::ofstream(file->temporary()) << "new";
+            files.push_back(std::move(*file));
+        }
+        if (fails) { // no file can take the place of a folder
+            std::filesystem::create_directories(folder.path() / "c.txt" / "in");
+        }
+        EXPECT_EQ(static_cast<bool>(commit_all(files)), !fails);
+        files.clear();
+        EXPECT_EQ(read_bytes(folder.path() / "a.txt"), fails ? "old" : "new");
+        EXPECT_EQ(folder.names(), fails ? (std::vector<std::string>{"a.txt", "c.txt"})
+                                        : (std::vector<std::string>{"a.txt", "b.txt", "c.txt"}));
+    }
+}
+
 TEST(AtomicFile, TemporaryLiesBesideWithTheSameExtension) {
     const TemporaryFolder folder;
     const auto file = AtomicFile::create(folder.path() / "a.b.png");

@@ -91,6 +91,21 @@ double margin_by_corners(const glm::dmat4& clip_from_world, const Box& box) {
     return *std::min_element(best.begin(), best.end());
 }
 
+TEST(SplitPoint, KeepsTwiceTheDigitsOfAFloatInEachCoordinate) {
+    Random random;
+    for (int i = 0; i < 10000; ++i) {
+        const double reach = std::pow(10.0, random.number(-3.0, 9.0));
+        const glm::dvec3 point = random.point(reach);
+        const SplitPoint split = split_into_floats(point);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double sum =
+                static_cast<double>(split.rounded[axis]) + static_cast<double>(split.rest[axis]);
+            // Half a step of the rest, which is at most half a step of the float: 2^-24 each.
+            ASSERT_LE(std::abs(sum - point[axis]), std::ldexp(std::abs(point[axis]), -48));
+        }
+    }
+}
+
 TEST(Box, IsEmptyUntilSomethingIsAdded) {
     Box box;
     EXPECT_TRUE(box.empty());

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <OpenImageIO/imageio.h>
 #include <glm/geometric.hpp>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/image.h"
+#include "engine/io/texture_role.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -221,6 +223,87 @@ TEST_F(TextureFilesTest, FoundByTheirNames) {
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("no heights found among 1 pictures"));
     EXPECT_FALSE(find_texture_files(file("nowhere")));
+}
+
+TEST(TextureRoleTest, WholeWordsOfANameSayIt) {
+    for (const auto& [stem, role] : std::vector<std::pair<std::string, TextureRole>>{
+             {"wall_color", TextureRole::color},
+             {"WallBaseColor2", TextureRole::color},
+             {"wall.col", TextureRole::color},
+             {"Bricks076C_diffspec", TextureRole::color},
+             {"WALL_HEIGHT", TextureRole::heights},
+             {"back_wall_height", TextureRole::heights},
+             {"disp01", TextureRole::heights},
+             {"NormalGL", TextureRole::normals},
+             {"wall-normal-height", TextureRole::normals},
+             {"back wall normal", TextureRole::normals},
+             {"sheet_back", TextureRole::back_heights},
+             {"sheet_back_height", TextureRole::back_heights},
+             {"height-back-2", TextureRole::back_heights},
+             {"normal_mask", TextureRole::mask},
+             {"a_layers", TextureRole::layers}}) {
+        EXPECT_EQ(texture_role(stem), role) << stem;
+    }
+}
+
+TEST(TextureRoleTest, PartsOfWordsSayNothing) {
+    for (const char* stem : {"normandy", "collapsed", "back_wall", "backdrop", "abnormal", "masked",
+                             "player", "dispatch", "columns", "alphabet", "", "076", "_-_"}) {
+        EXPECT_EQ(texture_role(stem), std::nullopt) << stem;
+    }
+}
+
+TEST_F(TextureFilesTest, CapitalsInAnExtensionAreSeenAndTwoFilesOfOneMapAreNot) {
+    const TextureFiles files = written(OIIO::TypeDesc::UINT16);
+    fs::rename(files.heights, file("a_height.PNG"));
+    fs::rename(files.color, file("normandy.png"));
+    const auto found = find_texture_files(folder_.path());
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->heights, file("a_height.PNG"));
+    EXPECT_EQ(found->color, file("normandy.png"));
+    fs::copy(file("a_height.PNG"), file("b_disp.png"));
+    const auto both = find_texture_files(folder_.path());
+    ASSERT_FALSE(both);
+    EXPECT_THAT(both.error().message, AllOf(HasSubstr("a_height.PNG and b_disp.png found"),
+                                            HasSubstr(folder_.path().string())));
+}
+
+TEST_F(TextureFilesTest, WhatIsNoNumberIsToldWithItsFileAndFirstPlace) {
+    const float none = std::nanf("");
+    const auto spoilt = [&](const char* name, int channels, float value) {
+        write_channels(file(name), {32, 32}, channels, OIIO::TypeDesc::FLOAT,
+                       [&](int col, int row, int channel) {
+                           const bool bad = row > 4 || (row == 4 && col >= 9);
+                           return bad && channel == channels - 1 ? value : 0.75F;
+                       });
+        return file(name);
+    };
+    const TextureFiles files = written(OIIO::TypeDesc::UINT16);
+    const auto message = [](const TextureFiles& bad) {
+        const auto set = read_texture_set(bad);
+        return set ? std::string() : set.error().message;
+    };
+    TextureFiles bad = files;
+    bad.color = spoilt("c.exr", 3, none);
+    EXPECT_THAT(message(bad),
+                AllOf(HasSubstr("c.exr: a colour of nan"), HasSubstr("column 9, row 4")));
+    bad = files;
+    bad.mask = spoilt("m.exr", 1, none);
+    EXPECT_THAT(message(bad),
+                AllOf(HasSubstr("m.exr: a mask of nan"), HasSubstr("column 9, row 4")));
+    bad = files;
+    bad.heights = spoilt("h.exr", 1, 1.5F);
+    EXPECT_THAT(message(bad),
+                AllOf(HasSubstr("h.exr: a height of 1.5"), HasSubstr("column 9, row 4")));
+    bad = files;
+    bad.normals = spoilt("n.exr", 3, std::numeric_limits<float>::infinity());
+    const auto set = read_texture_set(bad);
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_THAT(set->notes,
+                Contains(AllOf(HasSubstr("normals are"), HasSubstr("column 9, row 4"))));
+    for (const glm::vec3& normal : set->normals.samples()) {
+        ASSERT_NEAR(glm::length(normal), 1.0F, 1e-5F);
+    }
 }
 
 class RealTextures : public testing::TestWithParam<const char*> {};

@@ -259,6 +259,15 @@ TEST_F(TileSets, WhatCannotBeUsedIsToldOnceAndTheRestIsThere) {
     }
 }
 
+TEST_F(TileSets, ATileInASystemWithoutDefinitionIsAFault) {
+    tile("good.tif", utm31, 20, 20, {500000.0, 5000000.0, 10.0}, plane);
+    tile("local.tif", "LOCAL_CS[\"somewhere\",UNIT[\"metre\",1]]", 20, 20,
+         {500200.0, 5000000.0, 10.0}, plane);
+    const TileSet tiles = open();
+    ASSERT_EQ(tiles.faults().size(), 1U);
+    EXPECT_THAT(tiles.faults()[0].message, HasSubstr("local.tif: names no place"));
+}
+
 TEST_F(TileSets, PicturesBesideTilesAreNoHeights) {
     tile("good.tif", utm31, 20, 20, {500000.0, 5000000.0, 10.0}, plane);
     auto picture = made_raster(20, 20, [](int col, int) { return col; });

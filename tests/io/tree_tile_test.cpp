@@ -169,5 +169,23 @@ TEST(TreeTiles, AFileReplacedWhileItIsOpenIsReadAnew) {
     EXPECT_THAT(cut.faults.front().message, ::testing::HasSubstr("a.tif"));
 }
 
+TEST(TreeTiles, AFileThatIsGoneIsAFaultAndBackAgainWhenItIs) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "a.tif";
+    ASSERT_TRUE(test::write(
+        placed(test::made_raster(100, 100, [](int col, int) { return col; }), 10.0), file));
+    const TileSet tiles = open_set(file);
+    const auto read = [&] {
+        return read_tree_tile(tiles, tiles.grid(), TileTree(100, 100), {0, 0, 0}, Gaps::holes);
+    };
+    ASSERT_TRUE(read().faults.empty());
+    std::filesystem::rename(file, folder.path() / "b.tif");
+    const auto gone = read();
+    ASSERT_EQ(gone.faults.size(), 1U);
+    EXPECT_THAT(gone.faults.front().message, ::testing::HasSubstr("a.tif: does not exist"));
+    std::filesystem::rename(folder.path() / "b.tif", file);
+    EXPECT_TRUE(read().faults.empty());
+}
+
 } // namespace
 } // namespace reljef::io

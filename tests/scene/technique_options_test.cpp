@@ -194,5 +194,13 @@ TEST(TechniqueOptions, NumbersSayWhatIsNotAsMade) {
                     "depth 1;");
 }
 
+TEST(TechniqueOptions, BorderOfWhatFollowsNoRayIsItsMaterials) {
+    for (const char* text : {"texture:border=clamp", "normal:border=wrap", "bump:border=discard"}) {
+        const auto technique = parse_technique(text);
+        ASSERT_FALSE(technique) << text;
+        EXPECT_THAT(technique.error().message, testing::HasSubstr("as its material says"));
+    }
+}
+
 } // namespace
 } // namespace reljef::scene

@@ -53,7 +53,7 @@ TEST(Technique, NamesAnOptionOnlyWhereItIsNotTheDefault) {
     EXPECT_EQ(to_string(polygons), "polygons:lods=1");
     const Technique bounded = with_parameter(polygons, "error", 0.5);
     EXPECT_EQ(parameter(bounded, "error"), 0.5);
-    EXPECT_EQ(to_string(bounded), "polygons:lods=1,error=0.5");
+    EXPECT_EQ(to_string(bounded), "polygons:error=0.5");
     EXPECT_EQ(parse_technique("polygons:error=0.5")->values, bounded.values);
 }
 
@@ -91,6 +91,22 @@ TEST(Technique, AValueOutOfRangeIsToldWithTheRange) {
             << value;
     }
     EXPECT_THAT(error_of("polygons:lods"), HasSubstr("lods= found"));
+}
+
+// As --max-error has it: less than a rasterizer can keep is no promise.
+TEST(Technique, ErrorOfPolygonsIsNoneOrOneThatCanBeKept) {
+    for (const char* text : {"polygons:error=0.001", "polygons:error=17", "polygons:error=-1"}) {
+        EXPECT_THAT(error_of(text), HasSubstr("0 or a number from 0.02 to 16 was expected"));
+    }
+    for (const char* text : {"polygons:error=0", "polygons:error=0.02", "polygons:error=16"}) {
+        EXPECT_TRUE(parse_technique(text)) << text;
+    }
+}
+
+TEST(Technique, LevelsAndAnErrorContradictEachOther) {
+    EXPECT_THAT(error_of("polygons:lods=3,error=1"), HasSubstr("lods and error found"));
+    EXPECT_THAT(error_of("polygons:error=1,lods=3"), HasSubstr("one of them was expected"));
+    EXPECT_EQ(to_string(parse_technique("polygons:lods=1,error=1").value()), "polygons:error=1");
 }
 
 TEST(Technique, AnEmptyAssignmentIsAnError) {

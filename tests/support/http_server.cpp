@@ -129,7 +129,8 @@ void HttpServer::answer(int connection) {
     std::error_code ignored;
     const bool is_file = std::filesystem::is_regular_file(folder_ / name, ignored);
     const std::string bytes = is_file ? read_bytes(folder_ / name) : "";
-    const Fault fault = fault_;
+    const Range range = range_of(request, bytes.size());
+    const Fault fault = range.first >= first_byte_ ? fault_.load() : Fault::none;
     if (bytes.empty() || fault == Fault::not_found) {
         send_all(connection, not_found_answer);
         return;
@@ -138,7 +139,6 @@ void HttpServer::answer(int connection) {
         send_all(connection, error_answer);
         return;
     }
-    const Range range = range_of(request, bytes.size());
     const std::size_t length = range.last - range.first + 1;
     send_all(connection,
              header(range, bytes.size(), fault == Fault::lying_length ? length + 100000 : length));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <stop_token>
 #include <string>
@@ -21,7 +22,11 @@ public:
     HttpServer& operator=(const HttpServer&) = delete;
 
     [[nodiscard]] std::string url(const std::string& name) const;
-    void set_fault(Fault fault) { fault_ = fault; }
+    /// Of all answers, or of those about bytes of a file from one on.
+    void set_fault(Fault fault, std::size_t first_byte = 0) {
+        first_byte_ = first_byte;
+        fault_ = fault;
+    }
     /// Before each answer, milliseconds.
     void set_delay(int milliseconds) { delay_ = milliseconds; }
     [[nodiscard]] int requests() const { return requests_; }
@@ -34,6 +39,7 @@ private:
     int socket_ = -1;
     int port_ = 0;
     std::atomic<Fault> fault_{Fault::none};
+    std::atomic<std::size_t> first_byte_{0};
     std::atomic<int> delay_{0};
     std::atomic<int> requests_{0};
     std::jthread thread_;

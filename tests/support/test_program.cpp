@@ -69,7 +69,7 @@ pid_t spawn(std::vector<std::string> arguments, const ProgramOptions& options, c
             const Pipe& err, std::string& why) {
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, options.input.c_str(), O_RDONLY, 0);
     ::posix_spawn_file_actions_adddup2(&actions, out.ends[1], STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, err.ends[1], STDERR_FILENO);
     if (!options.folder.empty()) {

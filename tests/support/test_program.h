@@ -12,8 +12,9 @@ namespace reljef::test {
 struct ProgramOptions {
     /// Added to the test's own environment; a variable without a value is removed from it.
     std::map<std::string, std::optional<std::string>> environment;
-    std::filesystem::path folder;      ///< to run in; empty: the test's own
-    std::chrono::seconds timeout{120}; ///< then the program and what it started are killed
+    std::filesystem::path folder;             ///< to run in; empty: the test's own
+    std::filesystem::path input{"/dev/null"}; ///< its stdin
+    std::chrono::seconds timeout{120};        ///< then the program and what it started are killed
 };
 
 struct ProgramResult {
@@ -23,7 +24,7 @@ struct ProgramResult {
     std::string err; ///< all of stderr
 };
 
-/// Runs a program to its end without a shell and with an empty stdin.
+/// Runs a program to its end without a shell.
 ProgramResult run_program(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments,
                           const ProgramOptions& options = {});

@@ -24,15 +24,15 @@ struct Waves {
     double most_lost = 0.0; // of all amplitudes: sin²(ω/2)
 };
 
-Waves random_waves(Chance& chance, MapBorder border) {
+Waves random_waves(Chance& chance, TileBorder border) {
     const int cols = chance.whole(2, 70);
     const int rows = chance.whole(2, 70);
     Waves waves{Grid<float>(cols, rows), 0.0};
-    const double turn = border == MapBorder::wrap ? 2.0 * std::numbers::pi : std::numbers::pi;
+    const double turn = border == TileBorder::wrap ? 2.0 * std::numbers::pi : std::numbers::pi;
     for (int i = 0; i < 4; ++i) {
         const glm::dvec2 omega(turn * chance.whole(0, cols / 12) / cols,
                                turn * chance.whole(0, rows / 12) / rows);
-        const double phase = border == MapBorder::wrap ? chance.between(0.0, 6.0) : 0.0;
+        const double phase = border == TileBorder::wrap ? chance.between(0.0, 6.0) : 0.0;
         const double amplitude = chance.between(0.5, 2.0);
         const double half = std::sin(0.5 * std::max(omega.x, omega.y));
         waves.most_lost += amplitude * half * half;
@@ -64,7 +64,7 @@ double greatest_difference(const Grid<float>& a, const Grid<float>& b) {
 
 TEST(HeightIntegration, OfASurfacesNormalsGivesTheSurfaceLessItsShortestWaves) {
     Chance chance(1);
-    for (const MapBorder border : {MapBorder::wrap, MapBorder::clamp}) {
+    for (const TileBorder border : {TileBorder::wrap, TileBorder::clamp}) {
         for (int i = 0; i < 150; ++i) {
             const Waves waves = random_waves(chance, border);
             const glm::dvec2 spacing{chance.between(0.5, 20.0), chance.between(0.5, 20.0)};
@@ -133,7 +133,7 @@ TEST(HeightIntegration, ItTakesFewRoundsHoweverLargeTheMap) {
 
 TEST(HeightIntegration, ASlopeThatDoesNotCloseIsSpreadOutWhereItWraps) {
     const Grid<glm::vec3> normals(16, 16, glm::vec3(-0.5F, 0.25F, 1.0F));
-    const auto wrapped = heights_from_normals(normals.view(), {.border = MapBorder::wrap}).heights;
+    const auto wrapped = heights_from_normals(normals.view(), {.border = TileBorder::wrap}).heights;
     EXPECT_NEAR(wrapped(3, 4), 0.0F, 1e-6F);
     const auto clamped = heights_from_normals(normals.view()).heights;
     EXPECT_NEAR(clamped(15, 0) - clamped(0, 0), 0.5 * 15, 1e-4);

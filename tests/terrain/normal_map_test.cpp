@@ -56,7 +56,7 @@ TEST(NormalMap, AtASampleItIsTheMeanOfTheFourCellsGradients) {
 TEST(NormalMap, WrappedItDoesNotSeeTheBorder) {
     const Grid<float> heights = test::random_heights(9, 8, 0.0F, 3.0F, 3);
     for (const NormalFilter filter : {NormalFilter::bilinear, NormalFilter::sobel}) {
-        const NormalOptions options{.filter = filter, .border = MapBorder::wrap};
+        const NormalOptions options{.filter = filter, .border = TileBorder::wrap};
         const auto normals = normals_from_heights(heights.view(), options);
         const auto moved = test::made_heights(
             9, 8, [&](int col, int row) { return heights((col + 4) % 9, (row + 5) % 8); });

@@ -36,9 +36,9 @@ Grid<glm::vec4> layered_waves(int side) {
 LayeredPlane layers_of(const Panel& panel, terrain::LayerKind kind) {
     const scene::TextureDetail& detail = panel.detail();
     const terrain::LayerMap layers = terrain::layers_of(*detail.set, kind);
-    return LayeredPlane::create(layers.heights().view(),
-                                {PanelTruth::width_of(detail), detail.scale, detail.offset,
-                                 border_of(detail.border)})
+    return LayeredPlane::create(
+               layers.heights().view(),
+               {PanelTruth::width_of(detail), detail.scale, detail.offset, detail.border})
         .value();
 }
 

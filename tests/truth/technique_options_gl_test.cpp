@@ -14,6 +14,7 @@
 #include "engine/truth/sun_ray.h"
 #include "tests/support/release_only.h"
 #include "tests/truth/relief_stage.h"
+#include "tests/truth/two_ridges.h"
 
 namespace reljef::truth {
 namespace {
@@ -278,6 +279,24 @@ TEST_F(TechniqueOptionsGlTest, SmoothEdgesComeNearerToTheMeanOverThePixel) {
             EXPECT_LT(error(technique + ",edges=smooth,0.004"), 0.98 * error(technique))
                 << technique << ' ' << height;
         }
+    }
+}
+
+// Two ridges, red before blue, on white ground. A ray that passes the red one by 0.5 to 0.75 m
+// passes the blue one by half a metre less.
+TEST_F(TechniqueOptionsGlTest, SmoothEdgesBlendInWhatIsMissedByTheLeast) {
+    const test::TwoRidges ridges(3.0F, 1.5F);
+    ReliefStage stage(ridges.heights,
+                      {.spacing = {1.0, 1.0}, .size = {320, 240}, .color = ridges.colors});
+    scene::Camera camera = test::camera_at({0.0, -30.0, 5.9}, {0.0, 0.0, 2.9});
+    camera.projection = scene::ProjectionKind::orthographic;
+    camera.view_height = 3.0;
+    stage.look(camera);
+    for (const std::string technique :
+         {"exact:edges=smooth,0.25", "relief:n=512,edges=smooth,0.25"}) {
+        const test::BlendedGround ground(stage.hits(technique), stage.image(technique));
+        EXPECT_EQ(ground.reddish, 0) << technique;
+        EXPECT_GT(ground.bluish, 1000) << technique;
     }
 }
 

@@ -122,17 +122,6 @@ inline glm::dvec4 layers_at(const Grid<glm::vec4>& layers, glm::dvec2 coordinate
                     part.y);
 }
 
-inline Border border_of(TileBorder border) {
-    switch (border) {
-    case TileBorder::wrap:
-        return Border::wrap;
-    case TileBorder::clamp:
-        return Border::clamp;
-    default:
-        return Border::discard;
-    }
-}
-
 // A level square with a tile on it, and the exact relief of that tile.
 struct Panel {
     scene::Scene scene;
@@ -206,9 +195,8 @@ struct PanelTruth {
     }
     static ReliefPlane relief_of(const Panel& panel) {
         const scene::TextureDetail& detail = panel.detail();
-        return ReliefPlane::create(
-                   detail.set->heights.view(),
-                   {width_of(detail), detail.scale, detail.offset, border_of(detail.border)})
+        return ReliefPlane::create(detail.set->heights.view(),
+                                   {width_of(detail), detail.scale, detail.offset, detail.border})
             .value();
     }
     [[nodiscard]] Ray local(const Ray& world) const {

@@ -1,0 +1,56 @@
+#include "bench/flight_command.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "bench/flight_suite.h"
+#include "bench/output_options.h"
+#include "bench/suite_arguments.h"
+
+namespace reljef::bench {
+namespace {
+
+struct FlightChoice {
+    FlightOptions options;
+    OutputChoice outputs; // the JSON only
+};
+
+Result<void> run_flight_command(const FlightChoice& choice, const app::Interrupt& interrupt) {
+    const std::vector<app::NamedFile> inputs{{"TERRAIN", choice.options.terrain.terrain},
+                                             {"--path", choice.options.view.path}};
+    if (auto good = check_outputs(choice.outputs, inputs); !good) {
+        return good;
+    }
+    const auto results = run_flight(choice.options, interrupt.token());
+    return results ? report(*results, choice.outputs.json) : results.error();
+}
+
+} // namespace
+
+app::Command add_flight_command(CLI::App& program, app::Interrupt& interrupt) {
+    auto* arguments = program.add_subcommand(
+        "flight", "time, reading and memory of a flight over a terrain larger than memory");
+    auto choice = std::make_shared<FlightChoice>();
+    app::add_terrain_options(*arguments, choice->options.terrain);
+    app::add_view_options(*arguments, choice->options.view);
+    arguments->add_option("--json", choice->outputs.json, "write the results there too")
+        ->type_name("FILE");
+    arguments->callback([choice] {
+        app::check_view_options(choice->options.view);
+        if (choice->options.view.path.empty()) {
+            throw CLI::ValidationError("flight: no --path found, one to fly along was expected");
+        }
+    });
+    arguments->footer(
+        "Each frame waits for all its tiles, as those of reljef render; waiting and drawing are "
+        "timed "
+        "apart. Memory is that of the process beyond what it and a busy renderer took before the "
+        "terrain was read.\n"
+        "Example:\n"
+        "  reljef-bench flight srtm/ --path track.gpx --frames 6000 --memory 64 --json "
+        "flight.json");
+    return {arguments, [choice, &interrupt] { return run_flight_command(*choice, interrupt); }};
+}
+
+} // namespace reljef::bench

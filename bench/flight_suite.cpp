@@ -1,0 +1,103 @@
+#include "bench/flight_suite.h"
+
+#include <chrono>
+
+#include "app/process_memory.h"
+#include "app/scene_setup.h"
+#include "app/streaming.h"
+#include "engine/scene/animators.h"
+
+namespace reljef::bench {
+namespace {
+
+using FlightClock = std::chrono::steady_clock;
+
+double flown_since(FlightClock::time_point start) {
+    return std::chrono::duration<double>(FlightClock::now() - start).count();
+}
+
+Result<app::DeviceFrames> flight_device(const FlightOptions& options) {
+    app::DeviceOptions device;
+    device.threads = options.terrain.threads;
+    device.context = options.view.context;
+    device.context_options.size = options.view.size;
+    device.context_options.visible = false;
+    device.driver.size = options.view.size;
+    device.driver.shader_dir = options.view.shader_dir;
+    auto made = app::Device::create(device);
+    return made ? Result<app::DeviceFrames>(app::DeviceFrames(std::move(*made), true))
+                : made.error();
+}
+
+Result<app::TerrainScene> flight_scene(const FlightOptions& options, const std::stop_token& stop) {
+    app::TerrainChoice terrain = options.terrain;
+    terrain.streamed = app::may_stream(options.view);
+    auto source = app::open_terrain(terrain, stop);
+    return source ? app::make_scene(std::move(*source), terrain, options.view, stop)
+                  : source.error();
+}
+
+Result<void> fly(app::TerrainScene& scene, const scene::FlyPath& path, app::DeviceFrames& frames,
+                 FlightClock::time_point start, FlightResults& results,
+                 const std::stop_token& stop) {
+    const int count = results.options.view.frames;
+    for (int index = 0; index < count && !stop.stop_requested(); ++index) {
+        app::fly_to(scene, path, index, count);
+        ParallelOptions parallel;
+        parallel.stop = stop;
+        if (const auto drawn = frames.draw(scene.scene, parallel); !drawn) {
+            return drawn.error();
+        }
+        app::tell_stream_faults(scene.scene, results.options.terrain.quiet);
+        if (index == 0) {
+            results.seconds_to_first_frame = flown_since(start);
+        }
+    }
+    if (stop.stop_requested()) {
+        results.stopped = Error{"interrupted"};
+    }
+    return {};
+}
+
+} // namespace
+
+Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop) {
+    auto frames = flight_device(options);
+    if (!frames) {
+        return frames.error();
+    }
+    const auto start = FlightClock::now();
+    auto scene = flight_scene(options, stop);
+    if (!scene) {
+        return scene.error();
+    }
+    const auto path = app::open_path(*scene, options.view);
+    if (!path) {
+        return path.error();
+    }
+    FlightResults results;
+    results.options = options;
+    results.environment = environment_of(frames->context(), options.terrain.threads);
+    if (auto flown = fly(*scene, **path, *frames, start, results, stop); !flown) {
+        return flown.error();
+    }
+    results.seconds = flown_since(start);
+    results.times = frames->times();
+    results.faulty_files = app::faulty_files(scene->scene);
+    results.most_memory = app::process_memory().most;
+    const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
+    if (stream != nullptr) {
+        results.stream = stream->stats();
+    }
+    return results;
+}
+
+double memory_share(const FlightResults& results) {
+    const auto allowed =
+        static_cast<double>(results.options.terrain.memory_megabytes) * (1U << 20U);
+    return (static_cast<double>(results.most_memory) -
+            static_cast<double>(results.times.memory_before)) /
+           allowed;
+}
+
+} // namespace reljef::bench

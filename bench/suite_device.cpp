@@ -1,0 +1,16 @@
+#include "bench/suite_device.h"
+
+namespace reljef::bench {
+
+Result<app::Device> make_device(const SuiteOptions& options) {
+    app::DeviceOptions device;
+    device.threads = options.threads;
+    device.context = options.context;
+    device.context_options.size = options.size;
+    device.context_options.visible = false;
+    device.driver.size = options.size;
+    device.driver.shader_dir = options.shader_dir;
+    return app::Device::create(device);
+}
+
+} // namespace reljef::bench
