@@ -87,7 +87,7 @@ TEST(Technique, AValueOutOfRangeIsToldWithTheRange) {
     for (const char* value : {"-1", "17", "nan", "-inf", ""}) {
         EXPECT_THAT(error_of(std::string("polygons:error=") + value),
                     AllOf(HasSubstr(std::string("error=") + value + " found"),
-                          HasSubstr("a number from 0 to 16 was expected")))
+                          HasSubstr("a number from 0.02 to 16 was expected")))
             << value;
     }
     EXPECT_THAT(error_of("polygons:lods"), HasSubstr("lods= found"));
