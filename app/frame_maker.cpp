@@ -96,7 +96,7 @@ std::string DeviceFrames::stats() const {
                "uploads: {} ({:.1f} MB)\n"
                "tiles cut: {}\n"
                "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
-               "frustum, {} "
+               "frustum, {} tiles behind nearer ground, {} "
                "triangles under the error, {} details too small, {} cuts and {} uploads that "
                "were there\n"
                "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
@@ -105,9 +105,9 @@ std::string DeviceFrames::stats() const {
                static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
                stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
                stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
-               stats_.skipped.triangles_under_error, stats_.skipped.details_too_small,
-               stats_.skipped.cuts_unchanged, stats_.skipped.uploads_unchanged, stats_.cpu_ms,
-               stats_.gpu_ms);
+               stats_.skipped.tiles_occluded, stats_.skipped.triangles_under_error,
+               stats_.skipped.details_too_small, stats_.skipped.cuts_unchanged,
+               stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
 }
 
 Result<void> TruthFrames::prepare(const scene::Scene& scene) {

@@ -255,6 +255,11 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!scene) {
         return scene.error();
     }
+    if (auto ready = choice.truth ? Result<void>()
+                                  : prepare_bisection(*scene, choice.terrain, interrupt.token());
+        !ready) {
+        return ready;
+    }
     if (choice.truth && !scene->models.empty()) {
         return Error{fmt::format("--truth: {} found, whose models the exact picture does not know; "
                                  "a terrain was expected, or --technique exact",

@@ -9,7 +9,11 @@
 
 #include "app/gallery.h"
 #include "app/ground_detail.h"
+#include "app/message.h"
+#include "app/progress_line.h"
 #include "app/streaming.h"
+#include "engine/io/bisection_cache.h"
+#include "engine/io/cone_cache.h"
 #include "engine/io/flight_file.h"
 #include "engine/scene/animators.h"
 
@@ -263,6 +267,30 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     set_projection(*camera, result.bounds, view);
     result.camera = &result.scene.add_camera(*camera);
     return result;
+}
+
+Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain,
+                               const std::stop_token& stop) {
+    auto& shown = *scene.terrain->get<scene::TerrainNode>();
+    const scene::Technique& technique = shown.material.technique;
+    if (technique.id != scene::TechniqueId::polygons || shown.stream != nullptr ||
+        scene::parameter(technique, "error") <= 0.0) {
+        return {};
+    }
+    const std::string& name = shown.surface->terrain().name;
+    ProgressLine line("bounding the errors of " + name, terrain.quiet);
+    io::BisectionCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    options.parallel = {static_cast<unsigned>(terrain.threads), stop, line.callback()};
+    auto cached =
+        io::cached_bisection(shown.surface->heightfield(), shown.surface->placement(), options);
+    if (!cached) {
+        return Error{fmt::format("{}: stopped while its errors were bounded", name)};
+    }
+    if (!terrain.quiet && !cached->note.empty()) {
+        tell(fmt::format("reljef: note: {}\n", cached->note));
+    }
+    shown.bisection = std::move(cached->bisection);
+    return {};
 }
 
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view) {

@@ -33,6 +33,12 @@ struct TerrainScene {
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
                                 const ViewChoice& view, const std::stop_token& stop = {});
 
+/// Reads what the technique's error needs of the terrain from the cache, or makes and keeps it,
+/// with progress and a note on stderr: its bisection. Nothing to do for other techniques and for
+/// streams of tiles. Fails when it was stopped.
+Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain,
+                               const std::stop_token& stop);
+
 /// The path that --path names; nothing without one.
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view);
 

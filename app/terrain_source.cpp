@@ -1,6 +1,7 @@
 #include "app/terrain_source.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -129,6 +130,15 @@ constexpr std::size_t overview_part = 8;
 constexpr std::size_t blocks_part = 8;
 constexpr std::size_t work_part = 8;
 
+// Files halve their samples again and again for their own overviews: of the next such reduction
+// there is least to be read before the first picture.
+std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
+    const auto reduction = std::bit_ceil(static_cast<unsigned>(plan.reduction));
+    const io::TileGrid grid = io::TileSet::reduced(plan.grid, static_cast<int>(reduction));
+    return io::bytes_per_sample * static_cast<std::size_t>(grid.cols) *
+           static_cast<std::size_t>(grid.rows);
+}
+
 // How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const TerrainChoice& choice,
                                           io::TileTerrainOptions& options) {
@@ -139,7 +149,11 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
     }
     const std::size_t budget = options.raster.memory_budget;
     options.raster.memory_budget = budget / overview_part;
-    const auto overview = tiles.plan(options);
+    auto overview = tiles.plan(options);
+    if (overview) {
+        options.raster.memory_budget = budget_of_halves(*overview);
+        overview = tiles.plan(options);
+    }
     if (!overview) {
         options.raster.memory_budget = budget;
         return std::nullopt;

@@ -214,6 +214,9 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     if (!scene) {
         return scene.error();
     }
+    if (auto ready = prepare_bisection(*scene, choice.terrain, interrupt.token()); !ready) {
+        return ready;
+    }
     auto path = path_or_flyover(*scene, choice.view);
     if (!path) {
         return path.error();

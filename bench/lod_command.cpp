@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/growth.h"
+#include "bench/growth_report.h"
 #include "bench/lod_suite.h"
 #include "bench/methods_suite.h"
 #include "bench/output_options.h"
@@ -27,6 +29,8 @@ struct LodChoice {
     std::optional<int> poses;
     double error = 1.0;
     bool methods = false;
+    bool growth = false;
+    int memory_megabytes = 512;
 };
 
 Result<void> run_poses(const LodChoice& choice, const app::Interrupt& interrupt) {
@@ -35,6 +39,7 @@ Result<void> run_poses(const LodChoice& choice, const app::Interrupt& interrupt)
     options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
     options.poses = *choice.poses;
     options.error = choice.error;
+    options.flight_errors = {0.25, 0.5, 1.0, 2.0, 4.0};
     return report(run_promise(options, interrupt.token()), choice.outputs.json);
 }
 
@@ -43,6 +48,19 @@ Result<void> run_triangle_methods(const LodChoice& choice, const app::Interrupt&
     options.suite = choice.suite;
     options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
     return report(run_methods(options, interrupt.token()), choice.outputs.json);
+}
+
+Result<void> run_growth_command(const LodChoice& choice, const CLI::App& command,
+                                const app::Interrupt& interrupt) {
+    GrowthOptions options;
+    options.suite = with_quick_size(choice.suite, command, lod_quick_size);
+    options.error = choice.error;
+    options.memory_megabytes = choice.memory_megabytes;
+    if (choice.suite.quick) {
+        options.sides = {512, 1024, 4096};
+    }
+    return report(run_growth(options, interrupt.token()), choice.outputs.json,
+                  choice.outputs.markdown);
 }
 
 Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
@@ -57,6 +75,9 @@ Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
     if (choice.methods) {
         return run_triangle_methods(choice, interrupt);
     }
+    if (choice.growth) {
+        return run_growth_command(choice, command, interrupt);
+    }
     LodOptions options;
     options.suite = with_quick_size(choice.suite, command, lod_quick_size);
     options.suite.keep_views = !choice.outputs.html.empty();
@@ -70,10 +91,17 @@ void add_poses_options(CLI::App& command, LodChoice& choice) {
     command
         .add_option("--poses", choice.poses,
                     "instead of the tables: so many random poses, shared among the terrains, and "
-                    "two flights over each, all held against --max-error pixel by pixel")
+                    "two flights over each, all held against --max-error pixel by pixel, the "
+                    "flights against 0.25, 0.5, 1, 2 and 4 pixels")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000));
-    command.add_option("--max-error", choice.error, "of --poses, pixels (1)")
+    command.add_flag("--growth", choice.growth,
+                     "instead of the tables: the same ground by 1024, 4096 and 16384 samples a "
+                     "side, written to temporary files, looked at within --memory");
+    command.add_option("--memory", choice.memory_megabytes, "of --growth, megabytes (512)")
+        ->type_name("MB")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--max-error", choice.error, "of --poses and --growth, pixels (1)")
         ->type_name("PX")
         ->check(CLI::Validator(
             [](const std::string& text) {
@@ -97,8 +125,9 @@ void add_methods_option(CLI::App& command, LodChoice& choice) {
 
 void check_poses_options(const LodChoice& choice, const CLI::App& command) {
     const OutputChoice& outputs = choice.outputs;
-    if (choice.poses && choice.methods) {
-        throw CLI::ValidationError("--methods: --poses found, one of the two was expected");
+    const auto refuse = [](const char* message) { throw CLI::ValidationError(message); };
+    if ((choice.poses ? 1 : 0) + (choice.methods ? 1 : 0) + (choice.growth ? 1 : 0) > 1) {
+        refuse("--poses, --methods, --growth: more than one found, one was expected");
     }
     if ((choice.poses || choice.methods) &&
         !(outputs.csv.empty() && outputs.markdown.empty() && outputs.html.empty())) {
@@ -106,8 +135,16 @@ void check_poses_options(const LodChoice& choice, const CLI::App& command) {
             fmt::format("{}: --csv, --markdown or --html found, only --json was expected with it",
                         choice.poses ? "--poses" : "--methods"));
     }
-    if (!choice.poses && command.count("--max-error") > 0) {
-        throw CLI::ValidationError("--max-error: no --poses found, one was expected with it");
+    if (choice.growth &&
+        !(outputs.csv.empty() && outputs.html.empty() && choice.terrains.empty())) {
+        refuse("--growth: --csv, --html or --terrain found, only --json and --markdown were "
+               "expected with it");
+    }
+    if (!choice.poses && !choice.growth && command.count("--max-error") > 0) {
+        refuse("--max-error: no --poses and no --growth found, one was expected with it");
+    }
+    if (!choice.growth && command.count("--memory") > 0) {
+        refuse("--memory: no --growth found, one was expected with it");
     }
 }
 
@@ -131,7 +168,8 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
         "  reljef-bench lod --quick\n"
         "  reljef-bench lod --terrain N45E006.hgt --json lod.json\n"
         "  reljef-bench lod --terrain N45E006.hgt --poses 10000 --max-error 1\n"
-        "  reljef-bench lod --terrain N45E006.hgt --terrain urban --methods");
+        "  reljef-bench lod --terrain N45E006.hgt --terrain urban --methods\n"
+        "  reljef-bench lod --growth --json growth.json");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_lod_command(*choice, *arguments, interrupt);
             }};

@@ -110,9 +110,10 @@ private:
     unsigned threads_;
 };
 
-PromiseRow row_of(const Stage& stage, std::string views) {
+PromiseRow row_of(const Stage& stage, std::string views, double error) {
     PromiseRow row;
     row.scene = stage.name();
+    row.error = error;
     row.views = std::move(views);
     return row;
 }
@@ -160,11 +161,9 @@ private:
         if (!stage) {
             return stage.error();
         }
-        auto technique = scene::parse_technique(fmt::format("polygons:error={}", options_.error));
-        if (!technique) {
-            return technique.error();
+        if (auto done = ask_for(*stage, options_.error); !done) {
+            return done;
         }
-        stage->set_technique(*technique);
         if (auto done = run_random(*stage, poses_of(index), driver); !done) {
             return done;
         }
@@ -174,11 +173,27 @@ private:
         };
         for (const Flight& flight : {Flight{"orbit", scene::orbit_path(bounds)},
                                      Flight{"flyover", scene::flyover_path(bounds, ground)}}) {
-            if (auto done = run_flight(*stage, flight, driver); !done) {
-                return done;
+            for (const double error : flight_errors()) {
+                if (auto done = run_flight(*stage, flight, error, driver); !done) {
+                    return done;
+                }
             }
         }
         return {};
+    }
+
+    static Result<void> ask_for(Stage& stage, double error) {
+        auto technique = scene::parse_technique(fmt::format("polygons:error={}", error));
+        if (!technique) {
+            return technique.error();
+        }
+        stage.set_technique(*technique);
+        return {};
+    }
+
+    [[nodiscard]] std::vector<double> flight_errors() const {
+        return options_.flight_errors.empty() ? std::vector{options_.error}
+                                              : options_.flight_errors;
     }
 
     // The terrain's share of all.
@@ -187,14 +202,13 @@ private:
         return options_.poses / count + (static_cast<int>(index) < options_.poses % count ? 1 : 0);
     }
 
-    [[nodiscard]] Judge judge_of(const Stage& stage) const {
-        return {stage, options_.suite.size, options_.error,
-                static_cast<unsigned>(options_.suite.threads)};
+    [[nodiscard]] Judge judge_of(const Stage& stage, double error) const {
+        return {stage, options_.suite.size, error, static_cast<unsigned>(options_.suite.threads)};
     }
 
     Result<void> run_random(Stage& stage, int poses, render::Driver& driver) {
-        PromiseRow row = row_of(stage, "random");
-        const Judge judge = judge_of(stage);
+        PromiseRow row = row_of(stage, "random", options_.error);
+        const Judge judge = judge_of(stage, options_.error);
         const scene::TerrainSurface& surface = *stage.terrain().get<scene::TerrainNode>()->surface;
         const double near = stage.scene().camera().near;
         Result<void> done;
@@ -207,9 +221,13 @@ private:
         return keep(std::move(row), done);
     }
 
-    Result<void> run_flight(Stage& stage, const Flight& flight, render::Driver& driver) {
-        PromiseRow row = row_of(stage, flight.name);
-        const Judge judge = judge_of(stage);
+    Result<void> run_flight(Stage& stage, const Flight& flight, double error,
+                            render::Driver& driver) {
+        if (auto done = ask_for(stage, error); !done) {
+            return done;
+        }
+        PromiseRow row = row_of(stage, flight.name, error);
+        const Judge judge = judge_of(stage, error);
         const scene::Camera camera = stage.scene().camera();
         const double begin = flight.path.begin() + 0.5 * flight.path.duration();
         std::vector<double> ms;
@@ -253,8 +271,9 @@ private:
     }
 
     void tell_frame() {
-        const double frames =
-            options_.poses + 2.0 * flight_frames * static_cast<double>(options_.terrains.size());
+        const double frames = options_.poses + 2.0 * flight_frames *
+                                                   static_cast<double>(options_.terrains.size() *
+                                                                       flight_errors().size());
         const double fraction = ++frames_ / frames;
         line_.update(fraction);
         if (options_.suite.progress) {

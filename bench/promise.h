@@ -19,6 +19,7 @@ struct PromiseOptions {
     std::vector<std::string> terrains; ///< at least one
     int poses = 10'000;                ///< random ones, shared evenly among the terrains
     double error = 1.0;                ///< as --max-error asks for, pixels
+    std::vector<double> flight_errors; ///< of the flights, one after the other; none: `error`
     std::uint32_t seed = 1;            ///< of the random poses
 };
 
@@ -26,6 +27,7 @@ struct PromiseOptions {
 struct PromiseRow {
     std::string scene;
     std::string views;                  ///< "random", "orbit" or "flyover"
+    double error = 1.0;                 ///< that was asked for, pixels
     std::size_t frames = 0;             ///< judged
     std::size_t pixels = 0;             ///< judged that show terrain
     std::size_t violations = 0;         ///< pixels that show a place farther off than asked for
@@ -50,7 +52,8 @@ struct PromiseResults {
 
 /// Draws each terrain from random poses, and along the paths orbit and flyover, and holds what
 /// pixels show against the definition of the reprojection error (truth::reprojection_error): a
-/// sixteenth of the pixels of each random pose, other ones each time, and all of the flights'. A
+/// sixteenth of the pixels of each random pose, other ones each time, and all of the flights', once
+/// for each of their errors. A
 /// run that is stopped or fails on the way keeps what it has, and says why in
 /// PromiseResults::stopped.
 PromiseResults run_promise(const PromiseOptions& options, const std::stop_token& stop);

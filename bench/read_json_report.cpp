@@ -86,6 +86,7 @@ render::FrameStats::Skipped read_skipped(const JsonObject& json) {
         skipped.triangles_under_error = json.count("triangles_under_error");
         skipped.cuts_unchanged = json.whole("cuts_unchanged");
     }
+    skipped.tiles_occluded = json.has("tiles_occluded") ? json.whole("tiles_occluded") : 0;
     skipped.uploads_unchanged = json.whole("uploads_unchanged");
     skipped.sky = json.whole("sky");
     return skipped;

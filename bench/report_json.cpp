@@ -20,6 +20,7 @@ Json to_json(const render::FrameStats::Skipped& skipped) {
     return {{"invisible_nodes", skipped.invisible_nodes},
             {"nodes_outside_frustum", skipped.nodes_outside_frustum},
             {"tiles_outside_frustum", skipped.tiles_outside_frustum},
+            {"tiles_occluded", skipped.tiles_occluded},
             {"triangles_outside_frustum", skipped.triangles_outside_frustum},
             {"triangles_under_error", skipped.triangles_under_error},
             {"cuts_unchanged", skipped.cuts_unchanged},

@@ -1,124 +1,52 @@
 #include "engine/io/cone_cache.h"
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <chrono>
-#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "engine/core/atomic_file.h"
+#include "engine/io/kept_numbers.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint32_t cone_file_version = 1;
+constexpr KeptKind cone_kind{
+    {'r', 'e', 'l', 'c', 'o', 'n', 'e', 's'}, 1, "the cones of these heights"};
 
-// What begins a file; then the plain and the relaxed ratios, floats, row after row.
-struct ConeFileHeader {
-    std::array<char, 8> magic{'r', 'e', 'l', 'c', 'o', 'n', 'e', 's'};
-    std::uint32_t version = cone_file_version;
-    std::uint32_t endian = 0x01020304;
-    std::int32_t cols = 0; // cells
-    std::int32_t rows = 0;
-    std::uint64_t heights = 0; // checksums
-    std::uint64_t ratios = 0;
-};
-static_assert(sizeof(ConeFileHeader) == 40 && std::is_trivially_copyable_v<ConeFileHeader>);
-
-// FNV-1a (Fowler, Noll and Vo 1991) over words of four bytes.
-constexpr std::uint64_t checksum_start = 14695981039346656037ULL;
-std::uint64_t checksum(std::span<const float> values, std::uint64_t sum) {
-    for (const float value : values) {
-        sum = (sum ^ std::bit_cast<std::uint32_t>(value)) * 1099511628211ULL;
-    }
-    return sum;
+KeptKey cone_key(GridView<const float> heights) {
+    return {cone_kind, {heights.cols() - 1, heights.rows() - 1}, checksum_of(heights)};
 }
 
-std::uint64_t checksum_of(GridView<const float> heights) {
-    std::uint64_t sum = checksum_start ^ static_cast<std::uint64_t>(heights.cols());
-    for (int row = 0; row < heights.rows(); ++row) {
-        sum = checksum(heights.row(row), sum);
-    }
-    return sum;
-}
-
-std::uint64_t checksum_of(const terrain::ConeMaps& cones) {
-    return checksum(cones.relaxed.samples(), checksum(cones.plain.samples(), checksum_start));
-}
-
-ConeFileHeader header_of(GridView<const float> heights, std::uint64_t ratios) {
-    ConeFileHeader header;
-    header.cols = heights.cols() - 1;
-    header.rows = heights.rows() - 1;
-    header.heights = checksum_of(heights);
-    header.ratios = ratios;
-    return header;
-}
-
-std::vector<std::byte> bytes_of(GridView<const float> heights, const terrain::ConeMaps& cones) {
-    const ConeFileHeader header = header_of(heights, checksum_of(cones));
-    std::vector<std::byte> bytes;
-    for (const auto part :
-         {std::as_bytes(std::span(&header, 1)), std::as_bytes(cones.plain.samples()),
-          std::as_bytes(cones.relaxed.samples())}) {
-        bytes.insert(bytes.end(), part.begin(), part.end());
-    }
-    return bytes;
-}
-
-Error unusable(const fs::path& path, std::string_view found) {
-    return Error{fmt::format("{}: {} found, the cones of these heights (version {}) were expected; "
-                             "they are made anew",
-                             path.string(), found, cone_file_version)};
-}
-
-Result<terrain::ConeMaps> parse_cones(const std::string& bytes, GridView<const float> heights,
-                                      const fs::path& path) {
-    terrain::ConeMaps cones{Grid<float>(heights.cols() - 1, heights.rows() - 1),
-                            Grid<float>(heights.cols() - 1, heights.rows() - 1)};
-    const std::size_t map_bytes = cones.plain.samples().size_bytes();
-    if (bytes.size() != sizeof(ConeFileHeader) + 2 * map_bytes) {
-        return unusable(path, fmt::format("a length of {} bytes", bytes.size()));
-    }
-    ConeFileHeader header;
-    std::memcpy(&header, bytes.data(), sizeof(header));
-    std::memcpy(cones.plain.samples().data(), bytes.data() + sizeof(header), map_bytes);
-    std::memcpy(cones.relaxed.samples().data(), bytes.data() + sizeof(header) + map_bytes,
-                map_bytes);
-    const ConeFileHeader expected = header_of(heights, checksum_of(cones));
-    if (header.version != expected.version) {
-        return unusable(path, fmt::format("version {}", header.version));
-    }
-    if (std::memcmp(&header, &expected, sizeof(header)) != 0) {
-        return unusable(path, "a wrong checksum");
-    }
-    return cones;
-}
-
-// Nothing where there is no such file.
+// The plain and the relaxed ratios, row after row. Nothing where there is no such file.
 std::optional<Result<terrain::ConeMaps>> read_cones(const fs::path& path,
                                                     GridView<const float> heights) {
-    std::error_code ignored;
-    if (!fs::exists(path, ignored)) {
+    terrain::ConeMaps cones{Grid<float>(heights.cols() - 1, heights.rows() - 1),
+                            Grid<float>(heights.cols() - 1, heights.rows() - 1)};
+    const auto numbers = read_numbers(path, cone_key(heights), 2 * cones.plain.size());
+    if (!numbers) {
         return std::nullopt;
     }
-    constexpr std::size_t longest = std::size_t{1} << 32U;
-    const auto bytes = read_text_file(path, longest);
-    return bytes ? parse_cones(*bytes, heights, path) : Result<terrain::ConeMaps>(bytes.error());
+    if (!*numbers) {
+        return Result<terrain::ConeMaps>(numbers->error());
+    }
+    const std::span<const float> both = **numbers;
+    const auto plain = both.first(cones.plain.size());
+    const auto relaxed = both.last(cones.relaxed.size());
+    std::copy(plain.begin(), plain.end(), cones.plain.samples().begin());
+    std::copy(relaxed.begin(), relaxed.end(), cones.relaxed.samples().begin());
+    return Result<terrain::ConeMaps>(std::move(cones));
 }
 
 Result<void> write_cones(const fs::path& path, GridView<const float> heights,
                          const terrain::ConeMaps& cones) {
-    std::error_code code;
-    fs::create_directories(path.parent_path(), code); // what is wrong with it, writing will tell
-    return write_file(path, bytes_of(heights, cones));
+    const std::array<std::span<const float>, 2> parts{cones.plain.samples(),
+                                                      cones.relaxed.samples()};
+    return write_numbers(path, cone_key(heights), parts);
 }
 
 using ConeClock = std::chrono::steady_clock;

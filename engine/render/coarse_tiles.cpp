@@ -157,6 +157,9 @@ CoarseTiles::Cut& CoarseTiles::cut_of(const CoarseTerrain& terrain) {
 }
 
 const terrain::Bisection& CoarseTiles::bisection_of(const scene::TerrainNode& terrain) {
+    if (terrain.bisection != nullptr) {
+        return *terrain.bisection;
+    }
     const auto [entry, is_new] = bisections_.try_emplace(terrain.surface.get());
     if (is_new) {
         entry->second = {terrain.surface,

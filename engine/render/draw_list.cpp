@@ -31,6 +31,9 @@ std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Til
            static_cast<std::size_t>(flat ? quads : tile.rows);
 }
 
+// Of an overview whose tiles are not there yet: no picture to wait for a bisection for.
+constexpr int overview_levels = terrain::most_patch_levels + 1;
+
 // How coarse a terrain may be; nothing where every sample is a vertex.
 std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
                                         const scene::Camera& camera, glm::ivec2 size,
@@ -40,11 +43,16 @@ std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
         return std::nullopt;
     }
     const scene::TerrainSurface& surface = *terrain.surface;
-    if (const double error = scene::parameter(technique, "error"); error > 0.0) {
-        return error_view(camera, size, world_from_local, surface.placement().kind(),
-                          std::max(error, least_error));
+    const double error = scene::parameter(technique, "error");
+    if (error > 0.0 && terrain.stream == nullptr) {
+        terrain::ErrorView view =
+            error_view(camera, size, world_from_local, surface.placement().kind(),
+                       std::max(error, least_error));
+        view.morph_from = scene::parameter(technique, "morph") > 0.0 ? morph_from : 1.0;
+        return view;
     }
-    const int levels = static_cast<int>(scene::parameter(technique, "lods"));
+    const int levels =
+        error > 0.0 ? overview_levels : static_cast<int>(scene::parameter(technique, "lods"));
     if (levels == 1) {
         return std::nullopt;
     }

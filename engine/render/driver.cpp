@@ -18,6 +18,7 @@
 #include "engine/render/frame_block.h"
 #include "engine/render/ground_painter.h"
 #include "engine/render/mesh_painter.h"
+#include "engine/render/occlusion.h"
 #include "engine/render/relief_options.h"
 #include "engine/render/technique_support.h"
 
@@ -518,7 +519,7 @@ Result<void> Driver::resize(glm::ivec2 size) {
 
 Result<FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
     const auto start = Clock::now();
-    const DrawList list = select(scene, size());
+    const DrawList list = list_of(scene);
     FrameStats stats = list.stats;
     if (auto done = prepare(list, false, stats); !done) {
         return done.error();
@@ -554,7 +555,7 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
         hit_target_ = std::move(*target);
     }
-    const DrawList list = select(scene, size());
+    const DrawList list = list_of(scene);
     FrameStats stats;
     if (auto done = prepare(list, true, stats); !done) {
         return done.error();
@@ -573,6 +574,14 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
     }
     return hits;
+}
+
+DrawList Driver::list_of(const scene::Scene& scene) const {
+    DrawList list = select(scene, size());
+    if (options_.occlusion) {
+        drop_occluded(list);
+    }
+    return list;
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {

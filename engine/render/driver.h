@@ -22,6 +22,7 @@ struct DriverOptions {
     glm::ivec2 size{1024, 768};       ///< of the picture, pixels
     std::filesystem::path shader_dir; ///< files there come before the built-in shaders
     bool software = true;             ///< the renderer is a CPU: time by a clock, not by queries
+    bool occlusion = true;            ///< tiles behind nearer ground are left out, see occlusion.h
 };
 
 /// Draws scenes with the context that is current, into a framebuffer object of its own with 32-bit
@@ -49,6 +50,7 @@ public:
 private:
     Driver(const DriverOptions& options, gl::Framebuffer target);
 
+    [[nodiscard]] DrawList list_of(const scene::Scene& scene) const;
     Result<void> prepare(const DrawList& list, bool hits, FrameStats& stats);
     Result<void> prepare_beams(const DrawList& list);
     Result<void> draw_content(const DrawList& list, bool hits, FrameStats& stats);

@@ -20,6 +20,10 @@ inline constexpr double rasterizer_error = 1.5 / 256.0;
 inline constexpr double least_error = scene::least_polygons_error;
 inline constexpr double most_error = scene::most_polygons_error;
 
+/// Where vertices rise: terrain::ErrorView::morph_from. A smaller share takes more triangles, a
+/// greater one lets them rise faster.
+inline constexpr double morph_from = 0.5;
+
 /// How a picture of `size` pixels shows displacements of a terrain placed as `kind` in a node: at
 /// most `most_error` pixels from where they belong, the rasterizer's own error included.
 /// Precondition: most_error > rasterizer_error, world_from_local is affine.

@@ -20,6 +20,7 @@ struct FrameStats {
         int invisible_nodes = 0; ///< hidden, or below a hidden one
         int nodes_outside_frustum = 0;
         int tiles_outside_frustum = 0;
+        int tiles_occluded = 0; ///< behind nearer ground of the same terrain
         std::size_t triangles_outside_frustum = 0;
         std::size_t triangles_under_error = 0; ///< that the samples have more than was drawn
         int details_too_small = 0; ///< terrain tiles too far for the tile of detail on them

@@ -44,6 +44,9 @@ GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Place
 
 void VertexPlacer::know(const terrain::Triangulation& part, std::span<const GridVertex> vertices) {
     check(vertices.size() == part.vertices.size(), "a triangulation and the vertices of another");
+    if (!part.moves.empty()) {
+        return; // on their way, not at their places
+    }
     if (at_samples_.empty()) {
         at_samples_ = Grid<const GridVertex*>(tile_.cols + 1, tile_.rows + 1, nullptr);
     }
@@ -62,19 +65,20 @@ const GridVertex* VertexPlacer::known(glm::ivec2 steps) const {
                : at_samples_(sample.x - tile_.col, sample.y - tile_.row);
 }
 
-GridVertex VertexPlacer::placed(glm::ivec2 steps) const {
+GridVertex VertexPlacer::placed(glm::ivec2 steps, const terrain::VertexMove& move) const {
     const glm::dvec2 sample = glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
     const double height = terrain::bilinear_height(heightfield_.heights.view(), sample);
-    return grid_vertex(placement_.world_from_sample({sample, height}), height,
-                       sample - glm::dvec2(tile_.col, tile_.row));
+    return grid_vertex(placement_.world_from_sample({sample, height}) + move.offset,
+                       height + move.height, sample - glm::dvec2(tile_.col, tile_.row));
 }
 
 std::vector<GridVertex> VertexPlacer::place(const terrain::Triangulation& part) const {
     std::vector<GridVertex> vertices;
     vertices.reserve(part.vertices.size());
-    for (const glm::ivec2 steps : part.vertices) {
-        const GridVertex* const there = known(steps);
-        vertices.push_back(there != nullptr ? *there : placed(steps));
+    for (std::size_t i = 0; i < part.vertices.size(); ++i) {
+        const terrain::VertexMove move = part.moves.empty() ? terrain::VertexMove{} : part.moves[i];
+        const GridVertex* const there = part.moves.empty() ? known(part.vertices[i]) : nullptr;
+        vertices.push_back(there != nullptr ? *there : placed(part.vertices[i], move));
     }
     return vertices;
 }

@@ -52,7 +52,7 @@ public:
 
 private:
     [[nodiscard]] const GridVertex* known(glm::ivec2 steps) const;
-    [[nodiscard]] GridVertex placed(glm::ivec2 steps) const;
+    [[nodiscard]] GridVertex placed(glm::ivec2 steps, const terrain::VertexMove& move) const;
 
     const terrain::Heightfield& heightfield_;
     const terrain::Placement& placement_;

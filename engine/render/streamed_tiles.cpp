@@ -99,6 +99,9 @@ Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameS
             return done;
         }
     }
+    if (auto done = prepare_cuts(list, stats); !done) {
+        return done;
+    }
     for (const StreamedDraw& draw : list.streamed_tiles) {
         if (auto done = with_maps ? prepare_light(list, draw, stats) : Result<void>(); !done) {
             return done;
@@ -177,12 +180,74 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
     ResidentMesh made = resident_grid(std::move(*vertices), 6 * mesh.cols * mesh.rows);
     made.vertex_array.set_indices(**indices);
     Entry& entry = entry_of(draw);
+    entry.cut.reset();
     if (entry.resident) {
         entry.resident->mesh = std::move(made);
     } else {
         entry.resident.emplace(
             ResidentStreamed{std::move(made), std::nullopt, lit_from_samples(*draw.tile), {}});
     }
+    return {};
+}
+
+Result<void> StreamedTiles::prepare_cuts(const DrawList& list, FrameStats& stats) {
+    std::vector<TileToCut> tiles;
+    for (const StreamedDraw& draw : list.streamed_tiles) {
+        Entry& entry = entry_of(draw);
+        if (is_cut(draw)) {
+            tiles.push_back({&entry, &draw, {}});
+        } else if (entry.cut) {
+            if (auto done = set_all_triangles(entry, draw.tile->cells, stats); !done) {
+                return done;
+            }
+        }
+    }
+    parallel_for(static_cast<int>(tiles.size()),
+                 [&](int i) { tiles[static_cast<std::size_t>(i)].cut(list); });
+    for (const TileToCut& tile : tiles) {
+        if (tile.triangles.empty()) {
+            ++stats.skipped.cuts_unchanged;
+        } else if (auto done = set_triangles(*tile.entry, tile.triangles, stats); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+void StreamedTiles::TileToCut::cut(const DrawList& list) {
+    if (!entry->shape) {
+        entry->shape.emplace(*draw->tile);
+    }
+    const terrain::ErrorView view = cut_view(list, *draw, *entry->shape);
+    if (entry->cut != view) {
+        entry->cut = view;
+        triangles = entry->shape->triangles(view);
+    }
+}
+
+Result<void> StreamedTiles::set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats) {
+    auto indices = indices_for(cells, stats);
+    if (!indices) {
+        return indices.error();
+    }
+    entry.cut.reset();
+    entry.resident->mesh.index_count = 6 * cells.x * cells.y;
+    entry.resident->mesh.vertex_array.set_indices(**indices);
+    return {};
+}
+
+Result<void> StreamedTiles::set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
+                                          FrameStats& stats) {
+    auto indices = gl::Buffer::create(bytes_of(triangles));
+    if (!indices) {
+        return indices.error();
+    }
+    count_upload(stats, indices->size());
+    ++stats.tiles_cut;
+    ResidentMesh& mesh = entry.resident->mesh;
+    mesh.indices = std::move(*indices);
+    mesh.index_count = static_cast<int>(triangles.size());
+    mesh.vertex_array.set_indices(mesh.indices);
     return {};
 }
 

@@ -14,6 +14,7 @@
 #include "engine/render/grid_mesh.h"
 #include "engine/render/ground_residency.h"
 #include "engine/render/resident_mesh.h"
+#include "engine/render/streamed_cut.h"
 #include "engine/terrain/tile_edges.h"
 
 namespace reljef::render {
@@ -47,6 +48,15 @@ private:
         std::vector<terrain::EdgeMove> moves;
         std::optional<scene::TerrainLight> light;
         std::optional<ResidentStreamed> resident;
+        std::optional<StreamedShape> shape;    // made where fewer triangles are asked for
+        std::optional<terrain::ErrorView> cut; // by which the triangles are those that they are
+    };
+    struct TileToCut {
+        Entry* entry = nullptr;
+        const StreamedDraw* draw = nullptr;
+        std::vector<std::uint16_t> triangles; // empty where they are as they were
+
+        void cut(const DrawList& list);
     };
     struct SharedLight {
         std::weak_ptr<scene::TileStream> owner;
@@ -56,6 +66,10 @@ private:
 
     Result<void> prepare_meshes(const scene::TileStream& stream, const StreamedByTile& drawn,
                                 FrameStats& stats);
+    Result<void> prepare_cuts(const DrawList& list, FrameStats& stats);
+    Result<void> set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats);
+    Result<void> set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
+                               FrameStats& stats);
     Result<void> upload_all(std::span<const StreamedDraw* const> draws, const StreamedByTile& drawn,
                             FrameStats& stats);
     Result<void> prepare_light(const DrawList& list, const StreamedDraw& draw, FrameStats& stats);

@@ -38,8 +38,9 @@ struct StreamedTile {
 };
 
 /// Memory of a tile of full size, drawn: here and with the driver, bytes.
+inline constexpr std::size_t bytes_of_bisection = 40; // a vertex, where triangles are chosen
 inline constexpr std::size_t bytes_per_vertex =
-    2 * sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6;
+    2 * sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6 + bytes_of_bisection;
 inline constexpr std::size_t bytes_per_tile =
     bytes_per_vertex * (terrain::tile_cells + 1) * (terrain::tile_cells + 1);
 

@@ -11,12 +11,15 @@
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<ParameterInfo, 2> polygons_parameters{
+constexpr std::array<ParameterInfo, 3> polygons_parameters{
     {{"lods", 1.0, 1.0, 5.0, true,
       "levels of detail at most, by distance; 1: every sample is a vertex"},
      {"error", 0.0, 0.0, most_polygons_error, false,
       "pixels that no pixel is farther from where it belongs, instead of levels; 0: by levels",
-      true, least_polygons_error}}};
+      true, least_polygons_error},
+     {"morph", 0.0, 0.0, 1.0, true,
+      "with error, 1: vertices rise to their places as the view nears, so that nothing jumps",
+      true}}};
 
 constexpr ParameterInfo offset_parameter{
     "offset",

@@ -9,6 +9,7 @@
 #include "engine/scene/ground_detail.h"
 #include "engine/scene/technique.h"
 #include "engine/scene/texture_detail.h"
+#include "engine/terrain/bisection.h"
 #include "engine/terrain/heightfield.h"
 #include "engine/terrain/min_max_pyramid.h"
 #include "engine/terrain/placement.h"
@@ -88,6 +89,8 @@ struct TerrainNode {
     std::shared_ptr<TileStream> stream = {};
     /// Shown where the technique is polygons; null: none.
     std::shared_ptr<const GroundDetail> detail = {};
+    /// Of the surface, where it was made or read before; null: made when it is first needed.
+    std::shared_ptr<const terrain::Bisection> bisection = {};
 };
 
 /// Whether the technique draws the tiles of a stream; else it draws the overview.

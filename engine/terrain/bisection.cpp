@@ -222,23 +222,29 @@ private:
     bool on_side_;
 };
 
-Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
-                     const ParallelOptions& parallel)
+Bisection::Bisection(const Heightfield& heightfield, const Placement& placement, Empty)
     : heights_(heightfield.heights.view()), placement_(&placement),
       end_(steps_per_sample * glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
       middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
       metres_(heightfield.spacing, placement.exaggeration()),
       bending_(bending_of(heightfield, placement)) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
-    if (placement.kind() == PlacementKind::ellipsoid) {
-        keep_places(parallel);
-    }
     make_levels();
+}
+
+Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
+                     const ParallelOptions& parallel)
+    : Bisection(heightfield, placement, Empty{}) {
+    keep_places(parallel);
     keep_cells(parallel);
+    double done = 0.0;
     for (int size = 2; size <= tile_cells; size *= 2) {
         LevelBuilder(*this, size, true).build(parallel);
         if (size < tile_cells) {
             LevelBuilder(*this, size, false).build(parallel);
+        }
+        if (parallel.progress) {
+            parallel.progress(++done / (levels - 1.0)); // each takes about as long
         }
     }
 }
@@ -263,6 +269,9 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
 }
 
 void Bisection::keep_places(const ParallelOptions& parallel) {
+    if (placement_->kind() == PlacementKind::plane) {
+        return;
+    }
     const glm::ivec2 tiles((heights_.cols() + tile_cells - 1) / tile_cells,
                            (heights_.rows() + tile_cells - 1) / tile_cells);
     origins_ = Grid<glm::dvec3>(tiles.x, tiles.y);
@@ -286,12 +295,14 @@ void Bisection::keep_places(const ParallelOptions& parallel) {
 }
 
 void Bisection::make_levels() {
-    const glm::ivec2 last(heights_.cols() - 1, heights_.rows() - 1);
-    in_middles_[0] = Grid<KeptSplit>(last.x, last.y);
-    for (std::size_t level = 1; level < levels; ++level) {
-        const int size = 1 << level;
-        in_middles_[level] = Grid<KeptSplit>(last.x / size + 1, last.y / size + 1);
-        on_sides_[level] = Grid<KeptSplit>(last.x / size + 1, 2 * last.y / size + 1);
+    const glm::ivec2 samples(heights_.cols(), heights_.rows());
+    for (std::size_t level = 0; level < levels; ++level) {
+        const glm::ivec2 middles = splits_in_middles(samples, level);
+        in_middles_[level] = Grid<KeptSplit>(middles.x, middles.y);
+        if (level > 0) {
+            const glm::ivec2 sides = splits_on_sides(samples, level);
+            on_sides_[level] = Grid<KeptSplit>(sides.x, sides.y);
+        }
     }
 }
 

@@ -4,7 +4,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -41,6 +43,14 @@ public:
     /// threads. Once a stop is asked for it is of no use any more, and soon made.
     Bisection(const Heightfield& heightfield, const Placement& placement,
               const ParallelOptions& parallel = {});
+
+    /// What takes long to find, as numbers that a file may keep: errors and radii of the splits at
+    /// samples.
+    [[nodiscard]] std::vector<float> bounds() const;
+    static std::size_t bounds_count(glm::ivec2 samples);
+    /// The same bisection once more, from its bounds. Precondition: bounds_count() of them.
+    Bisection(const Heightfield& heightfield, const Placement& placement,
+              std::span<const float> bounds, const ParallelOptions& parallel = {});
 
     /// Last sample, steps.
     [[nodiscard]] glm::ivec2 end() const { return end_; }
@@ -87,7 +97,11 @@ private:
         float height = 0.0F; // metres
     };
     class LevelBuilder;
+    struct Empty {};
 
+    Bisection(const Heightfield& heightfield, const Placement& placement, Empty empty);
+    static glm::ivec2 splits_in_middles(glm::ivec2 samples, std::size_t level);
+    static glm::ivec2 splits_on_sides(glm::ivec2 samples, std::size_t level);
     static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
     void keep_places(const ParallelOptions& parallel);
     void make_levels();
@@ -102,6 +116,8 @@ private:
     }
     void keep_cells(const ParallelOptions& parallel);
     void keep_cell_rows(int first, int last);
+    // Calls `visit(split, sample)` for those at samples.
+    template <class Self, class Visit> static void for_each_kept(Self& self, const Visit& visit);
     [[nodiscard]] glm::dvec3 place_of(int col, int row) const;
     [[nodiscard]] glm::dvec3 place_of(glm::ivec2 sample, const KeptSplit& split) const {
         return offsets_.empty()

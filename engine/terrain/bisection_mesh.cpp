@@ -8,6 +8,15 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+// Vertices that rise. M(t) be the triangles for the error t, and what is drawn their mean over all
+// t from f E to E, for the most error E: no point of it is farther from its place than E, as none
+// of those is, and it follows the view without a step. The splits of each M(t) are among those of
+// M(f E), so the mean is linear over the triangles of that one. A vertex v that splits the edge
+// from a to b is a vertex of M(t) for the share w of these t that lies below its own error, and so
+// are then a and b; else it is in their middle. So
+//   mean(v) = w v + (mean(a) - w a + mean(b) - w b) / 2, or, with the moves d = mean - own place,
+//   d(v) = (d(a) + d(b)) / 2 - (1 - w) (v - (a + b) / 2).
+
 namespace reljef::terrain {
 namespace {
 
@@ -31,6 +40,11 @@ SplitKind kind_below(SplitKind kind) {
 constexpr std::uint16_t no_vertex = std::numeric_limits<std::uint16_t>::max();
 // Three vertices more must fit.
 constexpr std::size_t most_vertices = no_vertex - 3;
+
+std::uint64_t key_of(glm::ivec2 place) {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.x)) << 32U) |
+           static_cast<std::uint32_t>(place.y);
+}
 
 // Numbers the vertices that triangles name.
 class TriangulationWriter {
@@ -65,9 +79,7 @@ private:
             number = number == no_vertex ? add_vertex(place) : number;
             return number;
         }
-        const auto key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.x)) << 32U) |
-                         static_cast<std::uint32_t>(place.y);
-        const auto [entry, is_new] = between_.try_emplace(key, no_vertex);
+        const auto [entry, is_new] = between_.try_emplace(key_of(place), no_vertex);
         if (is_new) {
             entry->second = add_vertex(place);
         }
@@ -111,13 +123,80 @@ bool shows_more(const ErrorView& view, const Split& split) {
            (depth <= 0.0 || room < 0.0 || shown * shown * glm::dot(lateral, lateral) > room * room);
 }
 
+// The error that is seen over the most. Precondition: it is seen, and finite.
+double shown_share(const ErrorView& view, const Split& split) {
+    if (!view.perspective) {
+        return view.scale * split.error / view.most_error;
+    }
+    const double reach = view.stretch * split.radius;
+    const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
+    const double lateral =
+        glm::length(view.lateral_axes * split.center + view.lateral_origin) + reach;
+    return depth <= 0.0 ? std::numeric_limits<double>::infinity()
+                        : view.scale * split.error * lateral / (view.most_error * depth * depth);
+}
+
+// The vertices of a tile that are not at their places.
+class RisingVertices {
+public:
+    explicit RisingVertices(const Bisection& bisection) : bisection_(bisection) {}
+
+    // `share`: of its rise, in [0, 1].
+    void add(glm::ivec2 place, glm::ivec2 from, glm::ivec2 to, double share) {
+        const VertexMove a = move_of(from);
+        const VertexMove b = move_of(to);
+        const auto between = [](const auto& p, const auto& q) { return 0.5 * (p + q); };
+        VertexMove move{between(a.offset, b.offset), between(a.height, b.height)};
+        if (share < 1.0) {
+            move.offset -= (1.0 - share) * (bisection_.world(place) -
+                                            between(bisection_.world(from), bisection_.world(to)));
+            move.height -=
+                (1.0 - share) * (bisection_.height(place) -
+                                 between(bisection_.height(from), bisection_.height(to)));
+        }
+        if (move != VertexMove{}) {
+            moves_.emplace(key_of(place), move);
+        }
+    }
+
+    [[nodiscard]] VertexMove move_of(glm::ivec2 place) const {
+        const auto found = moves_.find(key_of(place));
+        return found == moves_.end() ? VertexMove{} : found->second;
+    }
+
+private:
+    const Bisection& bisection_;
+    std::unordered_map<std::uint64_t, VertexMove> moves_;
+};
+
+ErrorView view_of_first_rise(ErrorView view) {
+    view.most_error *= view.morph_from;
+    return view;
+}
+
 class TileBisector {
 public:
-    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
-        : bisection_(bisection), view_(view), first_(tile.col, tile.row),
-          is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
+    // `kept`: the splits that are made anyway; then none below the samples are.
+    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view,
+                 const Grid<std::uint8_t>* kept = nullptr)
+        : bisection_(bisection), morphed_(view), view_(view_of_first_rise(view)),
+          morphs_(view.morph_from < 1.0), kept_(kept), rising_(bisection),
+          first_(tile.col, tile.row), is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
           at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {}
 
+    std::vector<Triangulation> bisect(const Tile& tile) {
+        const glm::ivec2 first = steps_per_sample * glm::ivec2(tile.col, tile.row);
+        const int side = steps_per_sample * tile_cells;
+        const glm::ivec2 middle = first + side / 2;
+        const std::array corners{first, first + glm::ivec2(0, side), first + side,
+                                 first + glm::ivec2(side, 0)};
+        for (std::size_t i = 0; i < 4; ++i) {
+            add({middle, corners[i], corners[(i + 1) % 4]}, {side, true});
+        }
+        return take();
+    }
+
+private:
     // `kind` is that of the split that halves it; `is_seen`: the ball of the split that made it is
     // seen as a whole, and so are those below.
     void add(const BisectionTriangle& triangle, SplitKind kind, bool is_seen = false) {
@@ -132,6 +211,9 @@ public:
             if (is_whole_) {
                 prefetch_below(triangle, middle, kind);
             }
+            if (morphs_) {
+                rising_.add(middle, triangle.left, triangle.right, choice.risen);
+            }
             add({middle, triangle.apex, triangle.left}, kind_below(kind), choice.is_seen);
             add({middle, triangle.right, triangle.apex}, kind_below(kind), choice.is_seen);
         } else {
@@ -139,14 +221,22 @@ public:
         }
     }
 
-    std::vector<Triangulation> take() { return writer_.take(); }
+    std::vector<Triangulation> take() {
+        std::vector<Triangulation> parts = writer_.take();
+        for (Triangulation& part : parts) {
+            for (std::size_t i = 0; morphs_ && i < part.vertices.size(); ++i) {
+                part.moves.push_back(rising_.move_of(part.vertices[i]));
+            }
+        }
+        return parts;
+    }
 
-private:
     enum class Reach { inside, across, outside }; // of the heightfield
     struct Choice {
         bool splits = false;
         bool is_seen = false; // the split's ball as a whole
         bool is_made = true;
+        double risen = 1.0; // share of the vertex's way to its place
     };
 
     // The splits of the two halves, and of theirs: they lie far apart in memory.
@@ -177,10 +267,15 @@ private:
             return {false, is_seen};
         }
         if (kind.size <= steps_per_sample) {
-            return choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
+            return kept_ != nullptr
+                       ? Choice{false, is_seen}
+                       : choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
         }
         // Each is asked for by the triangles on its two sides.
         const glm::ivec2 sample = middle / steps_per_sample - first_;
+        if (kept_ != nullptr && (*kept_)(sample.x, sample.y) != 0) {
+            return {true, is_seen};
+        }
         Choice& choice = at_samples_(sample.x, sample.y);
         if (!choice.is_made) {
             choice = choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
@@ -196,11 +291,21 @@ private:
             return {false, is_seen};
         }
         const Sight sight = is_seen ? Sight::whole : sight_of(view_, split);
-        return {sight != Sight::none, sight == Sight::whole};
+        return {sight != Sight::none, sight == Sight::whole, true, risen_by(split)};
+    }
+
+    [[nodiscard]] double risen_by(const Split& split) const {
+        const double from = morphed_.morph_from;
+        return morphs_ ? std::clamp((shown_share(morphed_, split) - from) / (1.0 - from), 0.0, 1.0)
+                       : 1.0;
     }
 
     const Bisection& bisection_;
-    const ErrorView& view_;
+    const ErrorView& morphed_;
+    ErrorView view_; // of the error where vertices begin to rise
+    bool morphs_;
+    const Grid<std::uint8_t>* kept_;
+    RisingVertices rising_;
     glm::ivec2 first_;        // sample of the tile
     bool is_whole_;           // no triangle of it ends beyond the heightfield
     Grid<Choice> at_samples_; // of the tile, where made
@@ -216,16 +321,12 @@ bool exceeds(const ErrorView& view, const Split& split) {
 
 std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,
                                        const ErrorView& view) {
-    const glm::ivec2 first = steps_per_sample * glm::ivec2(tile.col, tile.row);
-    const int side = steps_per_sample * tile_cells;
-    const glm::ivec2 middle = first + side / 2;
-    const std::array corners{first, first + glm::ivec2(0, side), first + side,
-                             first + glm::ivec2(side, 0)};
-    TileBisector bisector(bisection, tile, view);
-    for (std::size_t i = 0; i < 4; ++i) {
-        bisector.add({middle, corners[i], corners[(i + 1) % 4]}, {side, true});
-    }
-    return bisector.take();
+    return TileBisector(bisection, tile, view).bisect(tile);
+}
+
+Triangulation triangulate_samples(const Bisection& bisection, const Tile& tile,
+                                  const ErrorView& view, const Grid<std::uint8_t>& kept) {
+    return TileBisector(bisection, tile, view, &kept).bisect(tile).front();
 }
 
 } // namespace reljef::terrain

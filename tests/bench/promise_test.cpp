@@ -42,6 +42,24 @@ TEST(Promise, judges_random_poses_and_two_flights_the_same_each_time) {
     EXPECT_EQ(report.at("rows").at(1).at("views"), "orbit");
 }
 
+TEST(Promise, flights_are_judged_by_each_error_that_is_asked_for) {
+    const test::TemporaryFolder folder;
+    auto options = few_poses(folder.write("dem.asc", test::small_dem).string());
+    options.poses = 1;
+    options.flight_errors = {0.5, 4.0};
+    const PromiseResults results = run_promise(options, {});
+    ASSERT_EQ(results.rows.size(), 5U);
+    for (const std::size_t i : {1U, 3U}) {
+        EXPECT_EQ(results.rows[i].error, 0.5);
+        EXPECT_EQ(results.rows[i + 1].error, 4.0);
+        EXPECT_EQ(results.rows[i + 1].views, results.rows[i].views);
+        EXPECT_GE(*results.rows[i].triangles, *results.rows[i + 1].triangles);
+        EXPECT_LE(results.rows[i].worst_px, 0.5);
+    }
+    const auto report = nlohmann::json::parse(promise_json(results));
+    EXPECT_EQ(report.at("rows").at(2).at("max_error"), 4.0);
+}
+
 TEST(Promise, a_pixel_too_far_off_is_a_violation) {
     PromiseResults results;
     results.rows.emplace_back();

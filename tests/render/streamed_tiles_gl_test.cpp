@@ -173,6 +173,34 @@ TEST_F(StreamedTilesGlTest, NoHoleBetweenTilesOfAnyLevels) {
     }
 }
 
+TEST_F(StreamedTilesGlTest, AnErrorTakesFewerTrianglesOfTheSameTilesWithoutAHole) {
+    StreamedWorld world;
+    auto& technique = world.terrain->get<scene::TerrainNode>()->material.technique;
+    const auto all = technique;
+    const auto fewer = scene::parse_technique("polygons:error=1").value(); // that of the tiles
+    Driver made = driver();
+    test::Chance chance(6);
+    for (int round = 0; round < 15; ++round) {
+        const glm::dvec3 eye(chance.between(-300, 300), chance.between(-300, 300),
+                             chance.between(60, 200));
+        world.look(eye, eye + glm::dvec3(0.1 * eye.z, 0.0, -eye.z));
+        world.bring();
+        technique = all;
+        const FrameStats whole = test::must(made.draw(world.scene));
+        const Image picture = made.read_color();
+        technique = fewer;
+        const FrameStats cut = test::must(made.draw(world.scene));
+        EXPECT_EQ(cut.tiles, whole.tiles);
+        EXPECT_EQ(cut.tiles_cut, cut.tiles);
+        EXPECT_LT(2 * cut.triangles, whole.triangles);
+        EXPECT_EQ(test::must(made.draw(world.scene)).tiles_cut, 0);
+        ASSERT_EQ(sky_pixels(test::must(made.draw_hits(world.scene))), 0) << round;
+        technique = all;
+        test::must(made.draw(world.scene));
+        ASSERT_EQ(made.read_color(), picture) << round;
+    }
+}
+
 TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
     const auto picture = [&](std::span<const glm::dvec3> before) {
         StreamedWorld world;

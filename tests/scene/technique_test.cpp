@@ -43,7 +43,7 @@ TEST(Technique, ReadsAParameter) {
     const auto technique = parse_technique("polygons:lods=1");
     ASSERT_TRUE(technique);
     EXPECT_EQ(technique->id, TechniqueId::polygons);
-    EXPECT_THAT(technique->values, testing::ElementsAre(1.0, 0.0));
+    EXPECT_THAT(technique->values, testing::ElementsAre(1.0, 0.0, 0.0));
     EXPECT_EQ(to_string(*technique), "polygons:lods=1");
     EXPECT_EQ(to_string(make_technique(TechniqueId::texture)), "texture");
 }
@@ -82,6 +82,12 @@ TEST(Technique, AValueOutOfRangeIsToldWithTheRange) {
         EXPECT_THAT(error_of(std::string("polygons:lods=") + value),
                     AllOf(HasSubstr(std::string("lods=") + value + " found"),
                           HasSubstr("a whole number from 1 to 5 was expected")))
+            << value;
+    }
+    for (const char* value : {"-1", "17", "nan", "-inf", ""}) {
+        EXPECT_THAT(error_of(std::string("polygons:error=") + value),
+                    AllOf(HasSubstr(std::string("error=") + value + " found"),
+                          HasSubstr("a number from 0.02 to 16 was expected")))
             << value;
     }
     EXPECT_THAT(error_of("polygons:lods"), HasSubstr("lods= found"));

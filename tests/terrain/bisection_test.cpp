@@ -29,12 +29,32 @@ using test::PlacedTerrain;
 using test::rough_hills;
 using test::Triangle;
 
+// A hole across the border of two tiles, one in a corner, and single ones.
+Heightfield with_voids(Grid<float> heights) {
+    Grid<std::uint8_t> voids(heights.cols(), heights.rows());
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            const bool is_void = (std::abs(col - 128) < 20 && std::abs(row - 60) < 15) ||
+                                 col + row < 9 || (col * 31 + row * 17) % 97 == 0;
+            voids(col, row) = is_void ? 1 : 0;
+            heights(col, row) = is_void ? -32768.0F : heights(col, row);
+        }
+    }
+    fill_voids(heights, voids);
+    Heightfield heightfield = test::plane_heightfield(std::move(heights), {3.0, 3.0});
+    heightfield.void_mask = std::move(voids);
+    heightfield.range = height_range(heightfield.heights, heightfield.void_mask);
+    return heightfield;
+}
+
 // Where bisection goes wrong: any size, nothing to find, one thing to find, the curved Earth.
 std::vector<MadeTerrain> hard_terrains() {
     std::vector<MadeTerrain> terrains;
     terrains.push_back({"hills", test::plane_heightfield(rough_hills(161, 130, 1), {5.0, 7.0})});
     terrains.push_back({"least", test::plane_heightfield(test::random_heights(2, 2, 0, 9, 2))});
-    terrains.push_back({"strip", test::plane_heightfield(rough_hills(300, 3, 3), {2.0, 2.0}), 4.0});
+    terrains.push_back(
+        {"strip", test::plane_heightfield(rough_hills(1000, 3, 3), {2.0, 2.0}), 4.0});
+    terrains.push_back({"voids", with_voids(rough_hills(260, 140, 6))});
     terrains.push_back({"level", test::plane_heightfield(Grid<float>(140, 33, 7.0F))});
     Grid<float> spike(129, 129, 0.0F);
     spike(37, 100) = 1e5F;

@@ -85,7 +85,7 @@ scene::Camera chance_camera(test::Chance& chance, const scene::TerrainSurface& s
 }
 
 Promise promise_over(terrain::Heightfield heightfield, int poses, unsigned seed,
-                     const scene::TerrainOptions& options = {}) {
+                     const scene::TerrainOptions& options = {}, int morph = 0) {
     test::Chance chance(seed);
     scene::Scene scene;
     scene::Node& node = test::add_terrain(scene, std::move(heightfield), {}, options);
@@ -97,7 +97,7 @@ Promise promise_over(terrain::Heightfield heightfield, int poses, unsigned seed,
         const double error = std::exp(chance.between(-1.4, 1.4));
         *camera.get<scene::Camera>() = chance_camera(chance, test::surface_of(node));
         node.get<scene::TerrainNode>()->material.technique =
-            scene::parse_technique(fmt::format("polygons:error={}", error)).value();
+            scene::parse_technique(fmt::format("polygons:error={},morph={}", error, morph)).value();
         judge(scene, node, test::must(driver.draw_hits(scene)), error, promise);
     }
     return promise;
@@ -114,6 +114,14 @@ TEST_F(PolygonsErrorGlTest, NoPixelOfAnyPoseIsFartherOffThanAskedFor) {
         promise_over(test::plane_heightfield(test::hills(200, 161, 60.0), {10, 10}), 40, 1));
     expect_kept(promise_over(
         test::plane_heightfield(test::random_heights(65, 65, 0.0F, 8.0F, 3), {5, 7}), 40, 2));
+}
+
+TEST_F(PolygonsErrorGlTest, NorWhileVerticesRise) {
+    expect_kept(promise_over(test::plane_heightfield(test::hills(200, 161, 60.0), {10, 10}), 20, 11,
+                             {}, 1));
+    expect_kept(
+        promise_over(test::geographic_heightfield(test::hills(161, 140, 600.0), 46.0, 7.0, 0.004),
+                     15, 12, {}, 1));
 }
 
 // Walls that are seen edge-on, from a step away: what floats interpolate over a triangle much narrower
