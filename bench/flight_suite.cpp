@@ -1,5 +1,6 @@
 #include "bench/flight_suite.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "app/process_memory.h"
@@ -48,6 +49,7 @@ Result<void> fly(app::TerrainScene& scene, const scene::FlyPath& path, app::Devi
         if (const auto drawn = frames.draw(scene.scene, parallel); !drawn) {
             return drawn.error();
         }
+        results.most_memory = std::max(results.most_memory, app::process_memory().now);
         app::tell_stream_faults(scene.scene, results.options.terrain.quiet);
         if (index == 0) {
             results.seconds_to_first_frame = flown_since(start);
@@ -84,7 +86,8 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     results.seconds = flown_since(start);
     results.times = frames->times();
     results.faulty_files = app::faulty_files(scene->scene);
-    results.most_memory = app::process_memory().most;
+    results.most_memory =
+        std::max({results.most_memory, app::process_memory().most, results.times.memory_before});
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
     if (stream != nullptr) {
         results.stream = stream->stats();
