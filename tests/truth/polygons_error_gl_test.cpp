@@ -124,9 +124,9 @@ TEST_F(PolygonsErrorGlTest, NorWhileVerticesRise) {
                      15, 12, {}, 1));
 }
 
-// Walls that are seen edge-on, from a step away: what floats interpolate over a triangle much narrower
-// than a step of the rasterizer's grid is off by pixels. (A guard band about the picture, so that
-// none is cut, makes the worst seven times as bad: the triangles get longer.)
+// Walls that are seen edge-on, from a step away: what floats interpolate over a triangle much
+// narrower than a step of the rasterizer's grid is off by pixels. (A guard band about the picture,
+// so that none is cut, makes the worst seven times as bad: the triangles get longer.)
 TEST_F(PolygonsErrorGlTest, NorBetweenTowersWhereNoSliverIsCut) {
     const Promise promise = promise_over(
         test::plane_heightfield(test::made_heights(129, 129,
