@@ -387,7 +387,7 @@ private:
         for (int round = -warm_up; round < rounds && !stop_.stop_requested(); ++round) {
             place_camera(moving, round);
             for (PeerEntry& entry : entries) {
-                const auto timed =
+                auto timed =
                     entry.row.moving == moving ? time_one(entry, round >= 0) : Result<void>();
                 if (!timed) {
                     return timed;
