@@ -16,6 +16,7 @@ struct TileChoice {
     struct Drawn {
         std::shared_ptr<const scene::StreamedTile> tile;
         double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+        double error = 0.0;    ///< of its vertices as it is seen, an estimate, pixels
     };
     std::vector<Drawn> drawn;
     std::vector<terrain::TreeTile> wanted; ///< and not there, the most urgent first

@@ -100,7 +100,7 @@ TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
         world.bring();
         std::set<TreeTile> drawn;
         const TileChoice choice = world.choice();
-        for (const auto& [tile, distance] : choice.drawn) {
+        for (const auto& [tile, distance, error] : choice.drawn) {
             drawn.insert(tile->id);
             const double pixels = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
             const double spacing = world.stream->maker().spacing(tile->id.level);
