@@ -109,17 +109,39 @@ public:
         }
     }
 
-    void cut() {
+    void cut(bool is_new_cover) {
+        make_shapes();
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            views_[i] = view_of(*tiles_[i].draw, *tiles_[i].cut->shape);
+            is_new_cover = is_new_cover || tiles_[i].cut->view != views_[i];
+        }
+        if (is_new_cover && !tiles_.empty()) {
+            find_triangles();
+        }
+    }
+
+private:
+    template <class Body> void for_each_tile(const Body& body) const {
+        parallel_for(static_cast<int>(tiles_.size()),
+                     [&](int i) { body(static_cast<std::size_t>(i)); });
+    }
+
+    void make_shapes() {
+        const bool all_there = std::all_of(tiles_.begin(), tiles_.end(), [](const TileToCut& tile) {
+            return tile.cut->shape.has_value();
+        });
+        if (all_there) {
+            return; // no threads for nothing
+        }
         for_each_tile([&](std::size_t i) {
             StreamedCut& cut = *tiles_[i].cut;
             if (!cut.shape) {
                 cut.shape.emplace(*tiles_[i].draw->tile);
             }
-            views_[i] = view_of(*tiles_[i].draw, *cut.shape);
         });
-        if (tiles_.empty()) {
-            return;
-        }
+    }
+
+    void find_triangles() {
         const terrain::TileTree& tree = tiles_.front().draw->terrain->stream->tree();
         terrain::SharedSplits splits = terrain::shared_splits(tree, cover_, wanted());
         for_each_tile([&](std::size_t i) {
@@ -131,12 +153,6 @@ public:
                 tile.cut->splits = std::move(needed);
             }
         });
-    }
-
-private:
-    template <class Body> void for_each_tile(const Body& body) const {
-        parallel_for(static_cast<int>(tiles_.size()),
-                     [&](int i) { body(static_cast<std::size_t>(i)); });
     }
 
     [[nodiscard]] terrain::BorderSplits wanted() const {
@@ -184,9 +200,9 @@ bool is_cut(const StreamedDraw& draw) {
            scene::parameter(technique, "error") > 0.0;
 }
 
-void cut_together(const DrawList& list, const terrain::TileCover& cover,
+void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,
                   std::span<TileToCut> tiles) {
-    TogetherCutter(list, cover, tiles).cut();
+    TogetherCutter(list, cover, tiles).cut(is_new_cover);
 }
 
 } // namespace reljef::render

@@ -97,8 +97,8 @@ Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameS
     std::erase_if(covers_, [](const auto& entry) { return entry.second.owner.expired(); });
     for (const auto& streamed : draws_by_stream(list)) {
         const StreamedByTile& drawn = streamed.second;
-        const terrain::TileCover& cover = cover_of(drawn);
-        if (auto done = prepare_meshes(cover, drawn, stats); !done) {
+        Cover& cover = cover_of(drawn);
+        if (auto done = prepare_meshes(cover.tiles, drawn, stats); !done) {
             return done;
         }
         if (auto done = prepare_cuts(list, cover, drawn, stats); !done) {
@@ -116,7 +116,7 @@ Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameS
     return {};
 }
 
-const terrain::TileCover& StreamedTiles::cover_of(const StreamedByTile& drawn) {
+StreamedTiles::Cover& StreamedTiles::cover_of(const StreamedByTile& drawn) {
     const auto& stream = drawn.begin()->second->terrain->stream;
     std::set<terrain::TreeTile> ids;
     for (const auto& entry : drawn) {
@@ -124,10 +124,10 @@ const terrain::TileCover& StreamedTiles::cover_of(const StreamedByTile& drawn) {
     }
     const auto found = covers_.find(stream.get());
     if (found != covers_.end() && found->second.tiles.tiles() == ids) {
-        return found->second.tiles;
+        return found->second;
     }
     Cover made{stream, terrain::TileCover(stream->tree(), std::move(ids))};
-    return covers_.insert_or_assign(stream.get(), std::move(made)).first->second.tiles;
+    return covers_.insert_or_assign(stream.get(), std::move(made)).first->second;
 }
 
 Result<void> StreamedTiles::prepare_meshes(const terrain::TileCover& cover,
@@ -203,7 +203,7 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
     return {};
 }
 
-Result<void> StreamedTiles::prepare_cuts(const DrawList& list, const terrain::TileCover& cover,
+Result<void> StreamedTiles::prepare_cuts(const DrawList& list, Cover& cover,
                                          const StreamedByTile& drawn, FrameStats& stats) {
     std::vector<TileToCut> tiles;
     for (const auto& by_tile : drawn) {
@@ -217,7 +217,7 @@ Result<void> StreamedTiles::prepare_cuts(const DrawList& list, const terrain::Ti
             }
         }
     }
-    cut_together(list, cover, tiles);
+    cut_together(list, cover.tiles, std::exchange(cover.is_new, false), tiles);
     for (const TileToCut& tile : tiles) {
         if (tile.triangles.empty()) {
             ++stats.skipped.cuts_unchanged;

@@ -54,6 +54,7 @@ private:
     struct Cover {
         std::weak_ptr<const scene::TileStream> owner;
         terrain::TileCover tiles;
+        bool is_new = true; // its tiles' triangles are those of another
     };
     struct SharedLight {
         std::weak_ptr<scene::TileStream> owner;
@@ -63,9 +64,9 @@ private:
 
     Result<void> prepare_meshes(const terrain::TileCover& cover, const StreamedByTile& drawn,
                                 FrameStats& stats);
-    Result<void> prepare_cuts(const DrawList& list, const terrain::TileCover& cover,
-                              const StreamedByTile& drawn, FrameStats& stats);
-    const terrain::TileCover& cover_of(const StreamedByTile& drawn);
+    Result<void> prepare_cuts(const DrawList& list, Cover& cover, const StreamedByTile& drawn,
+                              FrameStats& stats);
+    Cover& cover_of(const StreamedByTile& drawn);
     Result<void> set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats);
     Result<void> set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
                                FrameStats& stats);
