@@ -58,8 +58,9 @@ struct TileToCut {
 
 /// Finds the triangles of all tiles of a cover: as few as the view allows where the tiles still
 /// meet vertex on vertex. Of the error that is asked for, theirs is what the estimate of the error
-/// of the vertices leaves, at least half. Nothing is done where neither the cover is new nor a
-/// tile's view. Precondition: a tile for each of the cover, or none.
+/// of the vertices leaves (errors of both kinds seldom add up), at least half. Nothing is done
+/// where neither the cover is new nor a tile's view. Precondition: a tile for each of the cover, or
+/// none.
 void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,
                   std::span<TileToCut> tiles);
 

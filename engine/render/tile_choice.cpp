@@ -17,6 +17,9 @@ namespace {
 // are lower than peaks.
 constexpr double more_of_range = 0.25;
 
+// Of the error: what is left is for fewer triangles.
+constexpr double share_of_tiles = 0.65;
+
 // At a time: what is less urgent may turn out not to be needed once these are there.
 constexpr std::size_t most_wanted = 16;
 
@@ -93,7 +96,8 @@ private:
             return 0.0;
         }
         const double spacing = stream_.maker().spacing(tile.id.level);
-        return std::max(tile.error, spacing / samples_apart_in_errors) * pixels / most_error_;
+        return std::max(tile.error / share_of_tiles, spacing / samples_apart_in_errors) * pixels /
+               most_error_;
     }
 
     // Whether the tiles below take a tile's place; else they are wanted, where they may be drawn.
