@@ -30,7 +30,10 @@ void for_each_stream(const scene::Scene& scene, const Visit& visit) {
 // more of what tiles leave behind: a flight would take half as much again as its tiles.
 void return_freed_blocks() {
 #ifdef __GLIBC__
-    constexpr int mapped_from = 1 << 16; // bytes: less than the arrays of a tile
+    // The smallest array of a tile, bytes: not the blocks of 64 kB that a software renderer takes
+    // and frees with each frame.
+    constexpr int vertices_a_side = terrain::tile_cells + 1;
+    constexpr int mapped_from = vertices_a_side * vertices_a_side * int{sizeof(float)};
     ::mallopt(M_MMAP_THRESHOLD, mapped_from);
 #endif
 }

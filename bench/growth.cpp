@@ -1,16 +1,11 @@
 #include "bench/growth.h"
 
 #include <malloc.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
-#include <cstdint>
 #include <fstream>
-#include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,26 +15,21 @@
 #include <glm/geometric.hpp>
 
 #include "app/device.h"
-#include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "app/streaming.h"
-#include "engine/io/raster_writer.h"
+#include "bench/growth_ground.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/truth/geometric_error.h"
-#include "terrains/noise.h"
 
 namespace reljef::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double ground_side = 40'000.0; // metres
-constexpr glm::dvec2 ground_corner{380'000.0, 5'120'000.0};
 constexpr std::array growth_poses{scene::Pose::overview, scene::Pose::low};
 constexpr int judged_step = 4; // pixels
 constexpr int growth_warm_up = 3;
 constexpr int growth_frames = 20;
-constexpr double bytes_a_sample = 4.0 * 17.0 / 16.0; // of the raster, its overviews included
 
 class GrowthWatch {
 public:
@@ -50,141 +40,6 @@ public:
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-// Removed with all it holds.
-class GrowthFolder {
-public:
-    static Result<GrowthFolder> create(const GrowthOptions& options) {
-        std::error_code code;
-        const fs::path parent =
-            options.folder.empty() ? fs::temp_directory_path(code) : options.folder;
-        const auto most = static_cast<double>(
-            options.sides.empty() ? 0
-                                  : *std::max_element(options.sides.begin(), options.sides.end()));
-        const double needed = bytes_a_sample * most * most;
-        const auto room = static_cast<double>(fs::space(parent, code).available);
-        if (!code && room < needed) {
-            return Error{fmt::format("{}: {:.1f} GB free, {:.1f} GB were expected for a raster",
-                                     parent.string(), 1e-9 * room, 1e-9 * needed)};
-        }
-        GrowthFolder folder(parent / fmt::format("reljef-growth-{}", getpid()));
-        if (!fs::create_directory(folder.path_, code)) {
-            return Error{fmt::format("{}: cannot be made: {}", folder.path_.string(),
-                                     code ? code.message() : "it is there already")};
-        }
-        folder.is_made_ = true;
-        return folder;
-    }
-    GrowthFolder(GrowthFolder&& other) noexcept
-        : path_(std::move(other.path_)), is_made_(std::exchange(other.is_made_, false)) {}
-    GrowthFolder& operator=(GrowthFolder&&) = delete;
-    GrowthFolder(const GrowthFolder&) = delete;
-    GrowthFolder& operator=(const GrowthFolder&) = delete;
-    ~GrowthFolder() {
-        std::error_code ignored;
-        if (is_made_) {
-            fs::remove_all(path_, ignored);
-        }
-    }
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-private:
-    explicit GrowthFolder(fs::path path) : path_(std::move(path)) {}
-
-    fs::path path_;
-    bool is_made_ = false;
-};
-
-// The ground is a sum of waves of all directions, the shorter the lower.
-struct Wave {
-    glm::dvec2 number{0.0}; // radians along the ground's sides
-    double phase = 0.0;     // radians
-    double height = 0.0;    // metres
-};
-constexpr std::size_t wave_count = 24;
-constexpr double mean_height = 1500.0;
-constexpr double first_height = 700.0;
-constexpr double first_number = 9.0; // radians along a side
-constexpr double shorter = 1.32;     // by so much each wave than the one before
-constexpr double lower = 1.4;
-
-std::array<Wave, wave_count> made_waves() {
-    std::array<Wave, wave_count> made;
-    double number = first_number;
-    double height = first_height;
-    for (std::size_t i = 0; i < wave_count; ++i) {
-        const auto chance = [&](std::uint32_t seed) {
-            return 2.0 * std::numbers::pi *
-                   terrains::unit_hash(seed, static_cast<std::int32_t>(i), 0);
-        };
-        const double direction = chance(1);
-        made[i] = {number * glm::dvec2(std::cos(direction), std::sin(direction)), chance(2),
-                   height};
-        number *= shorter;
-        height /= lower;
-    }
-    return made;
-}
-
-const std::array<Wave, wave_count>& waves() {
-    static const std::array<Wave, wave_count> made = made_waves();
-    return made;
-}
-
-double place_of(int sample, int side) {
-    return (sample + 0.5) / side;
-}
-
-double height_of_sample(glm::ivec2 sample, int side) {
-    return growth_height({place_of(sample.x, side), place_of(sample.y, side)});
-}
-
-// Rows of samples: sin(x + y) = sin x cos y + cos x sin y, where x hangs on the column alone.
-class GroundRows {
-public:
-    explicit GroundRows(int side) : side_(side) {
-        for (std::size_t i = 0; i < wave_count; ++i) {
-            const Wave& wave = waves()[i];
-            for (int col = 0; col < side; ++col) {
-                const double x = wave.number.x * place_of(col, side) + wave.phase;
-                sines_[i].push_back(static_cast<float>(wave.height * std::sin(x)));
-                cosines_[i].push_back(static_cast<float>(wave.height * std::cos(x)));
-            }
-        }
-    }
-
-    void fill(int row, std::span<float> heights) const {
-        std::fill(heights.begin(), heights.end(), static_cast<float>(mean_height));
-        for (std::size_t i = 0; i < wave_count; ++i) {
-            const double y = waves()[i].number.y * place_of(row, side_);
-            const auto cosine = static_cast<float>(std::cos(y));
-            const auto sine = static_cast<float>(std::sin(y));
-            for (std::size_t col = 0; col < heights.size(); ++col) {
-                heights[col] += sines_[i][col] * cosine + cosines_[i][col] * sine;
-            }
-        }
-    }
-
-private:
-    int side_;
-    std::array<std::vector<float>, wave_count> sines_; // by wave and column, metres
-    std::array<std::vector<float>, wave_count> cosines_;
-};
-
-Result<void> write_ground(const fs::path& path, int side, const GrowthOptions& options,
-                          const std::stop_token& stop) {
-    app::ProgressLine line(fmt::format("writing {0} x {0} samples", side), options.suite.quiet);
-    const auto threads = static_cast<unsigned>(options.suite.threads);
-    const GroundRows rows(side);
-    const auto fill = [&](int first_row, GridView<float> heights) {
-        parallel_for(heights.rows(), [&](int row) { rows.fill(first_row + row, heights.row(row)); },
-                     {threads, stop, {}});
-    };
-    const double spacing = ground_side / side;
-    const io::HeightRaster raster{side, side, spacing, ground_corner + 0.5 * spacing};
-    return io::write_heights(path, raster, fill, {threads, stop, line.callback()});
-}
 
 // Of the process, bytes; what a file of /proc says in kB after `name`.
 std::size_t most_memory() {
@@ -296,7 +151,7 @@ private:
         const glm::ivec2 first = glm::min(glm::ivec2(inside), side_ - 2);
         const glm::dvec2 part = inside - glm::dvec2(first);
         const auto at = [&](int col, int row) {
-            return height_of_sample(first + glm::ivec2(col, row), side_);
+            return growth_height(first + glm::ivec2(col, row), side_);
         };
         return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
                         part.y);
@@ -316,11 +171,13 @@ public:
     }
 
     Result<void> run() {
-        const auto folder = GrowthFolder::create(options_);
+        const std::vector<int>& sides = options_.sides;
+        const auto folder = GrowthFolder::create(
+            options_.folder, sides.empty() ? 0 : *std::max_element(sides.begin(), sides.end()));
         if (!folder) {
             return folder.error();
         }
-        for (const int side : options_.sides) {
+        for (const int side : sides) {
             const fs::path path = folder->path() / fmt::format("ground-{}.tif", side);
             if (auto done = run_side(path, side); !done) {
                 return done;
@@ -335,7 +192,7 @@ public:
 
 private:
     Result<void> run_side(const fs::path& path, int side) {
-        if (auto written = write_ground(path, side, options_, stop_); !written) {
+        if (auto written = write_growth_ground(path, side, options_.suite, stop_); !written) {
             return written;
         }
         restart_most_memory();
@@ -395,6 +252,7 @@ private:
             if (!stats) {
                 return stats.error();
             }
+            row.tiles = stats->tiles;
             row.triangles = stats->triangles;
             if (i >= growth_warm_up) {
                 ms.push_back(stats->cpu_ms + stats->gpu_ms);
@@ -426,14 +284,6 @@ private:
 };
 
 } // namespace
-
-double growth_height(glm::dvec2 place) {
-    double height = mean_height;
-    for (const Wave& wave : waves()) {
-        height += wave.height * std::sin(glm::dot(wave.number, place) + wave.phase);
-    }
-    return height;
-}
 
 std::optional<GrowthMarks> marks_of(const GrowthResults& results) {
     const auto [fewest, most] =

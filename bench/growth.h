@@ -32,7 +32,8 @@ struct GrowthRow {
     double first_picture = 0; ///< seconds from opening the context and the file until it is drawn
     double last_picture = 0;  ///< the same until nothing finer is to come for this view
     std::size_t frames = 0;
-    Summary ms; ///< of a frame with a still camera
+    Summary ms;    ///< of a frame with a still camera
+    int tiles = 0; ///< drawn
     std::size_t triangles = 0;
     std::size_t memory_bytes = 0; ///< most of the process since the raster was opened
     std::size_t pixels = 0;       ///< judged: those of every fourth row and column on the terrain
@@ -58,10 +59,6 @@ inline constexpr double most_frame_ratio = 1.3;
 inline constexpr double most_first_picture = 2.0; // seconds
 /// Absent where the fewest or the most samples were not measured.
 std::optional<GrowthMarks> marks_of(const GrowthResults& results);
-
-/// Metres of the ground that all sides show, at a place in [0,1]² (east, south); the rasters hold
-/// it as floats do.
-double growth_height(glm::dvec2 place);
 
 /// Writes the same square of ground as GeoTIFFs of growing resolution, tiled and with overviews, to
 /// a folder of its own that is removed in the end, and looks at each from the poses overview and

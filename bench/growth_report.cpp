@@ -23,6 +23,7 @@ GrowthJson row_json(const GrowthRow& row) {
             {"last_picture_s", row.last_picture},
             {"frames", row.frames},
             {"ms", {{"median", row.ms.median}, {"p95", row.ms.p95}, {"p99", row.ms.p99}}},
+            {"tiles", row.tiles},
             {"triangles", row.triangles},
             {"memory_bytes", row.memory_bytes},
             {"pixels", row.pixels},
@@ -39,9 +40,9 @@ GrowthJson marks_json(const GrowthResults& results) {
 }
 
 const std::vector<std::string>& columns() {
-    static const std::vector<std::string> names{"side",   "pose",     "tiles",  "first s",
-                                                "last s", "ms",       "p99 ms", "triangles",
-                                                "MB",     "worst px", "p99 px"};
+    static const std::vector<std::string> names{"side",      "pose", "ground",   "first s",
+                                                "last s",    "ms",   "p99 ms",   "tiles",
+                                                "triangles", "MB",   "worst px", "p99 px"};
     return names;
 }
 
@@ -53,6 +54,7 @@ std::vector<std::string> cells_of(const GrowthRow& row) {
             fmt::format("{:.2f}", row.last_picture),
             fmt::format("{:.2f}", row.ms.median),
             fmt::format("{:.2f}", row.ms.p99),
+            fmt::format("{}", row.tiles),
             fmt::format("{}", row.triangles),
             fmt::format("{:.0f}", static_cast<double>(row.memory_bytes) / megabyte),
             fmt::format("{:.3f}", row.worst_px),

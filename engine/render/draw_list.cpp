@@ -116,7 +116,8 @@ private:
         TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local);
         for (TileChoice::Drawn& drawn : choice.drawn) {
             list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
-                                            drawn.distance, detail_of(terrain, drawn.distance)});
+                                            drawn.distance, detail_of(terrain, drawn.distance),
+                                            drawn.error});
         }
         list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
         list_.stats.tiles_missing += static_cast<int>(choice.wanted.size());

@@ -55,6 +55,7 @@ struct StreamedDraw {
     bool flat = false;                      ///< on the reference surface instead of its heights
     double distance = 0.0;                  ///< from the eye to its bounds' nearest point, metres
     DetailLevel detail = DetailLevel::none; ///< of what lies over the terrain
+    double error = 0.0; ///< that its vertices are seen off by, an estimate, pixels
 };
 
 struct MeshDraw {

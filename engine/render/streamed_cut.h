@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -9,6 +11,7 @@
 #include "engine/render/draw_list.h"
 #include "engine/scene/streamed_tile.h"
 #include "engine/terrain/bisection_mesh.h"
+#include "engine/terrain/tile_cover.h"
 
 namespace reljef::render {
 
@@ -21,9 +24,12 @@ public:
     StreamedShape(StreamedShape&&) noexcept;
     StreamedShape& operator=(StreamedShape&&) noexcept;
 
-    /// Triangles over the tile's vertices, row after row, as few as the view allows where its whole
-    /// border is kept: so tiles meet as they do with all of their vertices.
-    [[nodiscard]] std::vector<std::uint16_t> triangles(const terrain::ErrorView& view) const;
+    /// As terrain::border_splits().
+    [[nodiscard]] std::vector<glm::ivec2> border_splits(const terrain::ErrorView& view) const;
+    /// Triangles over the tile's vertices, row after row, as few as the view and the splits that
+    /// must be made allow.
+    [[nodiscard]] std::vector<std::uint16_t> triangles(const terrain::ErrorView& view,
+                                                       const Grid<std::uint8_t>& splits) const;
     /// Local metres from those of the plane.
     [[nodiscard]] const glm::dmat4& local_from_plane() const { return local_from_plane_; }
 
@@ -36,9 +42,26 @@ private:
 /// Whether a tile is drawn with fewer triangles than its vertices have.
 bool is_cut(const StreamedDraw& draw);
 
-/// How a view shows what the triangles of such a tile are off. Half of the error that is asked for
-/// is theirs: the other half is the tile's, whose vertices are averages.
-terrain::ErrorView cut_view(const DrawList& list, const StreamedDraw& draw,
-                            const StreamedShape& shape);
+/// What a tile was cut by, and for.
+struct StreamedCut {
+    std::optional<StreamedShape> shape; ///< made where fewer triangles are asked for
+    std::optional<terrain::ErrorView> view;
+    Grid<std::uint8_t> splits; ///< that had to be made for the tiles around it
+};
+
+/// A tile and its cut, which lasts.
+struct TileToCut {
+    const StreamedDraw* draw = nullptr;
+    StreamedCut* cut = nullptr;
+    std::vector<std::uint16_t> triangles; ///< empty where they are as they were
+};
+
+/// Finds the triangles of all tiles of a cover: as few as the view allows where the tiles still
+/// meet vertex on vertex. Of the error that is asked for, theirs is what the estimate of the error
+/// of the vertices leaves (errors of both kinds seldom add up), at least half. Nothing is done
+/// where neither the cover is new nor a tile's view. Precondition: a tile for each of the cover, or
+/// none.
+void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,
+                  std::span<TileToCut> tiles);
 
 } // namespace reljef::render

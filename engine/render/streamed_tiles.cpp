@@ -94,13 +94,16 @@ GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::Edge
 Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
     std::erase_if(entries_, [](const auto& entry) { return entry.second.owner.expired(); });
     std::erase_if(lights_, [](const auto& entry) { return entry.second.owner.expired(); });
+    std::erase_if(covers_, [](const auto& entry) { return entry.second.owner.expired(); });
     for (const auto& streamed : draws_by_stream(list)) {
-        if (auto done = prepare_meshes(*streamed.first, streamed.second, stats); !done) {
+        const StreamedByTile& drawn = streamed.second;
+        Cover& cover = cover_of(drawn);
+        if (auto done = prepare_meshes(cover.tiles, drawn, stats); !done) {
             return done;
         }
-    }
-    if (auto done = prepare_cuts(list, stats); !done) {
-        return done;
+        if (auto done = prepare_cuts(list, cover, drawn, stats); !done) {
+            return done;
+        }
     }
     for (const StreamedDraw& draw : list.streamed_tiles) {
         if (auto done = with_maps ? prepare_light(list, draw, stats) : Result<void>(); !done) {
@@ -113,21 +116,31 @@ Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameS
     return {};
 }
 
-Result<void> StreamedTiles::prepare_meshes(const scene::TileStream& stream,
-                                           const StreamedByTile& drawn, FrameStats& stats) {
+StreamedTiles::Cover& StreamedTiles::cover_of(const StreamedByTile& drawn) {
+    const auto& stream = drawn.begin()->second->terrain->stream;
     std::set<terrain::TreeTile> ids;
     for (const auto& entry : drawn) {
         ids.insert(entry.first);
     }
+    const auto found = covers_.find(stream.get());
+    if (found != covers_.end() && found->second.tiles.tiles() == ids) {
+        return found->second;
+    }
+    Cover made{stream, terrain::TileCover(stream->tree(), std::move(ids))};
+    return covers_.insert_or_assign(stream.get(), std::move(made)).first->second;
+}
+
+Result<void> StreamedTiles::prepare_meshes(const terrain::TileCover& cover,
+                                           const StreamedByTile& drawn, FrameStats& stats) {
     std::vector<const StreamedDraw*> changed;
     for (const auto& [id, draw] : drawn) {
-        auto moves = terrain::edge_moves(stream.tree(), ids, id);
+        const std::vector<terrain::EdgeMove>& moves = cover.moves(id);
         Entry& entry = entry_of(*draw);
         if (entry.resident && entry.flat == draw->flat && entry.moves == moves) {
             ++stats.skipped.uploads_unchanged;
             continue;
         }
-        entry.moves = std::move(moves);
+        entry.moves = moves;
         entry.flat = draw->flat;
         changed.push_back(draw);
     }
@@ -180,7 +193,7 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
     ResidentMesh made = resident_grid(std::move(*vertices), 6 * mesh.cols * mesh.rows);
     made.vertex_array.set_indices(**indices);
     Entry& entry = entry_of(draw);
-    entry.cut.reset();
+    entry.cut.view.reset();
     if (entry.resident) {
         entry.resident->mesh = std::move(made);
     } else {
@@ -190,39 +203,29 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
     return {};
 }
 
-Result<void> StreamedTiles::prepare_cuts(const DrawList& list, FrameStats& stats) {
+Result<void> StreamedTiles::prepare_cuts(const DrawList& list, Cover& cover,
+                                         const StreamedByTile& drawn, FrameStats& stats) {
     std::vector<TileToCut> tiles;
-    for (const StreamedDraw& draw : list.streamed_tiles) {
+    for (const auto& by_tile : drawn) {
+        const StreamedDraw& draw = *by_tile.second;
         Entry& entry = entry_of(draw);
         if (is_cut(draw)) {
-            tiles.push_back({&entry, &draw, {}});
-        } else if (entry.cut) {
+            tiles.push_back({&draw, &entry.cut, {}});
+        } else if (entry.cut.view) {
             if (auto done = set_all_triangles(entry, draw.tile->cells, stats); !done) {
                 return done;
             }
         }
     }
-    parallel_for(static_cast<int>(tiles.size()),
-                 [&](int i) { tiles[static_cast<std::size_t>(i)].cut(list); });
+    cut_together(list, cover.tiles, std::exchange(cover.is_new, false), tiles);
     for (const TileToCut& tile : tiles) {
         if (tile.triangles.empty()) {
             ++stats.skipped.cuts_unchanged;
-        } else if (auto done = set_triangles(*tile.entry, tile.triangles, stats); !done) {
+        } else if (auto done = set_triangles(entry_of(*tile.draw), tile.triangles, stats); !done) {
             return done;
         }
     }
     return {};
-}
-
-void StreamedTiles::TileToCut::cut(const DrawList& list) {
-    if (!entry->shape) {
-        entry->shape.emplace(*draw->tile);
-    }
-    const terrain::ErrorView view = cut_view(list, *draw, *entry->shape);
-    if (entry->cut != view) {
-        entry->cut = view;
-        triangles = entry->shape->triangles(view);
-    }
 }
 
 Result<void> StreamedTiles::set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats) {
@@ -230,7 +233,7 @@ Result<void> StreamedTiles::set_all_triangles(Entry& entry, glm::ivec2 cells, Fr
     if (!indices) {
         return indices.error();
     }
-    entry.cut.reset();
+    entry.cut.view.reset();
     entry.resident->mesh.index_count = 6 * cells.x * cells.y;
     entry.resident->mesh.vertex_array.set_indices(**indices);
     return {};

@@ -15,7 +15,7 @@
 #include "engine/render/ground_residency.h"
 #include "engine/render/resident_mesh.h"
 #include "engine/render/streamed_cut.h"
-#include "engine/terrain/tile_edges.h"
+#include "engine/terrain/tile_cover.h"
 
 namespace reljef::render {
 
@@ -48,15 +48,13 @@ private:
         std::vector<terrain::EdgeMove> moves;
         std::optional<scene::TerrainLight> light;
         std::optional<ResidentStreamed> resident;
-        std::optional<StreamedShape> shape;    // made where fewer triangles are asked for
-        std::optional<terrain::ErrorView> cut; // by which the triangles are those that they are
+        StreamedCut cut;
     };
-    struct TileToCut {
-        Entry* entry = nullptr;
-        const StreamedDraw* draw = nullptr;
-        std::vector<std::uint16_t> triangles; // empty where they are as they were
-
-        void cut(const DrawList& list);
+    // The tiles of a stream that were drawn last.
+    struct Cover {
+        std::weak_ptr<const scene::TileStream> owner;
+        terrain::TileCover tiles;
+        bool is_new = true; // its tiles' triangles are those of another
     };
     struct SharedLight {
         std::weak_ptr<scene::TileStream> owner;
@@ -64,9 +62,11 @@ private:
         std::unique_ptr<const scene::TerrainIrradiance> irradiance;
     };
 
-    Result<void> prepare_meshes(const scene::TileStream& stream, const StreamedByTile& drawn,
+    Result<void> prepare_meshes(const terrain::TileCover& cover, const StreamedByTile& drawn,
                                 FrameStats& stats);
-    Result<void> prepare_cuts(const DrawList& list, FrameStats& stats);
+    Result<void> prepare_cuts(const DrawList& list, Cover& cover, const StreamedByTile& drawn,
+                              FrameStats& stats);
+    Cover& cover_of(const StreamedByTile& drawn);
     Result<void> set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats);
     Result<void> set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
                                FrameStats& stats);
@@ -84,6 +84,7 @@ private:
     Entry& entry_of(const StreamedDraw& draw);
 
     std::map<Key, Entry> entries_;
+    std::map<const scene::TileStream*, Cover> covers_;
     std::map<const scene::TileStream*, SharedLight> lights_;
     std::map<std::pair<int, int>, gl::Buffer> indices_; // by cells along a row, and a column
 };

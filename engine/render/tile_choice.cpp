@@ -17,12 +17,16 @@ namespace {
 // are lower than peaks.
 constexpr double more_of_range = 0.25;
 
+// Of the error: what is left is for fewer triangles.
+constexpr double share_of_tiles = 0.65;
+
 // At a time: what is less urgent may turn out not to be needed once these are there.
 constexpr std::size_t most_wanted = 16;
 
 struct Candidate {
     double excess = 0.0; // the error as it is seen, over the one that may be
     double distance = 0.0;
+    double error = 0.0; // pixels, of the vertices
     std::shared_ptr<const scene::StreamedTile> tile;
 
     friend bool operator<(const Candidate& a, const Candidate& b) {
@@ -57,7 +61,7 @@ public:
             const Candidate next = candidates_.top();
             candidates_.pop();
             if (next.excess <= 1.0 || !replace(next)) {
-                choice_.drawn.push_back({next.tile, next.distance});
+                choice_.drawn.push_back({next.tile, next.distance, next.error});
             }
         }
         return std::move(choice_);
@@ -77,16 +81,22 @@ private:
         }
         const double distance =
             glm::distance(camera_.eye, glm::clamp(camera_.eye, bounds.low, bounds.high));
-        candidates_.push({excess_of(*tile, distance), distance, std::move(tile)});
+        const double pixels = pixels_per_metre(distance);
+        const double excess = excess_of(*tile, pixels);
+        const double error = id.level == 0 ? 0.0 : tile->error * pixels;
+        candidates_.push({excess, distance, error, std::move(tile)});
     }
 
-    [[nodiscard]] double excess_of(const scene::StreamedTile& tile, double distance) const {
+    [[nodiscard]] double pixels_per_metre(double distance) const {
+        return pixels_per_metre_ / (perspective_ ? std::max(distance, camera_.near) : 1.0);
+    }
+
+    [[nodiscard]] double excess_of(const scene::StreamedTile& tile, double pixels) const {
         if (tile.id.level == 0) {
             return 0.0;
         }
-        const double away = perspective_ ? std::max(distance, camera_.near) : 1.0;
         const double spacing = stream_.maker().spacing(tile.id.level);
-        return std::max(tile.error, spacing / samples_apart_in_errors) * pixels_per_metre_ / away /
+        return std::max(tile.error / share_of_tiles, spacing / samples_apart_in_errors) * pixels /
                most_error_;
     }
 

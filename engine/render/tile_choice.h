@@ -16,6 +16,7 @@ struct TileChoice {
     struct Drawn {
         std::shared_ptr<const scene::StreamedTile> tile;
         double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+        double error = 0.0;    ///< of its vertices as it is seen, an estimate, pixels
     };
     std::vector<Drawn> drawn;
     std::vector<terrain::TreeTile> wanted; ///< and not there, the most urgent first
@@ -29,9 +30,9 @@ inline constexpr double default_tile_error = 1.0;
 inline constexpr double samples_apart_in_errors = 4.0;
 
 /// Best first: the tile whose estimated error is seen largest gives way to those below it, until
-/// none is seen larger than the technique's error, or more would be drawn than memory holds. Where
-/// one below is not there yet, it is wanted, and the coarser one drawn meanwhile. The same view of
-/// the same tiles gives the same choice. Nothing at all while the root is not there.
+/// none is seen larger than two thirds of the technique's error, or more would be drawn than memory
+/// holds. Where one below is not there yet, it is wanted, and the coarser one drawn meanwhile. The
+/// same view of the same tiles gives the same choice. Nothing at all while the root is not there.
 TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, const glm::dmat4& world_from_local);
 

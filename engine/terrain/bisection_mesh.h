@@ -64,7 +64,7 @@ std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& t
                                        const ErrorView& view);
 
 /// The same with vertices at samples alone, and with all splits where `kept` is 1: of the tile's
-/// samples, as splits_of_border() gives them.
+/// samples, as shared_splits() gives them.
 Triangulation triangulate_samples(const Bisection& bisection, const Tile& tile,
                                   const ErrorView& view, const Grid<std::uint8_t>& kept);
 

@@ -33,6 +33,7 @@ TEST_F(Growth, TheSameGroundIsSeenWholeAndTileByTile) {
     EXPECT_TRUE(results.rows[2].streamed);
     for (const GrowthRow& row : results.rows) {
         EXPECT_GT(row.pixels, 20U);
+        EXPECT_GT(row.tiles, 0);
         EXPECT_LE(row.first_picture, row.last_picture);
         EXPECT_GT(row.memory_bytes, std::size_t{1} << 20U);
         EXPECT_LE(row.worst_px, row.streamed ? 8.0 : 1.0) << row.side;
