@@ -208,6 +208,57 @@ TEST_F(GroundDetailGlTest, HeightsFadeInWithoutAStep) {
     EXPECT_GT(all_there, 0.03);
 }
 
+// Blocks that stand far apart, a pixel or less of them.
+std::shared_ptr<const terrain::TextureSet> blocky_set() {
+    terrain::TextureSet set;
+    set.name = "blocky";
+    set.heights = Grid<float>(128, 128, 0.0F);
+    for (int row = 0; row < 128; ++row) {
+        for (int col = 0; col < 128; ++col) {
+            set.heights(col, row) = col % 16 < 3 && row % 16 < 3 ? 1.0F : 0.0F;
+        }
+    }
+    set.color = Image(2, 2, bright);
+    set.scale = tile_scale;
+    return std::make_shared<const terrain::TextureSet>(
+        terrain::completed(std::move(set), TileBorder::wrap).value());
+}
+
+// Means of `side` times `side` pixels, linear.
+Grid<glm::vec3> means_of(const Image& picture, int side) {
+    Grid<glm::vec3> means(picture.cols() / side, picture.rows() / side, glm::vec3(0.0F));
+    for (int row = 0; row < means.rows() * side; ++row) {
+        for (int col = 0; col < means.cols() * side; ++col) {
+            means(col / side, row / side) +=
+                glm::vec3(linear_from_rgba8(picture(col, row))) / static_cast<float>(side * side);
+        }
+    }
+    return means;
+}
+
+// Shadows that are thinner than a pixel make it darker by as much as they cover, none black.
+TEST_F(GroundDetailGlTest, FarShadowsAreSeenAsTheirMean) {
+    Ground ground(ground_of([](int, int) { return 0.0; }));
+    ground.look({0.2, -2.9, 1.6}, {0.1, 0.6, 0.0});
+    ground.terrain().detail = detail_of("exact:shadow=hard", blocky_set());
+    const glm::ivec2 small(80, 60);
+    constexpr int finer = 4;
+    ASSERT_TRUE(ground.driver.resize(small));
+    const Grid<glm::vec3> seen = means_of(ground.picture(), 1);
+    ASSERT_TRUE(ground.driver.resize(finer * small));
+    const Grid<glm::vec3> truth = means_of(ground.picture(), finer);
+    double squares = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const double error = static_cast<double>(seen.samples()[i].g - truth.samples()[i].g);
+        squares += error * error;
+        sum += error;
+    }
+    const auto count = static_cast<double>(seen.size());
+    EXPECT_LT(std::sqrt(squares / count), 0.06); // 0.073 where each pixel asks one place
+    EXPECT_NEAR(sum / count, 0.0, 0.03);
+}
+
 // Whatever divides by nothing on the way makes a pixel black: the sky lights all that is there.
 TEST_F(GroundDetailGlTest, DegenerateTerrainsStayFinite) {
     std::vector<terrain::Heightfield> fields;

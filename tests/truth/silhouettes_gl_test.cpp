@@ -172,6 +172,26 @@ TEST_F(SilhouettesGlTest, EveryShapeIsDrawnByEveryTechniqueThatFollowsARay) {
     }
 }
 
+// In a hull the way to the sun is as long as in the plane that touches the mesh.
+TEST_F(SilhouettesGlTest, ShadowsAreThoseOfTheRelief) {
+    Panel panel(hard_tiles()[4].heights, 3.0F); // cliffs, two metres wide
+    panel.detail().offset = -1.0F;
+    panel.scene.add_light();
+    panel.look({0.3, -2.0, 2.6}, {0.1, 0.0, 0.0}); // no border in sight
+    const Image lit = panel.picture("exact");
+    const Image plane = panel.picture("exact:shadow=hard");
+    const Image hull = panel.picture("exact:silhouettes=true,shadow=hard");
+    const auto share_off = [](const Image& one, const Image& other) {
+        int off = 0;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            off += std::abs(one.samples()[i].g - other.samples()[i].g) > 8 ? 1 : 0;
+        }
+        return static_cast<double>(off) / static_cast<double>(one.size());
+    };
+    EXPECT_GT(share_off(plane, lit), 0.1);
+    EXPECT_LT(share_off(plane, hull), 0.02);
+}
+
 TEST(HullMesh, NeighboursShareTheirSidesAndPartsWithoutVolumeAreLeftOut) {
     scene::TextureDetail detail;
     detail.scale = 0.1F;
