@@ -45,7 +45,8 @@ vec3 in_tile(vec4 at, vec2 first_tile) {
 
 void main() {
     vec3 way = way_to_eye();
-    vec4 toward = shares_along(local_from_relative * way);
+    vec3 local_way = local_from_relative * way;
+    vec4 toward = shares_along(local_way);
     float near_part = near_depth / max(dot(relative, view_forward.xyz), near_depth);
     float beyond = share_beyond();
     float more = way_inside(-toward, beyond);
@@ -72,7 +73,11 @@ void main() {
         !find_hit(start + kept.x * span, (kept.y - kept.x) * span, part, place)) {
         discard;
     }
-    vec3 where = relative + way * mix(first, -more, mix(kept.x, kept.y, part));
+    float along = mix(first, -more, mix(kept.x, kept.y, part));
+    if (came_from_behind(shares + along * toward, local_way, toward)) {
+        discard;
+    }
+    vec3 where = relative + way * along;
     vec4 clip = clip_from_relative * vec4(where, 1.0);
     gl_FragDepth = clip.z / clip.w;
 #ifdef HIT

@@ -62,10 +62,11 @@ void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& r
                        static_cast<double>(mesh_height(draw)));
 }
 
-void draw_hull(DrawState& state, const ResidentHull& hull) {
+void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull) {
     if (hull.count == 0) {
         return;
     }
+    program.set_uniform("coordinate_range", hull.coordinate_range);
     constexpr int strip_vertices = 6; // relief_hull.vert
     hull.vertex_array.bind();
     gl::draw_arrays(gl::Primitive::triangle_strip, 0, strip_vertices, hull.count);
@@ -96,7 +97,7 @@ Result<void> paint_mesh(const Painting& painting, const MeshDraw& draw) {
         ++state.stats().state_changes;
     }
     if (has_tile && material.technique.options.true_silhouettes) {
-        draw_hull(state, residency.hull(draw));
+        draw_hull(state, **program, residency.hull(draw));
     } else {
         state.draw(residency.mesh(draw), gl::IndexType::uint32);
     }

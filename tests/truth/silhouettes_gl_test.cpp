@@ -56,8 +56,9 @@ TileErrors errors_everywhere(const Panel& panel, const std::vector<PlacedRelief>
 }
 
 // One tile over the whole square.
-Panel bordered_panel(Grid<float> heights, float offset) {
-    Panel panel(std::move(heights), 1.0F);
+Panel bordered_panel(Grid<float> heights, float offset,
+                     std::shared_ptr<render::Driver> driver = panel_driver()) {
+    Panel panel(std::move(heights), 1.0F, std::move(driver));
     panel.detail().border = TileBorder::discard;
     panel.detail().offset = offset;
     return panel;
@@ -65,9 +66,10 @@ Panel bordered_panel(Grid<float> heights, float offset) {
 
 TEST_F(SilhouettesGlTest, APlaneHasTheOutlineAndTheDepthOfItsRelief) {
     RELJEF_RELEASE_ONLY("the box is six planes");
+    const auto driver = panel_driver();
     for (const MadeTile& tile : hard_tiles()) {
         for (const float offset : {tile.heights.cols() > 16 ? -1.0F : 0.0F}) {
-            Panel panel = bordered_panel(tile.heights, offset);
+            Panel panel = bordered_panel(tile.heights, offset, driver);
             const std::vector<PlacedRelief> relief{{PanelTruth::relief_of(panel)}};
             for (const glm::dvec3 eye : {glm::dvec3(0.3, -6.0, 2.5), glm::dvec3(-7.0, -1.0, 0.9)}) {
                 panel.look(eye, {0.0, 0.0, 0.0});
@@ -98,8 +100,9 @@ glm::dmat4 side_frame(const scene::Mesh& box, std::size_t first) {
 
 TEST_F(SilhouettesGlTest, ABoxHasTheOutlinesOfItsSixSides) {
     constexpr float side = 2.0F;
+    const auto driver = panel_driver();
     for (const float offset : {-0.5F, 0.0F}) {
-        Panel panel = bordered_panel(noise_tile(16, 16, 21), offset);
+        Panel panel = bordered_panel(noise_tile(16, 16, 21), offset, driver);
         const scene::Mesh box = scene::box_mesh(glm::vec3(side));
         panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(box);
         const auto relief = ReliefPlane::create(
@@ -121,8 +124,9 @@ TEST_F(SilhouettesGlTest, ABoxHasTheOutlinesOfItsSixSides) {
 
 // Between tetrahedra nothing is lost: a closed shape has no hole, and its outline is a sphere's.
 TEST_F(SilhouettesGlTest, CurvedMeshesHaveNoHolesAndTheRadiusOfTheirHeights) {
+    const auto driver = panel_driver();
     for (const float height : {0.0F, 0.5F, 1.0F}) {
-        Panel panel(Grid<float>(8, 8, height), 4.0F);
+        Panel panel(Grid<float>(8, 8, height), 4.0F, driver);
         panel.node->get<scene::MeshNode>()->mesh =
             std::make_shared<const scene::Mesh>(scene::sphere_mesh(1.0F, 96));
         panel.detail().offset = 0.0F;
@@ -153,8 +157,9 @@ TEST_F(SilhouettesGlTest, CurvedMeshesHaveNoHolesAndTheRadiusOfTheirHeights) {
 TEST_F(SilhouettesGlTest, EveryShapeIsDrawnByEveryTechniqueThatFollowsARay) {
     const std::vector<scene::Mesh> shapes{scene::torus_mesh(1.0F, 0.4F, 24),
                                           scene::cylinder_mesh(1.0F, 2.0F, 24)};
+    const auto driver = panel_driver();
     for (const scene::Mesh& shape : shapes) {
-        Panel panel(wave_tile(16), 2.0F);
+        Panel panel(wave_tile(16), 2.0F, driver);
         panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(shape);
         panel.detail().offset = -0.5F;
         panel.look({0.4, -4.0, 2.0}, {0.0, 0.0, 0.0});
@@ -190,6 +195,34 @@ TEST_F(SilhouettesGlTest, ShadowsAreThoseOfTheRelief) {
     };
     EXPECT_GT(share_off(plane, lit), 0.1);
     EXPECT_LT(share_off(plane, hull), 0.02);
+}
+
+// Through its opening a bowl shows its back, and that is nothing, however steep its outside is.
+TEST_F(SilhouettesGlTest, NothingIsSeenThroughABowlsBack) {
+    Panel panel(noise_tile(16, 16, 5), 12.0F);
+    panel.node->get<scene::MeshNode>()->mesh =
+        std::make_shared<const scene::Mesh>(scene::bowl_mesh(1.0F));
+    panel.look({0.0, -2.5, 1.0}, {0.0, 0.0, -0.3});
+    const HitBuffer hits = panel.hits("exact:silhouettes=true");
+    int through = 0;
+    int shown = 0;
+    for (int y = 0; y < hits.rows(); ++y) {
+        for (int x = 0; x < hits.cols(); ++x) {
+            const Ray ray = scene::view_ray(panel.scene.camera(), mesh_picture, {x + 0.5, y + 0.5});
+            const glm::dvec3 way = glm::normalize(ray.direction);
+            const double nearest = -glm::dot(ray.origin, way);
+            const double half = 1.0 - glm::dot(ray.origin, ray.origin) + nearest * nearest;
+            const double to_back = std::sqrt(std::max(half, 0.0));
+            const double entry = ray.origin.z + (nearest - to_back) * way.z;
+            const double exit = ray.origin.z + (nearest + to_back) * way.z;
+            if (half > 0.02 && entry > 0.1 && exit < -0.1) { // off the outline and the rim
+                ++through;
+                shown += hits(x, y).is_sky() ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_GT(through, 2000);
+    EXPECT_EQ(shown, 0);
 }
 
 TEST(HullMesh, NeighboursShareTheirSidesAndPartsWithoutVolumeAreLeftOut) {
