@@ -93,7 +93,7 @@ Result<void> check_output_name(const fs::path& output, int frames) {
         return refuse(
             fmt::format("a numbered name like %04d.png or a video for {} frames", frames));
     }
-    return {};
+    return is_video(output) ? Result<void>() : io::check_image_name(output);
 }
 
 bool is_video(const fs::path& path) {

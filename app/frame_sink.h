@@ -23,7 +23,7 @@ public:
 bool is_video(const std::filesystem::path& path);
 
 /// Fails, naming -o, where the name can hold no output: a number that is none, one in a folder's
-/// name or in a video's, and one picture for many frames.
+/// name or in a video's, one picture for many frames, and a format that is none of pictures.
 Result<void> check_output_name(const std::filesystem::path& output, int frames);
 
 /// Whether the name stands for numbered pictures.

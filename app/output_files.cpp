@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "engine/core/atomic_file.h"
+
 namespace reljef::app {
 namespace {
 
@@ -53,6 +55,18 @@ void expect_apart(std::span<const NamedFile> outputs, std::span<const NamedFile>
             }
         }
     }
+}
+
+Result<void> check_writable(std::span<const NamedFile> outputs) {
+    for (const NamedFile& output : outputs) {
+        if (output.path.empty()) {
+            continue;
+        }
+        if (const auto file = AtomicFile::create(output.path); !file) {
+            return file.error();
+        }
+    }
+    return {};
 }
 
 } // namespace reljef::app

@@ -138,28 +138,20 @@ void expect_outputs(const RenderChoice& choice) {
     if (choice.view.frames > 1 && choice.view.path.empty()) {
         refuse("render: --frames found without a --path to fly along");
     }
-    if (!choice.output.empty()) {
-        if (const auto named = check_output_name(choice.output, choice.view.frames); !named) {
+    const auto expect_good = [&](const Result<void>& named) {
+        if (!named) {
             refuse(named.error().message);
         }
+    };
+    if (!choice.output.empty()) {
+        expect_good(check_output_name(choice.output, choice.view.frames));
     }
-}
-
-// Before anything is drawn: all outputs appear, or none.
-Result<void> check_targets(const RenderChoice& choice) {
     if (!choice.hits.empty()) {
-        if (auto good = io::check_hits_target(choice.hits); !good) {
-            return good;
-        }
+        expect_good(io::check_hits_name(choice.hits));
     }
     if (!choice.contact_sheet.empty()) {
-        if (auto good = io::check_image_target(choice.contact_sheet); !good) {
-            return good;
-        }
+        expect_good(io::check_image_name(choice.contact_sheet));
     }
-    const bool is_picture =
-        !choice.output.empty() && !is_video(choice.output) && !is_numbered(choice.output);
-    return is_picture ? io::check_image_target(choice.output) : Result<void>();
 }
 
 std::vector<NamedFile> inputs_of(const RenderChoice& choice,
@@ -195,6 +187,15 @@ std::vector<NamedFile> outputs_of(const RenderChoice& choice, std::span<const Na
         }
     }
     return outputs;
+}
+
+// Before anything is drawn: all outputs appear, or none.
+Result<void> check_targets(const RenderChoice& choice) {
+    std::vector<NamedFile> files{{"--hit", choice.hits}, {"--contact-sheet", choice.contact_sheet}};
+    if (!is_video(choice.output) && !is_numbered(choice.output)) {
+        files.push_back({"-o", choice.output});
+    }
+    return check_writable(files);
 }
 
 Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scene,

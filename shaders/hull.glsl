@@ -8,7 +8,8 @@ flat in mat4x2 coordinates;  // of the corners
 flat in vec4 heights;        // of the corners, 0 or 1 and a little beyond
 flat in mat4x3 corner_normals;
 
-uniform vec2 repeats; // tiles along texture coordinates 0 to 1
+uniform vec2 repeats;          // tiles along texture coordinates 0 to 1
+uniform vec4 coordinate_range; // of the mesh's texture coordinates: least and greatest
 
 vec2 tile_coordinate = vec2(0.0);
 vec2 tiles_per_metre = vec2(1.0); // it is in the frame
@@ -32,4 +33,21 @@ mat3 space_at(vec4 at) {
     mat2x3 slopes = coordinate_slopes();
     return mat3(slopes[0] - normal * dot(normal, slopes[0]),
                 slopes[1] - normal * dot(normal, slopes[1]), normal);
+}
+
+// Whether a ray, on the way of which a place of the surface lies, came through the mesh from behind,
+// where nothing is seen of it: it rises there, and, the mesh bent as its normals say, before it rose
+// from beneath the lowest height over the mesh. Over an outline or an edge it comes from above, or
+// from beside. `local_way` to the eye, `toward` as shares.
+bool came_from_behind(vec4 at, vec3 local_way, vec4 toward) {
+    float rise = -dot(normalize(corner_normals * at), local_way) / metres_per_unit.z;
+    float bend = dot(local_way, corner_normals * toward) / metres_per_unit.z;
+    float height = dot(heights, at);
+    float within = rise * rise - 2.0 * bend * height;
+    if (rise <= 0.0 || within <= 0.0) {
+        return false;
+    }
+    vec2 beneath = coordinates * (at + 2.0 * height / (rise + sqrt(within)) * toward);
+    return all(greaterThanEqual(beneath, coordinate_range.xy)) &&
+           all(lessThanEqual(beneath, coordinate_range.zw));
 }

@@ -43,17 +43,31 @@ vec3 in_tile(vec4 at, vec2 first_tile) {
     return vec3(coordinate * tile_samples() - 0.5, dot(heights, at));
 }
 
+// What a pixel beside adds to the tile's coordinate where its ray meets the plane that touches the
+// mesh `at` a place. On the tetrahedron's side it lies `beside` this one's; `nearer`: of the way to
+// there, the place.
+vec2 pixel_on_mesh(vec3 beside, vec4 at, float nearer) {
+    vec3 normal = normalize(corner_normals * at);
+    vec3 ray = local_from_relative * mix(view_forward.xyz, relative + beside, perspective);
+    vec3 shift = local_from_relative * beside * mix(1.0, nearer, perspective);
+    float facing = dot(normal, ray);
+    float least = 0.125 * length(ray); // what stands out over an outline faces the eye more
+    facing = facing < 0.0 ? min(facing, -least) : max(facing, least);
+    return coordinates * shares_along(shift - ray * (dot(normal, shift) / facing)) * repeats;
+}
+
 void main() {
     vec3 way = way_to_eye();
-    vec4 toward = shares_along(local_from_relative * way);
+    vec3 local_way = local_from_relative * way;
+    vec4 toward = shares_along(local_way);
     float near_part = near_depth / max(dot(relative, view_forward.xyz), near_depth);
     float beyond = share_beyond();
     float more = way_inside(-toward, beyond);
     float first = way_inside(toward, beyond);
     first = perspective > 0.5 ? min(first, 1.0 - near_part) : first;
     tile_coordinate = coordinates * shares * repeats;
-    vec2 right = dFdx(tile_coordinate);
-    vec2 up = dFdy(tile_coordinate);
+    vec3 beside = dFdx(relative);
+    vec3 above = dFdy(relative);
 #ifdef WRAP
     vec2 first_tile = floor(tile_coordinate);
 #else
@@ -72,12 +86,19 @@ void main() {
         !find_hit(start + kept.x * span, (kept.y - kept.x) * span, part, place)) {
         discard;
     }
-    vec3 where = relative + way * mix(first, -more, mix(kept.x, kept.y, part));
+    float along = mix(first, -more, mix(kept.x, kept.y, part));
+    vec4 at = shares + along * toward;
+    if (came_from_behind(at, local_way, toward)) {
+        discard;
+    }
+    vec3 where = relative + way * along;
     vec4 clip = clip_from_relative * vec4(where, 1.0);
     gl_FragDepth = clip.z / clip.w;
 #ifdef HIT
     hit = tile_hit(place, where);
 #else
+    vec2 right = pixel_on_mesh(beside, at, 1.0 - along);
+    vec2 up = pixel_on_mesh(above, at, 1.0 - along);
     color = vec4(seen_through_air(color_at(place, space, way, right, up), length(where)), 1.0);
 #endif
 }

@@ -29,7 +29,7 @@ vec3 seen_in(mat3 space, vec3 albedo, vec2 right, vec2 up, float visibility, flo
     if (height_share > 0.0) {
         metres_per_unit = vec3(1.0 / (tiles_per_metre * tile_samples()), lift * height_share);
         look_for_hit(space, way, place);
-        sun *= sun_share(place, space);
+        sun *= sun_share(place, space, right, up);
     }
     vec2 coordinate = (place + 0.5) * height_texel;
     vec3 shown = tinted(albedo, coordinate, right, up);

@@ -10,5 +10,6 @@ vec3 color_at(vec2 place, mat3 space, vec3 way, vec2 right, vec2 up) {
 #else
     vec3 upright = world_normal_of(vec3(0.0, 0.0, 1.0), space);
 #endif
-    return shiny_color(albedo, normal, upright, normalize(way), sun_share(place, space));
+    float sun = sun_share(place, space, right, up);
+    return shiny_color(albedo, normal, upright, normalize(way), sun);
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Remakes the pictures of the pages on the techniques, all or those named:
-#   docs/pictures/remake.sh [gallery] [light] [triangles] [parallax] [steps] [skipping] [warping] [options]
+#   docs/pictures/remake.sh [gallery] [light] [triangles] [parallax] [steps] [skipping] [warping] [options] [ground] [silhouettes]
 # Needs ./dev build, and montage of ImageMagick.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -108,10 +108,39 @@ options() {
     sheet options
 }
 
+hill() {
+    number=$1
+    label=$2
+    shift 2
+    panel "$number" "$label" natural --max-error 1 --eye=0,-3000,774 --look=300,-2400,765 "$@"
+}
+
+ground() {
+    panel 1 'no tile' urban --pose low
+    panel 2 'cobble, 3 m wide' urban --pose low --detail cobble:width=3
+    hill 3 'no tile'
+    hill 4 'rock, 14 m wide, shadow=hard' --detail rock:width=14,scale=0.1 \
+        --detail-technique exact:shadow=hard
+    sheet ground
+}
+
+ball() {
+    number=$1
+    label=$2
+    shift 2
+    panel "$number" "$label" gallery --eye=-0.6,-4.2,2.2 --look=0.4,0,0.8 "$@"
+}
+
+silhouettes() {
+    ball 1 exact --technique exact
+    ball 2 silhouettes=true --technique exact:silhouettes=true
+    sheet silhouettes
+}
+
 for name in "${@:-all}"; do
     case $name in
-    all) for each in gallery light triangles parallax steps skipping warping options; do "$each"; done ;;
-    gallery | light | triangles | parallax | steps | skipping | warping | options) "$name" ;;
+    all) for each in gallery light triangles parallax steps skipping warping options ground silhouettes; do "$each"; done ;;
+    gallery | light | triangles | parallax | steps | skipping | warping | options | ground | silhouettes) "$name" ;;
     *)
         echo "remake.sh: '$name' found, the name of a picture was expected" >&2
         exit 2

@@ -10,7 +10,6 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include "engine/core/atomic_file.h"
 #include "engine/io/image_encoder.h"
 #include "engine/io/image_limits.h"
 #include "engine/io/picture_file.h"
@@ -121,10 +120,7 @@ Result<std::vector<std::byte>> encode_channels(const fs::path& path, const Chann
                    count * sizeof(std::uint16_t));
 }
 
-Result<void> check_map_target(const fs::path& path) {
-    if (const auto file = AtomicFile::create(path); !file) {
-        return file.error();
-    }
+Result<void> check_map_name(const fs::path& path) {
     return is_map_file(path) ? Result<void>() : no_map_file(path);
 }
 

@@ -53,7 +53,7 @@ Result<void> check_finite(const Channels& channels, int count, const std::filesy
 Result<std::vector<std::byte>> encode_channels(const std::filesystem::path& path,
                                                const Channels& channels);
 
-/// Whether a map can be put there. Asked before long work. Leaves nothing behind.
-Result<void> check_map_target(const std::filesystem::path& path);
+/// Whether a file of that name can hold a map: by its extension.
+Result<void> check_map_name(const std::filesystem::path& path);
 
 } // namespace reljef::io

@@ -9,7 +9,6 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include "engine/core/atomic_file.h"
 #include "engine/io/image.h"
 #include "engine/io/image_encoder.h"
 #include "engine/io/image_limits.h"
@@ -56,7 +55,9 @@ Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& pat
     return hits;
 }
 
-Result<void> check_extension(const fs::path& path) {
+} // namespace
+
+Result<void> check_hits_name(const fs::path& path) {
     if (path.extension() == ".exr") {
         return {};
     }
@@ -65,22 +66,12 @@ Result<void> check_extension(const fs::path& path) {
                              path.string())};
 }
 
-} // namespace
-
-Result<void> check_hits_target(const fs::path& path) {
-    if (auto named = check_extension(path); !named) {
-        return named;
-    }
-    const auto file = AtomicFile::create(path);
-    return file ? Result<void>() : file.error();
-}
-
 Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
     if (hits.empty()) {
         return Error{fmt::format(
             "{}: cannot be written: no hits were given, at least 1×1 was expected", path.string())};
     }
-    if (auto named = check_extension(path); !named) {
+    if (auto named = check_hits_name(path); !named) {
         return named;
     }
     auto output = OIIO::ImageOutput::create("openexr");

@@ -12,7 +12,6 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include "engine/core/atomic_file.h"
 #include "engine/io/image_encoder.h"
 #include "engine/io/image_limits.h"
 #include "engine/io/picture_file.h"
@@ -128,10 +127,7 @@ Result<Image> read_image(const fs::path& path) {
         path, [&](OIIO::ImageInput& input) { return read_open_image(input, path); });
 }
 
-Result<void> check_image_target(const fs::path& path) {
-    if (const auto file = AtomicFile::create(path); !file) {
-        return file.error();
-    }
+Result<void> check_image_name(const fs::path& path) {
     return output_for(path) != nullptr ? Result<void>() : unknown_format(path);
 }
 

@@ -21,10 +21,9 @@ Result<void> write_image(const std::filesystem::path& path, const Image& image);
 /// The bytes that write_image() would put into a file of that extension (".png", ".jpg", …).
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image);
 
-/// Whether a picture, or the hits, can be put there: the format is known, the folder takes files.
-/// Asked before long work. Leaves nothing behind.
-Result<void> check_image_target(const std::filesystem::path& path);
-Result<void> check_hits_target(const std::filesystem::path& path);
+/// Whether a file of that name can hold a picture, or the hits: by its extension.
+Result<void> check_image_name(const std::filesystem::path& path);
+Result<void> check_hits_name(const std::filesystem::path& path);
 
 /// Writes float32 channels col, row, height, depth to an OpenEXR file, whole or not at all.
 Result<void> write_hits(const std::filesystem::path& path, const HitBuffer& hits);

@@ -1,6 +1,10 @@
 #include "engine/render/beams.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "engine/render/relief_options.h"
+#include "engine/render/view_values.h"
 
 namespace reljef::render {
 
@@ -20,16 +24,29 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const Rel
         return glm::mat3(corner.*part, (right.*part - corner.*part) / extent.x,
                          (top.*part - corner.*part) / extent.y);
     };
-    const bool from_eye = camera.projection == scene::ProjectionKind::perspective;
     const double highest = space.box.high.z;
-    return {of_ray(&Ray::origin), of_ray(&Ray::direction),
-            static_cast<float>(from_eye ? std::min(highest, corner.origin.z) : highest)};
+    return {
+        of_ray(&Ray::origin), of_ray(&Ray::direction),
+        static_cast<float>(is_perspective(camera) ? std::min(highest, corner.origin.z) : highest)};
 }
 
-Result<gl::Framebuffer> beam_target(glm::ivec2 picture_size) {
-    return gl::Framebuffer::create({.size = (picture_size + pixels_a_beam - 1) / pixels_a_beam,
-                                    .colors = {gl::Format::r32f},
-                                    .depth = false});
+Result<void> BeamTarget::prepare(const DrawList& list) {
+    const bool needed =
+        std::any_of(list.reliefs.begin(), list.reliefs.end(), [](const ReliefDraw& draw) {
+            return has_beams(draw.terrain->material.technique);
+        });
+    if (!needed || picture_size_ == list.size) {
+        return {};
+    }
+    auto made = gl::Framebuffer::create({.size = (list.size + pixels_a_beam - 1) / pixels_a_beam,
+                                         .colors = {gl::Format::r32f},
+                                         .depth = false});
+    if (!made) {
+        return made.error();
+    }
+    framebuffer_ = std::move(*made);
+    picture_size_ = list.size;
+    return {};
 }
 
 void set_beams(gl::Program& program, const ResidentRelief& relief, const PictureRays& rays) {

@@ -25,9 +25,19 @@ struct PictureRays {
 PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const ReliefSpace& space,
                          const glm::dmat4& local_from_world);
 
-/// Where beams keep down to which height they meet nothing: a float for each block of pixels.
-/// Fails where the driver has no memory.
-Result<gl::Framebuffer> beam_target(glm::ivec2 picture_size);
+/// Where beams keep down to which height they meet nothing: a float for each block of pixels of the
+/// picture. Made when a list has beams. Needs a current context; destroy while it is current.
+class BeamTarget {
+public:
+    /// Fails where the driver has no memory.
+    Result<void> prepare(const DrawList& list);
+
+    [[nodiscard]] const gl::Framebuffer& framebuffer() const { return framebuffer_; }
+
+private:
+    gl::Framebuffer framebuffer_;
+    glm::ivec2 picture_size_{0}; // that it is for
+};
 
 /// The uniforms of beams.frag and the pyramid it looks in. Precondition: the relief has its
 /// greatest heights.

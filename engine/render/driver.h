@@ -11,6 +11,7 @@
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/limits.h"
 #include "engine/gl/timer_query.h"
+#include "engine/render/beams.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/frame_stats.h"
 #include "engine/render/residency.h"
@@ -52,15 +53,13 @@ private:
 
     [[nodiscard]] DrawList list_of(const scene::Scene& scene) const;
     Result<void> prepare(const DrawList& list, bool hits, FrameStats& stats);
-    Result<void> prepare_beams(const DrawList& list);
     Result<void> draw_content(const DrawList& list, bool hits, FrameStats& stats);
 
     DriverOptions options_;
     gl::Limits limits_;
     gl::Framebuffer color_target_;
-    gl::Framebuffer hit_target_;  // made when first asked for
-    gl::Framebuffer beam_target_; // likewise
-    glm::ivec2 beams_of_{0};      // size of the picture that it is for
+    gl::Framebuffer hit_target_; // made when first asked for
+    BeamTarget beam_target_;
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;

@@ -5,6 +5,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/render/draw_list.h"
+
 namespace reljef::render {
 
 /// The uniform block `FrameBlock` of every shader, std140. Its members stand in
@@ -20,5 +22,8 @@ static_assert(offsetof(FrameBlock, sky_horizon) == 64 + 5 * 16);
 static_assert(offsetof(FrameBlock, ray_from_pixel) == 64 + 6 * 16);
 static_assert(offsetof(FrameBlock, vertex_grid) == 64 + 7 * 16);
 static_assert(sizeof(FrameBlock) == 64 + 8 * 16);
+
+/// What all of the list's programs read.
+FrameBlock frame_block(const DrawList& list);
 
 } // namespace reljef::render

@@ -1,11 +1,11 @@
 #include "engine/render/ground_painter.h"
 
 #include <glm/common.hpp>
-#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/render/relief_options.h"
 #include "engine/render/tile_painter.h"
+#include "engine/render/view_values.h"
 
 namespace reljef::render {
 namespace {
@@ -14,9 +14,9 @@ constexpr float sunk = 1.0F; // the terrain lies at the highest of the heights
 
 // The place of the eye, along each axis, less whole tiles: in floats the rest is as fine near the
 // eye as far from the origin.
-glm::vec3 tiles_at_eye(const glm::dmat4& world_from_local, glm::dvec3 eye, double width) {
-    const glm::dvec3 local(glm::inverse(world_from_local) * glm::dvec4(eye, 1.0));
-    return glm::vec3(glm::fract(local / width));
+glm::vec3 tiles_at_eye(const glm::dmat4& world_from_local, const scene::Camera& camera,
+                       double width) {
+    return glm::vec3(glm::fract(local_eye(camera, world_from_local) / width));
 }
 
 // No colour of a tile is so dark that it has no share.
@@ -47,16 +47,15 @@ void set_ground(gl::Program& program, const scene::TerrainNode& terrain,
     const scene::GroundDetail& detail = *terrain.detail;
     const ResidentTile& tile = tiles.tile(detail.set, ground_side());
     bind_tile(program, tile, tiles.surface(detail.set, ground_side()));
-    const bool is_perspective = camera.projection == scene::ProjectionKind::perspective;
     const glm::dmat3 directions(world_from_local);
     const auto width = static_cast<float>(detail.width);
     program.set_uniform("local_from_relative", glm::mat3(glm::inverse(directions)));
-    program.set_uniform("world_from_normal", glm::mat3(glm::inverseTranspose(directions)));
-    program.set_uniform("perspective", is_perspective ? 1.0F : 0.0F);
+    program.set_uniform("world_from_normal", world_from_normal(world_from_local));
+    program.set_uniform("perspective", is_perspective(camera) ? 1.0F : 0.0F);
     program.set_uniform("near_depth", static_cast<float>(camera.near));
     program.set_uniform("side", 1.0F);
     program.set_uniform("bounded", 0.0F);
-    program.set_uniform("tiles_at_eye", tiles_at_eye(world_from_local, camera.eye, detail.width));
+    program.set_uniform("tiles_at_eye", tiles_at_eye(world_from_local, camera, detail.width));
     program.set_uniform("tile_width", width);
     program.set_uniform("mean_color", divisible(tile.mean_color));
     program.set_uniform("metres_a_pixel", metres_a_pixel(camera, size));

@@ -4,6 +4,7 @@
 
 #include "engine/render/relief_options.h"
 #include "engine/render/tile_painter.h"
+#include "engine/render/view_values.h"
 #include "engine/scene/texture_plane.h"
 
 namespace reljef::render {
@@ -24,8 +25,7 @@ void bind_warp(gl::Program& program, const MeshDraw& draw, const gl::Texture2D& 
     program.set_uniform("warp_from_tile", glm::vec4(per_tile, -plane->low / size));
 }
 
-} // namespace
-
+// `features` are the scene's.
 ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
     if (material.detail.set == nullptr) {
         return {ShaderKind::mesh, features};
@@ -40,6 +40,7 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
                                features | look_features(material.technique.id)};
 }
 
+// What the programs of meshes with a tile ask for, beside the transform.
 void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& residency,
               const scene::Camera& camera) {
     const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
@@ -47,10 +48,9 @@ void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& r
     if (const gl::Texture2D* const warp = residency.warp(draw)) {
         bind_warp(program, draw, *warp);
     }
-    const bool is_perspective = camera.projection == scene::ProjectionKind::perspective;
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
     program.set_uniform("local_from_relative", glm::mat3(local_from_world));
-    program.set_uniform("perspective", is_perspective ? 1.0F : 0.0F);
+    program.set_uniform("perspective", is_perspective(camera) ? 1.0F : 0.0F);
     program.set_uniform("near_depth", static_cast<float>(camera.near));
     program.set_uniform("repeats", detail.repeats);
     set_tile_look(program, *detail.set,
@@ -60,6 +60,62 @@ void set_tile(gl::Program& program, const MeshDraw& draw, const MeshResidency& r
     program.set_uniform("bounded", detail.border == terrain::TileBorder::discard ? 1.0F : 0.0F);
     set_relief_options(program, over_mesh(draw.mesh->material.technique, mesh_height(draw)),
                        static_cast<double>(mesh_height(draw)));
+}
+
+void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull) {
+    if (hull.count == 0) {
+        return;
+    }
+    program.set_uniform("coordinate_range", hull.coordinate_range);
+    constexpr int strip_vertices = 6; // relief_hull.vert
+    hull.vertex_array.bind();
+    gl::draw_arrays(gl::Primitive::triangle_strip, 0, strip_vertices, hull.count);
+    FrameStats& stats = state.stats();
+    stats.triangles += 4U * static_cast<std::size_t>(hull.count);
+    ++stats.draws;
+    ++stats.state_changes;
+}
+
+Result<void> paint_mesh(const Painting& painting, const MeshDraw& draw) {
+    const scene::Material& material = draw.mesh->material;
+    const scene::Camera& camera = painting.list.camera;
+    const MeshResidency& residency = painting.residency.meshes();
+    DrawState& state = painting.state;
+    auto program = state.use(mesh_variant(material, painting.features));
+    if (!program) {
+        return program.error();
+    }
+    state.set_culling(draw.from_behind ? gl::Culling::front : gl::Culling::back);
+    state.set_wireframe(material.wireframe);
+    (*program)->set_uniform("relative_from_local",
+                            relative_from_local(camera, draw.world_from_local));
+    (*program)->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
+    (*program)->set_uniform("albedo", material.color);
+    const bool has_tile = material.detail.set != nullptr;
+    if (has_tile) {
+        set_tile(**program, draw, residency, camera);
+        ++state.stats().state_changes;
+    }
+    if (has_tile && material.technique.options.true_silhouettes) {
+        draw_hull(state, **program, residency.hull(draw));
+    } else {
+        state.draw(residency.mesh(draw), gl::IndexType::uint32);
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> paint_meshes(const Painting& painting) {
+    for (const MeshDraw& draw : painting.list.meshes) {
+        if (draw.mesh->mesh->indices.empty()) {
+            continue;
+        }
+        if (auto painted = paint_mesh(painting, draw); !painted) {
+            return painted;
+        }
+    }
+    return {};
 }
 
 } // namespace reljef::render

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include <glm/common.hpp>
 
 #include "engine/render/hull_mesh.h"
 #include "engine/render/mesh_warp.h"
@@ -104,6 +107,16 @@ Result<ResidentMesh> filled(const std::vector<Vertex>& vertices,
     return mesh;
 }
 
+glm::vec4 coordinate_range(const scene::Mesh& mesh) {
+    glm::vec2 least(std::numeric_limits<float>::max());
+    glm::vec2 greatest(std::numeric_limits<float>::lowest());
+    for (const glm::vec2 coordinate : mesh.texture_coordinates) {
+        least = glm::min(least, coordinate);
+        greatest = glm::max(greatest, coordinate);
+    }
+    return {least, greatest};
+}
+
 Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, FrameStats& stats) {
     if (parts.empty()) {
         return ResidentHull{};
@@ -184,6 +197,7 @@ Result<void> MeshResidency::prepare_hull(const MeshDraw& draw, FrameStats& stats
     if (!hull) {
         return hull.error();
     }
+    hull->coordinate_range = coordinate_range(*draw.mesh->mesh);
     hulls_.push_back({draw.mesh->mesh, detail, std::move(*hull), true});
     return {};
 }

@@ -72,6 +72,19 @@ glm::ivec2 cells_of(int cols, int rows, bool wraps) {
                  : glm::ivec2(std::max(cols, 2) - 1, std::max(rows, 2) - 1);
 }
 
+glm::vec2 rms_rise(const Grid<float>& heights, bool wraps) {
+    const Grid<float> all = with_next_copies(heights, wraps);
+    glm::dvec2 sum(0.0);
+    for (int row = 0; row + 1 < all.rows(); ++row) {
+        for (int col = 0; col + 1 < all.cols(); ++col) {
+            const glm::dvec2 rise(all(col + 1, row) - all(col, row),
+                                  all(col, row + 1) - all(col, row));
+            sum += rise * rise;
+        }
+    }
+    return glm::vec2(glm::sqrt(sum / static_cast<double>((all.cols() - 1) * (all.rows() - 1))));
+}
+
 // Null where they were not made beforehand.
 std::shared_ptr<const terrain::ConeMaps> known_cones(const terrain::TextureSet& set,
                                                      const TileSide& side) {
@@ -119,9 +132,10 @@ Result<ResidentSurface> resident_layers(const terrain::TextureSet& set, const Ti
         return along_v.error();
     }
     const glm::ivec2 cells = cells_of(layers.heights().cols(), layers.heights().rows(), side.wraps);
-    return ResidentSurface{std::move(*heights), cells,
-                           LayerTextures{std::move(*along_u), std::move(*along_v)}, std::nullopt,
-                           std::nullopt};
+    return ResidentSurface{
+        std::move(*heights), cells,
+        glm::vec2(0.0F),     LayerTextures{std::move(*along_u), std::move(*along_v)},
+        std::nullopt,        std::nullopt};
 }
 
 } // namespace
@@ -150,8 +164,12 @@ Result<ResidentSurface> resident_surface(const terrain::TextureSet& set, const T
     if (!heights) {
         return heights.error();
     }
-    return ResidentSurface{std::move(*heights), cells_of(shown.cols(), shown.rows(), side.wraps),
-                           std::nullopt, std::nullopt, std::nullopt};
+    return ResidentSurface{std::move(*heights),
+                           cells_of(shown.cols(), shown.rows(), side.wraps),
+                           rms_rise(shown, side.wraps),
+                           std::nullopt,
+                           std::nullopt,
+                           std::nullopt};
 }
 
 Result<gl::Texture2D> greatest_texture(const terrain::TextureSet& set, const TileSide& side,

@@ -43,6 +43,8 @@ struct LayerTextures {
 struct ResidentSurface {
     gl::Texture2D heights; ///< one a place, or those of the four layers
     glm::ivec2 cells{1};
+    glm::vec2 rms_rise{
+        0.0F}; ///< of the heights, from sample to sample along u and v; not of layers
     std::optional<LayerTextures> normals; ///< of layers
     std::optional<gl::Texture2D> greatest;
     std::optional<gl::Texture2D> cones;

@@ -45,6 +45,7 @@ void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSur
     }
     program.set_uniform("height_texel", 1.0F / glm::vec2(surface.heights.size()));
     program.set_uniform("last_cell", surface.cells - 1);
+    program.set_uniform("rms_rise", surface.rms_rise);
 }
 
 void set_tile_look(gl::Program& program, const terrain::TextureSet& set, float lift,

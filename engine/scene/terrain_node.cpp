@@ -104,10 +104,11 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
                         "has its own, detail tiles on meshes have not",
                         name)};
     }
-    if (technique.options.border && *technique.options.border != BorderRule::discard) {
-        return Error{fmt::format("technique {}: a border other than discard found, discard was "
-                                 "expected: a terrain ends at its border, detail tiles go on",
-                                 name)};
+    if (technique.options.border) {
+        return Error{
+            fmt::format("technique {}: option 'border' found, none was expected: a terrain "
+                        "ends at its border, detail tiles go on",
+                        name)};
     }
     if (!needs_plane(technique.id) || surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};

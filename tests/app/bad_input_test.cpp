@@ -100,7 +100,7 @@ TEST_F(BadInput, output_of_no_known_format) {
     const auto output = (folder_.path() / "picture.xyz").string();
     const auto result = test::reljef(
         {"render", dem, "-o", output, "--size", "64x48", "--context", "osmesa", "--quiet"});
-    expect_refusal(result, 1, {"picture.xyz"});
+    expect_refusal(result, 2, {"picture.xyz", ".png or .jpg was expected"});
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"dem.asc"});
 }
 
@@ -227,13 +227,19 @@ TEST_F(BadInput, NoOutputAppearsWhereAnotherCannot) {
     const auto hits = (folder_.path() / "hit.exr").string();
     const auto sheet = (folder_.path() / "sheet.xyz").string();
     const auto picture = (folder_.path() / "picture.png").string();
-    for (const std::vector<std::string>& outputs :
-         {std::vector<std::string>{"--hit", hits, "-o", "/no/such/folder/a.png"},
-          std::vector<std::string>{"-o", picture, "--contact-sheet", sheet},
-          std::vector<std::string>{"-o", picture, "--hit", sheet}}) {
+    struct Outputs {
+        std::vector<std::string> options;
+        int code;
+    };
+    for (const Outputs& outputs :
+         {Outputs{{"--hit", hits, "-o", "/no/such/folder/a.png"}, 1},
+          Outputs{{"-o", picture, "--contact-sheet", "/no/such/folder/a.png"}, 1},
+          Outputs{{"-o", picture, "--contact-sheet", sheet}, 2},
+          Outputs{{"-o", picture, "--hit", sheet}, 2},
+          Outputs{{"--hit", hits, "--path", "orbit", "-o", folder_.path() / "%d.xyz"}, 2}}) {
         std::vector<std::string> arguments{"render", "natural", "--size", "64x48"};
-        arguments.insert(arguments.end(), outputs.begin(), outputs.end());
-        EXPECT_EQ(test::reljef(arguments).exit_code, 1);
+        arguments.insert(arguments.end(), outputs.options.begin(), outputs.options.end());
+        EXPECT_EQ(test::reljef(arguments).exit_code, outputs.code);
         EXPECT_TRUE(folder_.names().empty());
     }
 }

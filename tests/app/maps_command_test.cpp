@@ -152,7 +152,7 @@ TEST_F(MapsCommand, BadInputIsOneSentenceAndLeavesNothing) {
     refused({file("height.png")}, 2, {"no output found", "--normals"});
     refused({}, 2, {"PICTURE"});
     refused({file("none.png"), "--normals", file("n.png")}, 1, {"none.png", "does not exist"});
-    refused({file("height.png"), "--normals", file("n.jpg")}, 1,
+    refused({file("height.png"), "--normals", file("n.jpg")}, 2,
             {"n.jpg", "cannot be written", ".png, .tif or .exr"});
     refused({file("height.png"), "--normals", file("no/n.png")}, 1, {"no/n.png"});
     refused({file("height.png"), "--normals", file("height.png")}, 2,

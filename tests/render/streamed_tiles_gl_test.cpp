@@ -45,15 +45,16 @@ struct StreamedWorld {
     Scene scene;
     Node* terrain = nullptr;
     Node* camera = nullptr;
+    Node* sun = nullptr;
     std::shared_ptr<scene::TileStream> stream;
 
-    explicit StreamedWorld(std::size_t tiles = 400) {
+    explicit StreamedWorld(std::size_t tiles = 400, const Image& picture = {}) {
         auto heightfield =
             test::plane_heightfield(rough_hills(side / reduction, reduction, 0.5 * (reduction - 1)),
                                     glm::dvec2(static_cast<double>(reduction)));
-        terrain = &test::add_terrain(scene, std::move(heightfield));
+        terrain = &test::add_terrain(scene, std::move(heightfield), picture);
         camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
-        scene.add_light();
+        sun = &scene.add_light();
         auto& node = *terrain->get<scene::TerrainNode>();
         const auto all = std::make_shared<const Grid<float>>(rough_hills(side, 1.0, 0.0));
         stream = std::make_shared<scene::TileStream>(
@@ -218,6 +219,71 @@ TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
     const Image first = picture({});
     EXPECT_EQ(first, picture(std::array{glm::dvec3(500.0, 500.0, 70.0),
                                         glm::dvec3(-600.0, 300.0, 400.0)}));
+}
+
+// A tile of detail, as wide as some of its samples.
+std::shared_ptr<const scene::GroundDetail> striped_detail() {
+    terrain::TextureSet set;
+    set.name = "stripes";
+    set.heights =
+        test::made_heights(16, 16, [](int col, int row) { return (col / 4 + row / 8) % 2; });
+    set.color = Image(16, 16);
+    for (int row = 0; row < 16; ++row) {
+        for (int col = 0; col < 16; ++col) {
+            set.color(col, row) = col < 8 ? Rgba8{220, 200, 160, 255} : Rgba8{90, 100, 140, 255};
+        }
+    }
+    scene::GroundDetail detail;
+    detail.set = std::make_shared<const terrain::TextureSet>(
+        terrain::completed(std::move(set), terrain::TileBorder::wrap).value());
+    detail.width = 6.0;
+    detail.scale = 0.1F;
+    detail.technique = scene::parse_technique("exact:shadow=hard").value();
+    return std::make_shared<const scene::GroundDetail>(std::move(detail));
+}
+
+// Pixels that differ by more than `limit` of 255 in green.
+int pixels_off(const Image& one, const Image& other, int limit) {
+    int off = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        off += std::abs(one.samples()[i].g - other.samples()[i].g) > limit ? 1 : 0;
+    }
+    return off;
+}
+
+// The middle of the same hills, read whole.
+struct WholeWorld {
+    Scene scene;
+    Node* terrain = nullptr;
+
+    WholeWorld(const Camera& camera, const Image& picture) {
+        constexpr int samples = 302;
+        constexpr int seen = side / reduction * reduction; // what is beyond has no overview
+        terrain = &test::add_terrain(
+            scene,
+            test::plane_heightfield(rough_hills(samples, 1.0, 0.5 * (seen - samples)),
+                                    glm::dvec2(1.0)),
+            picture);
+        scene.add_camera(camera);
+    }
+};
+
+TEST_F(StreamedTilesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
+    const Image gray(2, 2, Rgba8{128, 128, 128, 255});
+    StreamedWorld world(400, gray);
+    world.look({10.0, -20.0, 60.0}, {15.0, -5.0, 30.0});
+    world.bring();
+    world.sun->set_visible(false); // its shadows are the overview's
+    WholeWorld whole(world.scene.camera(), gray);
+    Driver made = driver();
+    const auto picture = [&](Scene& scene, Node& terrain, bool detailed) {
+        terrain.get<scene::TerrainNode>()->detail = detailed ? striped_detail() : nullptr;
+        test::must(made.draw(scene));
+        return made.read_color();
+    };
+    const Image detailed = picture(world.scene, *world.terrain, true);
+    EXPECT_LT(pixels_off(detailed, picture(whole.scene, *whole.terrain, true), 4), 80);
+    EXPECT_GT(pixels_off(detailed, picture(world.scene, *world.terrain, false), 8), 20000);
 }
 
 TEST_F(StreamedTilesGlTest, TextureDrawsTilesFlatAndReliefTheOverview) {

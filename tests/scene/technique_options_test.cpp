@@ -179,10 +179,10 @@ TEST(TechniqueOptions, WhatOnlyTilesHaveIsRefusedOnATerrain) {
     const auto checked = [&](const char* text) {
         return check_technique(parse_technique(text).value(), surface);
     };
-    EXPECT_TRUE(checked("relief:border=discard,depth=write,shadow=hard"));
+    EXPECT_TRUE(checked("relief:depth=write,shadow=hard"));
     EXPECT_THAT(checked("relief:sides=two").error().message,
                 AllOf(HasSubstr("technique relief: sides=two found"), HasSubstr("beneath")));
-    for (const char* text : {"exact:border=wrap", "relief:border=clamp"}) {
+    for (const char* text : {"exact:border=wrap", "relief:border=clamp", "pom:border=discard"}) {
         EXPECT_THAT(checked(text).error().message, HasSubstr("ends at its border"));
     }
 }

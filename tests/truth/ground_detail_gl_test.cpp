@@ -64,15 +64,22 @@ std::shared_ptr<const scene::GroundDetail> detail_of(const std::string& techniqu
     return std::make_shared<const scene::GroundDetail>(std::move(detail));
 }
 
+// Grounds that share one compile each program once.
+std::shared_ptr<render::Driver> ground_driver() {
+    return std::make_shared<render::Driver>(test::must(
+        render::Driver::create({.size = ground_picture, .shader_dir = {}, .software = true})));
+}
+
 // A terrain with a sun, and a camera.
 struct Ground {
     scene::Scene scene;
     scene::Node* node = nullptr;
     scene::Node* camera = nullptr;
-    render::Driver driver = test::must(
-        render::Driver::create({.size = ground_picture, .shader_dir = {}, .software = true}));
+    std::shared_ptr<render::Driver> driver;
 
-    explicit Ground(terrain::Heightfield heightfield) {
+    explicit Ground(terrain::Heightfield heightfield,
+                    std::shared_ptr<render::Driver> shared = ground_driver())
+        : driver(std::move(shared)) {
         node = &test::add_terrain(scene, std::move(heightfield), mean_color());
         scene.add_light();
         camera = &scene.add_camera({});
@@ -82,10 +89,10 @@ struct Ground {
     }
     scene::TerrainNode& terrain() const { return *node->get<scene::TerrainNode>(); }
     Image picture() {
-        test::must(driver.draw(scene));
-        return driver.read_color();
+        test::must(driver->draw(scene));
+        return driver->read_color();
     }
-    HitBuffer hits() { return test::must(driver.draw_hits(scene)); }
+    HitBuffer hits() { return test::must(driver->draw_hits(scene)); }
 };
 
 // The same tile on a plane of the same extent; `place` moves it to where the terrain is.
@@ -102,8 +109,8 @@ Image picture_of_mesh(Ground& ground, const std::string& technique, glm::dvec2 e
     scene.add_mesh(scene::plane_mesh(glm::vec2(extent)), material).set_parent_from_local(place);
     scene.add_light();
     scene.add_camera(ground.scene.camera());
-    test::must(ground.driver.draw(scene));
-    return ground.driver.read_color();
+    test::must(ground.driver->draw(scene));
+    return ground.driver->read_color();
 }
 
 int difference(Rgba8 one, Rgba8 other) {
@@ -139,13 +146,15 @@ TEST_F(GroundDetailGlTest, OnALevelTerrainEveryTechniqueShowsWhatItShowsOnAPlane
 // grow the same way.
 TEST_F(GroundDetailGlTest, OnASlopeTheFrameFollowsTheGradient) {
     RELJEF_RELEASE_ONLY("its shaders are drawn with by the other tests");
+    const auto driver = ground_driver();
     for (const double slope : {-0.6, 0.3}) {
         for (const bool to_east : {slope < 0.0}) {
             const double step = slope * ground_side / (ground_samples - 1);
             Ground ground(ground_of([&](int col, int row) {
-                return step *
-                       (to_east ? col - (ground_samples - 1) / 2 : (ground_samples - 1) / 2 - row);
-            }));
+                              return step * (to_east ? col - (ground_samples - 1) / 2
+                                                     : (ground_samples - 1) / 2 - row);
+                          }),
+                          driver);
             ground.look({0.2, -1.2, 1.9}, {0.1, 0.1, 0.0});
             ground.terrain().detail = detail_of("exact", checkered_set());
             const double angle = std::atan(slope);
@@ -208,6 +217,58 @@ TEST_F(GroundDetailGlTest, HeightsFadeInWithoutAStep) {
     EXPECT_GT(all_there, 0.03);
 }
 
+// Blocks that stand far apart, a pixel or less of them.
+std::shared_ptr<const terrain::TextureSet> blocky_set() {
+    terrain::TextureSet set;
+    set.name = "blocky";
+    set.heights = Grid<float>(128, 128, 0.0F);
+    for (int row = 0; row < 128; ++row) {
+        for (int col = 0; col < 128; ++col) {
+            set.heights(col, row) = col % 16 < 3 && row % 16 < 3 ? 1.0F : 0.0F;
+        }
+    }
+    set.color = Image(2, 2, bright);
+    set.scale = tile_scale;
+    return std::make_shared<const terrain::TextureSet>(
+        terrain::completed(std::move(set), TileBorder::wrap).value());
+}
+
+// Means of `side` times `side` pixels, linear.
+Grid<glm::vec3> means_of(const Image& picture, int side) {
+    Grid<glm::vec3> means(picture.cols() / side, picture.rows() / side, glm::vec3(0.0F));
+    for (int row = 0; row < means.rows() * side; ++row) {
+        for (int col = 0; col < means.cols() * side; ++col) {
+            means(col / side, row / side) +=
+                glm::vec3(linear_from_rgba8(picture(col, row))) / static_cast<float>(side * side);
+        }
+    }
+    return means;
+}
+
+// Shadows that are thinner than a pixel make it darker by as much as they cover, none black.
+TEST_F(GroundDetailGlTest, FarShadowsAreSeenAsTheirMean) {
+    RELJEF_RELEASE_ONLY("it is what a shader says");
+    Ground ground(ground_of([](int, int) { return 0.0; }));
+    ground.look({0.2, -2.9, 1.6}, {0.1, 0.6, 0.0});
+    ground.terrain().detail = detail_of("exact:shadow=hard", blocky_set());
+    const glm::ivec2 small(80, 60);
+    constexpr int finer = 4;
+    ASSERT_TRUE(ground.driver->resize(small));
+    const Grid<glm::vec3> seen = means_of(ground.picture(), 1);
+    ASSERT_TRUE(ground.driver->resize(finer * small));
+    const Grid<glm::vec3> truth = means_of(ground.picture(), finer);
+    double squares = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const double error = static_cast<double>(seen.samples()[i].g - truth.samples()[i].g);
+        squares += error * error;
+        sum += error;
+    }
+    const auto count = static_cast<double>(seen.size());
+    EXPECT_LT(std::sqrt(squares / count), 0.06); // 0.073 where each pixel asks one place
+    EXPECT_NEAR(sum / count, 0.0, 0.03);
+}
+
 // Whatever divides by nothing on the way makes a pixel black: the sky lights all that is there.
 TEST_F(GroundDetailGlTest, DegenerateTerrainsStayFinite) {
     std::vector<terrain::Heightfield> fields;
@@ -215,8 +276,9 @@ TEST_F(GroundDetailGlTest, DegenerateTerrainsStayFinite) {
     fields.push_back(ground_of([](int, int) { return 1e4; }));
     fields.push_back(ground_of([](int col, int row) { return (col / 7 + row / 9) % 2 * 1e5; }));
     fields.push_back(ground_of([](int col, int) { return col < 30 ? 0.0 : -1e5; }));
+    const auto driver = ground_driver();
     for (std::size_t i = 0; i < fields.size(); ++i) {
-        Ground ground(std::move(fields[i]));
+        Ground ground(std::move(fields[i]), driver);
         const double top = ground.scene.root().world_bounds().high.z;
         ground.look({-1.0, -1.2, top + 1.0}, {0.4, 0.8, top});
         for (const std::string technique : {"exact:shadow=hard"}) {

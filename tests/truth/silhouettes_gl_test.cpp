@@ -56,8 +56,9 @@ TileErrors errors_everywhere(const Panel& panel, const std::vector<PlacedRelief>
 }
 
 // One tile over the whole square.
-Panel bordered_panel(Grid<float> heights, float offset) {
-    Panel panel(std::move(heights), 1.0F);
+Panel bordered_panel(Grid<float> heights, float offset,
+                     std::shared_ptr<render::Driver> driver = panel_driver()) {
+    Panel panel(std::move(heights), 1.0F, std::move(driver));
     panel.detail().border = TileBorder::discard;
     panel.detail().offset = offset;
     return panel;
@@ -65,9 +66,10 @@ Panel bordered_panel(Grid<float> heights, float offset) {
 
 TEST_F(SilhouettesGlTest, APlaneHasTheOutlineAndTheDepthOfItsRelief) {
     RELJEF_RELEASE_ONLY("the box is six planes");
+    const auto driver = panel_driver();
     for (const MadeTile& tile : hard_tiles()) {
         for (const float offset : {tile.heights.cols() > 16 ? -1.0F : 0.0F}) {
-            Panel panel = bordered_panel(tile.heights, offset);
+            Panel panel = bordered_panel(tile.heights, offset, driver);
             const std::vector<PlacedRelief> relief{{PanelTruth::relief_of(panel)}};
             for (const glm::dvec3 eye : {glm::dvec3(0.3, -6.0, 2.5), glm::dvec3(-7.0, -1.0, 0.9)}) {
                 panel.look(eye, {0.0, 0.0, 0.0});
@@ -98,8 +100,9 @@ glm::dmat4 side_frame(const scene::Mesh& box, std::size_t first) {
 
 TEST_F(SilhouettesGlTest, ABoxHasTheOutlinesOfItsSixSides) {
     constexpr float side = 2.0F;
+    const auto driver = panel_driver();
     for (const float offset : {-0.5F, 0.0F}) {
-        Panel panel = bordered_panel(noise_tile(16, 16, 21), offset);
+        Panel panel = bordered_panel(noise_tile(16, 16, 21), offset, driver);
         const scene::Mesh box = scene::box_mesh(glm::vec3(side));
         panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(box);
         const auto relief = ReliefPlane::create(
@@ -121,8 +124,9 @@ TEST_F(SilhouettesGlTest, ABoxHasTheOutlinesOfItsSixSides) {
 
 // Between tetrahedra nothing is lost: a closed shape has no hole, and its outline is a sphere's.
 TEST_F(SilhouettesGlTest, CurvedMeshesHaveNoHolesAndTheRadiusOfTheirHeights) {
+    const auto driver = panel_driver();
     for (const float height : {0.0F, 0.5F, 1.0F}) {
-        Panel panel(Grid<float>(8, 8, height), 4.0F);
+        Panel panel(Grid<float>(8, 8, height), 4.0F, driver);
         panel.node->get<scene::MeshNode>()->mesh =
             std::make_shared<const scene::Mesh>(scene::sphere_mesh(1.0F, 96));
         panel.detail().offset = 0.0F;
@@ -153,8 +157,9 @@ TEST_F(SilhouettesGlTest, CurvedMeshesHaveNoHolesAndTheRadiusOfTheirHeights) {
 TEST_F(SilhouettesGlTest, EveryShapeIsDrawnByEveryTechniqueThatFollowsARay) {
     const std::vector<scene::Mesh> shapes{scene::torus_mesh(1.0F, 0.4F, 24),
                                           scene::cylinder_mesh(1.0F, 2.0F, 24)};
+    const auto driver = panel_driver();
     for (const scene::Mesh& shape : shapes) {
-        Panel panel(wave_tile(16), 2.0F);
+        Panel panel(wave_tile(16), 2.0F, driver);
         panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(shape);
         panel.detail().offset = -0.5F;
         panel.look({0.4, -4.0, 2.0}, {0.0, 0.0, 0.0});
@@ -170,6 +175,84 @@ TEST_F(SilhouettesGlTest, EveryShapeIsDrawnByEveryTechniqueThatFollowsARay) {
             EXPECT_LT(differ, 60) << technique;
         }
     }
+}
+
+// In a hull the way to the sun is as long as in the plane that touches the mesh.
+TEST_F(SilhouettesGlTest, ShadowsAreThoseOfTheRelief) {
+    RELJEF_RELEASE_ONLY("it is what a shader says");
+    Panel panel(hard_tiles()[4].heights, 3.0F); // cliffs, two metres wide
+    panel.detail().offset = -1.0F;
+    panel.scene.add_light();
+    panel.look({0.3, -2.0, 2.6}, {0.1, 0.0, 0.0}); // no border in sight
+    const Image lit = panel.picture("exact");
+    const Image plane = panel.picture("exact:shadow=hard");
+    const Image hull = panel.picture("exact:silhouettes=true,shadow=hard");
+    const auto share_off = [](const Image& one, const Image& other) {
+        int off = 0;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            off += std::abs(one.samples()[i].g - other.samples()[i].g) > 8 ? 1 : 0;
+        }
+        return static_cast<double>(off) / static_cast<double>(one.size());
+    };
+    EXPECT_GT(share_off(plane, lit), 0.1);
+    EXPECT_LT(share_off(plane, hull), 0.02); // the square's border
+}
+
+// What a pixel covers of the tile is told by the mesh, not by the tetrahedra's sides, however
+// flatly these are seen.
+TEST_F(SilhouettesGlTest, ColoursAreAsSharpAsOnTheMesh) {
+    RELJEF_RELEASE_ONLY("it is what a shader says");
+    Panel panel(Grid<float>(8, 8, 0.0F), 4.0F);
+    terrain::TextureSet set;
+    set.name = "striped";
+    set.heights = Grid<float>(8, 8, 0.0F);
+    set.color = Image(32, 32);
+    for (std::size_t i = 0; i < set.color.size(); ++i) {
+        set.color.samples()[i] =
+            i / 8 % 2 == 0 ? Rgba8{230, 230, 230, 255} : Rgba8{20, 20, 20, 255};
+    }
+    panel.detail().set = std::make_shared<const terrain::TextureSet>(
+        terrain::completed(std::move(set), TileBorder::wrap).value());
+    panel.detail().offset = 0.0F;
+    panel.node->get<scene::MeshNode>()->mesh =
+        std::make_shared<const scene::Mesh>(scene::sphere_mesh(1.0F, 96));
+    panel.look({0.0, -1.6, 0.3}, {0.0, 0.0, 0.1}); // it fills the picture
+    const Image mesh = panel.picture("exact");
+    const Image hull = panel.picture("exact:silhouettes=true");
+    int off = 0;
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        off += std::abs(mesh.samples()[i].g - hull.samples()[i].g) > 40 ? 1 : 0;
+    }
+    EXPECT_LT(off, 5);
+}
+
+// Through its opening a bowl shows its back, and that is nothing, however steep its outside is.
+TEST_F(SilhouettesGlTest, NothingIsSeenThroughABowlsBack) {
+    RELJEF_RELEASE_ONLY("it is what a shader says");
+    Panel panel(noise_tile(16, 16, 5), 12.0F);
+    panel.node->get<scene::MeshNode>()->mesh =
+        std::make_shared<const scene::Mesh>(scene::bowl_mesh(1.0F));
+    panel.look({0.0, -2.5, 1.0}, {0.0, 0.0, -0.3});
+    const HitBuffer hits = panel.hits("exact:silhouettes=true");
+    int through = 0;
+    int shown = 0;
+    for (int y = 0; y < hits.rows(); ++y) {
+        for (int x = 0; x < hits.cols(); ++x) {
+            const Ray ray = scene::view_ray(panel.scene.camera(), mesh_picture, {x + 0.5, y + 0.5});
+            const glm::dvec3 way = glm::normalize(ray.direction);
+            const double nearest = -glm::dot(ray.origin, way);
+            const double half = 1.0 - glm::dot(ray.origin, ray.origin) + nearest * nearest;
+            const double to_back = std::sqrt(std::max(half, 0.0));
+            const double entry = ray.origin.z + (nearest - to_back) * way.z;
+            const double exit = ray.origin.z + (nearest + to_back) * way.z;
+            if (half > 0.02 && entry > 0.1 && exit < -0.1) { // off the outline and the rim
+                ++through;
+                shown += hits(x, y).is_sky() ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_GT(through, 2000);
+    EXPECT_EQ(shown, 0);
 }
 
 TEST(HullMesh, NeighboursShareTheirSidesAndPartsWithoutVolumeAreLeftOut) {

@@ -122,14 +122,23 @@ inline glm::dvec4 layers_at(const Grid<glm::vec4>& layers, glm::dvec2 coordinate
                     part.y);
 }
 
+// Panels that share one compile each program once.
+inline std::shared_ptr<render::Driver> panel_driver() {
+    return std::make_shared<render::Driver>(test::must(
+        render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true})));
+}
+
 // A level square with a tile on it, and the exact relief of that tile.
 struct Panel {
     scene::Scene scene;
     scene::Node* node = nullptr;
     scene::Node* camera = nullptr;
     glm::ivec2 texels{0};
+    std::shared_ptr<render::Driver> driver;
 
-    explicit Panel(Grid<float> heights, float repeats = 3.0F) {
+    explicit Panel(Grid<float> heights, float repeats = 3.0F,
+                   std::shared_ptr<render::Driver> shared = panel_driver())
+        : driver(std::move(shared)) {
         texels = {heights.cols(), heights.rows()};
         scene::Material material;
         material.detail.set = made_set(std::move(heights));
@@ -147,16 +156,12 @@ struct Panel {
 
     HitBuffer hits(const std::string& technique) const {
         material().technique = scene::parse_technique(technique).value();
-        render::Driver driver = test::must(
-            render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true}));
-        return test::must(driver.draw_hits(scene));
+        return test::must(driver->draw_hits(scene));
     }
     Image picture(const std::string& technique) const {
         material().technique = scene::parse_technique(technique).value();
-        render::Driver driver = test::must(
-            render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true}));
-        test::must(driver.draw(scene));
-        return driver.read_color();
+        test::must(driver->draw(scene));
+        return driver->read_color();
     }
 };
 
