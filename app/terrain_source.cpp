@@ -61,7 +61,7 @@ Result<terrain::Terrain> generate(const TerrainChoice& choice,
                                              .stop = stop};
     if (!choice.imagery.empty()) {
         return Error{fmt::format("--imagery: {} found, but {} brings its own colours",
-                                 choice.imagery.string(), description.name)};
+                                 choice.imagery.front().string(), description.name)};
     }
     if (description.generator == "gallery") {
         return terrains::generate_gallery(options);
@@ -159,9 +159,44 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
         return std::nullopt;
     }
     io::limit_block_cache(budget / blocks_part);
-    return StreamSource{*overview, options.gaps,
+    return StreamSource{*overview,
+                        options.gaps,
                         budget - budget / overview_part - budget / blocks_part - budget / work_part,
-                        options.threads};
+                        options.threads,
+                        {}};
+}
+
+// So that a texel of the finest tiles is no larger than a pixel of the finest image.
+int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double spacing) {
+    constexpr int most_refinement = 64;
+    const int most =
+        std::min(most_refinement, terrain::most_tree_samples /
+                                      std::max(stream.plan.grid.cols, stream.plan.grid.rows));
+    const double texel = spacing / scene::most_texels_per_cell;
+    int refinement = 1;
+    while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
+        refinement *= 2;
+    }
+    return refinement;
+}
+
+// The images of a streamed terrain, of which the overview has coarse colours already.
+void add_imagery(std::span<const fs::path> images, TerrainSource& source) {
+    std::vector<std::string>& notes = source.terrain.notes;
+    auto imagery = io::ImagerySet::open(images, source.tiles->crs());
+    if (!imagery) {
+        notes.push_back(
+            fmt::format("finer tiles show the imagery coarsely: {}", imagery.error().message));
+        return;
+    }
+    if (auto missing = imagery->missing_overviews()) {
+        notes.push_back(std::move(*missing));
+    }
+    const glm::dvec2 spacing = source.terrain.heightfield.spacing;
+    source.stream->imagery.finest_pixel = imagery->finest_pixel();
+    source.stream->imagery.refinement = refinement_for(
+        *imagery, *source.stream, std::max(spacing.x, spacing.y) / source.stream->plan.reduction);
+    source.imagery = std::make_shared<const io::ImagerySet>(std::move(*imagery));
 }
 
 Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
@@ -180,7 +215,11 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
             terrain->notes.push_back(std::move(*missing));
         }
     }
-    return TerrainSource{std::move(*terrain), std::move(description), std::move(tiles), stream};
+    TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};
+    if (stream && !options.raster.imagery.empty()) {
+        add_imagery(options.raster.imagery, source);
+    }
+    return source;
 }
 
 // A single file that does not fit the memory is read as a set of one, if it can be.
@@ -238,7 +277,7 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
     auto terrain = description.generator.empty() ? read(choice, description, stop)
                                                  : generate(choice, description, stop);
     return terrain ? Result<TerrainSource>(
-                         TerrainSource{std::move(*terrain), std::move(description), {}, {}})
+                         TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})
                    : terrain.error();
 }
 

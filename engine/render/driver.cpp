@@ -310,7 +310,7 @@ private:
         set_wireframe(draw.terrain->material.wireframe);
         if (hits_) {
             program_->set_uniform("tile_sample",
-                                  glm::vec2(terrain::TileTree::first(draw.tile->id)));
+                                  glm::vec2(draw.terrain->stream->maker().first(draw.tile->id)));
         } else {
             const bool has_ground = detail_ != DetailLevel::none;
             resident.lit->bind(has_ground ? 3 : 0);

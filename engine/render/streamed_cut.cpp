@@ -17,7 +17,7 @@ namespace {
 constexpr double share_of_triangles = 0.5; // of the error
 
 glm::dvec3 place_of(const scene::StreamedTile& tile, glm::ivec2 vertex) {
-    return tile.origin + glm::dvec3(tile.positions(vertex.x, vertex.y));
+    return tile.place(vertex);
 }
 
 // East, north and up of the plane, and the middle of the tile's corners.

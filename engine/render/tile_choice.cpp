@@ -17,6 +17,9 @@ namespace {
 // are lower than peaks.
 constexpr double more_of_range = 0.25;
 
+// Of images where finer ones are to be had, pixels from texel to texel.
+constexpr double most_texel = 1.0;
+
 // At a time: what is less urgent may turn out not to be needed once these are there.
 constexpr std::size_t most_wanted = 16;
 
@@ -85,9 +88,14 @@ private:
             return 0.0;
         }
         const double away = perspective_ ? std::max(distance, camera_.near) : 1.0;
+        const double texels = tile.coarse_texel * pixels_per_metre_ / away / most_texel;
+        if (stream_.maker().has_all_samples(tile.id)) {
+            return texels;
+        }
         const double spacing = stream_.maker().spacing(tile.id.level);
-        return std::max(tile.error, spacing / samples_apart_in_errors) * pixels_per_metre_ / away /
-               most_error_;
+        const double errors = std::max(tile.error, spacing / samples_apart_in_errors) *
+                              pixels_per_metre_ / away / most_error_;
+        return std::max(errors, texels);
     }
 
     // Whether the tiles below take a tile's place; else they are wanted, where they may be drawn.

@@ -43,7 +43,7 @@ look = [0, 0, 0]
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->name, "Mont Blanc");
     EXPECT_EQ(scene->heights, "/data/alps.tif");
-    EXPECT_EQ(scene->imagery, "/images/alps.jpg");
+    EXPECT_EQ(scene->imagery, std::vector<std::filesystem::path>{"/images/alps.jpg"});
     EXPECT_EQ(scene->spacing, 30.0);
     EXPECT_EQ(scene->height_scale, 0.5);
     EXPECT_EQ(scene->height_offset, -10.0);

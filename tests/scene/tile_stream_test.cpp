@@ -72,7 +72,7 @@ TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
                 const glm::dvec2 sample(make.tree().sample(tile, {col, row}));
                 const glm::dvec3 expected =
                     placement.world_from_sample({make.on_overview(sample), height_of(sample)});
-                const glm::dvec3 found = made.origin + glm::dvec3(made.positions(col, row));
+                const glm::dvec3 found = made.place({col, row});
                 ASSERT_NEAR(found.x, expected.x, 1e-3);
                 ASSERT_NEAR(found.y, expected.y, 1e-3);
                 ASSERT_NEAR(found.z, expected.z, 1e-3);
