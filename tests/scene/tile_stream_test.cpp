@@ -94,6 +94,35 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
     EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::of_void());
 }
 
+TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
+    const TileMaker make(overview(), TileTree(side, side), reduction,
+                         {.finest_pixel = 2.0, .refinement = 1});
+    const TreeTile tile{0, 3, 3};
+    EXPECT_EQ(make.picture_size(tile), glm::ivec2(513)); // 10 m a cell: at most four texels
+    EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(513));
+    TilePicture picture{Image(513, 513, Rgba8{0, 0, 0, 0}), true, true};
+    picture.texels(512, 0) = {1, 2, 3, 255};
+    const StreamedTile made = make.make(tile, read_plane(tile, {}).heights, picture);
+    EXPECT_EQ(made.albedo(512, 0), (Rgba8{1, 2, 3, 255}));
+    EXPECT_EQ(made.albedo(511, 1), make.make(tile, read_plane(tile, {}).heights).albedo(128, 0));
+    EXPECT_DOUBLE_EQ(made.coarse_texel, 2.5);
+    EXPECT_GT(made.bytes(), 2 * bytes_per_tile);
+    EXPECT_LE(made.bytes(), make.bytes_per_tile());
+}
+
+TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
+    const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
+                         {.finest_pixel = 0.5, .refinement = 4});
+    EXPECT_EQ(make.first({0, 4, 8}), glm::dvec2(128.0, 256.0));
+    EXPECT_EQ(make.sample({0, 4, 8}, {2, 4}), glm::dvec2(128.5, 257.0));
+    EXPECT_DOUBLE_EQ(make.spacing(0), 2.5);
+    EXPECT_DOUBLE_EQ(make.spacing(2), 10.0);
+    EXPECT_TRUE(make.has_all_samples({2, 0, 0}));
+    EXPECT_FALSE(make.has_all_samples({3, 0, 0}));
+    const glm::dvec3 expected = maker().place({0, 1, 2}, {0, 0}, 5.0);
+    EXPECT_EQ(make.place({0, 4, 8}, {0, 0}, 5.0), expected);
+}
+
 TEST(TileStreams, BringWhatIsWantedOnce) {
     std::atomic<int> readings{0};
     TileStream stream(maker(), [&](TreeTile tile, const std::stop_token& stop) {
@@ -172,6 +201,33 @@ TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
     EXPECT_EQ(stream.stats().failed, 2);
     EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
     EXPECT_TRUE(stream.take_faults().empty());
+    EXPECT_EQ(stream.faulty_files(), 1U);
+}
+
+TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          if (++readings < 3) {
+                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                          } else {
+                              reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
+                          }
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 20ms});
+    stream.want(std::array{TreeTile{0, 0, 0}});
+    while (stream.find({0, 0, 0}) == nullptr) {
+        std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_NE(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
+    stream.want({}); // it is there, and drawn
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
+    EXPECT_EQ(readings, 3);
+    EXPECT_EQ(stream.stats().read, 1);
+    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
     EXPECT_EQ(stream.faulty_files(), 1U);
 }
 
