@@ -23,10 +23,11 @@ double hill(glm::dvec2 sample) {
 
 /// What the images show at a sample of the terrain.
 glm::dvec3 shown_at(glm::dvec2 sample) {
-    return {127.5 + 100.0 * std::sin(0.05 * sample.x), 127.5 + 100.0 * std::cos(0.04 * sample.y),
-            60.0};
+    return {127.5 + 60.0 * std::sin(0.5 * sample.x), 127.5 + 60.0 * std::cos(0.4 * sample.y), 60.0};
 }
-constexpr double most_slope = 100.0 * 0.05; // of a colour, a sample
+// Of a colour, levels a square sample: 60 · 0.5², and as much again since it is linear light that
+// filters mix, which bends by 1.2 over a level of at least 67 where a colour grows by 30 a sample.
+constexpr double most_bend = 60.0 * 0.5 * 0.5 + 1.2 / 67.0 * 30.0 * 30.0;
 
 /// West of the middle there are images, in pixels of an eighth of a metre.
 class Pictures {
@@ -101,16 +102,19 @@ private:
 
 class StreamedPicturesGlTest : public DriverGlTest {};
 
-// Half a texel to a pixel's middle, as much again where mipmaps are mixed, and two roundings.
+// Texels, a pixel at most, are linear between their middles, as those of the next mipmap are: an
+// eighth of the square of two pixels, half as wide again on slopes, times the bend. And colours are
+// rounded four times.
 TEST_F(StreamedPicturesGlTest, EveryPixelHasTheColourOfItsPlace) {
     Pictures world;
     Driver made = driver();
-    for (const glm::dvec3 eye : {glm::dvec3(-60.0, 20.0, 25.0), {-70.0, -30.0, 60.0}}) {
+    for (const glm::dvec3 eye : {glm::dvec3(-60.0, 20.0, 25.0), {-70.0, -30.0, 40.0}}) {
         world.look_down(eye);
         test::must(made.draw(world.scene));
         const Image picture = made.read_color();
         const HitBuffer hits = test::must(made.draw_hits(world.scene));
         const double pixel = 2.0 * eye.z * std::tan(glm::radians(0.5 * 57.3)) / size.y;
+        const double allowed = most_bend * 9.0 * pixel * pixel / 8.0 + 2.0;
         int compared = 0;
         for (int row = 0; row < size.y; ++row) {
             for (int col = 0; col < size.x; ++col) {
@@ -120,8 +124,8 @@ TEST_F(StreamedPicturesGlTest, EveryPixelHasTheColourOfItsPlace) {
                 }
                 const glm::dvec3 expected = shown_at({hit.col, hit.row});
                 const Rgba8 found = picture(col, row);
-                ASSERT_NEAR(found.r, expected.r, most_slope * pixel + 2.0) << col << "," << row;
-                ASSERT_NEAR(found.g, expected.g, most_slope * pixel + 2.0) << col << "," << row;
+                ASSERT_NEAR(found.r, expected.r, allowed) << col << "," << row;
+                ASSERT_NEAR(found.g, expected.g, allowed) << col << "," << row;
                 ASSERT_NEAR(found.b, expected.b, 2.0) << col << "," << row;
                 ++compared;
             }
