@@ -48,6 +48,12 @@ scene::TileReading reading_of(const io::TileWindow& window) {
     return reading;
 }
 
+scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::TreeTile tile) {
+    scene::TileReading reading;
+    reading.heights = maker.overview_heights(tile);
+    return reading;
+}
+
 // Adds what images show of a tile.
 void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
                  const scene::TileMaker& maker, terrain::TreeTile tile, const std::stop_token& stop,
@@ -80,10 +86,13 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const terrain::TileTree tree(grid.cols, grid.rows);
     scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery);
     const auto read = [tiles = *source.tiles, images = source.imagery, grid, maker,
+                       step_of_overview = source.stream->step_of_overview,
                        gaps = source.stream->gaps](terrain::TreeTile tile,
                                                    const std::stop_token& stop) {
         scene::TileReading reading =
-            reading_of(io::read_tree_tile(tiles, grid, maker.tree(), tile, gaps, stop));
+            step_of_overview > 0 && maker.step(tile) >= step_of_overview
+                ? overview_reading(maker, tile)
+                : reading_of(io::read_tree_tile(tiles, grid, maker.tree(), tile, gaps, stop));
         if (images && reading.faults.empty() && !stop.stop_requested()) {
             add_picture(*images, grid, maker, tile, stop, reading);
         }

@@ -139,6 +139,10 @@ std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
            static_cast<std::size_t>(grid.rows);
 }
 
+// Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
+// side.
+constexpr int most_step_read = 4096 / terrain::tile_cells;
+
 // How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const TerrainChoice& choice,
                                           io::TileTerrainOptions& options) {
@@ -163,6 +167,7 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
                         options.gaps,
                         budget - budget / overview_part - budget / blocks_part - budget / work_part,
                         options.threads,
+                        0,
                         {}};
 }
 
@@ -204,7 +209,7 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     ProgressLine line("reading " + description.name, choice.quiet);
     io::TileTerrainOptions options = tile_options(choice, description, stop);
     options.raster.progress = line.callback();
-    const std::optional<StreamSource> stream = stream_source(tiles, choice, options);
+    std::optional<StreamSource> stream = stream_source(tiles, choice, options);
     auto terrain = tiles.terrain(options);
     if (!terrain) {
         return terrain.error();
@@ -213,6 +218,7 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
         terrain->notes.emplace_back("finer tiles are read where the view needs them");
         if (auto missing = io::missing_overviews(tiles)) {
             terrain->notes.push_back(std::move(*missing));
+            stream->step_of_overview = std::min(2 * stream->plan.reduction, most_step_read + 1);
         }
     }
     TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};

@@ -20,6 +20,9 @@ struct StreamSource {
     io::Gaps gaps = io::Gaps::holes;
     std::size_t memory_budget = 0; ///< bytes
     unsigned threads = 0;
+    /// Tiles of so many samples from vertex to vertex, or more, are made of the overview: of files
+    /// without overviews reading them takes too long. 0: none are.
+    int step_of_overview = 0;
     scene::ImageryDetail imagery;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -118,6 +119,24 @@ bool is_sea(const Grid<float>& heights, int col, int row) {
     return true;
 }
 
+bool is_void_at(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
+    const Grid<std::uint8_t>& voids = heightfield.void_mask;
+    const glm::ivec2 nearest(glm::round(sample));
+    return !voids.empty() && voids.clamped(nearest.x, nearest.y) != 0;
+}
+
+// Over a square of so many samples a side.
+float average_around(const terrain::Heightfield& heightfield, glm::dvec2 sample, int side) {
+    const auto view = heightfield.heights.view();
+    double sum = 0.0;
+    for (int row = 0; row < side; ++row) {
+        for (int col = 0; col < side; ++col) {
+            sum += terrain::bilinear_height(view, sample + glm::dvec2(col, row) - 0.5 * (side - 1));
+        }
+    }
+    return static_cast<float>(sum / (static_cast<double>(side) * side));
+}
+
 bool shows_something(const Image& texels) {
     return std::any_of(texels.samples().begin(), texels.samples().end(),
                        [](Rgba8 texel) { return texel.a != 0; });
@@ -217,6 +236,21 @@ glm::dvec3 TileMaker::place(terrain::TreeTile tile, glm::ivec2 vertex, double he
 Box TileMaker::bounds(terrain::TreeTile tile, terrain::HeightRange range) const {
     const auto at = [&](glm::ivec2 vertex) { return on_overview(sample(tile, vertex)); };
     return terrain::placed_bounds(overview_->placement(), at({0, 0}), at(tree_.cells(tile)), range);
+}
+
+Grid<float> TileMaker::overview_heights(terrain::TreeTile tile) const {
+    const terrain::Heightfield& overview = overview_->heightfield();
+    const int taps = std::max(1, static_cast<int>(step(tile) / reduction_));
+    const glm::ivec2 count = tree_.cells(tile) + 3;
+    Grid<float> heights(count.x, count.y);
+    for (int row = 0; row < count.y; ++row) {
+        for (int col = 0; col < count.x; ++col) {
+            const glm::dvec2 at = on_overview(sample(tile, {col - 1, row - 1}));
+            heights(col, row) = is_void_at(overview, at) ? std::numeric_limits<float>::quiet_NaN()
+                                                         : average_around(overview, at, taps);
+        }
+    }
+    return heights;
 }
 
 Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {

@@ -111,6 +111,9 @@ public:
     /// Metres from vertex to vertex at a level.
     [[nodiscard]] double spacing(int level) const;
 
+    /// Heights as make() takes them, averages over a step, as far as the overview has them: NaN at
+    /// its voids.
+    [[nodiscard]] Grid<float> overview_heights(terrain::TreeTile tile) const;
     /// `heights`: metres at the vertices and one step around them, NaN where there is none: those
     /// voids are filled with what the overview has. The picture, where there is one, has
     /// picture_size.

@@ -95,6 +95,33 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
     EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
 }
 
+TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
+    folder_.write("wide.vrt",
+                  R"(<VRTDataset rasterXSize="8300" rasterYSize="1200"><SRS>EPSG:4326</SRS>)"
+                  "<GeoTransform>6, 0.0005, 0, 45, 0, -0.0005</GeoTransform>"
+                  R"(<VRTRasterBand dataType="Int16" band="1"><SimpleSource>)"
+                  R"(<SourceFilename relativeToVRT="1">tiles/N44E006.hgt</SourceFilename>)"
+                  R"(<SrcRect xOff="0" yOff="0" xSize="1201" ySize="1201"/>)"
+                  R"(<DstRect xOff="0" yOff="0" xSize="8300" ySize="1200"/></SimpleSource>)"
+                  "</VRTRasterBand></VRTDataset>");
+    const auto render_from = [&](const std::string& camera) {
+        return test::reljef({"render", path("wide.vrt"), "-o", path("a.png"), "--size", "160x120",
+                             "--context", "osmesa", "--memory", "16", "--stats", "--camera",
+                             camera},
+                            options_);
+    };
+    const auto far = render_from("44.7,8,900000,0,-90");
+    ASSERT_EQ(far.exit_code, 0) << far.err;
+    const auto told = far.err.find("without overviews");
+    ASSERT_NE(told, std::string::npos) << far.err;
+    EXPECT_EQ(far.err.find("without overviews", told + 1), std::string::npos) << far.err;
+    EXPECT_THAT(far.err, HasSubstr("gdaladdo -r average " + path("wide.vrt")));
+    EXPECT_THAT(far.out, HasSubstr("tiles read (0.0 MB of files), 0 failed"));
+    const auto near = render_from("44.7,8,9000,0,-30");
+    ASSERT_EQ(near.exit_code, 0) << near.err;
+    EXPECT_THAT(near.out, Not(HasSubstr("tiles read (0.0 MB of files)")));
+}
+
 /// Over the same cells: images of one colour each, in UTM, as GDAL's virtual rasters.
 class StreamedImagery : public Streaming {
 protected:

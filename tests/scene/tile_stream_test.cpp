@@ -110,6 +110,38 @@ TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
     EXPECT_LE(made.bytes(), make.bytes_per_tile());
 }
 
+TEST(TileMakers, MakeTheCoarsestTilesOfTheOverview) {
+    const TileMaker make = maker();
+    for (const int level : {3, 2, 0}) {
+        const TreeTile tile{level, 0, 0};
+        const Grid<float> found = make.overview_heights(tile);
+        const Grid<float> expected = read_plane(tile, {}).heights;
+        ASSERT_EQ(found.cols(), expected.cols());
+        // Away from the border, where the overview ends half of its samples earlier.
+        const int margin = 2 * reduction;
+        for (int row = margin; row < found.rows() - margin; ++row) {
+            for (int col = margin; col < found.cols() - margin; ++col) {
+                ASSERT_NEAR(found(col, row), expected(col, row), 1e-3) << level;
+            }
+        }
+    }
+}
+
+TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
+    auto terrain = std::make_shared<terrain::Terrain>(overview()->terrain());
+    Grid<float>& heights = terrain->heightfield.heights;
+    std::fill(heights.samples().begin(), heights.samples().end(), 0.0F);
+    heights(40, 40) = 16.0F; // over samples 320 to 327
+    const auto surface = TerrainSurface::create(terrain);
+    ASSERT_TRUE(surface);
+    // Levels whose steps are 2 and 4 of the overview's samples: vertices at 320 and 320 ± 32.
+    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(9217, 9217),
+                         reduction);
+    EXPECT_FLOAT_EQ(make.overview_heights({4, 0, 0})(21, 21), 16.0F / 4.0F);
+    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(11, 11), 16.0F / 16.0F);
+    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(12, 12), 0.0F);
+}
+
 TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
     const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
                          {.finest_pixel = 0.5, .refinement = 4});
