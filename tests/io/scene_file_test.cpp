@@ -219,6 +219,35 @@ TEST(SceneFile, PathsStartFromTheSceneFilesFolderAndTheNameIsItsOwn) {
     EXPECT_EQ(scene->name, "my_alps");
 }
 
+TEST(SceneFile, AddressesStayAndFoldersOfTilesLieBesideIt) {
+    const auto heights_of = [](const std::string& name) {
+        const auto scene =
+            parse_scene("[terrain]\nheights = \"" + name + "\"", "scene.toml", "/scenes");
+        return scene ? scene->heights.string() : scene.error().message;
+    };
+    EXPECT_EQ(heights_of("terrarium+tiles"), "terrarium+/scenes/tiles");
+    EXPECT_EQ(heights_of("terrain-rgb+/maps/tiles"), "terrain-rgb+/maps/tiles");
+    const std::string pattern = "terrain-rgb+https://host/{z}/{x}/{y}.png";
+    EXPECT_EQ(heights_of(pattern), pattern);
+    EXPECT_EQ(heights_of("https://host/dem.tif"), "https://host/dem.tif");
+    EXPECT_EQ(heights_of("/vsizip/a.zip"), "/vsizip/a.zip");
+}
+
+TEST(SceneFile, ImageryIsOneTextOrAList) {
+    const auto scene = parse_scene("[terrain]\nheights = \"a.tif\"\nimagery = [\"b.tif\", "
+                                   "\"https://host/c.tif\"]",
+                                   "scene.toml", "/scenes");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::vector<std::filesystem::path> expected{"/scenes/b.tif", "https://host/c.tif"};
+    EXPECT_EQ(scene->imagery, expected);
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = [3]"),
+                HasSubstr("texts in quotes were expected"));
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = []"),
+                HasSubstr("at least one text was expected"));
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = 3"),
+                HasSubstr("imagery is 3"));
+}
+
 TEST(SceneFile, MissingAndFoldersAreErrors) {
     const test::TemporaryFolder folder;
     const auto missing = read_scene_file(folder.path() / "none.toml");
