@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
+#include "engine/core/worker_pool.h"
 
 namespace reljef::scene {
 namespace {
@@ -323,13 +324,13 @@ Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
         }
     }
     Image lit(tile.albedo.cols(), tile.albedo.rows());
-    for (int row = 0; row < lit.rows(); ++row) {
+    parallel_for(lit.rows(), [&](int row) {
         for (int col = 0; col < lit.cols(); ++col) {
             lit(col, row) =
                 rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
                                   bilinear(light, tile.vertex_of({col, row}), std::identity()));
         }
-    }
+    });
     return lit;
 }
 
