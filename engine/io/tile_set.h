@@ -135,7 +135,7 @@ public:
     };
     [[nodiscard]] Result<TerrainPlan> plan(const TileTerrainOptions& options = {}) const;
 
-    /// Bytes of samples that all readings so far took from the files.
+    /// Bytes of the samples that all readings so far went through in the files.
     [[nodiscard]] std::size_t bytes_read() const;
 
     /// All of it, or a part, as one terrain at the finest whole-number reduction that fits the
