@@ -200,6 +200,7 @@ struct ImagerySet::State {
     OGRSpatialReference spatial_reference;
     double turn;                    ///< units of x in a degree; 0: no degrees
     std::vector<KnownImage> images; ///< finest first
+    bool complete = true;           ///< all that could be opened are among them
     mutable DatasetPool pool;
 
     /// Draws what an image shows into an empty picture; false where it cannot be read.
@@ -250,6 +251,7 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
                                       "expected to"
                                     : faults.front()};
     }
+    state->complete = state->images.size() == found.size();
     std::stable_sort(
         state->images.begin(), state->images.end(),
         [](const KnownImage& a, const KnownImage& b) { return side_of(a) < side_of(b); });
@@ -267,7 +269,8 @@ double ImagerySet::finest_pixel() const {
 ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
                                const std::stop_token& stop) const {
     check(grid.cols >= 1 && grid.rows >= 1, "ImagerySet::read of an empty grid");
-    ImageryWindow window{Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), true, false, {}};
+    ImageryWindow window{
+        Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), state_->complete, false, {}};
     const GdalMessages unheard; // of places that a projection does not have
     const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
     const auto degrees = places_over(

@@ -28,8 +28,8 @@ struct ImageryWindow {
 class ImagerySet {
 public:
     /// `crs`: WKT of the places that it will be asked for; images that have a place but name no
-    /// coordinate system are in that. Images without a place, and those that cannot be opened, are
-    /// left out. Fails where none is left.
+    /// coordinate system are in that. Images without a place (or only with ground control points),
+    /// and those that cannot be opened, are left out. Fails where none is left.
     static Result<ImagerySet> open(std::span<const std::filesystem::path> names,
                                    const std::string& crs);
 

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr glm::ivec2 picture{512, 384};
+constexpr glm::ivec2 picture{384, 288};
 
 /// The block around Mont Blanc, 2401² samples, of which a fifth fits the memory that is allowed.
 class StreamedError : public ::testing::Test {
@@ -93,7 +93,6 @@ TEST_F(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
     ASSERT_TRUE(device) << device.error().message;
     for (const GeodeticView& from : {GeodeticView{45.83, 6.75, 2600.0, 60.0, -12.0},
                                      {45.2, 6.4, 9000.0, 40.0, -20.0},
-                                     {44.3, 6.5, 4500.0, 20.0, -8.0},
                                      {45.0, 7.0, 60000.0, 0.0, -70.0}}) {
         const TerrainScene scene = scene_from(from);
         ASSERT_NE(scene.terrain->get<scene::TerrainNode>()->stream, nullptr);
@@ -101,7 +100,7 @@ TEST_F(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
         const auto hits = device->driver().draw_hits(scene.scene);
         ASSERT_TRUE(hits) << hits.error().message;
         const std::vector<double> errors = errors_of(scene, *hits, heights);
-        ASSERT_GT(errors.size(), 50000U);
+        ASSERT_GT(errors.size(), 30000U);
         const auto at = [&](double share) {
             return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
         };

@@ -228,6 +228,18 @@ TEST_F(ImagerySets, AFileThatIsGoneIsAFaultAndTheNextOneShows) {
     EXPECT_EQ(window.texels(4, 4).r, 50);
 }
 
+TEST_F(ImagerySets, OneWithoutAPlaceIsLeftOutAndTheOthersAreNotTheWhole) {
+    add("a.tif", plain(480000.0, 5000000.0, 100, 80.0, 50.0));
+    MadeRaster nowhere = plain(0.0, 0.0, 16, 1.0, 9.0);
+    nowhere.crs = "";
+    nowhere.geotransform = {};
+    add("nowhere.tif", nowhere);
+    const TileGrid grid{{470000.0, 4997000.0}, {20.0, -20.0}, 9, 9};
+    EXPECT_TRUE(open({"a.tif"}, utm_31).read(grid, 20.0).whole);
+    EXPECT_FALSE(open({"a.tif", "nowhere.tif"}, utm_31).read(grid, 20.0).whole);
+    EXPECT_FALSE(ImagerySet::open(std::vector{folder_.path() / "nowhere.tif"}, utm_31));
+}
+
 TEST_F(ImagerySets, GoOnAcrossTheAntimeridian) {
     MadeRaster world = test::made_raster(360, 180, [](int col, int) { return col / 2; });
     world.type = GDT_Byte;
