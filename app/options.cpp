@@ -301,7 +301,10 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
             "reads, a folder of them, the https:// address of one, or tiles z/x/y.png of "
             "heights in colours: terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
         ->required();
-    command.add_option("--imagery", choice.imagery, "picture to drape over the terrain")
+    command
+        .add_option("--imagery", choice.imagery,
+                    "picture to drape over the terrain, or a folder of them; may be given again")
+        ->allow_extra_args(false)
         ->type_name("FILE");
     command
         .add_option("--textures", choice.textures,

@@ -27,7 +27,7 @@ namespace reljef::app {
 /// Which terrain, and how it is read.
 struct TerrainChoice {
     std::string terrain; ///< a built-in name, a scene file (.toml), a DEM file or a folder of them
-    std::filesystem::path imagery;
+    std::vector<std::filesystem::path> imagery; ///< files, folders, addresses
     /// The gallery's tiles: a built-in set, "mixed" or a folder; absent: the scene file's.
     std::optional<std::string> textures;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1

@@ -156,15 +156,21 @@ void expect_outputs(const RenderChoice& choice) {
 
 std::vector<NamedFile> inputs_of(const RenderChoice& choice,
                                  const io::SceneDescription& description) {
-    return {{"TERRAIN", choice.terrain.terrain},
-            {"the terrain's heights", description.heights},
-            {"the terrain's imagery", description.imagery},
-            {"--imagery", choice.terrain.imagery},
-            {"--textures", choice.terrain.textures.value_or("")},
-            {"the gallery's textures", description.gallery_textures},
-            {"--detail", choice.view.detail.value_or(DetailChoice{}).textures},
-            {"the tile of detail", description.detail.value_or(io::DetailDescription{}).textures},
-            {"--path", choice.view.path}};
+    std::vector<NamedFile> files{
+        {"TERRAIN", choice.terrain.terrain},
+        {"the terrain's heights", description.heights},
+        {"--textures", choice.terrain.textures.value_or("")},
+        {"the gallery's textures", description.gallery_textures},
+        {"--detail", choice.view.detail.value_or(DetailChoice{}).textures},
+        {"the tile of detail", description.detail.value_or(io::DetailDescription{}).textures},
+        {"--path", choice.view.path}};
+    for (const std::filesystem::path& image : description.imagery) {
+        files.push_back({"the terrain's imagery", image});
+    }
+    for (const std::filesystem::path& image : choice.terrain.imagery) {
+        files.push_back({"--imagery", image});
+    }
+    return files;
 }
 
 // The files that will be written. Of numbered pictures those that could be another file.

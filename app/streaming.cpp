@@ -51,6 +51,31 @@ scene::TileReading reading_of(const io::TileWindow& window) {
     return reading;
 }
 
+scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::TreeTile tile) {
+    scene::TileReading reading;
+    reading.heights = maker.overview_heights(tile);
+    return reading;
+}
+
+// Adds what images show of a tile.
+void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
+                 const scene::TileMaker& maker, terrain::TreeTile tile, const std::stop_token& stop,
+                 scene::TileReading& reading) {
+    io::ImageryWindow window = images.read(
+        io::picture_grid(grid, tile, maker.tree().cells(tile), maker.picture_size(tile)),
+        maker.texel(tile.level), stop);
+    reading.picture = {std::move(window.texels), window.whole, window.has_more};
+    for (const io::TileFault& fault : window.faults) {
+        reading.picture_faults.push_back({fault.file.string(), fault.message});
+    }
+}
+
+// The same ground with so many samples from sample to sample.
+io::TileGrid refined(const io::TileGrid& grid, int refinement) {
+    return {grid.first, grid.step / static_cast<double>(refinement),
+            (grid.cols - 1) * refinement + 1, (grid.rows - 1) * refinement + 1};
+}
+
 } // namespace
 
 std::shared_ptr<scene::TileStream>
@@ -59,17 +84,27 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
         return nullptr;
     }
     return_freed_blocks();
-    const io::TileGrid grid = source.stream->plan.grid;
+    const scene::ImageryDetail imagery = source.stream->imagery;
+    const io::TileGrid grid = refined(source.stream->plan.grid, imagery.refinement);
     const terrain::TileTree tree(grid.cols, grid.rows);
-    const auto read = [tiles = *source.tiles, grid, tree,
-                       gaps = source.stream->gaps](terrain::TreeTile tile, std::stop_token stop) {
-        return reading_of(io::read_tree_tile(tiles, grid, tree, tile, gaps, std::move(stop)));
+    scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery);
+    const auto read = [tiles = *source.tiles, images = source.imagery, grid, maker,
+                       step_of_overview = source.stream->step_of_overview,
+                       gaps = source.stream->gaps](terrain::TreeTile tile,
+                                                   const std::stop_token& stop) {
+        scene::TileReading reading =
+            step_of_overview > 0 && maker.step(tile) >= step_of_overview
+                ? overview_reading(maker, tile)
+                : reading_of(io::read_tree_tile(tiles, grid, maker.tree(), tile, gaps, stop));
+        if (images && reading.faults.empty() && !stop.stop_requested()) {
+            add_picture(*images, grid, maker, tile, stop, reading);
+        }
+        return reading;
     };
     scene::TileStreamOptions options;
     options.memory_budget = source.stream->memory_budget;
     options.threads = source.stream->threads;
-    return std::make_shared<scene::TileStream>(
-        scene::TileMaker(std::move(overview), tree, source.stream->plan.reduction), read, options);
+    return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
 void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop) {

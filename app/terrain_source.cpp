@@ -61,7 +61,7 @@ Result<terrain::Terrain> generate(const TerrainChoice& choice,
                                              .stop = stop};
     if (!choice.imagery.empty()) {
         return Error{fmt::format("--imagery: {} found, but {} brings its own colours",
-                                 choice.imagery.string(), description.name)};
+                                 choice.imagery.front().string(), description.name)};
     }
     if (description.generator == "gallery") {
         return terrains::generate_gallery(options);
@@ -139,6 +139,10 @@ std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
            static_cast<std::size_t>(grid.rows);
 }
 
+// Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
+// side.
+constexpr int most_step_read = 4096 / terrain::tile_cells;
+
 // How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const TerrainChoice& choice,
                                           io::TileTerrainOptions& options) {
@@ -159,9 +163,45 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
         return std::nullopt;
     }
     io::limit_block_cache(budget / blocks_part);
-    return StreamSource{*overview, options.gaps,
+    return StreamSource{*overview,
+                        options.gaps,
                         budget - budget / overview_part - budget / blocks_part - budget / work_part,
-                        options.threads};
+                        options.threads,
+                        0,
+                        {}};
+}
+
+// So that a texel of the finest tiles is no larger than a pixel of the finest image.
+int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double spacing) {
+    constexpr int most_refinement = 64;
+    const int most =
+        std::min(most_refinement, terrain::most_tree_samples /
+                                      std::max(stream.plan.grid.cols, stream.plan.grid.rows));
+    const double texel = spacing / scene::most_texels_per_cell;
+    int refinement = 1;
+    while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
+        refinement *= 2;
+    }
+    return refinement;
+}
+
+// The images of a streamed terrain, of which the overview has coarse colours already.
+void add_imagery(std::span<const fs::path> images, TerrainSource& source) {
+    std::vector<std::string>& notes = source.terrain.notes;
+    auto imagery = io::ImagerySet::open(images, source.tiles->crs());
+    if (!imagery) {
+        notes.push_back(
+            fmt::format("finer tiles show the imagery coarsely: {}", imagery.error().message));
+        return;
+    }
+    if (auto missing = imagery->missing_overviews()) {
+        notes.push_back(std::move(*missing));
+    }
+    const glm::dvec2 spacing = source.terrain.heightfield.spacing;
+    source.stream->imagery.finest_pixel = imagery->finest_pixel();
+    source.stream->imagery.refinement = refinement_for(
+        *imagery, *source.stream, std::max(spacing.x, spacing.y) / source.stream->plan.reduction);
+    source.imagery = std::make_shared<const io::ImagerySet>(std::move(*imagery));
 }
 
 Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
@@ -169,7 +209,7 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     ProgressLine line("reading " + description.name, choice.quiet);
     io::TileTerrainOptions options = tile_options(choice, description, stop);
     options.raster.progress = line.callback();
-    const std::optional<StreamSource> stream = stream_source(tiles, choice, options);
+    std::optional<StreamSource> stream = stream_source(tiles, choice, options);
     auto terrain = tiles.terrain(options);
     if (!terrain) {
         return terrain.error();
@@ -178,9 +218,14 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
         terrain->notes.emplace_back("finer tiles are read where the view needs them");
         if (auto missing = io::missing_overviews(tiles)) {
             terrain->notes.push_back(std::move(*missing));
+            stream->step_of_overview = std::min(2 * stream->plan.reduction, most_step_read + 1);
         }
     }
-    return TerrainSource{std::move(*terrain), std::move(description), std::move(tiles), stream};
+    TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};
+    if (stream && !options.raster.imagery.empty()) {
+        add_imagery(options.raster.imagery, source);
+    }
+    return source;
 }
 
 // A single file that does not fit the memory is read as a set of one, if it can be.
@@ -238,7 +283,7 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
     auto terrain = description.generator.empty() ? read(choice, description, stop)
                                                  : generate(choice, description, stop);
     return terrain ? Result<TerrainSource>(
-                         TerrainSource{std::move(*terrain), std::move(description), {}, {}})
+                         TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})
                    : terrain.error();
 }
 

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <stop_token>
 
 #include "app/options.h"
+#include "engine/io/imagery_set.h"
 #include "engine/io/scene_file.h"
 #include "engine/io/tile_set.h"
+#include "engine/scene/streamed_tile.h"
 #include "engine/scene/technique.h"
 #include "engine/terrain/heightfield.h"
 
@@ -16,6 +20,10 @@ struct StreamSource {
     io::Gaps gaps = io::Gaps::holes;
     std::size_t memory_budget = 0; ///< bytes
     unsigned threads = 0;
+    /// Tiles of so many samples from vertex to vertex, or more, are made of the overview: of files
+    /// without overviews reading them takes too long. 0: none are.
+    int step_of_overview = 0;
+    scene::ImageryDetail imagery;
 };
 
 /// A terrain that was read or generated, and what its scene file says.
@@ -24,6 +32,7 @@ struct TerrainSource {
     io::SceneDescription description;
     std::optional<io::TileSet> tiles; ///< where the heights are a folder, or streamed
     std::optional<StreamSource> stream = {};
+    std::shared_ptr<const io::ImagerySet> imagery; ///< where tiles show images of their own
 };
 
 /// What becomes of a terrain's notes: told on stderr, or only kept in terrain::Terrain::notes.

@@ -126,7 +126,9 @@ std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains)
             const auto scene = io::read_scene_file(terrain);
             if (scene) { // else opening it will tell
                 files.push_back({"the terrain's heights", scene->heights});
-                files.push_back({"the terrain's imagery", scene->imagery});
+                for (const std::filesystem::path& image : scene->imagery) {
+                    files.push_back({"the terrain's imagery", image});
+                }
             }
         }
     }

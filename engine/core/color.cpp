@@ -1,6 +1,7 @@
 #include "engine/core/color.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace reljef {
@@ -17,6 +18,52 @@ std::array<float, 256> linear_values() {
     }
     return values;
 }
+
+// The least float in [0, 1] that is encoded as `byte` or more: encoding never falls.
+float least_linear_of(int byte) {
+    std::uint32_t low = 0; // as bits, non-negative floats are in the order of their values
+    std::uint32_t high = std::bit_cast<std::uint32_t>(1.0F);
+    while (low < high) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        if (byte_from_unit(srgb_from_linear(std::bit_cast<float>(middle))) >= byte) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return std::bit_cast<float>(low);
+}
+
+// The same bytes as by the formula, whose power takes twenty times as long.
+class SrgbBytes {
+public:
+    SrgbBytes() {
+        for (std::size_t byte = 0; byte < least_.size(); ++byte) {
+            least_[byte] = least_linear_of(static_cast<int>(byte));
+        }
+        for (std::size_t i = 0; i < first_.size(); ++i) {
+            first_[i] = byte_from_unit(srgb_from_linear(static_cast<float>(i) / steps));
+        }
+    }
+    [[nodiscard]] std::uint8_t of(float linear) const {
+        if (!(linear > 0.0F)) {
+            return 0;
+        }
+        if (linear >= 1.0F) {
+            return 255;
+        }
+        std::uint8_t byte = first_[static_cast<std::size_t>(linear * steps)];
+        while (byte < 255 && linear >= least_[byte + 1U]) {
+            ++byte;
+        }
+        return byte;
+    }
+
+private:
+    static constexpr float steps = 4096.0F;
+    std::array<float, 256> least_{};
+    std::array<std::uint8_t, 4096> first_{};
+};
 
 } // namespace
 
@@ -35,8 +82,8 @@ float linear_from_srgb(float encoded) {
 }
 
 Rgba8 rgba8_from_linear(glm::vec3 linear, std::uint8_t alpha) {
-    return {byte_from_unit(srgb_from_linear(linear.r)), byte_from_unit(srgb_from_linear(linear.g)),
-            byte_from_unit(srgb_from_linear(linear.b)), alpha};
+    static const SrgbBytes bytes;
+    return {bytes.of(linear.r), bytes.of(linear.g), bytes.of(linear.b), alpha};
 }
 
 glm::vec3 linear_from_rgba8(Rgba8 color) {

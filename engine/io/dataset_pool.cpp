@@ -50,7 +50,7 @@ Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
             return Loan(*this, path, std::move(dataset));
         }
     }
-    auto opened = open_raster(path, messages);
+    auto opened = open_(path, messages);
     if (!opened) {
         forget(path);
     }

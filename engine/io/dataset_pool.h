@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <mutex>
+#include <utility>
 
 #include "engine/io/gdal_dataset.h"
 
@@ -15,6 +17,10 @@ class DatasetPool {
 public:
     /// At most so many rasters stay open while nobody reads them.
     static constexpr std::size_t most_idle = 32;
+
+    using Opener =
+        std::function<Result<Dataset>(const std::filesystem::path&, const GdalMessages&)>;
+    explicit DatasetPool(Opener open = open_raster) : open_(std::move(open)) {}
 
     /// An open raster, for the scope.
     class Loan {
@@ -36,8 +42,8 @@ public:
         Dataset dataset_;
     };
 
-    /// Opens the file where none of it is idle, or where it has changed meanwhile. Fails as
-    /// open_raster.
+    /// Opens the file where none of it is idle, or where it has changed meanwhile. Fails as the
+    /// opener.
     Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages);
 
 private:
@@ -48,6 +54,7 @@ private:
     };
     void give_back(std::filesystem::path path, Dataset dataset);
 
+    const Opener open_;
     std::mutex mutex_;
     std::list<Idle> idle_; // the latest first
 };

@@ -3,27 +3,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal_alg.h>
-#include <gdal_utils.h>
 #include <gdalwarper.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/georeferencing.h"
+#include "engine/io/image_files.h"
+#include "engine/io/rgb_image.h"
 
 namespace reljef::io {
 namespace {
 
 constexpr double bytes_per_pixel = 16.0 / 3.0; // with mipmaps
 constexpr double least_budget_share = 0.25;
-constexpr const char* most_warp_error = "0.05"; // pixels
 
 /// Where the heights and the image meet: a space both have an affine to. `crs` absent: the heights'
 /// own pixels, y upwards.
@@ -54,129 +54,6 @@ Meeting meeting_of(GDALDataset& heights, GDALDataset& image, std::vector<std::st
             "imagery: the terrain names no place, so the image is stretched over it");
     }
     return {pixel_space, std::nullopt, true};
-}
-
-std::optional<int> band_of(GDALDataset& image, GDALColorInterp wanted) {
-    for (int i = 1; i <= image.GetRasterCount(); ++i) {
-        if (image.GetRasterBand(i)->GetColorInterpretation() == wanted) {
-            return i;
-        }
-    }
-    return std::nullopt;
-}
-
-struct ColorBands {
-    bool palette = false;
-    std::array<int, 3> color{1, 1, 1};
-    std::optional<int> alpha;
-};
-
-ColorBands color_bands(GDALDataset& image) {
-    ColorBands bands;
-    bands.palette = image.GetRasterBand(1)->GetColorTable() != nullptr;
-    bands.alpha = band_of(image, GCI_AlphaBand);
-    const auto red = band_of(image, GCI_RedBand);
-    const auto green = band_of(image, GCI_GreenBand);
-    const auto blue = band_of(image, GCI_BlueBand);
-    if (red && green && blue) {
-        bands.color = {*red, *green, *blue};
-    } else if (image.GetRasterCount() - (bands.alpha ? 1 : 0) >= 3) {
-        bands.color = {1, 2, 3};
-    }
-    return bands;
-}
-
-/// The value that is white: the type's most for 8 bits, 1 for fractions, else the highest found.
-double white_of(GDALDataset& image, const ColorBands& bands) {
-    double white = 0.0;
-    for (const int index : bands.color) {
-        std::array<double, 2> range{};
-        GDALRasterBand& band = *image.GetRasterBand(index);
-        if (band.ComputeRasterMinMax(TRUE, range.data()) == CE_None) {
-            white = std::max(white, range[1]);
-        }
-    }
-    if (GDALDataTypeIsFloating(image.GetRasterBand(1)->GetRasterDataType()) != 0 && white <= 1.0) {
-        return 1.0;
-    }
-    return white > 0.0 ? white : 1.0;
-}
-
-double opaque_of(GDALDataType type) {
-    return type == GDT_Byte ? 255.0 : type == GDT_UInt16 ? 65535.0 : 1.0;
-}
-
-void add(CPLStringList& list, std::initializer_list<std::string> words) {
-    for (const std::string& word : words) {
-        list.AddString(word.c_str());
-    }
-}
-
-// Every how-manieth pixel is read of an image so large that reading all of it would take minutes.
-int thinning_of(GDALDataset& image) {
-    constexpr double most_pixels_read = 1U << 29U;
-    const double pixels = static_cast<double>(image.GetRasterXSize()) * image.GetRasterYSize();
-    return static_cast<int>(std::ceil(std::sqrt(pixels / most_pixels_read)));
-}
-
-// A file cut short is found by its last block, before all the others are read.
-bool has_last_block(GDALDataset& image) {
-    GDALRasterBand& band = *image.GetRasterBand(1);
-    int cols = 0;
-    int rows = 0;
-    band.GetBlockSize(&cols, &rows);
-    GDALRasterBlock* block =
-        band.GetLockedBlockRef((band.GetXSize() - 1) / cols, (band.GetYSize() - 1) / rows);
-    if (block != nullptr) {
-        block->DropLock();
-    }
-    return block != nullptr;
-}
-
-CPLStringList translation_of(GDALDataset& image) {
-    const ColorBands bands = color_bands(image);
-    CPLStringList words;
-    add(words, {"-of", "VRT"});
-    if (const int thinning = thinning_of(image); thinning > 1) {
-        add(words, {"-outsize", std::to_string(image.GetRasterXSize() / thinning),
-                    std::to_string(image.GetRasterYSize() / thinning)});
-    }
-    if (bands.palette) {
-        add(words, {"-b", "1", "-expand", "rgba"});
-        return words;
-    }
-    for (const int band : bands.color) {
-        add(words, {"-b", std::to_string(band)});
-    }
-    if (bands.alpha) {
-        add(words, {"-b", std::to_string(*bands.alpha)});
-    }
-    add(words, {"-colorinterp", bands.alpha ? "red,green,blue,alpha" : "red,green,blue"});
-    const GDALDataType type = image.GetRasterBand(bands.color[0])->GetRasterDataType();
-    if (type == GDT_Byte) {
-        return words;
-    }
-    add(words, {"-ot", "Byte"});
-    const std::string white = fmt::format("{}", white_of(image, bands));
-    for (const char* option : {"-scale_1", "-scale_2", "-scale_3"}) {
-        add(words, {option, "0", white, "0", "255"});
-    }
-    if (bands.alpha) {
-        add(words, {"-scale_4", "0", fmt::format("{}", opaque_of(type)), "0", "255"});
-    }
-    return words;
-}
-
-/// The image as 8-bit red, green, blue and perhaps alpha, still on disk.
-Dataset as_rgb(GDALDataset& image) {
-    CPLStringList words = translation_of(image);
-    const std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> options(
-        GDALTranslateOptionsNew(words.List(), nullptr), &GDALTranslateOptionsFree);
-    if (options == nullptr) {
-        return nullptr;
-    }
-    return Dataset(GDALDataset::FromHandle(
-        GDALTranslate("", GDALDataset::ToHandle(&image), options.get(), nullptr)));
 }
 
 /// Corner pixels on the heights' corner samples.
@@ -230,6 +107,14 @@ std::optional<glm::dvec2> pixel_size(GDALDataset& image, const Meeting& meeting)
     return glm::dvec2(std::abs(t[1]), std::abs(t[5]));
 }
 
+/// An image where it lies, still on disk.
+struct PlacedImage {
+    std::filesystem::path path;
+    Meeting meeting;
+    Dataset colors;
+    glm::dvec2 pixel{1.0}; ///< of the meeting space
+};
+
 struct Size {
     int cols = 0;
     int rows = 0;
@@ -252,27 +137,11 @@ Size target_size(const SampleGrid& grid, const Meeting& meeting, glm::dvec2 pixe
     return {static_cast<int>(size.x), static_cast<int>(size.y)};
 }
 
-/// A GDAL raster whose pixels are those of `image`, over the samples edge to edge.
+/// A raster over the samples, edge to edge.
 Dataset target_of(Image& image, const SampleGrid& grid, const Meeting& meeting) {
-    auto* driver = GetGDALDriverManager()->GetDriverByName("MEM");
-    Dataset target(driver->Create("", image.cols(), image.rows(), 0, GDT_Byte, nullptr));
+    Dataset target = raster_over(image);
     if (target == nullptr) {
         return target;
-    }
-    auto* bytes = reinterpret_cast<GByte*>(image.samples().data());
-    constexpr std::array interpretations{GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand};
-    for (std::size_t i = 0; i < interpretations.size(); ++i) {
-        CPLStringList options;
-        std::array<char, 64> pointer{};
-        pointer.at(static_cast<std::size_t>(CPLPrintPointer(
-            pointer.data(), bytes + i, static_cast<int>(pointer.size()) - 1))) = '\0';
-        options.SetNameValue("DATAPOINTER", pointer.data());
-        options.SetNameValue("PIXELOFFSET", "4");
-        options.SetNameValue(
-            "LINEOFFSET",
-            std::to_string(std::size_t{4} * static_cast<std::size_t>(image.cols())).c_str());
-        target->AddBand(GDT_Byte, options.List());
-        target->GetRasterBand(static_cast<int>(i) + 1)->SetColorInterpretation(interpretations[i]);
     }
     // image pixel X (outer corner 0) is sample (X − 0.5)·q, and that is a place in the meeting
     // space
@@ -290,31 +159,6 @@ Dataset target_of(Image& image, const SampleGrid& grid, const Meeting& meeting) 
     return target;
 }
 
-int progress_step(double fraction, const char* /*message*/, void* options) {
-    const auto* reading = static_cast<const RasterOptions*>(options);
-    if (reading->progress) {
-        reading->progress(fraction);
-    }
-    return reading->stop.stop_requested() ? FALSE : TRUE;
-}
-
-bool warp(GDALDataset& image, GDALDataset& target, const RasterOptions& reading) {
-    CPLStringList words;
-    add(words, {"-r", "bilinear", "-et", most_warp_error});
-    const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> options(
-        GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
-    if (options == nullptr) {
-        return false;
-    }
-    GDALWarpAppOptionsSetProgress(options.get(), &progress_step,
-                                  const_cast<RasterOptions*>(&reading));
-    GDALDatasetH source = GDALDataset::ToHandle(&image);
-    int misused = FALSE;
-    return GDALWarp(nullptr, GDALDataset::ToHandle(&target), 1, &source, options.get(), &misused) !=
-               nullptr &&
-           misused == FALSE;
-}
-
 double covered_share(const Image& image) {
     const auto pixels = image.samples();
     const auto covered =
@@ -322,57 +166,159 @@ double covered_share(const Image& image) {
     return static_cast<double>(covered) / static_cast<double>(pixels.size());
 }
 
-} // namespace
+/// Draws the pictures beneath one another.
+class Drape {
+public:
+    Drape(const SampleGrid& grid, const RasterOptions& options, Image image)
+        : grid_(grid), options_(options), image_(std::move(image)) {}
 
-Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
-                           const RasterOptions& options, std::vector<std::string>& notes) {
-    const std::string name = options.imagery.string();
+    /// The `index`-th of `count`. False where it cannot be read.
+    bool add(PlacedImage& picture, std::size_t index, std::size_t count) {
+        Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
+        const Dataset target = target_of(drawn, grid_, picture.meeting);
+        WarpOptions warping{
+            .overview = automatic_overview, .scale = 0.0, .progress = {}, .stop = options_.stop};
+        if (options_.progress) {
+            warping.progress = [&](double done) {
+                options_.progress((static_cast<double>(index) + done) / static_cast<double>(count));
+            };
+        }
+        if (target == nullptr || !warp(*picture.colors, *target, warping)) {
+            return false;
+        }
+        lay_under(image_, drawn);
+        return true;
+    }
+    [[nodiscard]] bool is_full() const {
+        const auto pixels = image_.samples();
+        return std::all_of(pixels.begin(), pixels.end(),
+                           [](Rgba8 pixel) { return pixel.a == 255; });
+    }
+    Image take() && { return std::move(image_); }
+
+private:
+    const SampleGrid& grid_;
+    const RasterOptions& options_;
+    Image image_;
+};
+
+Error unreadable(const std::string& name, const GdalMessages& messages) {
+    return {fmt::format("{}: cannot be read as an image{}, a whole grey, palette or RGB(A) image "
+                        "was expected",
+                        name, messages.reason())};
+}
+
+Result<PlacedImage> open_placed(const std::filesystem::path& path, double white,
+                                GDALDataset& heights, std::vector<std::string>& notes) {
     GdalMessages messages;
-    auto image = open_raster(options.imagery, messages);
+    const std::string name = path.string();
+    auto image = open_raster(path, messages);
     if (!image) {
         return image.error();
     }
-    const auto unreadable = [&] {
-        return Error{
-            fmt::format("{}: cannot be read as an image{}, a whole grey, palette or RGB(A) image "
-                        "was expected",
-                        name, messages.reason())};
-    };
     if (auto good = check_affine(**image, name); !good) {
         return good.error();
     }
-    const Meeting meeting = meeting_of(heights, **image, notes);
-    const Dataset colors = has_last_block(**image) ? as_rgb(**image) : nullptr;
-    if (colors == nullptr) {
-        return unreadable();
+    PlacedImage placed{path, meeting_of(heights, **image, notes), nullptr, {}};
+    const int thinning = thinning_of(**image);
+    const std::string size =
+        fmt::format("{}×{}", (*image)->GetRasterXSize(), (*image)->GetRasterYSize());
+    placed.colors = as_rgb(std::move(*image), white);
+    if (placed.colors != nullptr && thinning > 1) {
+        notes.push_back(
+            fmt::format("imagery: one of {} pixels a side is read of its {}", thinning, size));
+        placed.colors = thinned(std::move(placed.colors), thinning);
     }
-    if (const int thinning = thinning_of(**image); thinning > 1) {
-        notes.push_back(fmt::format("imagery: one of {} pixels a side is read of its {}×{}",
-                                    thinning, (*image)->GetRasterXSize(),
-                                    (*image)->GetRasterYSize()));
+    if (placed.colors == nullptr) {
+        return unreadable(name, messages);
     }
-    if (auto placed = place_image(heights, *colors, meeting, name); !placed) {
-        return placed.error();
+    if (auto good = place_image(heights, *placed.colors, placed.meeting, name); !good) {
+        return good.error();
     }
-    const auto pixel = pixel_size(*colors, meeting);
+    const auto pixel = pixel_size(*placed.colors, placed.meeting);
     if (!pixel) {
-        return unreadable();
+        return unreadable(name, messages);
     }
-    const Size size = target_size(grid, meeting, *pixel, options.memory_budget);
-    Image result(size.cols, size.rows, Rgba8{0, 0, 0, 0});
-    const Dataset target = target_of(result, grid, meeting);
-    if (target == nullptr || !warp(*colors, *target, options)) {
-        return options.stop.stop_requested() ? Error{name + ": reading was stopped"} : unreadable();
+    placed.pixel = *pixel;
+    return placed;
+}
+
+/// How much ground a pixel covers, in samples of the heights.
+double in_samples(const PlacedImage& image) {
+    const geo::PixelAffine& from = image.meeting.from_heights;
+    return image.pixel.x * image.pixel.y /
+           std::abs(from.x_col * from.y_row - from.x_row * from.y_col);
+}
+
+/// Those that can be read, finest first; what is wrong with the others is told in `faults`.
+std::vector<PlacedImage> open_all(const ImageFiles& files, GDALDataset& heights,
+                                  std::vector<std::string>& notes,
+                                  std::vector<std::string>& faults) {
+    std::vector<PlacedImage> placed;
+    for (const std::filesystem::path& path : files.paths) {
+        auto opened = open_placed(path, files.white, heights, notes);
+        if (opened) {
+            placed.push_back(std::move(*opened));
+        } else {
+            faults.push_back(opened.error().message);
+        }
     }
-    target->FlushCache();
-    const double share = covered_share(result);
-    if (share == 0.0) {
-        return Error{fmt::format(
-            "{}: shows nothing of the terrain, an image that overlaps was expected", name)};
-    }
+    std::stable_sort(placed.begin(), placed.end(), [](const PlacedImage& a, const PlacedImage& b) {
+        return in_samples(a) < in_samples(b);
+    });
+    return placed;
+}
+
+std::string name_of(const std::vector<std::filesystem::path>& images) {
+    return images.size() == 1 ? images.front().string()
+                              : fmt::format("the {} images", images.size());
+}
+
+void note_share(double share, std::vector<std::string>& notes) {
     if (share < 0.995) {
         notes.push_back(fmt::format("imagery covers {:.0f} % of the terrain", 100.0 * share));
     }
+}
+
+} // namespace
+
+Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
+                           const RasterOptions& options, std::vector<std::string>& notes,
+                           std::vector<std::string>& faults) {
+    std::vector<std::string> wrong;
+    const ImageFiles files = image_files(options.imagery, wrong);
+    std::vector<PlacedImage> images = open_all(files, heights, notes, wrong);
+    if (images.empty()) {
+        check(!wrong.empty(), "a list of images without images");
+        return Error{wrong.front()};
+    }
+    const Size size =
+        target_size(grid, images.front().meeting, images.front().pixel, options.memory_budget);
+    Drape drape(grid, options, Image(size.cols, size.rows, Rgba8{0, 0, 0, 0}));
+    bool any = false;
+    for (std::size_t i = 0; i < images.size() && !drape.is_full(); ++i) {
+        const GdalMessages messages;
+        const bool drawn = drape.add(images[i], i, images.size());
+        if (options.stop.stop_requested()) {
+            return Error{images[i].path.string() + ": reading was stopped"};
+        }
+        any = any || drawn;
+        if (!drawn) {
+            wrong.push_back(unreadable(images[i].path.string(), messages).message);
+        }
+    }
+    if (!any) {
+        return Error{wrong.front()};
+    }
+    Image result = std::move(drape).take();
+    const double share = covered_share(result);
+    if (share == 0.0) {
+        return Error{
+            fmt::format("{}: shows nothing of the terrain, an image that overlaps was expected",
+                        name_of(options.imagery))};
+    }
+    note_share(share, notes);
+    faults.insert(faults.end(), wrong.begin(), wrong.end());
     return result;
 }
 

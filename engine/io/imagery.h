@@ -13,8 +13,10 @@
 namespace reljef::io {
 
 /// RasterOptions::imagery over the samples `grid` of the raster `heights`, edge sample to edge
-/// sample; see read_terrain.
+/// sample; see read_terrain. Images that cannot be read are told in `faults`; fails where that is
+/// so of all.
 Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
-                           const RasterOptions& options, std::vector<std::string>& notes);
+                           const RasterOptions& options, std::vector<std::string>& notes,
+                           std::vector<std::string>& faults);
 
 } // namespace reljef::io

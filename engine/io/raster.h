@@ -5,6 +5,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/core/worker_pool.h"
@@ -28,9 +29,10 @@ struct RasterOptions {
     /// pictures whose grey values stand for another range than metres.
     double height_scale = 1.0;
     double height_offset = 0.0;
-    /// Colour to drape: a georeferenced image that overlaps, in any CRS, or one without a place,
-    /// which is stretched over the whole raster, corner pixels on corner samples. Empty: none.
-    std::filesystem::path imagery;
+    /// Colour to drape: georeferenced images that overlap, each in any CRS, folders of them, or an
+    /// image without a place, which is stretched over the whole raster, corner pixels on corner
+    /// samples. The finest counts, where it shows nothing the next. Empty: none.
+    std::vector<std::filesystem::path> imagery;
     Progress progress;
     std::stop_token stop;
 };

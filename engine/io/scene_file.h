@@ -28,7 +28,8 @@ struct DetailDescription {
 struct SceneDescription {
     std::string name;
 
-    // [terrain]: exactly one of `heights` (a DEM file, or a folder of them) and `generator`
+    // [terrain]: exactly one of `heights` (whatever TERRAIN may be on the command line) and
+    // `generator`
     // ("natural", "urban", "gallery")
     std::filesystem::path heights; ///< relative to the scene file
     std::string generator;
@@ -38,11 +39,11 @@ struct SceneDescription {
     /// Metres between samples; absent: the generator's or the file's own. Files that name a
     /// coordinate system have their own (RasterOptions::spacing).
     std::optional<double> spacing;
-    double height_scale = 1.0;     ///< file only: metres = value · height_scale + height_offset
-    double height_offset = 0.0;    ///< file only
-    std::filesystem::path imagery; ///< file only; relative to the scene file; may be empty
-    std::string gaps = "holes";    ///< folder only: "holes" or "sea" where it has no tile
-    double exaggeration = 1.0;     ///< (0, 1000]
+    double height_scale = 1.0;  ///< file only: metres = value · height_scale + height_offset
+    double height_offset = 0.0; ///< file only
+    std::vector<std::filesystem::path> imagery; ///< file only; relative to the scene file
+    std::string gaps = "holes";           ///< folder only: "holes" or "sea" where it has no tile
+    double exaggeration = 1.0;            ///< (0, 1000]
     std::optional<std::string> placement; ///< "plane" or "ellipsoid"; absent: by the data
 
     // [area]: south, west, north, east in degrees; a folder's part that is of use

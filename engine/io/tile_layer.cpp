@@ -194,9 +194,11 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
         return values.error();
     }
     result.values = std::move(*values);
-    *reading.bytes_read +=
-        result.values.size() * static_cast<std::size_t>(GDALGetDataTypeSizeBytes(
-                                   (*dataset)->GetRasterBand(1)->GetRasterDataType()));
+    // Blocks come whole, however few of their samples are of use.
+    const auto passed_over = static_cast<std::size_t>(result.plan.reduction);
+    *reading.bytes_read += result.values.size() * passed_over * passed_over *
+                           static_cast<std::size_t>(GDALGetDataTypeSizeBytes(
+                               (*dataset)->GetRasterBand(1)->GetRasterDataType()));
     return result;
 }
 

@@ -92,11 +92,6 @@ DegreeBox box_of(std::span<const glm::dvec2> points) {
     return box;
 }
 
-double metres_between(glm::dvec2 a, glm::dvec2 b) {
-    const auto latitude = [](double degrees) { return std::clamp(degrees, -90.0, 90.0); };
-    return geo::geodesic_distance({latitude(a.y), a.x, 0.0}, {latitude(b.y), b.x, 0.0});
-}
-
 /// Of degrees the box comes from the numbers themselves: a whole globe is 360 wide.
 DegreeBox box_in_degrees(const PlacedFile& file, const IndexedFile& indexed,
                          std::span<const glm::dvec2> outline) {
@@ -169,6 +164,11 @@ void run_on(std::vector<PlacedFile>& files, std::span<const IndexedFile> indexed
 }
 
 } // namespace
+
+double metres_between(glm::dvec2 a, glm::dvec2 b) {
+    const auto latitude = [](double degrees) { return std::clamp(degrees, -90.0, 90.0); };
+    return geo::geodesic_distance({latitude(a.y), a.x, 0.0}, {latitude(b.y), b.x, 0.0});
+}
 
 std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
                                     std::vector<TileFault>& faults) {

@@ -11,4 +11,7 @@ namespace reljef::io {
 std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
                                     std::vector<TileFault>& faults);
 
+/// Along the ellipsoid between two places, longitude and latitude in degrees.
+double metres_between(glm::dvec2 a, glm::dvec2 b);
+
 } // namespace reljef::io

@@ -220,6 +220,9 @@ std::span<const std::string> TileSet::notes() const {
 const std::string& TileSet::crs_name() const {
     return state_->crs_name;
 }
+const std::string& TileSet::crs() const {
+    return state_->crs;
+}
 std::size_t TileSet::bytes_read() const {
     return state_->bytes_read;
 }

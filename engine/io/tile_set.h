@@ -105,6 +105,8 @@ public:
     [[nodiscard]] std::span<const std::string> notes() const;
     /// That of all tiles where they share one, else WGS 84 in degrees.
     [[nodiscard]] const std::string& crs_name() const;
+    /// The same as WKT.
+    [[nodiscard]] const std::string& crs() const;
     /// All of the set, at the finest spacing, on the samples of the finest tile where all tiles
     /// share a coordinate system.
     [[nodiscard]] TileGrid grid() const;
@@ -133,7 +135,7 @@ public:
     };
     [[nodiscard]] Result<TerrainPlan> plan(const TileTerrainOptions& options = {}) const;
 
-    /// Bytes of samples that all readings so far took from the files.
+    /// Bytes of the samples that all readings so far went through in the files.
     [[nodiscard]] std::size_t bytes_read() const;
 
     /// All of it, or a part, as one terrain at the finest whole-number reduction that fits the

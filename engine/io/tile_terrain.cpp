@@ -189,7 +189,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     note_grid(*this, samples_grid, planned->reduction, place->spacing, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     if (!options.raster.imagery.empty()) {
-        auto color = read_imagery(*frame, place->grid, options.raster, result.notes);
+        auto color = read_imagery(*frame, place->grid, options.raster, result.notes, result.faults);
         if (!color) {
             return color.error();
         }

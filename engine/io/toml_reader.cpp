@@ -10,6 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "engine/core/geometry.h"
+#include "engine/io/gdal_dataset.h"
+#include "engine/io/tile_pyramid.h"
 
 namespace reljef::io {
 namespace {
@@ -101,6 +103,17 @@ std::optional<std::ptrdiff_t> line_of_endless_name(std::string_view text) {
         ++i;
     }
     return std::nullopt;
+}
+
+// Addresses lie where they say; of tiles of heights in colours the folder follows a '+'.
+std::filesystem::path beside(const std::filesystem::path& folder, const std::string& name) {
+    if (is_tile_pyramid(name)) {
+        const auto address = name.find('+') + 1;
+        const std::filesystem::path rest = beside(folder, name.substr(address));
+        return name.substr(0, address) + rest.string();
+    }
+    return is_remote(name) || name.find("://") != std::string::npos ? std::filesystem::path(name)
+                                                                    : folder / name;
 }
 
 } // namespace
@@ -228,7 +241,33 @@ void TomlTable::read(std::string_view key, std::filesystem::path& value,
     std::string found;
     read(key, found);
     if (!found.empty()) {
-        value = folder / found;
+        value = beside(folder, found);
+    }
+}
+
+void TomlTable::read(std::string_view key, std::vector<std::filesystem::path>& values,
+                     const std::filesystem::path& folder) {
+    const toml::node* node = find(key);
+    const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+    if (array == nullptr) {
+        std::filesystem::path only;
+        read(key, only, folder);
+        if (!only.empty()) {
+            values = {only};
+        }
+        return;
+    }
+    values.clear();
+    for (const toml::node& element : *array) {
+        if (!element.is_string() || element.as_string()->get().empty()) {
+            fail(key, fmt::format("has {} in its list, texts in quotes were expected",
+                                  text_of(element)));
+            return;
+        }
+        values.push_back(beside(folder, element.as_string()->get()));
+    }
+    if (values.empty()) {
+        fail(key, "is an empty list, at least one text was expected");
     }
 }
 

@@ -41,8 +41,12 @@ public:
     void read(std::string_view key, std::string& value);
     /// One of the words.
     void read(std::string_view key, std::string& value, std::span<const std::string_view> words);
-    /// A file, relative to `folder`; not empty.
+    /// A file, relative to `folder`, a folder, an address, or tiles of heights in colours; not
+    /// empty.
     void read(std::string_view key, std::filesystem::path& value,
+              const std::filesystem::path& folder);
+    /// One or more of these.
+    void read(std::string_view key, std::vector<std::filesystem::path>& values,
               const std::filesystem::path& folder);
     /// Three numbers of at most world_reach metres.
     void read(std::string_view key, std::optional<glm::dvec3>& value);

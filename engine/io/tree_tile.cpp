@@ -50,6 +50,14 @@ TileWindow read_tree_tile(const TileSet& tiles, const TileGrid& grid, const terr
     return window;
 }
 
+TileGrid picture_grid(const TileGrid& grid, terrain::TreeTile tile, glm::ivec2 cells,
+                      glm::ivec2 size) {
+    const glm::dvec2 first = grid.first + grid.step * glm::dvec2(terrain::TileTree::first(tile));
+    const glm::dvec2 texels_per_cell = glm::dvec2(size - 1) / glm::dvec2(cells);
+    const double step = terrain::TileTree::step(tile);
+    return {first, grid.step * step / texels_per_cell, size.x, size.y};
+}
+
 std::optional<std::string> missing_overviews(const TileSet& tiles) {
     const GdalMessages messages;
     const std::size_t count = std::min(tiles.files().size(), most_files_looked_at);

@@ -15,6 +15,10 @@ namespace reljef::io {
 TileWindow read_tree_tile(const TileSet& tiles, const TileGrid& grid, const terrain::TileTree& tree,
                           terrain::TreeTile tile, Gaps gaps, std::stop_token stop = {});
 
+/// The places of `size` texels edge to edge over the `cells` of a tile of a tree over `grid`.
+TileGrid picture_grid(const TileGrid& grid, terrain::TreeTile tile, glm::ivec2 cells,
+                      glm::ivec2 size);
+
 /// Where a file of the set is so large that coarse views of it take long, because it has no
 /// overviews: a sentence that names the first such file and the command that makes them.
 std::optional<std::string> missing_overviews(const TileSet& tiles);

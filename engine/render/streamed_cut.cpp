@@ -31,7 +31,7 @@ double share_beside(double share_of_vertices) {
 }
 
 glm::dvec3 place_of(const scene::StreamedTile& tile, glm::ivec2 vertex) {
-    return tile.origin + glm::dvec3(tile.positions(vertex.x, vertex.y));
+    return tile.place(vertex);
 }
 
 // East, north and up of the plane, and the middle of the tile's corners.

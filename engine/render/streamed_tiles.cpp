@@ -24,8 +24,7 @@ PlacedVertex placed(const StreamedDraw& draw, glm::ivec2 vertex) {
         return {draw.terrain->stream->maker().place(tile.id, vertex, height),
                 static_cast<float>(height)};
     }
-    return {tile.origin + glm::dvec3(tile.positions(vertex.x, vertex.y)),
-            tile.heights(vertex.x, vertex.y)};
+    return {tile.place(vertex), tile.heights(vertex.x, vertex.y)};
 }
 
 // The draws of each stream, by tile.
@@ -40,25 +39,28 @@ std::map<const scene::TileStream*, StreamedByTile> draws_by_stream(const DrawLis
 // Vertices of so many tiles are made at a time: what waits to be uploaded takes memory, too.
 constexpr std::size_t uploaded_together = 8;
 
-glm::vec4 lit_from_samples(const scene::StreamedTile& tile) {
-    const glm::vec2 texels(tile.cells + 1);
-    const auto step = static_cast<float>(terrain::TileTree::step(tile.id));
-    return {1.0F / (texels * step), 0.5F / texels};
+// Texels lie edge to edge over the vertices.
+glm::vec4 lit_from_samples(const scene::TileMaker& maker, const scene::StreamedTile& tile) {
+    const glm::dvec2 texels(tile.albedo.cols(), tile.albedo.rows());
+    const glm::dvec2 samples = glm::dvec2(tile.cells) * maker.step(tile.id);
+    return {glm::vec2((texels - 1.0) / (samples * texels)), glm::vec2(0.5 / texels)};
 }
 
-// A tile's ground_map, a texel a vertex; the sun's shadows are the overview's.
+// A tile's ground_map, of the albedo's size; the sun's shadows are the overview's.
 GroundMap streamed_ground(const scene::TileMaker& maker, const scene::StreamedTile& tile,
                           const scene::TerrainIrradiance* irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
+    const glm::dvec2 first = maker.first(tile.id);
+    const double step = maker.step(tile.id);
     GroundMap map{tile.albedo, Grid<glm::vec4>(tile.albedo.cols(), tile.albedo.rows())};
     for (int row = 0; row < map.surface.rows(); ++row) {
         for (int col = 0; col < map.surface.cols(); ++col) {
-            const glm::dvec2 sample =
-                maker.on_overview(glm::dvec2(maker.tree().sample(tile.id, {col, row})));
+            const glm::dvec2 vertex = tile.vertex_of({col, row});
+            const glm::dvec2 sample = maker.on_overview(first + step * vertex);
             const glm::dvec2 inside = glm::clamp(sample, glm::dvec2(0.0), last);
             const float sun = irradiance != nullptr ? irradiance->visibility(inside) : 1.0F;
-            map.surface(col, row) = glm::vec4(tile.normals(col, row), sun);
+            map.surface(col, row) = glm::vec4(tile.normal_at(vertex), sun);
         }
     }
     return map;
@@ -69,13 +71,12 @@ GroundMap streamed_ground(const scene::TileMaker& maker, const scene::StreamedTi
 GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::EdgeMove>& moves,
                        const StreamedByTile& drawn) {
     const scene::StreamedTile& tile = *draw.tile;
-    const terrain::TileTree& tree = draw.terrain->stream->tree();
-    const glm::ivec2 first = terrain::TileTree::first(tile.id);
+    const scene::TileMaker& maker = draw.terrain->stream->maker();
+    const glm::dvec2 first = maker.first(tile.id);
     GridMesh mesh{tile.cells.x, tile.cells.y, {}};
     const auto vertex_of = [&](const StreamedDraw& from, glm::ivec2 vertex) {
         const PlacedVertex at = placed(from, vertex);
-        return grid_vertex(at.place, at.height,
-                           glm::dvec2(tree.sample(from.tile->id, vertex) - first));
+        return grid_vertex(at.place, at.height, maker.sample(from.tile->id, vertex) - first);
     };
     mesh.vertices.reserve(tile.positions.size());
     for (int row = 0; row <= tile.cells.y; ++row) {
@@ -198,7 +199,10 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
         entry.resident->mesh = std::move(made);
     } else {
         entry.resident.emplace(
-            ResidentStreamed{std::move(made), std::nullopt, lit_from_samples(*draw.tile), {}});
+            ResidentStreamed{std::move(made),
+                             std::nullopt,
+                             lit_from_samples(draw.terrain->stream->maker(), *draw.tile),
+                             {}});
     }
     return {};
 }

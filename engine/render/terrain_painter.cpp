@@ -134,7 +134,7 @@ private:
         const ResidentStreamed& resident = painting_.residency.streamed().tile(draw);
         if (painting_.hits) {
             program_->set_uniform("tile_sample",
-                                  glm::vec2(terrain::TileTree::first(draw.tile->id)));
+                                  glm::vec2(draw.terrain->stream->maker().first(draw.tile->id)));
         } else {
             bind_maps(resident);
         }

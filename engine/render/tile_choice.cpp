@@ -20,6 +20,9 @@ constexpr double more_of_range = 0.25;
 // Of the error: what is left is for fewer triangles.
 constexpr double share_of_tiles = 0.65;
 
+// Of images where finer ones are to be had, pixels from texel to texel.
+constexpr double most_texel = 1.0;
+
 // At a time: what is less urgent may turn out not to be needed once these are there.
 constexpr std::size_t most_wanted = 16;
 
@@ -83,7 +86,8 @@ private:
             glm::distance(camera_.eye, glm::clamp(camera_.eye, bounds.low, bounds.high));
         const double pixels = pixels_per_metre(distance);
         const double excess = excess_of(*tile, pixels);
-        const double error = id.level == 0 ? 0.0 : tile->error * pixels;
+        const bool is_whole = id.level == 0 || stream_.maker().has_all_samples(id);
+        const double error = is_whole ? 0.0 : tile->error * pixels;
         candidates_.push({excess, distance, error, std::move(tile)});
     }
 
@@ -95,9 +99,15 @@ private:
         if (tile.id.level == 0) {
             return 0.0;
         }
+        const double texels = tile.coarse_texel * pixels / most_texel;
+        if (stream_.maker().has_all_samples(tile.id)) {
+            return texels;
+        }
         const double spacing = stream_.maker().spacing(tile.id.level);
-        return std::max(tile.error / share_of_tiles, spacing / samples_apart_in_errors) * pixels /
-               most_error_;
+        const double errors =
+            std::max(tile.error / share_of_tiles, spacing / samples_apart_in_errors) * pixels /
+            most_error_;
+        return std::max(errors, texels);
     }
 
     // Whether the tiles below take a tile's place; else they are wanted, where they may be drawn.

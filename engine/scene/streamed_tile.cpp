@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
+#include "engine/core/worker_pool.h"
 
 namespace reljef::scene {
 namespace {
@@ -28,9 +31,9 @@ Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileMaker& mak
         for (int col = 0; col < heights.cols(); ++col) {
             float& height = heights(col, row);
             if (!std::isfinite(height)) {
-                const glm::ivec2 sample = maker.tree().sample(tile, {col - 1, row - 1});
-                height = static_cast<float>(
-                    terrain::bilinear_height(view, maker.on_overview(glm::dvec2(sample))));
+                const glm::dvec2 sample = maker.sample(tile, {col - 1, row - 1});
+                height =
+                    static_cast<float>(terrain::bilinear_height(view, maker.on_overview(sample)));
                 voids(col, row) = 1;
             }
         }
@@ -51,6 +54,13 @@ Surround surround_of(const TileMaker& maker, terrain::TreeTile tile, Grid<float>
     return around;
 }
 
+// Half the longest side is 2^30 of them, a whole number of metres' halves.
+double unit_of(const Box& bounds) {
+    const glm::dvec3 size = bounds.size();
+    const double longest = std::max({size.x, size.y, size.z, 1.0});
+    return std::ldexp(1.0, std::ilogb(longest) + 1 - 31);
+}
+
 void set_places(const Surround& around, StreamedTile& tile) {
     const glm::ivec2 count = tile.cells + 1;
     for (int row = 1; row <= count.y; ++row) {
@@ -59,14 +69,16 @@ void set_places(const Surround& around, StreamedTile& tile) {
         }
     }
     tile.origin = tile.bounds.center();
-    tile.positions = Grid<glm::vec3>(count.x, count.y);
+    tile.unit = unit_of(tile.bounds);
+    tile.positions = Grid<glm::ivec3>(count.x, count.y);
     tile.normals = Grid<glm::vec3>(count.x, count.y);
     tile.heights = Grid<float>(count.x, count.y);
     for (int row = 1; row <= count.y; ++row) {
         for (int col = 1; col <= count.x; ++col) {
             const glm::dvec3 east = around.places(col + 1, row) - around.places(col - 1, row);
             const glm::dvec3 north = around.places(col, row - 1) - around.places(col, row + 1);
-            tile.positions(col - 1, row - 1) = glm::vec3(around.places(col, row) - tile.origin);
+            tile.positions(col - 1, row - 1) =
+                glm::ivec3(glm::round((around.places(col, row) - tile.origin) / tile.unit));
             tile.normals(col - 1, row - 1) = glm::vec3(glm::normalize(glm::cross(east, north)));
             tile.heights(col - 1, row - 1) = around.heights(col, row);
         }
@@ -108,17 +120,67 @@ bool is_sea(const Grid<float>& heights, int col, int row) {
     return true;
 }
 
+bool is_void_at(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
+    const Grid<std::uint8_t>& voids = heightfield.void_mask;
+    const glm::ivec2 nearest(glm::round(sample));
+    return !voids.empty() && voids.clamped(nearest.x, nearest.y) != 0;
+}
+
+// Over a square of so many samples a side.
+float average_around(const terrain::Heightfield& heightfield, glm::dvec2 sample, int side) {
+    const auto view = heightfield.heights.view();
+    double sum = 0.0;
+    for (int row = 0; row < side; ++row) {
+        for (int col = 0; col < side; ++col) {
+            sum += terrain::bilinear_height(view, sample + glm::dvec2(col, row) - 0.5 * (side - 1));
+        }
+    }
+    return static_cast<float>(sum / (static_cast<double>(side) * side));
+}
+
+bool shows_something(const Image& texels) {
+    return std::any_of(texels.samples().begin(), texels.samples().end(),
+                       [](Rgba8 texel) { return texel.a != 0; });
+}
+
 } // namespace
 
+glm::dvec2 StreamedTile::vertex_of(glm::ivec2 texel) const {
+    return glm::dvec2(texel) * glm::dvec2(cells) / glm::dvec2(albedo.cols() - 1, albedo.rows() - 1);
+}
+
+glm::vec3 StreamedTile::normal_at(glm::dvec2 vertex) const {
+    return glm::normalize(bilinear(normals, vertex, std::identity()));
+}
+
 std::size_t StreamedTile::bytes() const {
-    return bytes_per_vertex * positions.size();
+    const std::size_t more = albedo.size() - std::min(albedo.size(), positions.size());
+    return bytes_per_vertex * positions.size() +
+           static_cast<std::size_t>(bytes_per_texel * static_cast<double>(more));
 }
 
 TileMaker::TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
-                     int reduction)
-    : overview_(std::move(overview)), tree_(tree), reduction_(reduction),
+                     int reduction, const ImageryDetail& imagery)
+    : overview_(std::move(overview)), tree_(tree), reduction_(reduction), imagery_(imagery),
       tint_(overview_->heightfield()) {
-    check(reduction >= 1, "an overview of a reduction of at least 1 was expected");
+    check(reduction >= 1 && imagery.refinement >= 1,
+          "an overview of a reduction of at least 1 was expected");
+}
+
+double TileMaker::step(terrain::TreeTile tile) const {
+    return static_cast<double>(terrain::TileTree::step(tile)) / imagery_.refinement;
+}
+
+glm::dvec2 TileMaker::first(terrain::TreeTile tile) const {
+    return glm::dvec2(terrain::TileTree::first(tile)) / static_cast<double>(imagery_.refinement);
+}
+
+glm::dvec2 TileMaker::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
+    return glm::dvec2(tree_.sample(tile, vertex)) / static_cast<double>(imagery_.refinement);
+}
+
+glm::dvec2 TileMaker::tree_sample(glm::dvec2 sample) const {
+    return sample * static_cast<double>(imagery_.refinement);
 }
 
 glm::dvec2 TileMaker::on_overview(glm::dvec2 sample) const {
@@ -129,21 +191,67 @@ glm::dvec2 TileMaker::from_overview(glm::dvec2 sample) const {
     return sample * static_cast<double>(reduction_) + 0.5 * (reduction_ - 1);
 }
 
+bool TileMaker::has_all_samples(terrain::TreeTile tile) const {
+    return terrain::TileTree::step(tile) <= imagery_.refinement;
+}
+
+int TileMaker::texels_per_cell(int level) const {
+    if (imagery_.finest_pixel <= 0.0) {
+        return 1;
+    }
+    int texels = 1;
+    while (texels < most_texels_per_cell &&
+           spacing(level) > 1.001 * texels * imagery_.finest_pixel) {
+        texels *= 2;
+    }
+    return texels;
+}
+
+glm::ivec2 TileMaker::picture_size(terrain::TreeTile tile) const {
+    return tree_.cells(tile) * texels_per_cell(tile.level) + 1;
+}
+
+double TileMaker::texel(int level) const {
+    return spacing(level) / texels_per_cell(level);
+}
+
+std::size_t TileMaker::bytes_per_tile() const {
+    const auto samples = [](int texels) {
+        const double side = terrain::tile_cells * texels + 1;
+        return side * side;
+    };
+    const double more = samples(texels_per_cell(tree_.root().level)) - samples(1);
+    return scene::bytes_per_tile + static_cast<std::size_t>(bytes_per_texel * more);
+}
+
 double TileMaker::spacing(int level) const {
     const glm::dvec2 spacing = overview_->heightfield().spacing;
-    return std::max(spacing.x, spacing.y) / reduction_ * std::ldexp(1.0, level);
+    return std::max(spacing.x, spacing.y) / reduction_ * step({level, 0, 0});
 }
 
 glm::dvec3 TileMaker::place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const {
-    const glm::dvec2 sample = on_overview(glm::dvec2(tree_.sample(tile, vertex)));
-    return overview_->placement().world_from_sample({sample, height});
+    const glm::dvec2 at = on_overview(sample(tile, vertex));
+    return overview_->placement().world_from_sample({at, height});
 }
 
 Box TileMaker::bounds(terrain::TreeTile tile, terrain::HeightRange range) const {
-    const auto at = [&](glm::ivec2 vertex) {
-        return on_overview(glm::dvec2(tree_.sample(tile, vertex)));
-    };
+    const auto at = [&](glm::ivec2 vertex) { return on_overview(sample(tile, vertex)); };
     return terrain::placed_bounds(overview_->placement(), at({0, 0}), at(tree_.cells(tile)), range);
+}
+
+Grid<float> TileMaker::overview_heights(terrain::TreeTile tile) const {
+    const terrain::Heightfield& overview = overview_->heightfield();
+    const int taps = std::max(1, static_cast<int>(step(tile) / reduction_));
+    const glm::ivec2 count = tree_.cells(tile) + 3;
+    Grid<float> heights(count.x, count.y);
+    for (int row = 0; row < count.y; ++row) {
+        for (int col = 0; col < count.x; ++col) {
+            const glm::dvec2 at = on_overview(sample(tile, {col - 1, row - 1}));
+            heights(col, row) = is_void_at(overview, at) ? std::numeric_limits<float>::quiet_NaN()
+                                                         : average_around(overview, at, taps);
+        }
+    }
+    return heights;
 }
 
 Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {
@@ -161,7 +269,24 @@ Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {
     return nearest.a < 128 ? tint : rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8));
 }
 
-StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights) const {
+Image TileMaker::vertex_colors(const StreamedTile& tile, const Grid<float>& around,
+                               const Grid<std::uint8_t>& voids, bool with_overview) const {
+    Image colors(tile.cells.x + 1, tile.cells.y + 1);
+    for (int row = 0; row < colors.rows(); ++row) {
+        for (int col = 0; col < colors.cols(); ++col) {
+            const float height = tile.heights(col, row);
+            colors(col, row) = voids(col + 1, row + 1) != 0       ? terrain::HeightTint::of_void()
+                               : is_sea(around, col + 1, row + 1) ? terrain::HeightTint::of_water()
+                               : with_overview
+                                   ? color_at(on_overview(sample(tile.id, {col, row})), height)
+                                   : tint_.at(height);
+        }
+    }
+    return colors;
+}
+
+StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights,
+                             const TilePicture& picture) const {
     const glm::ivec2 cells = tree_.cells(tile);
     check(heights.cols() == cells.x + 3 && heights.rows() == cells.y + 3,
           "a tile's heights with one around were expected");
@@ -173,16 +298,14 @@ StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights) const 
     made.range = range_of_heights(made.heights);
     made.error = overview_->placement().exaggeration() * error_of(made.heights);
     made.up = glm::vec3(overview_->placement().up(made.origin));
-    made.albedo = Image(cells.x + 1, cells.y + 1);
-    for (int row = 0; row <= cells.y; ++row) {
-        for (int col = 0; col <= cells.x; ++col) {
-            const bool is_void = around.voids(col + 1, row + 1) != 0;
-            const glm::dvec2 sample = on_overview(glm::dvec2(tree_.sample(tile, {col, row})));
-            made.albedo(col, row) = is_void ? terrain::HeightTint::of_void()
-                                    : is_sea(around.heights, col + 1, row + 1)
-                                        ? terrain::HeightTint::of_water()
-                                        : color_at(sample, made.heights(col, row));
-        }
+    const bool with_overview = picture.texels.empty() || !picture.whole;
+    made.albedo = vertex_colors(made, around.heights, around.voids, with_overview);
+    made.coarse_texel = picture.has_more ? texel(tile.level) : 0.0;
+    if (shows_something(picture.texels)) {
+        const glm::ivec2 size = picture_size(tile);
+        check(picture.texels.cols() == size.x && picture.texels.rows() == size.y,
+              "a picture of a tile's picture_size was expected");
+        made.albedo = terrain::composite(picture.texels, made.albedo);
     }
     return made;
 }
@@ -191,18 +314,23 @@ Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
                const TerrainIrradiance& irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
-    Image lit(tile.albedo.cols(), tile.albedo.rows());
-    for (int row = 0; row < lit.rows(); ++row) {
-        for (int col = 0; col < lit.cols(); ++col) {
-            const glm::dvec2 sample =
-                maker.on_overview(glm::dvec2(maker.tree().sample(tile.id, {col, row})));
+    Grid<glm::vec3> light(tile.cells.x + 1, tile.cells.y + 1);
+    for (int row = 0; row < light.rows(); ++row) {
+        for (int col = 0; col < light.cols(); ++col) {
+            const glm::dvec2 sample = maker.on_overview(maker.sample(tile.id, {col, row}));
             const float visibility =
                 irradiance.visibility(glm::clamp(sample, glm::dvec2(0.0), last));
-            lit(col, row) =
-                rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
-                                  irradiance.at(tile.normals(col, row), tile.up, visibility));
+            light(col, row) = irradiance.at(tile.normals(col, row), tile.up, visibility);
         }
     }
+    Image lit(tile.albedo.cols(), tile.albedo.rows());
+    parallel_for(lit.rows(), [&](int row) {
+        for (int col = 0; col < lit.cols(); ++col) {
+            lit(col, row) =
+                rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
+                                  bilinear(light, tile.vertex_of({col, row}), std::identity()));
+        }
+    });
     return lit;
 }
 

@@ -56,8 +56,8 @@ std::shared_ptr<const StreamedTile> TileStream::find(terrain::TreeTile tile) con
 
 std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
     const glm::dvec2 last(tree().cols() - 1, tree().rows() - 1);
-    const glm::dvec2 sample =
-        glm::clamp(maker_.from_overview(overview_sample), glm::dvec2(0.0), last);
+    const glm::dvec2 sample = glm::clamp(maker_.tree_sample(maker_.from_overview(overview_sample)),
+                                         glm::dvec2(0.0), last);
     const std::lock_guard lock(mutex_);
     for (int level = 0; level <= tree().root().level; ++level) {
         const int side = terrain::tile_cells << level;
@@ -77,7 +77,7 @@ std::size_t TileStream::most_drawn() const {
     constexpr std::size_t least = 16; // enough for any view, coarsely
     return std::max(
         least, static_cast<std::size_t>(drawn_share * static_cast<double>(options_.memory_budget) /
-                                        static_cast<double>(bytes_per_tile)));
+                                        static_cast<double>(maker_.bytes_per_tile())));
 }
 
 void TileStream::want(std::span<const terrain::TreeTile> tiles) {
@@ -94,9 +94,19 @@ void TileStream::want(std::span<const terrain::TreeTile> tiles) {
             }
         }
         wanted_.assign(tiles.begin(), tiles.end());
-        std::erase_if(wanted_, [&](terrain::TreeTile tile) { return tiles_.contains(tile); });
+        std::erase_if(wanted_, [&](terrain::TreeTile tile) { return !is_wanting(tile); });
+        for (const auto& [tile, entry] : tiles_) {
+            if (entry.used + 1 >= view_ && failures_.contains(tile) && !now.contains(tile)) {
+                wanted_.push_back(tile); // its picture
+            }
+        }
     }
     changed_.notify_all();
+}
+
+// Not there, or there without all of its picture.
+bool TileStream::is_wanting(terrain::TreeTile tile) const {
+    return !tiles_.contains(tile) || failures_.contains(tile);
 }
 
 bool TileStream::is_settled(Clock::time_point now) const {
@@ -184,7 +194,7 @@ void TileStream::work(const std::stop_token& stop) {
         std::shared_ptr<const StreamedTile> made;
         if (!stopped && reading.faults.empty()) {
             made = std::make_shared<const StreamedTile>(
-                maker_.make(*tile, std::move(reading.heights)));
+                maker_.make(*tile, std::move(reading.heights), reading.picture));
         }
         lock.lock();
         finish(*tile, std::move(reading), std::move(made), stopped);
@@ -201,20 +211,29 @@ void TileStream::finish(terrain::TreeTile tile, TileReading reading,
         return;
     }
     if (made == nullptr) {
-        note_failure(tile, reading);
+        note_failure(tile, reading.faults);
         return;
     }
-    ++stats_.read;
-    failures_.erase(tile);
-    std::erase(wanted_, tile);
-    stats_.bytes += made->bytes();
-    tiles_[tile] = {std::move(made), view_};
+    if (reading.picture_faults.empty()) {
+        failures_.erase(tile);
+        std::erase(wanted_, tile);
+    } else {
+        note_failure(tile, reading.picture_faults);
+    }
+    keep(tile, std::move(made));
+}
+
+void TileStream::keep(terrain::TreeTile tile, std::shared_ptr<const StreamedTile> made) {
+    Entry& entry = tiles_[tile];
+    stats_.read += entry.tile == nullptr ? 1 : 0;
+    stats_.bytes += made->bytes() - (entry.tile != nullptr ? entry.tile->bytes() : 0);
+    entry = {std::move(made), view_};
     news_ = true;
     evict();
     stats_.most_bytes = std::max(stats_.most_bytes, stats_.bytes);
 }
 
-void TileStream::note_failure(terrain::TreeTile tile, const TileReading& reading) {
+void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults) {
     ++stats_.failed;
     Failure& failure = failures_[tile];
     if (failure.attempts >= most_attempts) {
@@ -223,7 +242,7 @@ void TileStream::note_failure(terrain::TreeTile tile, const TileReading& reading
     const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
     ++failure.attempts;
     failure.again = Clock::now() + (failure.attempts < most_attempts ? pause : long_pause);
-    for (const TileReading::Fault& fault : reading.faults) {
+    for (const TileReading::Fault& fault : faults) {
         if (faults_.emplace(fault.file, fault.message).second) {
             new_faults_.push_back(fault.message);
         }

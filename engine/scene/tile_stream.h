@@ -19,15 +19,18 @@
 
 namespace reljef::scene {
 
-/// What a source has for a tile: heights at its vertices and one step around them (NaN: none), and
-/// what went wrong, one sentence a file. With faults the heights do not count.
+/// What a source has for a tile: heights at its vertices and one step around them (NaN: none), what
+/// images show of it, and what went wrong, one sentence a file. With faults the heights do not
+/// count; with those of images the tile is drawn as it is, and read again.
 struct TileReading {
     Grid<float> heights;
+    TilePicture picture;
     struct Fault {
         std::string file;
         std::string message;
     };
     std::vector<Fault> faults;
+    std::vector<Fault> picture_faults;
     std::size_t bytes_read = 0; ///< that it took from its files
 };
 
@@ -110,7 +113,9 @@ private:
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
     void finish(terrain::TreeTile tile, TileReading reading,
                 std::shared_ptr<const StreamedTile> made, bool stopped);
-    void note_failure(terrain::TreeTile tile, const TileReading& reading);
+    void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
+    void keep(terrain::TreeTile tile, std::shared_ptr<const StreamedTile> made);
+    [[nodiscard]] bool is_wanting(terrain::TreeTile tile) const;
     void evict();
     [[nodiscard]] bool is_settled(Clock::time_point now) const;
 

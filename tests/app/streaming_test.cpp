@@ -3,9 +3,11 @@
 #include <fstream>
 #include <future>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/io/image.h"
 #include "tests/app/command_line.h"
 #include "tests/support/http_server.h"
 #include "tests/support/release_only.h"
@@ -46,12 +48,12 @@ protected:
         }
         folder_.write("tiles/" + name, bytes);
     }
-    [[nodiscard]] test::ProgramResult render(const std::string& picture,
-                                             std::vector<std::string> more) const {
-        std::vector<std::string> arguments{"render",      path("tiles"), "-o",
-                                           path(picture), "--size",      "160x120",
-                                           "--context",   "osmesa",      "--memory",
-                                           "32",          "--camera",    "44.6,6.6,2600,60,-12"};
+    [[nodiscard]] test::ProgramResult
+    render(const std::string& picture, std::vector<std::string> more,
+           const std::string& camera = "44.6,6.6,2600,60,-12") const {
+        std::vector<std::string> arguments{"render",   path("tiles"), "-o",        path(picture),
+                                           "--size",   "160x120",     "--context", "osmesa",
+                                           "--memory", "32",          "--camera",  camera};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return test::reljef(arguments, options_);
     }
@@ -91,6 +93,120 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("N44E006.hgt"));
     EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
+}
+
+TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
+    folder_.write("wide.vrt",
+                  R"(<VRTDataset rasterXSize="8300" rasterYSize="1200"><SRS>EPSG:4326</SRS>)"
+                  "<GeoTransform>6, 0.0005, 0, 45, 0, -0.0005</GeoTransform>"
+                  R"(<VRTRasterBand dataType="Int16" band="1"><SimpleSource>)"
+                  R"(<SourceFilename relativeToVRT="1">tiles/N44E006.hgt</SourceFilename>)"
+                  R"(<SrcRect xOff="0" yOff="0" xSize="1201" ySize="1201"/>)"
+                  R"(<DstRect xOff="0" yOff="0" xSize="8300" ySize="1200"/></SimpleSource>)"
+                  "</VRTRasterBand></VRTDataset>");
+    const auto render_from = [&](const std::string& camera) {
+        return test::reljef({"render", path("wide.vrt"), "-o", path("a.png"), "--size", "160x120",
+                             "--context", "osmesa", "--memory", "16", "--stats", "--camera",
+                             camera},
+                            options_);
+    };
+    const auto far = render_from("44.7,8,900000,0,-90");
+    ASSERT_EQ(far.exit_code, 0) << far.err;
+    const auto told = far.err.find("without overviews");
+    ASSERT_NE(told, std::string::npos) << far.err;
+    EXPECT_EQ(far.err.find("without overviews", told + 1), std::string::npos) << far.err;
+    EXPECT_THAT(far.err, HasSubstr("gdaladdo -r average " + path("wide.vrt")));
+    EXPECT_THAT(far.out, HasSubstr("tiles read (0.0 MB of files), 0 failed"));
+    const auto near = render_from("44.7,8,9000,0,-30");
+    ASSERT_EQ(near.exit_code, 0) << near.err;
+    EXPECT_THAT(near.out, Not(HasSubstr("tiles read (0.0 MB of files)")));
+}
+
+/// Over the same cells: images of one colour each, in UTM, as GDAL's virtual rasters.
+class StreamedImagery : public Streaming {
+protected:
+    void SetUp() override {
+        Streaming::SetUp();
+        write_image("west.vrt", 290000.0, 40000.0, "\xff\x10\x10");
+        write_image("east.vrt", 330000.0, 80000.0, "\x10\x10\xff");
+    }
+    // 100 km from north to south.
+    void write_image(const std::string& name, double west, double width,
+                     const std::string& color) const {
+        constexpr int side = 64;
+        std::string pixels = "P6\n64 64\n255\n";
+        for (int i = 0; i < side * side; ++i) {
+            pixels += color;
+        }
+        folder_.write("images/" + name + ".dat", pixels);
+        std::string bands;
+        for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
+            bands += fmt::format("<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}"
+                                 "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">"
+                                 "{2}.dat</SourceFilename><SourceBand>{0}</SourceBand>"
+                                 "</SimpleSource></VRTRasterBand>",
+                                 band, meaning, name);
+        }
+        folder_.write("images/" + name,
+                      fmt::format("<VRTDataset rasterXSize=\"64\" rasterYSize=\"64\"><SRS>"
+                                  "EPSG:32632</SRS><GeoTransform>{}, {}, 0, 5000000, 0, {}"
+                                  "</GeoTransform>{}</VRTDataset>",
+                                  west, width / side, -100000.0 / side, bands));
+    }
+    // Straight down from 30 km, onto where the two meet.
+    [[nodiscard]] test::ProgramResult render_down(const std::string& picture,
+                                                  std::vector<std::string> more) const {
+        return render(picture, std::move(more), "44.7,6.85,30000,0,-90");
+    }
+    [[nodiscard]] Image picture_of(const std::string& name) const {
+        auto image = io::read_image(path(name));
+        EXPECT_TRUE(image) << (image ? "" : image.error().message);
+        return std::move(*image);
+    }
+};
+
+enum class Shown { red, blue, other };
+Shown shown(Rgba8 pixel) {
+    return pixel.r > 3 * pixel.b ? Shown::red : pixel.b > 3 * pixel.r ? Shown::blue : Shown::other;
+}
+
+TEST_F(StreamedImagery, of_a_folder_shows_no_gap_where_two_images_meet) {
+    const auto result = render_down("a.png", {"--imagery", path("images")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Image picture = picture_of("a.png");
+    int other = 0;
+    for (const Rgba8 pixel : picture.samples()) {
+        other += shown(pixel) == Shown::other ? 1 : 0;
+    }
+    EXPECT_EQ(shown(picture(2, 60)), Shown::red);
+    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
+    EXPECT_LE(other, 3 * picture.rows()); // those that lie across the edge
+}
+
+TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
+    folder_.write("scene.toml", "[terrain]\nheights = \"tiles\"\n"
+                                "imagery = [\"images/west.vrt\", \"images/east.vrt\"]\n");
+    const auto scene =
+        test::reljef({"render", path("scene.toml"), "-o", path("c.png"), "--size", "160x120",
+                      "--context", "osmesa", "--memory", "32", "--camera", "44.7,6.85,30000,0,-90"},
+                     options_);
+    ASSERT_EQ(scene.exit_code, 0) << scene.err;
+    const Image picture = picture_of("c.png");
+    EXPECT_EQ(shown(picture(2, 60)), Shown::red);
+    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
+}
+
+TEST_F(StreamedImagery, that_is_missing_is_told_once_and_the_rest_is_shown) {
+    std::filesystem::remove(folder_.path() / "images/west.vrt.dat");
+    const auto result = render_down(
+        "a.png", {"--imagery", path("images/west.vrt"), "--imagery", path("images/east.vrt")});
+    EXPECT_EQ(result.exit_code, 1);
+    const auto first = result.err.find("west.vrt: ");
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("west.vrt: ", first + 1), std::string::npos) << result.err;
+    const Image picture = picture_of("a.png");
+    EXPECT_EQ(shown(picture(2, 60)), Shown::other); // the tint
+    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
 }
 
 class BadServer : public Streaming {

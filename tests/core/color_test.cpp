@@ -1,5 +1,6 @@
 #include "engine/core/color.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -59,6 +60,26 @@ TEST(Color, EncodingInvertsDecodingAndBothGrow) {
         EXPECT_GT(srgb_from_linear(unit), last_encoded);
         last_linear = linear_from_srgb(unit);
         last_encoded = srgb_from_linear(unit);
+    }
+}
+
+TEST(Color, BytesAreThoseOfTheFormulaToTheLastFloat) {
+    const auto by_formula = [](float linear) {
+        return static_cast<std::uint8_t>(std::lround(srgb_from_linear(linear) * 255.0F));
+    };
+    // Bits of floats from 0 to beyond 1, a prime apart.
+    for (std::uint32_t bits = 0; bits < std::bit_cast<std::uint32_t>(1.1F); bits += 4001) {
+        const auto linear = std::bit_cast<float>(bits);
+        ASSERT_EQ(rgba8_from_linear(glm::vec3(linear)).r, by_formula(linear)) << linear;
+    }
+    // And next to where a byte begins.
+    for (int byte = 0; byte < 255; ++byte) {
+        const float near = linear_from_srgb((static_cast<float>(byte) + 0.5F) / 255.0F);
+        for (int step = -20; step <= 20; ++step) {
+            const auto linear = std::bit_cast<float>(std::bit_cast<std::uint32_t>(near) +
+                                                     static_cast<std::uint32_t>(step));
+            ASSERT_EQ(rgba8_from_linear(glm::vec3(linear)).r, by_formula(linear)) << linear;
+        }
     }
 }
 

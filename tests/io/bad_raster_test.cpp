@@ -141,7 +141,7 @@ TEST_F(BadRaster, AllVoid) {
 
 TEST_F(BadRaster, ImageryThatClaimsGiantBlocksIsRefusedToo) {
     RasterOptions options;
-    options.imagery = write("image.tif", lying_tiff(60000, 60000, 60000));
+    options.imagery = {write("image.tif", lying_tiff(60000, 60000, 60000))};
     const auto terrain =
         read_terrain(made(made_raster(9, 9, [](int col, int) { return col; }), "a.tif"), options);
     ASSERT_FALSE(terrain);

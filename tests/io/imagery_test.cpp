@@ -54,7 +54,7 @@ protected:
                                                  RasterOptions options = {}) const {
         EXPECT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
         EXPECT_TRUE(test::write(image, folder_.path() / "image.tif"));
-        options.imagery = folder_.path() / "image.tif";
+        options.imagery = {folder_.path() / "image.tif"};
         return read_terrain(folder_.path() / "heights.tif", options);
     }
 
@@ -253,11 +253,11 @@ TEST_F(Imagery, AlphaAndPalettesAndDeepGreyAreUnderstood) {
 TEST_F(Imagery, BadFilesAreNamed) {
     ASSERT_TRUE(test::write(flat(9, 9), folder_.path() / "heights.tif"));
     RasterOptions options;
-    options.imagery = folder_.path() / "none.png";
+    options.imagery = {folder_.path() / "none.png"};
     const auto missing = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("none.png: does not exist"));
-    options.imagery = folder_.write("text.png", "not a picture");
+    options.imagery = {folder_.write("text.png", "not a picture")};
     const auto text = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(text);
     EXPECT_THAT(text.error().message, HasSubstr("text.png"));
@@ -269,7 +269,7 @@ TEST_F(Imagery, ACutFileIsAnErrorNotHalfAPicture) {
     ASSERT_TRUE(test::write(image, folder_.path() / "image.tif"));
     const std::string whole = test::read_bytes(folder_.path() / "image.tif");
     RasterOptions options;
-    options.imagery = folder_.write("cut.tif", whole.substr(0, whole.size() / 2));
+    options.imagery = {folder_.write("cut.tif", whole.substr(0, whole.size() / 2))};
     const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(terrain);
     EXPECT_THAT(terrain.error().message, HasSubstr("cut.tif"));
@@ -279,7 +279,7 @@ TEST_F(Imagery, ACutFileIsAnErrorNotHalfAPicture) {
 TEST_F(Imagery, AGiantThatIsOnlyAHeaderIsRefusedAtOnce) {
     ASSERT_TRUE(test::write(flat(9, 9), folder_.path() / "heights.tif"));
     RasterOptions options;
-    options.imagery = folder_.write("vast.pgm", "P5\n100000 100000\n65535\nxx");
+    options.imagery = {folder_.write("vast.pgm", "P5\n100000 100000\n65535\nxx")};
     const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(terrain);
     EXPECT_THAT(terrain.error().message, HasSubstr("vast.pgm"));
@@ -303,7 +303,7 @@ TEST_F(Imagery, ThePairsOfTheTestDataFit) {
         RELJEF_NEED_DATA(pair.heights);
         RELJEF_NEED_DATA(pair.image);
         RasterOptions options;
-        options.imagery = test::data_path(pair.image);
+        options.imagery = {test::data_path(pair.image)};
         const auto terrain = read_terrain(test::data_path(pair.heights), options);
         ASSERT_TRUE(terrain) << terrain.error().message;
         EXPECT_EQ(terrain->color.cols(), pair.cols);

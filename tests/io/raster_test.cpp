@@ -411,7 +411,7 @@ TEST_F(Raster, NothingIsWrittenBesideTheFile) {
     std::filesystem::remove(path.string() + ".aux.xml");
     ASSERT_EQ(folder_.names(), std::vector<std::string>{"made.png"});
     RasterOptions options;
-    options.imagery = path;
+    options.imagery = {path};
     options.memory_budget = 1 << 20;
     ASSERT_TRUE(read_terrain(path, options));
     ASSERT_TRUE(read_raster_info(path));

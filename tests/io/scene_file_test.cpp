@@ -43,7 +43,7 @@ look = [0, 0, 0]
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->name, "Mont Blanc");
     EXPECT_EQ(scene->heights, "/data/alps.tif");
-    EXPECT_EQ(scene->imagery, "/images/alps.jpg");
+    EXPECT_EQ(scene->imagery, std::vector<std::filesystem::path>{"/images/alps.jpg"});
     EXPECT_EQ(scene->spacing, 30.0);
     EXPECT_EQ(scene->height_scale, 0.5);
     EXPECT_EQ(scene->height_offset, -10.0);
@@ -217,6 +217,35 @@ TEST(SceneFile, PathsStartFromTheSceneFilesFolderAndTheNameIsItsOwn) {
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->heights, folder.path() / "../dem/alps.tif");
     EXPECT_EQ(scene->name, "my_alps");
+}
+
+TEST(SceneFile, AddressesStayAndFoldersOfTilesLieBesideIt) {
+    const auto heights_of = [](const std::string& name) {
+        const auto scene =
+            parse_scene("[terrain]\nheights = \"" + name + "\"", "scene.toml", "/scenes");
+        return scene ? scene->heights.string() : scene.error().message;
+    };
+    EXPECT_EQ(heights_of("terrarium+tiles"), "terrarium+/scenes/tiles");
+    EXPECT_EQ(heights_of("terrain-rgb+/maps/tiles"), "terrain-rgb+/maps/tiles");
+    const std::string pattern = "terrain-rgb+https://host/{z}/{x}/{y}.png";
+    EXPECT_EQ(heights_of(pattern), pattern);
+    EXPECT_EQ(heights_of("https://host/dem.tif"), "https://host/dem.tif");
+    EXPECT_EQ(heights_of("/vsizip/a.zip"), "/vsizip/a.zip");
+}
+
+TEST(SceneFile, ImageryIsOneTextOrAList) {
+    const auto scene = parse_scene("[terrain]\nheights = \"a.tif\"\nimagery = [\"b.tif\", "
+                                   "\"https://host/c.tif\"]",
+                                   "scene.toml", "/scenes");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::vector<std::filesystem::path> expected{"/scenes/b.tif", "https://host/c.tif"};
+    EXPECT_EQ(scene->imagery, expected);
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = [3]"),
+                HasSubstr("texts in quotes were expected"));
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = []"),
+                HasSubstr("at least one text was expected"));
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = 3"),
+                HasSubstr("imagery is 3"));
 }
 
 TEST(SceneFile, MissingAndFoldersAreErrors) {

@@ -72,7 +72,7 @@ TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
                 const glm::dvec2 sample(make.tree().sample(tile, {col, row}));
                 const glm::dvec3 expected =
                     placement.world_from_sample({make.on_overview(sample), height_of(sample)});
-                const glm::dvec3 found = made.origin + glm::dvec3(made.positions(col, row));
+                const glm::dvec3 found = made.place({col, row});
                 ASSERT_NEAR(found.x, expected.x, 1e-3);
                 ASSERT_NEAR(found.y, expected.y, 1e-3);
                 ASSERT_NEAR(found.z, expected.z, 1e-3);
@@ -92,6 +92,67 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
     const StreamedTile made = maker().make({0, 3, 3}, std::move(heights));
     EXPECT_NEAR(made.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
     EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::of_void());
+}
+
+TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
+    const TileMaker make(overview(), TileTree(side, side), reduction,
+                         {.finest_pixel = 2.0, .refinement = 1});
+    const TreeTile tile{0, 3, 3};
+    EXPECT_EQ(make.picture_size(tile), glm::ivec2(513)); // 10 m a cell: at most four texels
+    EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(513));
+    TilePicture picture{Image(513, 513, Rgba8{0, 0, 0, 0}), true, true};
+    picture.texels(512, 0) = {1, 2, 3, 255};
+    const StreamedTile made = make.make(tile, read_plane(tile, {}).heights, picture);
+    EXPECT_EQ(made.albedo(512, 0), (Rgba8{1, 2, 3, 255}));
+    EXPECT_EQ(made.albedo(511, 1), make.make(tile, read_plane(tile, {}).heights).albedo(128, 0));
+    EXPECT_DOUBLE_EQ(made.coarse_texel, 2.5);
+    EXPECT_GT(made.bytes(), 2 * bytes_per_tile);
+    EXPECT_LE(made.bytes(), make.bytes_per_tile());
+}
+
+TEST(TileMakers, MakeTheCoarsestTilesOfTheOverview) {
+    const TileMaker make = maker();
+    for (const int level : {3, 2, 0}) {
+        const TreeTile tile{level, 0, 0};
+        const Grid<float> found = make.overview_heights(tile);
+        const Grid<float> expected = read_plane(tile, {}).heights;
+        ASSERT_EQ(found.cols(), expected.cols());
+        // Away from the border, where the overview ends half of its samples earlier.
+        const int margin = 2 * reduction;
+        for (int row = margin; row < found.rows() - margin; ++row) {
+            for (int col = margin; col < found.cols() - margin; ++col) {
+                ASSERT_NEAR(found(col, row), expected(col, row), 1e-3) << level;
+            }
+        }
+    }
+}
+
+TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
+    auto terrain = std::make_shared<terrain::Terrain>(overview()->terrain());
+    Grid<float>& heights = terrain->heightfield.heights;
+    std::fill(heights.samples().begin(), heights.samples().end(), 0.0F);
+    heights(40, 40) = 16.0F; // over samples 320 to 327
+    const auto surface = TerrainSurface::create(terrain);
+    ASSERT_TRUE(surface);
+    // Levels whose steps are 2 and 4 of the overview's samples: vertices at 320 and 320 ± 32.
+    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(9217, 9217),
+                         reduction);
+    EXPECT_FLOAT_EQ(make.overview_heights({4, 0, 0})(21, 21), 16.0F / 4.0F);
+    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(11, 11), 16.0F / 16.0F);
+    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(12, 12), 0.0F);
+}
+
+TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
+    const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
+                         {.finest_pixel = 0.5, .refinement = 4});
+    EXPECT_EQ(make.first({0, 4, 8}), glm::dvec2(128.0, 256.0));
+    EXPECT_EQ(make.sample({0, 4, 8}, {2, 4}), glm::dvec2(128.5, 257.0));
+    EXPECT_DOUBLE_EQ(make.spacing(0), 2.5);
+    EXPECT_DOUBLE_EQ(make.spacing(2), 10.0);
+    EXPECT_TRUE(make.has_all_samples({2, 0, 0}));
+    EXPECT_FALSE(make.has_all_samples({3, 0, 0}));
+    const glm::dvec3 expected = maker().place({0, 1, 2}, {0, 0}, 5.0);
+    EXPECT_EQ(make.place({0, 4, 8}, {0, 0}, 5.0), expected);
 }
 
 TEST(TileStreams, BringWhatIsWantedOnce) {
@@ -172,6 +233,33 @@ TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
     EXPECT_EQ(stream.stats().failed, 2);
     EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
     EXPECT_TRUE(stream.take_faults().empty());
+    EXPECT_EQ(stream.faulty_files(), 1U);
+}
+
+TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          if (++readings < 3) {
+                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                          } else {
+                              reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
+                          }
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 20ms});
+    stream.want(std::array{TreeTile{0, 0, 0}});
+    while (stream.find({0, 0, 0}) == nullptr) {
+        std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_NE(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
+    stream.want({}); // it is there, and drawn
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
+    EXPECT_EQ(readings, 3);
+    EXPECT_EQ(stream.stats().read, 1);
+    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
     EXPECT_EQ(stream.faulty_files(), 1U);
 }
 

@@ -1,0 +1,72 @@
+#include "engine/io/image_files.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/io/rgb_image.h"
+#include "engine/io/tile_index.h"
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
+                std::vector<std::string>& faults) {
+    std::vector<std::string> ignored;
+    const auto index = index_tiles(folder, {}, ignored);
+    if (!index) {
+        faults.push_back(index.error().message);
+        return;
+    }
+    const std::size_t before = paths.size();
+    for (const IndexedFile& file : index->files) {
+        if (file.use == TileUse::fault) {
+            faults.push_back(file.fault);
+        } else if (file.use == TileUse::picture || file.type == "Byte") {
+            paths.push_back(folder / file.path);
+        }
+    }
+    if (paths.size() == before) {
+        faults.push_back(
+            fmt::format("{}: holds no image, at least one was expected", folder.string()));
+    }
+}
+
+fs::file_time_type changed_at(const fs::path& path) {
+    std::error_code ignored;
+    return fs::last_write_time(path, ignored);
+}
+
+} // namespace
+
+ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults) {
+    register_drivers();
+    std::vector<fs::path> paths;
+    for (const fs::path& name : names) {
+        std::error_code ignored;
+        if (fs::is_directory(name, ignored)) {
+            add_folder(name, paths, faults);
+        } else {
+            paths.push_back(name);
+        }
+    }
+    ImageFiles files;
+    for (fs::path& path : paths) {
+        const GdalMessages messages;
+        const auto image = open_raster(path, messages);
+        if (image) {
+            files.white = std::max(files.white, white_of(**image));
+            files.paths.push_back(std::move(path));
+        } else {
+            faults.push_back(image.error().message);
+        }
+    }
+    std::stable_sort(
+        files.paths.begin(), files.paths.end(),
+        [](const fs::path& a, const fs::path& b) { return changed_at(a) > changed_at(b); });
+    return files;
+}
+
+} // namespace reljef::io

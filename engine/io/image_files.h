@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace reljef::io {
+
+/// Images that are shown together.
+struct ImageFiles {
+    std::vector<std::filesystem::path> paths; ///< files and addresses, newest first
+    double white = 0.0; ///< of all whose colours are wider than 8 bits: see white_of
+};
+
+/// The images that `names` stand for: files, addresses, and folders, whose pictures and 8-bit
+/// rasters are meant. What cannot be opened is told in `faults`, one sentence each, and left out.
+ImageFiles image_files(std::span<const std::filesystem::path> names,
+                       std::vector<std::string>& faults);
+
+} // namespace reljef::io

@@ -1,0 +1,328 @@
+#include "engine/io/imagery_set.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "engine/core/worker_pool.h"
+#include "engine/io/crs_transform.h"
+#include "engine/io/dataset_pool.h"
+#include "engine/io/georeferencing.h"
+#include "engine/io/image_files.h"
+#include "engine/io/rgb_image.h"
+#include "engine/io/tile_placing.h"
+
+namespace reljef::io {
+/// What is known of an image without reading it.
+struct KnownImage {
+    std::filesystem::path path;
+    glm::ivec2 size{0};
+    glm::dvec2 pixel{1.0};         ///< metres
+    DegreeBox box{};               ///< around it
+    std::vector<double> overviews; ///< pixels a side in one of theirs, ascending
+};
+
+namespace {
+
+/// Longitude and latitude of places, longitudes running on from those of the middle one.
+void run_on(std::span<glm::dvec2> degrees) {
+    const double middle = degrees[degrees.size() / 2].x;
+    for (glm::dvec2& point : degrees) {
+        point.x += 360.0 * std::round((middle - point.x) / 360.0);
+    }
+}
+
+/// A margin: between the places that make it the outline may bulge.
+DegreeBox box_around(std::span<const glm::dvec2> degrees) {
+    glm::dvec2 low(1e9);
+    glm::dvec2 high(-1e9);
+    for (const glm::dvec2 point : degrees) {
+        low = std::isnan(point.x) ? low : glm::min(low, point);
+        high = std::isnan(point.x) ? high : glm::max(high, point);
+    }
+    const glm::dvec2 margin = 0.1 * (high - low);
+    return {low.x - margin.x, low.y - margin.y, high.x + margin.x, high.y + margin.y};
+}
+
+/// Places from edge to edge, (side+1)², in an image's or a grid's own coordinates.
+template <class PlaceAt>
+std::vector<glm::dvec2> places_over(const PlaceAt& place_at, const std::string& crs) {
+    constexpr int side = 8;
+    std::vector<glm::dvec2> places;
+    for (int row = 0; row <= side; ++row) {
+        for (int col = 0; col <= side; ++col) {
+            places.push_back(place_at(glm::dvec2(col, row) / static_cast<double>(side)));
+        }
+    }
+    if (crs != wgs84_degrees) {
+        const auto transform = CrsTransform::create(crs, wgs84_degrees);
+        if (!transform) {
+            return {};
+        }
+        transform->apply(places);
+    }
+    run_on(places);
+    return places;
+}
+
+/// Metres a pixel at the middle of (8+1)² places over `size` pixels.
+glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
+    constexpr std::size_t middle = 40;
+    const double across = metres_between(degrees[middle - 1], degrees[middle + 1]);
+    const double down = metres_between(degrees[middle - 9], degrees[middle + 9]);
+    return 4.0 * glm::dvec2(across, down) / glm::dvec2(size);
+}
+
+std::vector<double> overviews_of(GDALDataset& rgb) {
+    std::vector<double> found;
+    GDALRasterBand& band = *rgb.GetRasterBand(1);
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+        found.push_back(static_cast<double>(band.GetXSize()) / band.GetOverview(i)->GetXSize());
+    }
+    return found;
+}
+
+bool has_place(GDALDataset& image) {
+    return affine_of(image).has_value();
+}
+
+/// Opens an image as RGB, in `crs` where it names no coordinate system of its own.
+Result<Dataset> open_rgb(const std::filesystem::path& path, double white, const std::string& crs,
+                         const GdalMessages& messages) {
+    auto image = open_raster(path, messages);
+    if (!image) {
+        return image.error();
+    }
+    Dataset rgb = as_rgb(std::move(*image), white);
+    if (rgb == nullptr) {
+        return Error{fmt::format("{}: cannot be read as an image{}, a whole grey, palette or "
+                                 "RGB(A) image was expected",
+                                 path.string(), messages.reason())};
+    }
+    if (rgb->GetSpatialRef() == nullptr) {
+        const OGRSpatialReference own = crs_from_text(crs);
+        rgb->SetSpatialRef(&own);
+    }
+    return rgb;
+}
+
+std::optional<KnownImage> known(const std::filesystem::path& path, GDALDataset& rgb) {
+    std::vector<std::string> ignored;
+    const auto affine = has_place(rgb) ? affine_of(rgb) : std::nullopt;
+    const auto crs = affine ? horizontal_crs(rgb, ignored) : std::nullopt;
+    if (!crs || crs->IsLocal() != 0) {
+        return std::nullopt;
+    }
+    KnownImage image{path, {rgb.GetRasterXSize(), rgb.GetRasterYSize()}, {}, {}, overviews_of(rgb)};
+    const auto degrees = places_over(
+        [&](glm::dvec2 part) { return affine->crs_from_pixel(part * glm::dvec2(image.size)); },
+        wkt_of(*crs));
+    if (degrees.empty() || std::isnan(degrees[degrees.size() / 2].x)) {
+        return std::nullopt;
+    }
+    image.box = box_around(degrees);
+    image.pixel = pixel_size(degrees, image.size);
+    return std::isfinite(image.pixel.x * image.pixel.y) ? std::optional(image) : std::nullopt;
+}
+
+double side_of(const KnownImage& image) {
+    return std::sqrt(image.pixel.x * image.pixel.y);
+}
+
+/// Which of an image is read for texels so far apart, and how many of its pixels, each way.
+struct Choice {
+    int overview = -1; ///< -1: the image itself
+    double pixels = 0.0;
+    double scale = 1.0; ///< texels to a pixel that is read
+};
+
+Choice choice_for(const KnownImage& image, double spacing, double texels) {
+    const double wanted = spacing / std::max(image.pixel.x, image.pixel.y);
+    Choice choice;
+    double factor = 1.0;
+    constexpr double near = 1.0 + 1e-6; // sizes are rounded
+    for (std::size_t i = 0; i < image.overviews.size(); ++i) {
+        if (image.overviews[i] <= wanted * near && image.overviews[i] > factor) {
+            choice.overview = static_cast<int>(i);
+            factor = image.overviews[i];
+        }
+    }
+    const double there = static_cast<double>(image.size.x) * image.size.y / (factor * factor);
+    const double shown =
+        texels * spacing * spacing / (image.pixel.x * image.pixel.y * factor * factor);
+    choice.pixels = std::min(there, shown);
+    choice.scale = side_of(image) * factor / spacing;
+    return choice;
+}
+
+/// By how many degrees a box is to be moved so that it meets another, for each whole turn.
+std::vector<double> turns_to_meet(const DegreeBox& box, const DegreeBox& other) {
+    std::vector<double> turns;
+    for (const double turn : {0.0, -360.0, 360.0}) {
+        if (box[0] + turn <= other[2] && box[2] + turn >= other[0] && box[1] <= other[3] &&
+            box[3] >= other[1]) {
+            turns.push_back(turn);
+        }
+    }
+    return turns;
+}
+
+bool is_full(const Image& image) {
+    const auto texels = image.samples();
+    return std::all_of(texels.begin(), texels.end(), [](Rgba8 texel) { return texel.a == 255; });
+}
+
+/// Centres of texels on the places of the grid.
+bool place_raster(GDALDataset& raster, const TileGrid& grid, const OGRSpatialReference& crs) {
+    const glm::dvec2 corner = grid.first - 0.5 * grid.step;
+    std::array<double, 6> affine{corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
+    return raster.SetSpatialRef(&crs) == CE_None &&
+           raster.SetGeoTransform(affine.data()) == CE_None;
+}
+
+} // namespace
+
+struct ImagerySet::State {
+    State(std::string grid_crs, double white)
+        : crs(std::move(grid_crs)), spatial_reference(crs_from_text(crs)),
+          turn(spatial_reference.IsGeographic() != 0
+                   ? 1.0 / glm::degrees(spatial_reference.GetAngularUnits())
+                   : 0.0),
+          pool([white, this](const std::filesystem::path& path, const GdalMessages& messages) {
+              return open_rgb(path, white, crs, messages);
+          }) {}
+
+    std::string crs; ///< WKT of what is asked for
+    OGRSpatialReference spatial_reference;
+    double turn;                    ///< units of x in a degree; 0: no degrees
+    std::vector<KnownImage> images; ///< finest first
+    bool complete = true;           ///< all that could be opened are among them
+    mutable DatasetPool pool;
+
+    /// Draws what an image shows into an empty picture; false where it cannot be read.
+    bool draw(const KnownImage& image, const Choice& choice, const TileGrid& grid, Image& texels,
+              std::vector<TileFault>& faults, const std::stop_token& stop) const {
+        const GdalMessages messages;
+        auto rgb = pool.borrow(image.path, messages);
+        if (!rgb) {
+            faults.push_back({image.path, rgb.error().message});
+            return false;
+        }
+        const Dataset raster = raster_over(texels);
+        const WarpOptions options{
+            .overview = choice.overview, .scale = choice.scale, .progress = {}, .stop = stop};
+        if (raster == nullptr || !place_raster(*raster, grid, spatial_reference) ||
+            !warp(**rgb, *raster, options)) {
+            rgb->spoil();
+            if (!stop.stop_requested()) {
+                faults.push_back({image.path, fmt::format("{}: cannot be read{}, a whole image "
+                                                          "was expected",
+                                                          image.path.string(), messages.reason())});
+            }
+            return false;
+        }
+        return true;
+    }
+};
+
+Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names,
+                                    const std::string& crs) {
+    std::vector<std::string> faults;
+    const ImageFiles files = image_files(names, faults);
+    auto state = std::make_shared<State>(crs, files.white);
+    std::vector<std::optional<KnownImage>> found(files.paths.size());
+    parallel_for(static_cast<int>(found.size()), [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        const GdalMessages messages;
+        const auto rgb = open_rgb(files.paths[index], files.white, crs, messages);
+        found[index] = rgb ? known(files.paths[index], **rgb) : std::nullopt;
+    });
+    for (std::optional<KnownImage>& image : found) {
+        if (image) {
+            state->images.push_back(std::move(*image));
+        }
+    }
+    if (state->images.empty()) {
+        return Error{faults.empty() ? "the images name no place on Earth, at least one was "
+                                      "expected to"
+                                    : faults.front()};
+    }
+    state->complete = state->images.size() == found.size();
+    std::stable_sort(
+        state->images.begin(), state->images.end(),
+        [](const KnownImage& a, const KnownImage& b) { return side_of(a) < side_of(b); });
+    return ImagerySet(std::move(state));
+}
+
+std::size_t ImagerySet::size() const {
+    return state_->images.size();
+}
+
+double ImagerySet::finest_pixel() const {
+    return side_of(state_->images.front());
+}
+
+ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
+                               const std::stop_token& stop) const {
+    check(grid.cols >= 1 && grid.rows >= 1, "ImagerySet::read of an empty grid");
+    ImageryWindow window{
+        Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), state_->complete, false, {}};
+    const GdalMessages unheard; // of places that a projection does not have
+    const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
+    const auto degrees = places_over(
+        [&](glm::dvec2 part) { return grid.first + grid.step * (part * last); }, state_->crs);
+    if (degrees.empty()) {
+        return window;
+    }
+    const DegreeBox box = box_around(degrees);
+    const double texels = static_cast<double>(grid.cols) * grid.rows;
+    for (const KnownImage& image : state_->images) {
+        if (is_full(window.texels) || stop.stop_requested()) {
+            break;
+        }
+        const std::vector<double> turns = turns_to_meet(box, image.box);
+        const Choice choice = choice_for(image, spacing, texels);
+        window.has_more = window.has_more || (!turns.empty() && side_of(image) < 0.999 * spacing);
+        if (choice.pixels > most_pixels_read) {
+            window.whole = window.whole && turns.empty();
+            continue;
+        }
+        for (const double turn : turns) {
+            if (is_full(window.texels)) {
+                break;
+            }
+            TileGrid moved = grid;
+            moved.first.x += turn * state_->turn;
+            Image drawn(grid.cols, grid.rows, Rgba8{0, 0, 0, 0});
+            if (state_->draw(image, choice, moved, drawn, window.faults, stop)) {
+                lay_under(window.texels, drawn);
+            } else {
+                window.whole = false;
+                break;
+            }
+            if (state_->turn == 0.0) {
+                break; // a turn more is the same place
+            }
+        }
+    }
+    return window;
+}
+
+std::optional<std::string> ImagerySet::missing_overviews() const {
+    for (const KnownImage& image : state_->images) {
+        const double pixels = static_cast<double>(image.size.x) * image.size.y;
+        if (image.overviews.empty() && pixels > most_pixels_read) {
+            return fmt::format("{0}: {1}×{2} pixels without overviews, so that views from afar "
+                               "show it as coarse as it was read at the start; 'gdaladdo -r "
+                               "average {0} 2 4 8 16 32 64' adds them",
+                               image.path.string(), image.size.x, image.size.y);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace reljef::io

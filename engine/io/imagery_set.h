@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "engine/core/color.h"
+#include "engine/core/result.h"
+#include "engine/io/tile_set.h"
+
+namespace reljef::io {
+
+/// What images show of a part of the Earth.
+struct ImageryWindow {
+    Image texels;          ///< alpha 0 where they show nothing
+    bool whole = true;     ///< false: one that may show more was left out
+    bool has_more = false; ///< one of them has pixels finer than the texels
+    std::vector<TileFault> faults;
+};
+
+/// Georeferenced images of any coordinate systems as one picture, read where and when it is asked
+/// for. Where several show something the finest counts, of equally fine ones the newer. Safe from
+/// several threads at a time.
+class ImagerySet {
+public:
+    /// `crs`: WKT of the places that it will be asked for; images that have a place but name no
+    /// coordinate system are in that. Images without a place (or only with ground control points),
+    /// and those that cannot be opened, are left out. Fails where none is left.
+    static Result<ImagerySet> open(std::span<const std::filesystem::path> names,
+                                   const std::string& crs);
+
+    [[nodiscard]] std::size_t size() const;
+    /// Metres, a side of the finest image's pixels at its middle.
+    [[nodiscard]] double finest_pixel() const;
+
+    /// The picture at the places of `grid`, `spacing` metres apart, from the overviews that are
+    /// just finer. Neighbours that share a row or a column of places have the same texels there. An
+    /// image of which more than `most_pixels_read` would be read is left out.
+    [[nodiscard]] ImageryWindow read(const TileGrid& grid, double spacing,
+                                     const std::stop_token& stop = {}) const;
+    static constexpr double most_pixels_read = 1U << 26U;
+
+    /// Where an image is so large that it is left out of coarse views, because it has no overviews:
+    /// a sentence that names the first such file and the command that makes them.
+    [[nodiscard]] std::optional<std::string> missing_overviews() const;
+
+private:
+    struct State;
+    explicit ImagerySet(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+    std::shared_ptr<const State> state_;
+};
+
+} // namespace reljef::io
