@@ -128,7 +128,7 @@ ball() {
     number=$1
     label=$2
     shift 2
-    panel "$number" "$label" gallery --eye=-0.6,-4.2,2.2 --look=0.4,0,0.8 "$@"
+    panel "$number" "$label" gallery --eye=-0.6,-4.2,2.2 --look=0.6,0,1.4 "$@"
 }
 
 silhouettes() {
