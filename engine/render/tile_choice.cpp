@@ -18,7 +18,7 @@ namespace {
 constexpr double more_of_range = 0.25;
 
 // Of the error: what is left is for fewer triangles.
-constexpr double share_of_tiles = 0.65;
+constexpr double share_of_tiles = 0.5;
 
 // At a time: what is less urgent may turn out not to be needed once these are there.
 constexpr std::size_t most_wanted = 16;
