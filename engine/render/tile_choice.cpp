@@ -18,7 +18,7 @@ namespace {
 constexpr double more_of_range = 0.25;
 
 // Of the error: what is left is for fewer triangles.
-constexpr double share_of_tiles = 0.65;
+constexpr double share_of_tiles = 0.5;
 
 // Of images where finer ones are to be had, pixels from texel to texel.
 constexpr double most_texel = 1.0;

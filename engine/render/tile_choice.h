@@ -30,7 +30,7 @@ inline constexpr double default_tile_error = 1.0;
 inline constexpr double samples_apart_in_errors = 4.0;
 
 /// Best first: the tile whose estimated error is seen largest gives way to those below it, until
-/// none is seen larger than two thirds of the technique's error, or more would be drawn than memory
+/// none is seen larger than half of the technique's error, or more would be drawn than memory
 /// holds. Where one below is not there yet, it is wanted, and the coarser one drawn meanwhile. The
 /// same view of the same tiles gives the same choice. Nothing at all while the root is not there.
 TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,

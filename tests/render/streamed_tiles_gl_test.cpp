@@ -107,7 +107,7 @@ TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
             const double spacing = world.stream->maker().spacing(tile->id.level);
             if (tile->id.level > 0) {
                 ASSERT_LE(spacing / samples_apart_in_errors * pixels / distance, 1.0 + 1e-9);
-                ASSERT_LE(tile->error * pixels / distance, 0.65 + 1e-9);
+                ASSERT_LE(tile->error * pixels / distance, 0.5 + 1e-9);
             }
         }
         for (TreeTile tile : drawn) {
