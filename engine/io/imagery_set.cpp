@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "engine/core/worker_pool.h"
 #include "engine/io/crs_transform.h"
@@ -184,20 +185,21 @@ bool place_raster(GDALDataset& raster, const TileGrid& grid, const OGRSpatialRef
            raster.SetGeoTransform(affine.data()) == CE_None;
 }
 
+double units_in_degree(const std::string& crs) {
+    const OGRSpatialReference reference = crs_from_text(crs);
+    return reference.IsGeographic() != 0 ? 1.0 / glm::degrees(reference.GetAngularUnits()) : 0.0;
+}
+
 } // namespace
 
 struct ImagerySet::State {
     State(std::string grid_crs, double white)
-        : crs(std::move(grid_crs)), spatial_reference(crs_from_text(crs)),
-          turn(spatial_reference.IsGeographic() != 0
-                   ? 1.0 / glm::degrees(spatial_reference.GetAngularUnits())
-                   : 0.0),
+        : crs(std::move(grid_crs)), turn(units_in_degree(crs)),
           pool([white, this](const std::filesystem::path& path, const GdalMessages& messages) {
               return open_rgb(path, white, crs, messages);
           }) {}
 
-    std::string crs; ///< WKT of what is asked for
-    OGRSpatialReference spatial_reference;
+    std::string crs;                ///< WKT of what is asked for
     double turn;                    ///< units of x in a degree; 0: no degrees
     std::vector<KnownImage> images; ///< finest first
     bool complete = true;           ///< all that could be opened are among them
@@ -215,7 +217,9 @@ struct ImagerySet::State {
         const Dataset raster = raster_over(texels);
         const WarpOptions options{
             .overview = choice.overview, .scale = choice.scale, .progress = {}, .stop = stop};
-        if (raster == nullptr || !place_raster(*raster, grid, spatial_reference) ||
+        // Its own: these objects are not for several threads at a time.
+        const OGRSpatialReference reference = crs_from_text(crs);
+        if (raster == nullptr || !place_raster(*raster, grid, reference) ||
             !warp(**rgb, *raster, options)) {
             rgb->spoil();
             if (!stop.stop_requested()) {

@@ -30,8 +30,8 @@ Dataset raster_over(Image& image);
 /// How the pixels of a warp are found.
 struct WarpOptions {
     int overview = -1; ///< the one to read; -1: the image itself; automatic_overview: by the size
-    /// Pixels of the target in one of what is read, so that all parts of a picture are averaged over
-    /// as much; 0: as GDAL finds it for each.
+    /// Pixels of the target in one of what is read, so that all parts of a picture are averaged
+    /// over as much; 0: as GDAL finds it for each.
     double scale = 0.0;
     Progress progress;
     std::stop_token stop;

@@ -1,11 +1,13 @@
 #include "engine/io/imagery_set.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/core/worker_pool.h"
 #include "engine/io/crs_transform.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
@@ -252,6 +254,18 @@ TEST_F(ImagerySets, GoOnAcrossTheAntimeridian) {
         ASSERT_EQ(window.texels(col, 2).a, 255) << col;
         ASSERT_EQ(window.texels(col, 2).r, ((355 + col) % 360) / 2) << col;
     }
+}
+
+TEST_F(ImagerySets, AreReadBySeveralThreadsAtATime) {
+    add("a.tif", picture_of_places(480000.0, 5000000.0, 100, 100, 80.0));
+    const ImagerySet set = open({"a.tif"});
+    const TileGrid grid{{2.79, 45.14}, {3e-4, -3e-4}, 65, 65};
+    const Image expected = set.read(grid, 33.0).texels;
+    std::array<Image, 12> found;
+    parallel_for(static_cast<int>(found.size()), [&](int i) {
+        found.at(static_cast<std::size_t>(i)) = set.read(grid, 33.0).texels;
+    });
+    EXPECT_THAT(found, ::testing::Each(expected));
 }
 
 TEST_F(ImagerySets, LeaveNoFileOpen) {
