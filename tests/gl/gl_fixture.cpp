@@ -5,11 +5,14 @@
 #include <gmock/gmock.h>
 
 #include "engine/gl/draw.h"
+#include "tests/support/test_context.h"
 
 namespace reljef::test {
 
 void GlTest::SetUp() {
-    auto made = platform::make_context(platform::ContextKind::osmesa, {.debug = true});
+    const auto kind = platform::context_kind_from_string(context_name());
+    ASSERT_TRUE(kind) << "RELJEF_TEST_CONTEXT is " << context_name();
+    auto made = platform::make_context(*kind, {.debug = true, .visible = false});
     ASSERT_TRUE(made) << made.error().message;
     context_ = std::move(*made);
     log_.emplace();

@@ -17,8 +17,8 @@
 
 namespace reljef::test {
 
-/// A test with an OSMesa context; it fails when the driver reports an error or anything above low
-/// severity.
+/// A test with a context of its own (test_context.h); it fails when the driver reports an error or
+/// anything above low severity.
 class GlTest : public ::testing::Test {
 protected:
     void SetUp() override;

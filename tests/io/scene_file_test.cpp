@@ -244,8 +244,7 @@ TEST(SceneFile, ImageryIsOneTextOrAList) {
                 HasSubstr("texts in quotes were expected"));
     EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = []"),
                 HasSubstr("at least one text was expected"));
-    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = 3"),
-                HasSubstr("imagery is 3"));
+    EXPECT_THAT(error_of("[terrain]\nheights = \"a.tif\"\nimagery = 3"), HasSubstr("imagery is 3"));
 }
 
 TEST(SceneFile, MissingAndFoldersAreErrors) {
