@@ -109,7 +109,11 @@ Result<void> set_detail_number(DetailChoice& choice, const std::string& assignme
     if (!value) {
         return value.error();
     }
-    (is_width ? choice.width : choice.scale) = *value;
+    auto& chosen = is_width ? choice.width : choice.scale;
+    if (chosen) {
+        return Error{fmt::format("--detail: {} found twice, once was expected", key)};
+    }
+    chosen = *value;
     return {};
 }
 
@@ -234,9 +238,10 @@ Result<DetailChoice> parse_detail(const std::string& text) {
     const bool has_numbers =
         colon != std::string::npos && text.find('=', colon) != std::string::npos;
     DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
-    if (choice.textures.empty()) {
-        return Error{
-            fmt::format("--detail: '{}' found, a tile's name or folder was expected", text)};
+    if (choice.textures.empty() || choice.textures.back() == ':') {
+        return Error{fmt::format(
+            "--detail: '{}' found, a tile's name or folder, then :width=W,scale=S was expected",
+            text)};
     }
     std::string rest = has_numbers ? text.substr(colon + 1) : std::string();
     while (!rest.empty()) {

@@ -33,7 +33,8 @@ Result<io::SceneDescription> describe(const std::string& terrain) {
         return io::read_scene_file(path);
     }
     std::error_code ignored;
-    if (!fs::exists(path, ignored) && !path.has_extension() && !path.has_parent_path()) {
+    if (!fs::exists(path, ignored) && !path.has_extension() && !path.has_parent_path() &&
+        !io::is_tile_pyramid(path)) {
         std::string names;
         for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
             names += std::string(scene.name) + ", ";

@@ -151,7 +151,9 @@ void TomlTable::fail(std::string_view key, const std::string& found_and_expected
 }
 
 const toml::node* TomlTable::find(std::string_view key) {
-    known_.emplace_back(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+        known_.emplace_back(key);
+    }
     return table_->get(key);
 }
 

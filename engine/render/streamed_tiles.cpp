@@ -282,7 +282,11 @@ Result<void> StreamedTiles::prepare_light(const DrawList& list, const StreamedDr
 
 Result<void> StreamedTiles::prepare_ground(const StreamedDraw& draw, FrameStats& stats) {
     Entry& entry = entry_of(draw);
-    if (draw.detail == DetailLevel::none || entry.resident->ground) {
+    if (draw.detail == DetailLevel::none) {
+        entry.resident->ground.reset(); // only tiles near the eye have it: no budget counts it
+        return {};
+    }
+    if (entry.resident->ground) {
         return {};
     }
     const scene::TerrainIrradiance* const irradiance =

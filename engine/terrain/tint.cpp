@@ -44,17 +44,27 @@ bool is_void(const Heightfield& heightfield, int col, int row) {
     return !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
 }
 
-// Heights at two shares of the sorted samples that are no voids, from at most 2^16 of them.
-HeightRange percentiles(const Heightfield& heightfield, double low, double high) {
+// About 2^16 of the samples that are no voids, each as far from the next among these: what few
+// there are in a wide void must not fall between.
+std::vector<float> some_heights(const Heightfield& heightfield) {
     const auto heights = heightfield.heights.samples();
     const auto voids = heightfield.void_mask.samples();
-    const std::size_t step = std::max<std::size_t>(1, heights.size() >> 16U);
+    const auto void_count = static_cast<std::size_t>(
+        std::count_if(voids.begin(), voids.end(), [](auto v) { return v != 0; }));
+    const std::size_t step = std::max<std::size_t>(1, (heights.size() - void_count) >> 16U);
     std::vector<float> picked;
-    for (std::size_t i = 0; i < heights.size(); i += step) {
-        if (voids.empty() || voids[i] == 0) {
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        if ((voids.empty() || voids[i] == 0) && seen++ % step == 0) {
             picked.push_back(heights[i]);
         }
     }
+    return picked;
+}
+
+// Heights at two shares of the sorted samples that are no voids.
+HeightRange percentiles(const Heightfield& heightfield, double low, double high) {
+    std::vector<float> picked = some_heights(heightfield);
     if (picked.empty()) {
         return heightfield.range;
     }

@@ -88,6 +88,12 @@ TEST_F(BadInput, folder_without_tiles) {
     expect_refusal(render(folder_.path().string()), 1, {folder_.path().string()});
 }
 
+TEST_F(BadInput, tiles_of_heights_in_colours_may_lie_in_a_folder_without_a_path) {
+    const auto result = test::reljef({"info", "terrarium+nowhere"});
+    expect_refusal(result, 1, {"nowhere", "holds no tiles"});
+    EXPECT_EQ(result.err.find("no such terrain"), std::string::npos) << result.err;
+}
+
 TEST_F(BadInput, output_folder_that_is_not_there) {
     const auto dem = write("dem.asc", small_dem);
     const auto result = test::reljef({"render", dem, "-o", "/nonexistent/picture.png", "--size",

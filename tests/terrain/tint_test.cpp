@@ -62,6 +62,23 @@ TEST(Tint, VoidsAreGreyAndDoNotStretchTheScale) {
     }
 }
 
+// A few cells at one end of a wide void: every hundredth sample met none of them.
+TEST(Tint, FewHeightsInAWideVoidAreSeenAll) {
+    constexpr int cols = 6300;
+    constexpr int rows = 1050;
+    Heightfield heightfield = test::plane_heightfield(
+        test::made_heights(cols, rows, [](int col, int) { return static_cast<double>(col); }));
+    heightfield.void_mask = Grid<std::uint8_t>(cols, rows, 1);
+    for (int row = 0; row < rows; ++row) {
+        heightfield.void_mask(0, row) = 0;
+        for (int col = 6225; col < cols; ++col) {
+            heightfield.void_mask(col, row) = 0;
+        }
+    }
+    const HeightTint tint(heightfield);
+    EXPECT_NE(tint.at(0.0), tint.at(6299.0));
+}
+
 TEST(Tint, AllVoidIsGrey) {
     Heightfield heightfield = test::plane_heightfield(Grid<float>(4, 4, 0.0F));
     heightfield.void_mask = Grid<std::uint8_t>(4, 4, 1);
