@@ -12,6 +12,7 @@
 #include "engine/core/worker_pool.h"
 #include "engine/io/crs_transform.h"
 #include "engine/io/dataset_pool.h"
+#include "engine/io/degree_box.h"
 #include "engine/io/georeferencing.h"
 #include "engine/io/image_files.h"
 #include "engine/io/rgb_image.h"
@@ -29,50 +30,9 @@ struct KnownImage {
 
 namespace {
 
-/// Longitude and latitude of places, longitudes running on from those of the middle one.
-void run_on(std::span<glm::dvec2> degrees) {
-    const double middle = degrees[degrees.size() / 2].x;
-    for (glm::dvec2& point : degrees) {
-        point.x += 360.0 * std::round((middle - point.x) / 360.0);
-    }
-}
-
-/// A margin: between the places that make it the outline may bulge.
-DegreeBox box_around(std::span<const glm::dvec2> degrees) {
-    glm::dvec2 low(1e9);
-    glm::dvec2 high(-1e9);
-    for (const glm::dvec2 point : degrees) {
-        low = std::isnan(point.x) ? low : glm::min(low, point);
-        high = std::isnan(point.x) ? high : glm::max(high, point);
-    }
-    const glm::dvec2 margin = 0.1 * (high - low);
-    return {low.x - margin.x, low.y - margin.y, high.x + margin.x, high.y + margin.y};
-}
-
-/// Places from edge to edge, (side+1)², in an image's or a grid's own coordinates.
-template <class PlaceAt>
-std::vector<glm::dvec2> places_over(const PlaceAt& place_at, const std::string& crs) {
-    constexpr int side = 8;
-    std::vector<glm::dvec2> places;
-    for (int row = 0; row <= side; ++row) {
-        for (int col = 0; col <= side; ++col) {
-            places.push_back(place_at(glm::dvec2(col, row) / static_cast<double>(side)));
-        }
-    }
-    if (crs != wgs84_degrees) {
-        const auto transform = CrsTransform::create(crs, wgs84_degrees);
-        if (!transform) {
-            return {};
-        }
-        transform->apply(places);
-    }
-    run_on(places);
-    return places;
-}
-
 /// Metres a pixel at the middle of (8+1)² places over `size` pixels.
 glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
-    constexpr std::size_t middle = 40;
+    constexpr std::size_t middle = middle_of_places;
     const double across = metres_between(degrees[middle - 1], degrees[middle + 1]);
     const double down = metres_between(degrees[middle - 9], degrees[middle + 9]);
     return 4.0 * glm::dvec2(across, down) / glm::dvec2(size);
@@ -122,10 +82,10 @@ std::optional<KnownImage> known(const std::filesystem::path& path, GDALDataset& 
     const auto degrees = places_over(
         [&](glm::dvec2 part) { return affine->crs_from_pixel(part * glm::dvec2(image.size)); },
         wkt_of(*crs));
-    if (degrees.empty() || std::isnan(degrees[degrees.size() / 2].x)) {
+    if (degrees.empty() || std::isnan(degrees[middle_of_places].x)) {
         return std::nullopt;
     }
-    image.box = box_around(degrees);
+    image.box = padded_box(degrees);
     image.pixel = pixel_size(degrees, image.size);
     return std::isfinite(image.pixel.x * image.pixel.y) ? std::optional(image) : std::nullopt;
 }
@@ -158,18 +118,6 @@ Choice choice_for(const KnownImage& image, double spacing, double texels) {
     choice.pixels = std::min(there, shown);
     choice.scale = side_of(image) * factor / spacing;
     return choice;
-}
-
-/// By how many degrees a box is to be moved so that it meets another, for each whole turn.
-std::vector<double> turns_to_meet(const DegreeBox& box, const DegreeBox& other) {
-    std::vector<double> turns;
-    for (const double turn : {0.0, -360.0, 360.0}) {
-        if (box[0] + turn <= other[2] && box[2] + turn >= other[0] && box[1] <= other[3] &&
-            box[3] >= other[1]) {
-            turns.push_back(turn);
-        }
-    }
-    return turns;
 }
 
 bool is_full(const Image& image) {
@@ -221,8 +169,8 @@ struct ImagerySet::State {
         const OGRSpatialReference reference = crs_from_text(crs);
         if (raster == nullptr || !place_raster(*raster, grid, reference) ||
             !warp(**rgb, *raster, options)) {
-            rgb->spoil();
             if (!stop.stop_requested()) {
+                rgb->spoil();
                 faults.push_back({image.path, fmt::format("{}: cannot be read{}, a whole image "
                                                           "was expected",
                                                           image.path.string(), messages.reason())});
@@ -256,9 +204,10 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
                                     : faults.front()};
     }
     state->complete = state->images.size() == found.size();
-    std::stable_sort(
-        state->images.begin(), state->images.end(),
-        [](const KnownImage& a, const KnownImage& b) { return side_of(a) < side_of(b); });
+    std::stable_sort(state->images.begin(), state->images.end(),
+                     [](const KnownImage& a, const KnownImage& b) {
+                         return fineness(a.pixel) < fineness(b.pixel);
+                     });
     return ImagerySet(std::move(state));
 }
 
@@ -282,7 +231,7 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
     if (degrees.empty()) {
         return window;
     }
-    const DegreeBox box = box_around(degrees);
+    const DegreeBox box = padded_box(degrees);
     const double texels = static_cast<double>(grid.cols) * grid.rows;
     for (const KnownImage& image : state_->images) {
         if (is_full(window.texels) || stop.stop_requested()) {

@@ -178,6 +178,20 @@ TEST_F(ImagerySets, TheFinerCountsAndWhereItIsTransparentTheNext) {
     EXPECT_FALSE(set.read({{470000.0, 4996500.0}, {10.0, -10.0}, 2, 2}, 10.0).has_more);
 }
 
+// Pixels of 20 m are a little more ground the nearer they are to the meridian.
+TEST_F(ImagerySets, OfEquallyFineOnesTheNewerCounts) {
+    add("a.tif", plain(480000.0, 5000000.0, 400, 20.0, 50.0));
+    add("b.tif", plain(484000.0, 5000000.0, 400, 20.0, 200.0));
+    const TileGrid both{{486000.0, 4997000.0}, {20.0, -20.0}, 2, 2};
+    const auto now = std::filesystem::file_time_type::clock::now();
+    for (const auto& [newer, older, expected] :
+         {std::tuple("a.tif", "b.tif", 50), {"b.tif", "a.tif", 200}}) {
+        std::filesystem::last_write_time(folder_.path() / newer, now);
+        std::filesystem::last_write_time(folder_.path() / older, now - std::chrono::hours(1));
+        EXPECT_EQ(open({"a.tif", "b.tif"}, utm_31).read(both, 20.0).texels(0, 0).r, expected);
+    }
+}
+
 TEST_F(ImagerySets, CoarseViewsReadTheOverviewThatIsJustFiner) {
     MadeRaster raster = plain(480000.0, 5000000.0, 2048, 4.0, 90.0);
     raster.options = {"TILED=YES", "BLOCKXSIZE=128", "BLOCKYSIZE=128"};
