@@ -80,7 +80,7 @@ public:
     [[nodiscard]] std::size_t most_drawn() const;
 
     /// Begins a view: what is to be read, the most urgent first. What was wanted before and is not
-    /// any more is cancelled.
+    /// any more is cancelled; tiles that are seen and lack some of their picture are asked for too.
     void want(std::span<const terrain::TreeTile> tiles);
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
     /// was stopped. Only while nobody else wants.
@@ -103,6 +103,11 @@ private:
     struct Entry {
         std::shared_ptr<const StreamedTile> tile;
         mutable std::uint64_t used = 0; // view that looked at it last
+        std::size_t shown = 0;          // texels of its picture that images show
+    };
+    struct Made {
+        std::shared_ptr<const StreamedTile> tile; // null: there were faults
+        std::size_t shown = 0;
     };
     struct Failure {
         int attempts = 0;
@@ -111,10 +116,13 @@ private:
     void work(const std::stop_token& stop);
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
-    void finish(terrain::TreeTile tile, TileReading reading,
-                std::shared_ptr<const StreamedTile> made, bool stopped);
+    [[nodiscard]] Made make(terrain::TreeTile tile, TileReading& reading,
+                            const StreamedTile* before) const;
+    void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
-    void keep(terrain::TreeTile tile, std::shared_ptr<const StreamedTile> made);
+    void keep(terrain::TreeTile tile, Made made);
+    [[nodiscard]] std::vector<terrain::TreeTile>
+    asked_for(std::span<const terrain::TreeTile> tiles) const;
     [[nodiscard]] bool is_wanting(terrain::TreeTile tile) const;
     void evict();
     [[nodiscard]] bool is_settled(Clock::time_point now) const;

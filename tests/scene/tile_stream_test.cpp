@@ -263,6 +263,77 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
     EXPECT_EQ(stream.faulty_files(), 1U);
 }
 
+// A view that moves asks anew with each frame, while the picture is read again.
+TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          if (++readings == 1) {
+                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                              return reading;
+                          }
+                          for (int i = 0; i < 30 && !stop.stop_requested(); ++i) {
+                              std::this_thread::sleep_for(1ms);
+                          }
+                          reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 1ms});
+    const TreeTile tile{0, 0, 0};
+    stream.want(std::array{tile});
+    for (int frame = 0; frame < 200 && (stream.is_busy() || readings < 2); ++frame) {
+        if (stream.find(tile) != nullptr) {
+            stream.want({});
+        }
+        std::this_thread::sleep_for(2ms);
+    }
+    EXPECT_EQ(readings, 2);
+    EXPECT_EQ(stream.stats().cancelled, 0);
+    ASSERT_NE(stream.find(tile), nullptr);
+    EXPECT_EQ(stream.find(tile)->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
+}
+
+TEST(TileStreams, TakeOfALaterReadingOnlyAPictureThatShowsMore) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          const int reading_now = ++readings;
+                          TileReading reading = read_plane(tile, stop);
+                          if (reading_now > 1) { // the file has changed meanwhile
+                              for (float& height : reading.heights.samples()) {
+                                  height += 100.0F;
+                              }
+                          }
+                          reading.picture.texels = Image(129, 129, Rgba8{0, 0, 0, 0});
+                          const int shown = reading_now == 1 ? 4 : reading_now == 2 ? 1 : 9;
+                          for (int col = 0; col < shown; ++col) {
+                              reading.picture.texels(col, 0) = {9, 8, 7, 255};
+                          }
+                          if (reading_now < 3) {
+                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                          }
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 30ms});
+    const TreeTile tile{0, 0, 0};
+    stream.want(std::array{tile});
+    while (stream.find(tile) == nullptr) {
+        std::this_thread::sleep_for(1ms);
+    }
+    const auto first = stream.find(tile);
+    stream.want({});
+    while (stream.stats().failed < 2) {
+        std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_EQ(stream.find(tile), first);
+    EXPECT_TRUE(stream.wait({}));
+    const auto last = stream.find(tile);
+    EXPECT_EQ(last->albedo(8, 0), (Rgba8{9, 8, 7, 255}));
+    EXPECT_EQ(last->heights, first->heights);
+    EXPECT_EQ(last->positions, first->positions);
+}
+
 TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     TileStream stream(maker(),
                       [](TreeTile tile, const std::stop_token& stop) {
