@@ -26,6 +26,7 @@ namespace {
 
 constexpr double bytes_per_pixel = 16.0 / 3.0; // with mipmaps
 constexpr double least_budget_share = 0.25;
+constexpr std::size_t reading_part = 8; // of the budget, for what is read at a time
 
 /// Where the heights and the image meet: a space both have an affine to. `crs` absent: the heights'
 /// own pixels, y upwards.
@@ -213,8 +214,11 @@ public:
         }
         Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
         const Dataset target = target_of(drawn, grid_, picture.meeting);
-        WarpOptions warping{
-            .overview = automatic_overview, .scale = 0.0, .progress = {}, .stop = options_.stop};
+        WarpOptions warping{.overview = automatic_overview,
+                            .scale = 0.0,
+                            .memory = options_.memory_budget / reading_part,
+                            .progress = {},
+                            .stop = options_.stop};
         if (options_.progress) {
             warping.progress = [&](double done) {
                 options_.progress((static_cast<double>(index) + done) / static_cast<double>(count));
