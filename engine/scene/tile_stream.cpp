@@ -16,6 +16,11 @@ namespace {
 constexpr double drawn_share = 0.5;
 constexpr std::chrono::seconds long_pause{30};
 
+std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) {
+    return static_cast<std::size_t>(drawn_share * static_cast<double>(memory_budget) /
+                                    static_cast<double>(bytes_per_tile));
+}
+
 std::size_t texels_shown(const Image& texels) {
     const auto samples = texels.samples();
     return static_cast<std::size_t>(
@@ -80,10 +85,15 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
 }
 
 std::size_t TileStream::most_drawn() const {
-    constexpr std::size_t least = 16; // enough for any view, coarsely
-    return std::max(
-        least, static_cast<std::size_t>(drawn_share * static_cast<double>(options_.memory_budget) /
-                                        static_cast<double>(maker_.bytes_per_tile())));
+    return std::max(least_drawn, drawn_within(options_.memory_budget, maker_.bytes_per_tile()));
+}
+
+int TileStream::texels_within(std::size_t memory_budget) {
+    int texels = most_texels_per_cell;
+    while (texels > 1 && drawn_within(memory_budget, bytes_of_tile(texels)) < least_drawn) {
+        texels /= 2;
+    }
+    return texels;
 }
 
 void TileStream::want(std::span<const terrain::TreeTile> tiles) {
@@ -222,6 +232,9 @@ void TileStream::work(const std::stop_token& stop) {
 TileStream::Made TileStream::make(terrain::TreeTile tile, TileReading& reading,
                                   const StreamedTile* before) const {
     StreamedTile made = maker_.make(tile, std::move(reading.heights), reading.picture);
+    if (reading.of_overview) {
+        made.error = std::max(made.error, maker_.overview_error(tile));
+    }
     if (before != nullptr) {
         StreamedTile with_picture = *before;
         with_picture.albedo = std::move(made.albedo);
@@ -238,6 +251,7 @@ void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made
     stats_.bytes_read += reading.bytes_read;
     if (stopped) {
         ++stats_.cancelled;
+        tell(reading.picture_faults);
         return;
     }
     if (made.tile == nullptr) {
@@ -277,6 +291,10 @@ void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReadin
     const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
     ++failure.attempts;
     failure.again = Clock::now() + (failure.attempts < most_attempts ? pause : long_pause);
+    tell(faults);
+}
+
+void TileStream::tell(std::span<const TileReading::Fault> faults) {
     for (const TileReading::Fault& fault : faults) {
         if (faults_.emplace(fault.file, fault.message).second) {
             new_faults_.push_back(fault.message);

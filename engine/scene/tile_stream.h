@@ -31,6 +31,7 @@ struct TileReading {
     };
     std::vector<Fault> faults;
     std::vector<Fault> picture_faults;
+    bool of_overview = false;   ///< the heights are TileMaker::overview_heights
     std::size_t bytes_read = 0; ///< that it took from its files
 };
 
@@ -78,6 +79,9 @@ public:
     [[nodiscard]] std::optional<Found> finest_at(glm::dvec2 overview_sample) const;
     /// As many as may be drawn at a time.
     [[nodiscard]] std::size_t most_drawn() const;
+    static constexpr std::size_t least_drawn = 16; ///< enough for any view, coarsely
+    /// ImageryDetail::most_texels so that these fit, or 1.
+    static int texels_within(std::size_t memory_budget);
 
     /// Begins a view: what is to be read, the most urgent first. What was wanted before and is not
     /// any more is cancelled; tiles that are seen and lack some of their picture are asked for too.
@@ -120,6 +124,7 @@ private:
                             const StreamedTile* before) const;
     void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
+    void tell(std::span<const TileReading::Fault> faults);
     void keep(terrain::TreeTile tile, Made made);
     [[nodiscard]] std::vector<terrain::TreeTile>
     asked_for(std::span<const terrain::TreeTile> tiles) const;

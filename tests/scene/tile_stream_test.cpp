@@ -142,6 +142,41 @@ TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
     EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(12, 12), 0.0F);
 }
 
+// Between samples of the overview nothing of what is missing is seen.
+TEST(TileStreams, TilesMadeOfACoarserOverviewHaveItsError) {
+    auto terrain = std::make_shared<terrain::Terrain>(overview()->terrain());
+    Grid<float>& heights = terrain->heightfield.heights;
+    std::fill(heights.samples().begin(), heights.samples().end(), 0.0F);
+    heights(40, 40) = 16.0F; // over samples 320 to 327
+    const auto surface = TerrainSurface::create(terrain);
+    ASSERT_TRUE(surface);
+    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(side, side),
+                         reduction);
+    TileStream stream(make, [make](TreeTile tile, const std::stop_token& /*stop*/) {
+        TileReading reading;
+        reading.heights = make.overview_heights(tile);
+        reading.of_overview = true;
+        return reading;
+    });
+    stream.want(std::array{TreeTile{0, 2, 2}, TreeTile{0, 5, 5}});
+    ASSERT_TRUE(stream.wait({}));
+    EXPECT_FLOAT_EQ(static_cast<float>(stream.find({0, 2, 2})->error), 16.0F);
+    EXPECT_EQ(stream.find({0, 5, 5})->error, 0.0);
+    EXPECT_EQ(make.overview_error({3, 0, 0}), 0.0); // as far apart as the overview's
+}
+
+TEST(TileStreams, HavePicturesOfFewerTexelsWhereMemoryIsSmall) {
+    for (const std::size_t megabytes : {16U, 70U, 100U, 140U, 400U}) {
+        const std::size_t budget = megabytes << 20U;
+        const int texels = TileStream::texels_within(budget);
+        EXPECT_EQ(texels, megabytes < 80 ? 1 : megabytes < 135 ? 2 : 4);
+        const TileMaker make(overview(), TileTree(side, side), reduction,
+                             {.finest_pixel = 0.1, .refinement = 1, .most_texels = texels});
+        EXPECT_EQ(make.bytes_per_tile(), bytes_of_tile(texels));
+        EXPECT_TRUE(texels == 1 || 2 * TileStream::least_drawn * make.bytes_per_tile() <= budget);
+    }
+}
+
 TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
     const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
                          {.finest_pixel = 0.5, .refinement = 4});
