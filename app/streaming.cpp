@@ -54,6 +54,7 @@ scene::TileReading reading_of(const io::TileWindow& window) {
 scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::TreeTile tile) {
     scene::TileReading reading;
     reading.heights = maker.overview_heights(tile);
+    reading.of_overview = true;
     return reading;
 }
 

@@ -8,11 +8,13 @@
 
 #include "app/message.h"
 #include "app/progress_line.h"
+#include "engine/core/worker_pool.h"
 #include "engine/io/cone_cache.h"
 #include "engine/io/geoid_file.h"
 #include "engine/io/raster.h"
 #include "engine/io/tile_pyramid.h"
 #include "engine/io/tree_tile.h"
+#include "engine/scene/tile_stream.h"
 #include "terrains/built_in.h"
 #include "terrains/gallery.h"
 #include "terrains/generators.h"
@@ -178,7 +180,7 @@ int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, do
     const int most =
         std::min(most_refinement, terrain::most_tree_samples /
                                       std::max(stream.plan.grid.cols, stream.plan.grid.rows));
-    const double texel = spacing / scene::most_texels_per_cell;
+    const double texel = spacing / stream.imagery.most_texels;
     int refinement = 1;
     while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
         refinement *= 2;
@@ -187,9 +189,10 @@ int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, do
 }
 
 // The images of a streamed terrain, of which the overview has coarse colours already.
-void add_imagery(std::span<const fs::path> images, TerrainSource& source) {
+void add_imagery(std::span<const fs::path> images, std::size_t reading_memory,
+                 TerrainSource& source) {
     std::vector<std::string>& notes = source.terrain.notes;
-    auto imagery = io::ImagerySet::open(images, source.tiles->crs());
+    auto imagery = io::ImagerySet::open(images, source.tiles->crs(), reading_memory);
     if (!imagery) {
         notes.push_back(
             fmt::format("finer tiles show the imagery coarsely: {}", imagery.error().message));
@@ -199,6 +202,8 @@ void add_imagery(std::span<const fs::path> images, TerrainSource& source) {
         notes.push_back(std::move(*missing));
     }
     const glm::dvec2 spacing = source.terrain.heightfield.spacing;
+    source.stream->imagery.most_texels =
+        scene::TileStream::texels_within(source.stream->memory_budget);
     source.stream->imagery.finest_pixel = imagery->finest_pixel();
     source.stream->imagery.refinement = refinement_for(
         *imagery, *source.stream, std::max(spacing.x, spacing.y) / source.stream->plan.reduction);
@@ -224,7 +229,9 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     }
     TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};
     if (stream && !options.raster.imagery.empty()) {
-        add_imagery(options.raster.imagery, source);
+        const std::size_t budget = raster_options(choice, source.description, stop).memory_budget;
+        add_imagery(options.raster.imagery, budget / work_part / thread_count(stream->threads),
+                    source);
     }
     return source;
 }

@@ -14,16 +14,19 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/io/degree_box.h"
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/georeferencing.h"
 #include "engine/io/image_files.h"
 #include "engine/io/rgb_image.h"
+#include "engine/io/tile_layer.h"
 
 namespace reljef::io {
 namespace {
 
 constexpr double bytes_per_pixel = 16.0 / 3.0; // with mipmaps
 constexpr double least_budget_share = 0.25;
+constexpr std::size_t reading_part = 8; // of the budget, for what is read at a time
 
 /// Where the heights and the image meet: a space both have an affine to. `crs` absent: the heights'
 /// own pixels, y upwards.
@@ -107,13 +110,41 @@ std::optional<glm::dvec2> pixel_size(GDALDataset& image, const Meeting& meeting)
     return glm::dvec2(std::abs(t[1]), std::abs(t[5]));
 }
 
-/// An image where it lies, still on disk.
-struct PlacedImage {
+/// An image where it lies, on disk and not open: there may be more of them than the system opens.
+struct KnownPicture {
     std::filesystem::path path;
     Meeting meeting;
-    Dataset colors;
-    glm::dvec2 pixel{1.0}; ///< of the meeting space
+    glm::dvec2 pixel{1.0};     ///< of the meeting space
+    bool meets_heights = true; ///< false: it lies elsewhere
 };
+
+Error unreadable(const std::string& name, const GdalMessages& messages) {
+    return {fmt::format("{}: cannot be read as an image{}, a whole grey, palette or RGB(A) image "
+                        "was expected",
+                        name, messages.reason())};
+}
+
+/// The image as RGB, thinned where it is vast, and in its place.
+Result<Dataset> open_colors(const std::filesystem::path& path, double white, GDALDataset& heights,
+                            const Meeting& meeting, const GdalMessages& messages) {
+    const std::string name = path.string();
+    auto image = open_raster(path, messages);
+    if (!image) {
+        return image.error();
+    }
+    const int thinning = thinning_of(**image);
+    Dataset colors = as_rgb(std::move(*image), white);
+    if (colors != nullptr && thinning > 1) {
+        colors = thinned(std::move(colors), thinning);
+    }
+    if (colors == nullptr) {
+        return unreadable(name, messages);
+    }
+    if (auto good = place_image(heights, *colors, meeting, name); !good) {
+        return good.error();
+    }
+    return colors;
+}
 
 struct Size {
     int cols = 0;
@@ -169,25 +200,35 @@ double covered_share(const Image& image) {
 /// Draws the pictures beneath one another.
 class Drape {
 public:
-    Drape(const SampleGrid& grid, const RasterOptions& options, Image image)
-        : grid_(grid), options_(options), image_(std::move(image)) {}
+    Drape(GDALDataset& heights, const SampleGrid& grid, const RasterOptions& options, double white,
+          Image image)
+        : heights_(heights), grid_(grid), options_(options), white_(white),
+          image_(std::move(image)) {}
 
-    /// The `index`-th of `count`. False where it cannot be read.
-    bool add(PlacedImage& picture, std::size_t index, std::size_t count) {
+    /// The `index`-th of `count`, open as long as it is drawn. Fails where it cannot be read.
+    Result<void> add(const KnownPicture& picture, std::size_t index, std::size_t count) {
+        const GdalMessages messages;
+        const auto colors = open_colors(picture.path, white_, heights_, picture.meeting, messages);
+        if (!colors) {
+            return colors.error();
+        }
         Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
         const Dataset target = target_of(drawn, grid_, picture.meeting);
-        WarpOptions warping{
-            .overview = automatic_overview, .scale = 0.0, .progress = {}, .stop = options_.stop};
+        WarpOptions warping{.overview = automatic_overview,
+                            .scale = 0.0,
+                            .memory = options_.memory_budget / reading_part,
+                            .progress = {},
+                            .stop = options_.stop};
         if (options_.progress) {
             warping.progress = [&](double done) {
                 options_.progress((static_cast<double>(index) + done) / static_cast<double>(count));
             };
         }
-        if (target == nullptr || !warp(*picture.colors, *target, warping)) {
-            return false;
+        if (target == nullptr || !warp(**colors, *target, warping)) {
+            return unreadable(picture.path.string(), messages);
         }
         lay_under(image_, drawn);
-        return true;
+        return {};
     }
     [[nodiscard]] bool is_full() const {
         const auto pixels = image_.samples();
@@ -197,20 +238,57 @@ public:
     Image take() && { return std::move(image_); }
 
 private:
+    GDALDataset& heights_;
     const SampleGrid& grid_;
     const RasterOptions& options_;
+    double white_;
     Image image_;
 };
 
-Error unreadable(const std::string& name, const GdalMessages& messages) {
-    return {fmt::format("{}: cannot be read as an image{}, a whole grey, palette or RGB(A) image "
-                        "was expected",
-                        name, messages.reason())};
+void note_thinning(GDALDataset& image, std::vector<std::string>& notes) {
+    if (const int thinning = thinning_of(image); thinning > 1) {
+        notes.push_back(fmt::format("imagery: one of {} pixels a side is read of its {}×{}",
+                                    thinning, image.GetRasterXSize(), image.GetRasterYSize()));
+    }
 }
 
-Result<PlacedImage> open_placed(const std::filesystem::path& path, double white,
-                                GDALDataset& heights, std::vector<std::string>& notes) {
-    GdalMessages messages;
+/// Around the samples; nothing where they have no place on Earth.
+std::optional<DegreeBox> box_of(const SampleGrid& grid, const Meeting& meeting) {
+    const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
+    const auto degrees = places_over(
+        [&](glm::dvec2 part) {
+            return meeting.from_heights.crs_from_pixel(grid.pixel_from_sample(part * last));
+        },
+        wkt_of(*meeting.crs));
+    const bool placed = !degrees.empty() && !std::isnan(degrees[middle_of_places].x);
+    return placed ? std::optional(padded_box(degrees)) : std::nullopt;
+}
+
+std::optional<DegreeBox> box_of(GDALDataset& image) {
+    std::vector<std::string> ignored;
+    const auto affine = affine_of(image);
+    const auto crs = affine ? horizontal_crs(image, ignored) : std::nullopt;
+    if (!crs || crs->IsLocal() != 0) {
+        return std::nullopt;
+    }
+    const glm::dvec2 size(image.GetRasterXSize(), image.GetRasterYSize());
+    const auto degrees = places_over(
+        [&](glm::dvec2 part) { return affine->crs_from_pixel(part * size); }, wkt_of(*crs));
+    const bool placed = !degrees.empty() && !std::isnan(degrees[middle_of_places].x);
+    return placed ? std::optional(padded_box(degrees)) : std::nullopt;
+}
+
+/// False only where both are known to lie apart.
+bool may_meet(const SampleGrid& grid, GDALDataset& image, const Meeting& meeting) {
+    const auto ground = meeting.crs ? box_of(grid, meeting) : std::nullopt;
+    const auto shown = ground ? box_of(image) : std::nullopt;
+    return !shown || !turns_to_meet(*ground, *shown).empty();
+}
+
+Result<KnownPicture> known_picture(const std::filesystem::path& path, double white,
+                                   GDALDataset& heights, const SampleGrid& grid,
+                                   std::vector<std::string>& notes) {
+    const GdalMessages messages;
     const std::string name = path.string();
     auto image = open_raster(path, messages);
     if (!image) {
@@ -219,59 +297,57 @@ Result<PlacedImage> open_placed(const std::filesystem::path& path, double white,
     if (auto good = check_affine(**image, name); !good) {
         return good.error();
     }
-    PlacedImage placed{path, meeting_of(heights, **image, notes), nullptr, {}};
-    const int thinning = thinning_of(**image);
-    const std::string size =
-        fmt::format("{}×{}", (*image)->GetRasterXSize(), (*image)->GetRasterYSize());
-    placed.colors = as_rgb(std::move(*image), white);
-    if (placed.colors != nullptr && thinning > 1) {
-        notes.push_back(
-            fmt::format("imagery: one of {} pixels a side is read of its {}", thinning, size));
-        placed.colors = thinned(std::move(placed.colors), thinning);
+    KnownPicture picture{path, meeting_of(heights, **image, notes), {}, true};
+    auto colors = open_colors(path, white, heights, picture.meeting, messages);
+    if (!colors) {
+        return colors.error();
     }
-    if (placed.colors == nullptr) {
-        return unreadable(name, messages);
-    }
-    if (auto good = place_image(heights, *placed.colors, placed.meeting, name); !good) {
-        return good.error();
-    }
-    const auto pixel = pixel_size(*placed.colors, placed.meeting);
+    note_thinning(**image, notes);
+    const auto pixel = pixel_size(**colors, picture.meeting);
     if (!pixel) {
         return unreadable(name, messages);
     }
-    placed.pixel = *pixel;
-    return placed;
+    picture.pixel = *pixel;
+    picture.meets_heights = may_meet(grid, **colors, picture.meeting);
+    return picture;
 }
 
-/// How much ground a pixel covers, in samples of the heights.
-double in_samples(const PlacedImage& image) {
-    const geo::PixelAffine& from = image.meeting.from_heights;
-    return image.pixel.x * image.pixel.y /
-           std::abs(from.x_col * from.y_row - from.x_row * from.y_col);
+/// How fine it is over the heights: see fineness().
+double fineness_over_heights(const KnownPicture& picture) {
+    const geo::PixelAffine& from = picture.meeting.from_heights;
+    return fineness(picture.pixel /
+                    std::sqrt(std::abs(from.x_col * from.y_row - from.x_row * from.y_col)));
 }
 
-/// Those that can be read, finest first; what is wrong with the others is told in `faults`.
-std::vector<PlacedImage> open_all(const ImageFiles& files, GDALDataset& heights,
-                                  std::vector<std::string>& notes,
-                                  std::vector<std::string>& faults) {
-    std::vector<PlacedImage> placed;
+/// Those that can be read, finest first, of equally fine ones the newer; what is wrong with the
+/// others is told in `faults`.
+std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& heights,
+                                         const SampleGrid& grid, std::vector<std::string>& notes,
+                                         std::vector<std::string>& faults) {
+    std::vector<KnownPicture> pictures;
     for (const std::filesystem::path& path : files.paths) {
-        auto opened = open_placed(path, files.white, heights, notes);
-        if (opened) {
-            placed.push_back(std::move(*opened));
+        auto picture = known_picture(path, files.white, heights, grid, notes);
+        if (picture) {
+            pictures.push_back(std::move(*picture));
         } else {
-            faults.push_back(opened.error().message);
+            faults.push_back(picture.error().message);
         }
     }
-    std::stable_sort(placed.begin(), placed.end(), [](const PlacedImage& a, const PlacedImage& b) {
-        return in_samples(a) < in_samples(b);
-    });
-    return placed;
+    std::stable_sort(pictures.begin(), pictures.end(),
+                     [](const KnownPicture& a, const KnownPicture& b) {
+                         return fineness_over_heights(a) < fineness_over_heights(b);
+                     });
+    return pictures;
 }
 
 std::string name_of(const std::vector<std::filesystem::path>& images) {
     return images.size() == 1 ? images.front().string()
                               : fmt::format("the {} images", images.size());
+}
+
+Error shows_nothing(const RasterOptions& options) {
+    return {fmt::format("{}: shows nothing of the terrain, an image that overlaps was expected",
+                        name_of(options.imagery))};
 }
 
 void note_share(double share, std::vector<std::string>& notes) {
@@ -287,24 +363,28 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
                            std::vector<std::string>& faults) {
     std::vector<std::string> wrong;
     const ImageFiles files = image_files(options.imagery, wrong);
-    std::vector<PlacedImage> images = open_all(files, heights, notes, wrong);
-    if (images.empty()) {
+    std::vector<KnownPicture> pictures = known_pictures(files, heights, grid, notes, wrong);
+    if (pictures.empty()) {
         check(!wrong.empty(), "a list of images without images");
         return Error{wrong.front()};
     }
+    std::erase_if(pictures, [](const KnownPicture& picture) { return !picture.meets_heights; });
+    if (pictures.empty()) {
+        return shows_nothing(options);
+    }
     const Size size =
-        target_size(grid, images.front().meeting, images.front().pixel, options.memory_budget);
-    Drape drape(grid, options, Image(size.cols, size.rows, Rgba8{0, 0, 0, 0}));
+        target_size(grid, pictures.front().meeting, pictures.front().pixel, options.memory_budget);
+    Drape drape(heights, grid, options, files.white,
+                Image(size.cols, size.rows, Rgba8{0, 0, 0, 0}));
     bool any = false;
-    for (std::size_t i = 0; i < images.size() && !drape.is_full(); ++i) {
-        const GdalMessages messages;
-        const bool drawn = drape.add(images[i], i, images.size());
+    for (std::size_t i = 0; i < pictures.size() && !drape.is_full(); ++i) {
+        const auto drawn = drape.add(pictures[i], i, pictures.size());
         if (options.stop.stop_requested()) {
-            return Error{images[i].path.string() + ": reading was stopped"};
+            return Error{pictures[i].path.string() + ": reading was stopped"};
         }
         any = any || drawn;
         if (!drawn) {
-            wrong.push_back(unreadable(images[i].path.string(), messages).message);
+            wrong.push_back(drawn.error().message);
         }
     }
     if (!any) {
@@ -313,9 +393,7 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
     Image result = std::move(drape).take();
     const double share = covered_share(result);
     if (share == 0.0) {
-        return Error{
-            fmt::format("{}: shows nothing of the terrain, an image that overlaps was expected",
-                        name_of(options.imagery))};
+        return shows_nothing(options);
     }
     note_share(share, notes);
     faults.insert(faults.end(), wrong.begin(), wrong.end());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@
 #include "engine/core/worker_pool.h"
 #include "engine/io/crs_transform.h"
 #include "engine/io/dataset_pool.h"
+#include "engine/io/degree_box.h"
+#include "engine/io/failing_files.h"
 #include "engine/io/georeferencing.h"
 #include "engine/io/image_files.h"
 #include "engine/io/rgb_image.h"
@@ -22,67 +25,33 @@ namespace reljef::io {
 struct KnownImage {
     std::filesystem::path path;
     glm::ivec2 size{0};
-    glm::dvec2 pixel{1.0};         ///< metres
-    DegreeBox box{};               ///< around it
-    std::vector<double> overviews; ///< pixels a side in one of theirs, ascending
+    glm::dvec2 pixel{1.0}; ///< metres
+    DegreeBox box{};       ///< around it
+    struct Overview {
+        int index = 0;
+        double factor = 1.0; ///< pixels a side in one of its
+    };
+    std::vector<Overview> overviews; ///< that can be read
 };
 
 namespace {
 
-/// Longitude and latitude of places, longitudes running on from those of the middle one.
-void run_on(std::span<glm::dvec2> degrees) {
-    const double middle = degrees[degrees.size() / 2].x;
-    for (glm::dvec2& point : degrees) {
-        point.x += 360.0 * std::round((middle - point.x) / 360.0);
-    }
-}
-
-/// A margin: between the places that make it the outline may bulge.
-DegreeBox box_around(std::span<const glm::dvec2> degrees) {
-    glm::dvec2 low(1e9);
-    glm::dvec2 high(-1e9);
-    for (const glm::dvec2 point : degrees) {
-        low = std::isnan(point.x) ? low : glm::min(low, point);
-        high = std::isnan(point.x) ? high : glm::max(high, point);
-    }
-    const glm::dvec2 margin = 0.1 * (high - low);
-    return {low.x - margin.x, low.y - margin.y, high.x + margin.x, high.y + margin.y};
-}
-
-/// Places from edge to edge, (side+1)², in an image's or a grid's own coordinates.
-template <class PlaceAt>
-std::vector<glm::dvec2> places_over(const PlaceAt& place_at, const std::string& crs) {
-    constexpr int side = 8;
-    std::vector<glm::dvec2> places;
-    for (int row = 0; row <= side; ++row) {
-        for (int col = 0; col <= side; ++col) {
-            places.push_back(place_at(glm::dvec2(col, row) / static_cast<double>(side)));
-        }
-    }
-    if (crs != wgs84_degrees) {
-        const auto transform = CrsTransform::create(crs, wgs84_degrees);
-        if (!transform) {
-            return {};
-        }
-        transform->apply(places);
-    }
-    run_on(places);
-    return places;
-}
-
 /// Metres a pixel at the middle of (8+1)² places over `size` pixels.
 glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
-    constexpr std::size_t middle = 40;
+    constexpr std::size_t middle = middle_of_places;
     const double across = metres_between(degrees[middle - 1], degrees[middle + 1]);
     const double down = metres_between(degrees[middle - 9], degrees[middle + 9]);
     return 4.0 * glm::dvec2(across, down) / glm::dvec2(size);
 }
 
-std::vector<double> overviews_of(GDALDataset& rgb) {
-    std::vector<double> found;
+std::vector<KnownImage::Overview> overviews_of(GDALDataset& rgb) {
+    std::vector<KnownImage::Overview> found;
     GDALRasterBand& band = *rgb.GetRasterBand(1);
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
-        found.push_back(static_cast<double>(band.GetXSize()) / band.GetOverview(i)->GetXSize());
+        GDALRasterBand* reduced = band.GetOverview(i);
+        if (reduced != nullptr && reduced->GetXSize() >= 1) {
+            found.push_back({i, static_cast<double>(band.GetXSize()) / reduced->GetXSize()});
+        }
     }
     return found;
 }
@@ -122,10 +91,10 @@ std::optional<KnownImage> known(const std::filesystem::path& path, GDALDataset& 
     const auto degrees = places_over(
         [&](glm::dvec2 part) { return affine->crs_from_pixel(part * glm::dvec2(image.size)); },
         wkt_of(*crs));
-    if (degrees.empty() || std::isnan(degrees[degrees.size() / 2].x)) {
+    if (degrees.empty() || std::isnan(degrees[middle_of_places].x)) {
         return std::nullopt;
     }
-    image.box = box_around(degrees);
+    image.box = padded_box(degrees);
     image.pixel = pixel_size(degrees, image.size);
     return std::isfinite(image.pixel.x * image.pixel.y) ? std::optional(image) : std::nullopt;
 }
@@ -146,10 +115,10 @@ Choice choice_for(const KnownImage& image, double spacing, double texels) {
     Choice choice;
     double factor = 1.0;
     constexpr double near = 1.0 + 1e-6; // sizes are rounded
-    for (std::size_t i = 0; i < image.overviews.size(); ++i) {
-        if (image.overviews[i] <= wanted * near && image.overviews[i] > factor) {
-            choice.overview = static_cast<int>(i);
-            factor = image.overviews[i];
+    for (const KnownImage::Overview& overview : image.overviews) {
+        if (overview.factor <= wanted * near && overview.factor > factor) {
+            choice.overview = overview.index;
+            factor = overview.factor;
         }
     }
     const double there = static_cast<double>(image.size.x) * image.size.y / (factor * factor);
@@ -160,16 +129,14 @@ Choice choice_for(const KnownImage& image, double spacing, double texels) {
     return choice;
 }
 
-/// By how many degrees a box is to be moved so that it meets another, for each whole turn.
-std::vector<double> turns_to_meet(const DegreeBox& box, const DegreeBox& other) {
-    std::vector<double> turns;
-    for (const double turn : {0.0, -360.0, 360.0}) {
-        if (box[0] + turn <= other[2] && box[2] + turn >= other[0] && box[1] <= other[3] &&
-            box[3] >= other[1]) {
-            turns.push_back(turn);
-        }
-    }
-    return turns;
+bool shows_something(std::span<const Rgba8> texels) {
+    return std::any_of(texels.begin(), texels.end(), [](Rgba8 texel) { return texel.a != 0; });
+}
+
+/// So small that it may lie between the texels.
+bool is_tiny(const KnownImage& image, double spacing) {
+    const glm::dvec2 sides = image.pixel * glm::dvec2(image.size);
+    return std::min(sides.x, sides.y) < 2.0 * spacing;
 }
 
 bool is_full(const Image& image) {
@@ -193,51 +160,86 @@ double units_in_degree(const std::string& crs) {
 } // namespace
 
 struct ImagerySet::State {
-    State(std::string grid_crs, double white)
-        : crs(std::move(grid_crs)), turn(units_in_degree(crs)),
+    State(std::string grid_crs, double white, std::size_t memory)
+        : crs(std::move(grid_crs)), turn(units_in_degree(crs)), reading_memory(memory),
           pool([white, this](const std::filesystem::path& path, const GdalMessages& messages) {
               return open_rgb(path, white, crs, messages);
           }) {}
 
     std::string crs;                ///< WKT of what is asked for
     double turn;                    ///< units of x in a degree; 0: no degrees
+    std::size_t reading_memory;     ///< bytes, for each that reads
     std::vector<KnownImage> images; ///< finest first
     bool complete = true;           ///< all that could be opened are among them
     mutable DatasetPool pool;
+    mutable FailingFiles failing{ImagerySet::most_failures};
 
-    /// Draws what an image shows into an empty picture; false where it cannot be read.
-    bool draw(const KnownImage& image, const Choice& choice, const TileGrid& grid, Image& texels,
-              std::vector<TileFault>& faults, const std::stop_token& stop) const {
+    /// Draws what an image shows into an empty picture. Fails where it cannot be read.
+    Result<void> draw(const KnownImage& image, const Choice& choice, const TileGrid& grid,
+                      Image& texels, const std::stop_token& stop) const {
         const GdalMessages messages;
         auto rgb = pool.borrow(image.path, messages);
         if (!rgb) {
-            faults.push_back({image.path, rgb.error().message});
-            return false;
+            return rgb.error();
         }
         const Dataset raster = raster_over(texels);
-        const WarpOptions options{
-            .overview = choice.overview, .scale = choice.scale, .progress = {}, .stop = stop};
+        const WarpOptions options{.overview = choice.overview,
+                                  .scale = choice.scale,
+                                  .memory = reading_memory,
+                                  .progress = {},
+                                  .stop = stop};
         // Its own: these objects are not for several threads at a time.
         const OGRSpatialReference reference = crs_from_text(crs);
         if (raster == nullptr || !place_raster(*raster, grid, reference) ||
             !warp(**rgb, *raster, options)) {
-            rgb->spoil();
             if (!stop.stop_requested()) {
-                faults.push_back({image.path, fmt::format("{}: cannot be read{}, a whole image "
-                                                          "was expected",
-                                                          image.path.string(), messages.reason())});
+                rgb->spoil();
             }
-            return false;
+            return Error{fmt::format("{}: cannot be read{}, a whole image was expected",
+                                     image.path.string(), messages.reason())};
         }
-        return true;
+        return {};
+    }
+
+    /// Adds what an image shows beneath the others; `turns`: see turns_to_meet. Whether there is
+    /// something of it, or may be.
+    bool add(const KnownImage& image, const Choice& choice, const TileGrid& grid,
+             std::span<const double> turns, ImageryWindow& window,
+             const std::stop_token& stop) const {
+        if (choice.pixels > ImagerySet::most_pixels_read || failing.are_given_up(image.path)) {
+            window.whole = false;
+            return true;
+        }
+        bool shows = false;
+        for (const double degrees : turns) {
+            TileGrid moved = grid;
+            moved.first.x += degrees * turn;
+            Image drawn(grid.cols, grid.rows, Rgba8{0, 0, 0, 0});
+            const auto done = draw(image, choice, moved, drawn, stop);
+            if (!done) {
+                window.whole = false;
+                if (!stop.stop_requested()) {
+                    failing.note(image.path);
+                    window.faults.push_back({image.path, done.error().message});
+                }
+                return true;
+            }
+            shows = shows || shows_something(drawn.samples());
+            lay_under(window.texels, drawn);
+            if (turn == 0.0) {
+                break; // a turn more is the same place
+            }
+        }
+        failing.forget(image.path);
+        return shows;
     }
 };
 
 Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names,
-                                    const std::string& crs) {
+                                    const std::string& crs, std::size_t reading_memory) {
     std::vector<std::string> faults;
     const ImageFiles files = image_files(names, faults);
-    auto state = std::make_shared<State>(crs, files.white);
+    auto state = std::make_shared<State>(crs, files.white, reading_memory);
     std::vector<std::optional<KnownImage>> found(files.paths.size());
     parallel_for(static_cast<int>(found.size()), [&](int i) {
         const auto index = static_cast<std::size_t>(i);
@@ -256,9 +258,10 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
                                     : faults.front()};
     }
     state->complete = state->images.size() == found.size();
-    std::stable_sort(
-        state->images.begin(), state->images.end(),
-        [](const KnownImage& a, const KnownImage& b) { return side_of(a) < side_of(b); });
+    std::stable_sort(state->images.begin(), state->images.end(),
+                     [](const KnownImage& a, const KnownImage& b) {
+                         return fineness(a.pixel) < fineness(b.pixel);
+                     });
     return ImagerySet(std::move(state));
 }
 
@@ -282,36 +285,20 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
     if (degrees.empty()) {
         return window;
     }
-    const DegreeBox box = box_around(degrees);
+    const DegreeBox box = padded_box(degrees);
     const double texels = static_cast<double>(grid.cols) * grid.rows;
     for (const KnownImage& image : state_->images) {
         if (is_full(window.texels) || stop.stop_requested()) {
             break;
         }
         const std::vector<double> turns = turns_to_meet(box, image.box);
-        const Choice choice = choice_for(image, spacing, texels);
-        window.has_more = window.has_more || (!turns.empty() && side_of(image) < 0.999 * spacing);
-        if (choice.pixels > most_pixels_read) {
-            window.whole = window.whole && turns.empty();
+        if (turns.empty()) {
             continue;
         }
-        for (const double turn : turns) {
-            if (is_full(window.texels)) {
-                break;
-            }
-            TileGrid moved = grid;
-            moved.first.x += turn * state_->turn;
-            Image drawn(grid.cols, grid.rows, Rgba8{0, 0, 0, 0});
-            if (state_->draw(image, choice, moved, drawn, window.faults, stop)) {
-                lay_under(window.texels, drawn);
-            } else {
-                window.whole = false;
-                break;
-            }
-            if (state_->turn == 0.0) {
-                break; // a turn more is the same place
-            }
-        }
+        const Choice choice = choice_for(image, spacing, texels);
+        const bool shows = state_->add(image, choice, grid, turns, window, stop);
+        window.has_more = window.has_more ||
+                          (side_of(image) < 0.999 * spacing && (shows || is_tiny(image, spacing)));
     }
     return window;
 }

@@ -18,7 +18,7 @@ namespace reljef::io {
 struct ImageryWindow {
     Image texels;          ///< alpha 0 where they show nothing
     bool whole = true;     ///< false: one that may show more was left out
-    bool has_more = false; ///< one of them has pixels finer than the texels
+    bool has_more = false; ///< one that is shown, or may be, has pixels finer than the texels
     std::vector<TileFault> faults;
 };
 
@@ -29,20 +29,25 @@ class ImagerySet {
 public:
     /// `crs`: WKT of the places that it will be asked for; images that have a place but name no
     /// coordinate system are in that. Images without a place (or only with ground control points),
-    /// and those that cannot be opened, are left out. Fails where none is left.
+    /// and those that cannot be opened, are left out. Fails where none is left. `reading_memory`:
+    /// bytes that each thread takes to read, beside GDAL's blocks; at least 1 MB.
     static Result<ImagerySet> open(std::span<const std::filesystem::path> names,
-                                   const std::string& crs);
+                                   const std::string& crs,
+                                   std::size_t reading_memory = std::size_t{64} << 20);
 
     [[nodiscard]] std::size_t size() const;
     /// Metres, a side of the finest image's pixels at its middle.
     [[nodiscard]] double finest_pixel() const;
 
     /// The picture at the places of `grid`, `spacing` metres apart, from the overviews that are
-    /// just finer. Neighbours that share a row or a column of places have the same texels there. An
-    /// image of which more than `most_pixels_read` would be read is left out.
+    /// just finer. Neighbours that share a row or a column of places have the same texels there
+    /// (places are right to a tenth of a texel where `reading_memory` holds no whole reading). An
+    /// image of which more than `most_pixels_read` would be read is left out, and for half a minute
+    /// one that has failed `most_failures` times, without a fault.
     [[nodiscard]] ImageryWindow read(const TileGrid& grid, double spacing,
                                      const std::stop_token& stop = {}) const;
     static constexpr double most_pixels_read = 1U << 26U;
+    static constexpr int most_failures = 4;
 
     /// Where an image is so large that it is left out of coarse views, because it has no overviews:
     /// a sentence that names the first such file and the command that makes them.

@@ -222,6 +222,11 @@ bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
         add(words, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",
                     fmt::format("YSCALE={}", options.scale)});
     }
+    if (options.memory > 0) {
+        constexpr std::size_t least = std::size_t{1}
+                                      << 20U; // what is small GDAL takes for megabytes
+        add(words, {"-wm", std::to_string(std::max(options.memory, least))});
+    }
     const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> warping(
         GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
     if (warping == nullptr) {

@@ -33,6 +33,8 @@ struct WarpOptions {
     /// Pixels of the target in one of what is read, so that all parts of a picture are averaged
     /// over as much; 0: as GDAL finds it for each.
     double scale = 0.0;
+    /// Bytes for what is read and drawn at a time; 0: as many as GDAL takes.
+    std::size_t memory = 0;
     Progress progress;
     std::stop_token stop;
 };

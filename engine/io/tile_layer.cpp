@@ -90,11 +90,6 @@ void finish(TileLayer& layer, std::span<const IndexedFile> files) {
                      });
 }
 
-/// Spacings that differ by less than same_fineness are the same step.
-double fineness(const TileLayer& layer) {
-    return std::round(0.5 * std::log(layer.spacing.x * layer.spacing.y) / std::log(same_fineness));
-}
-
 /// A half-open rectangle of lattice points.
 struct Rectangle {
     glm::ivec2 low{0};
@@ -190,7 +185,9 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     result.plan = plan_window(**dataset, window, std::max(1, reduction / taps_a_side));
     auto values = read_heights(**dataset, result.plan, path.string(), reading.options, messages);
     if (!values) {
-        dataset->spoil();
+        if (!reading.options.stop.stop_requested()) {
+            dataset->spoil();
+        }
         return values.error();
     }
     result.values = std::move(*values);
@@ -203,6 +200,10 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
 }
 
 } // namespace
+
+double fineness(glm::dvec2 spacing) {
+    return std::round(0.5 * std::log(spacing.x * spacing.y) / std::log(same_fineness));
+}
 
 glm::dvec2 TileLayer::lattice_from_turned(glm::dvec2 point) const {
     if (period > 0.0) {
@@ -230,7 +231,9 @@ std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
         finish(layer, files);
     }
     std::stable_sort(layers.begin(), layers.end(), [](const TileLayer& a, const TileLayer& b) {
-        return fineness(a) != fineness(b) ? fineness(a) < fineness(b) : a.modified > b.modified;
+        const double fine_a = fineness(a.spacing);
+        const double fine_b = fineness(b.spacing);
+        return fine_a != fine_b ? fine_a < fine_b : a.modified > b.modified;
     });
     return layers;
 }

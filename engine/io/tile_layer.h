@@ -57,6 +57,10 @@ struct PlacedFile {
     double period = 0.0;
 };
 
+/// Whole steps of about 1 %, smaller where samples or pixels are closer together: those of one step
+/// are equally fine.
+double fineness(glm::dvec2 spacing);
+
 /// The layers of a set, the finest first; of equally fine ones the newer.
 std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
                                  std::span<const IndexedFile> files);

@@ -159,6 +159,15 @@ std::size_t StreamedTile::bytes() const {
            static_cast<std::size_t>(bytes_per_texel * static_cast<double>(more));
 }
 
+std::size_t bytes_of_tile(int texels_per_cell) {
+    const auto samples = [](int texels) {
+        const double side = terrain::tile_cells * texels + 1;
+        return side * side;
+    };
+    const double more = samples(texels_per_cell) - samples(1);
+    return bytes_per_tile + static_cast<std::size_t>(bytes_per_texel * more);
+}
+
 TileMaker::TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
                      int reduction, const ImageryDetail& imagery)
     : overview_(std::move(overview)), tree_(tree), reduction_(reduction), imagery_(imagery),
@@ -200,7 +209,7 @@ int TileMaker::texels_per_cell(int level) const {
         return 1;
     }
     int texels = 1;
-    while (texels < most_texels_per_cell &&
+    while (texels < imagery_.most_texels &&
            spacing(level) > 1.001 * texels * imagery_.finest_pixel) {
         texels *= 2;
     }
@@ -216,12 +225,7 @@ double TileMaker::texel(int level) const {
 }
 
 std::size_t TileMaker::bytes_per_tile() const {
-    const auto samples = [](int texels) {
-        const double side = terrain::tile_cells * texels + 1;
-        return side * side;
-    };
-    const double more = samples(texels_per_cell(tree_.root().level)) - samples(1);
-    return scene::bytes_per_tile + static_cast<std::size_t>(bytes_per_texel * more);
+    return bytes_of_tile(texels_per_cell(tree_.root().level));
 }
 
 double TileMaker::spacing(int level) const {
@@ -252,6 +256,29 @@ Grid<float> TileMaker::overview_heights(terrain::TreeTile tile) const {
         }
     }
     return heights;
+}
+
+double TileMaker::overview_error(terrain::TreeTile tile) const {
+    const Grid<float>& heights = overview_->heightfield().heights;
+    if (step(tile) >= reduction_) {
+        return 0.0;
+    }
+    const glm::ivec2 last(heights.cols() - 1, heights.rows() - 1);
+    const auto inside = [&](glm::dvec2 at) { return glm::clamp(glm::ivec2(at), {0, 0}, last); };
+    const glm::ivec2 low = inside(glm::floor(on_overview(sample(tile, {0, 0}))));
+    const glm::ivec2 high = inside(glm::ceil(on_overview(sample(tile, tree_.cells(tile)))));
+    float most = 0.0F;
+    for (int row = low.y; row <= high.y; ++row) {
+        for (int col = low.x; col <= high.x; ++col) {
+            const float along =
+                0.5F * (heights.clamped(col - 1, row) + heights.clamped(col + 1, row));
+            const float across =
+                0.5F * (heights.clamped(col, row - 1) + heights.clamped(col, row + 1));
+            const float height = heights(col, row);
+            most = std::max({most, std::abs(height - along), std::abs(height - across)});
+        }
+    }
+    return overview_->placement().exaggeration() * most;
 }
 
 Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {

@@ -70,12 +70,16 @@ inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;
 /// larger than a pixel.
 inline constexpr int most_texels_per_cell = 4;
 
+/// What a tile of full size with a picture of so many takes, drawn.
+std::size_t bytes_of_tile(int texels_per_cell);
+
 /// Images that tiles show.
 struct ImageryDetail {
     double finest_pixel = 0.0; ///< metres; 0: none
     /// Samples of the tree's raster from sample to sample of the terrain's: more than 1 where
     /// images are so much finer that even its finest tiles would show them coarsely.
     int refinement = 1;
+    int most_texels = most_texels_per_cell; ///< from vertex to vertex: fewer take less memory
 };
 
 /// Makes tiles of a terrain from their samples. What an overview of the whole terrain knows holds
@@ -114,6 +118,9 @@ public:
     /// Heights as make() takes them, averages over a step, as far as the overview has them: NaN at
     /// its voids.
     [[nodiscard]] Grid<float> overview_heights(terrain::TreeTile tile) const;
+    /// The error of a tile that is made of the overview but is finer: see StreamedTile::error, at
+    /// the overview's own samples. 0 for all others.
+    [[nodiscard]] double overview_error(terrain::TreeTile tile) const;
     /// `heights`: metres at the vertices and one step around them, NaN where there is none: those
     /// voids are filled with what the overview has. The picture, where there is one, has
     /// picture_size.

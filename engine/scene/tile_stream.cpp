@@ -16,6 +16,17 @@ namespace {
 constexpr double drawn_share = 0.5;
 constexpr std::chrono::seconds long_pause{30};
 
+std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) {
+    return static_cast<std::size_t>(drawn_share * static_cast<double>(memory_budget) /
+                                    static_cast<double>(bytes_per_tile));
+}
+
+std::size_t texels_shown(const Image& texels) {
+    const auto samples = texels.samples();
+    return static_cast<std::size_t>(
+        std::count_if(samples.begin(), samples.end(), [](Rgba8 texel) { return texel.a != 0; }));
+}
+
 } // namespace
 
 TileStream::TileStream(TileMaker maker, TileReader read, const TileStreamOptions& options)
@@ -74,17 +85,23 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
 }
 
 std::size_t TileStream::most_drawn() const {
-    constexpr std::size_t least = 16; // enough for any view, coarsely
-    return std::max(
-        least, static_cast<std::size_t>(drawn_share * static_cast<double>(options_.memory_budget) /
-                                        static_cast<double>(maker_.bytes_per_tile())));
+    return std::max(least_drawn, drawn_within(options_.memory_budget, maker_.bytes_per_tile()));
+}
+
+int TileStream::texels_within(std::size_t memory_budget) {
+    int texels = most_texels_per_cell;
+    while (texels > 1 && drawn_within(memory_budget, bytes_of_tile(texels)) < least_drawn) {
+        texels /= 2;
+    }
+    return texels;
 }
 
 void TileStream::want(std::span<const terrain::TreeTile> tiles) {
     {
         const std::lock_guard lock(mutex_);
         ++view_;
-        const std::set<terrain::TreeTile> now(tiles.begin(), tiles.end());
+        std::vector<terrain::TreeTile> asked = asked_for(tiles);
+        const std::set<terrain::TreeTile> now(asked.begin(), asked.end());
         for (const terrain::TreeTile& tile : wanted_) {
             stats_.cancelled += now.contains(tile) || in_flight_.contains(tile) ? 0 : 1;
         }
@@ -93,15 +110,23 @@ void TileStream::want(std::span<const terrain::TreeTile> tiles) {
                 source.request_stop();
             }
         }
-        wanted_.assign(tiles.begin(), tiles.end());
-        std::erase_if(wanted_, [&](terrain::TreeTile tile) { return !is_wanting(tile); });
-        for (const auto& [tile, entry] : tiles_) {
-            if (entry.used + 1 >= view_ && failures_.contains(tile) && !now.contains(tile)) {
-                wanted_.push_back(tile); // its picture
-            }
-        }
+        wanted_ = std::move(asked);
     }
     changed_.notify_all();
+}
+
+// Of tiles those that are not there; and what is there and seen without all of its picture.
+std::vector<terrain::TreeTile>
+TileStream::asked_for(std::span<const terrain::TreeTile> tiles) const {
+    std::vector<terrain::TreeTile> asked(tiles.begin(), tiles.end());
+    std::erase_if(asked, [&](terrain::TreeTile tile) { return !is_wanting(tile); });
+    const std::set<terrain::TreeTile> known(asked.begin(), asked.end());
+    for (const auto& [tile, entry] : tiles_) {
+        if (entry.used + 1 >= view_ && failures_.contains(tile) && !known.contains(tile)) {
+            asked.push_back(tile);
+        }
+    }
+    return asked;
 }
 
 // Not there, or there without all of its picture.
@@ -188,46 +213,70 @@ void TileStream::work(const std::stop_token& stop) {
             continue;
         }
         const std::stop_token cancelled = in_flight_[*tile].get_token();
+        const auto entry = tiles_.find(*tile);
+        const auto before = entry != tiles_.end() ? entry->second.tile : nullptr;
         lock.unlock();
         TileReading reading = read_(*tile, cancelled);
         const bool stopped = cancelled.stop_requested();
-        std::shared_ptr<const StreamedTile> made;
+        Made made;
         if (!stopped && reading.faults.empty()) {
-            made = std::make_shared<const StreamedTile>(
-                maker_.make(*tile, std::move(reading.heights), reading.picture));
+            made = make(*tile, reading, before.get());
         }
         lock.lock();
-        finish(*tile, std::move(reading), std::move(made), stopped);
+        finish(*tile, reading, std::move(made), stopped);
         changed_.notify_all();
     }
 }
 
-void TileStream::finish(terrain::TreeTile tile, TileReading reading,
-                        std::shared_ptr<const StreamedTile> made, bool stopped) {
+// Of one that was there before only the picture is new: its neighbours' borders lie on its heights.
+TileStream::Made TileStream::make(terrain::TreeTile tile, TileReading& reading,
+                                  const StreamedTile* before) const {
+    StreamedTile made = maker_.make(tile, std::move(reading.heights), reading.picture);
+    if (reading.of_overview) {
+        made.error = std::max(made.error, maker_.overview_error(tile));
+    }
+    if (before != nullptr) {
+        StreamedTile with_picture = *before;
+        with_picture.albedo = std::move(made.albedo);
+        with_picture.coarse_texel = made.coarse_texel;
+        made = std::move(with_picture);
+    }
+    return {std::make_shared<const StreamedTile>(std::move(made)),
+            texels_shown(reading.picture.texels)};
+}
+
+void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made made,
+                        bool stopped) {
     in_flight_.erase(tile);
     stats_.bytes_read += reading.bytes_read;
     if (stopped) {
         ++stats_.cancelled;
+        tell(reading.picture_faults);
         return;
     }
-    if (made == nullptr) {
+    if (made.tile == nullptr) {
         note_failure(tile, reading.faults);
         return;
     }
+    const auto before = tiles_.find(tile);
+    const bool is_better = reading.picture_faults.empty() || before == tiles_.end() ||
+                           made.shown > before->second.shown;
     if (reading.picture_faults.empty()) {
         failures_.erase(tile);
         std::erase(wanted_, tile);
     } else {
         note_failure(tile, reading.picture_faults);
     }
-    keep(tile, std::move(made));
+    if (is_better) {
+        keep(tile, std::move(made));
+    }
 }
 
-void TileStream::keep(terrain::TreeTile tile, std::shared_ptr<const StreamedTile> made) {
+void TileStream::keep(terrain::TreeTile tile, Made made) {
     Entry& entry = tiles_[tile];
     stats_.read += entry.tile == nullptr ? 1 : 0;
-    stats_.bytes += made->bytes() - (entry.tile != nullptr ? entry.tile->bytes() : 0);
-    entry = {std::move(made), view_};
+    stats_.bytes += made.tile->bytes() - (entry.tile != nullptr ? entry.tile->bytes() : 0);
+    entry = {std::move(made.tile), view_, made.shown};
     news_ = true;
     evict();
     stats_.most_bytes = std::max(stats_.most_bytes, stats_.bytes);
@@ -242,6 +291,10 @@ void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReadin
     const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
     ++failure.attempts;
     failure.again = Clock::now() + (failure.attempts < most_attempts ? pause : long_pause);
+    tell(faults);
+}
+
+void TileStream::tell(std::span<const TileReading::Fault> faults) {
     for (const TileReading::Fault& fault : faults) {
         if (faults_.emplace(fault.file, fault.message).second) {
             new_faults_.push_back(fault.message);

@@ -31,6 +31,7 @@ struct TileReading {
     };
     std::vector<Fault> faults;
     std::vector<Fault> picture_faults;
+    bool of_overview = false;   ///< the heights are TileMaker::overview_heights
     std::size_t bytes_read = 0; ///< that it took from its files
 };
 
@@ -78,9 +79,12 @@ public:
     [[nodiscard]] std::optional<Found> finest_at(glm::dvec2 overview_sample) const;
     /// As many as may be drawn at a time.
     [[nodiscard]] std::size_t most_drawn() const;
+    static constexpr std::size_t least_drawn = 16; ///< enough for any view, coarsely
+    /// ImageryDetail::most_texels so that these fit, or 1.
+    static int texels_within(std::size_t memory_budget);
 
     /// Begins a view: what is to be read, the most urgent first. What was wanted before and is not
-    /// any more is cancelled.
+    /// any more is cancelled; tiles that are seen and lack some of their picture are asked for too.
     void want(std::span<const terrain::TreeTile> tiles);
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
     /// was stopped. Only while nobody else wants.
@@ -103,6 +107,11 @@ private:
     struct Entry {
         std::shared_ptr<const StreamedTile> tile;
         mutable std::uint64_t used = 0; // view that looked at it last
+        std::size_t shown = 0;          // texels of its picture that images show
+    };
+    struct Made {
+        std::shared_ptr<const StreamedTile> tile; // null: there were faults
+        std::size_t shown = 0;
     };
     struct Failure {
         int attempts = 0;
@@ -111,10 +120,14 @@ private:
     void work(const std::stop_token& stop);
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
-    void finish(terrain::TreeTile tile, TileReading reading,
-                std::shared_ptr<const StreamedTile> made, bool stopped);
+    [[nodiscard]] Made make(terrain::TreeTile tile, TileReading& reading,
+                            const StreamedTile* before) const;
+    void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
-    void keep(terrain::TreeTile tile, std::shared_ptr<const StreamedTile> made);
+    void tell(std::span<const TileReading::Fault> faults);
+    void keep(terrain::TreeTile tile, Made made);
+    [[nodiscard]] std::vector<terrain::TreeTile>
+    asked_for(std::span<const terrain::TreeTile> tiles) const;
     [[nodiscard]] bool is_wanting(terrain::TreeTile tile) const;
     void evict();
     [[nodiscard]] bool is_settled(Clock::time_point now) const;

@@ -178,6 +178,20 @@ TEST_F(ImagerySets, TheFinerCountsAndWhereItIsTransparentTheNext) {
     EXPECT_FALSE(set.read({{470000.0, 4996500.0}, {10.0, -10.0}, 2, 2}, 10.0).has_more);
 }
 
+// Pixels of 20 m are a little more ground the nearer they are to the meridian.
+TEST_F(ImagerySets, OfEquallyFineOnesTheNewerCounts) {
+    add("a.tif", plain(480000.0, 5000000.0, 400, 20.0, 50.0));
+    add("b.tif", plain(484000.0, 5000000.0, 400, 20.0, 200.0));
+    const TileGrid both{{486000.0, 4997000.0}, {20.0, -20.0}, 2, 2};
+    const auto now = std::filesystem::file_time_type::clock::now();
+    for (const auto& [newer, older, expected] :
+         {std::tuple("a.tif", "b.tif", 50), {"b.tif", "a.tif", 200}}) {
+        std::filesystem::last_write_time(folder_.path() / newer, now);
+        std::filesystem::last_write_time(folder_.path() / older, now - std::chrono::hours(1));
+        EXPECT_EQ(open({"a.tif", "b.tif"}, utm_31).read(both, 20.0).texels(0, 0).r, expected);
+    }
+}
+
 TEST_F(ImagerySets, CoarseViewsReadTheOverviewThatIsJustFiner) {
     MadeRaster raster = plain(480000.0, 5000000.0, 2048, 4.0, 90.0);
     raster.options = {"TILED=YES", "BLOCKXSIZE=128", "BLOCKYSIZE=128"};
@@ -228,6 +242,75 @@ TEST_F(ImagerySets, AFileThatIsGoneIsAFaultAndTheNextOneShows) {
     EXPECT_THAT(window.faults.front().message, HasSubstr("fine.tif: does not exist"));
     EXPECT_FALSE(window.whole);
     EXPECT_EQ(window.texels(4, 4).r, 50);
+}
+
+TEST_F(ImagerySets, AFileThatFailsAgainAndAgainIsPassedOverWithoutAFault) {
+    add("coarse.tif", plain(480000.0, 5000000.0, 100, 80.0, 50.0));
+    add("fine.tif", plain(480000.0, 5000000.0, 400, 20.0, 200.0));
+    const ImagerySet set = open({"coarse.tif", "fine.tif"}, utm_31);
+    std::filesystem::remove(folder_.path() / "fine.tif");
+    const TileGrid grid{{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9};
+    for (int i = 0; i < ImagerySet::most_failures; ++i) {
+        ASSERT_EQ(set.read(grid, 20.0).faults.size(), 1U);
+    }
+    const ImageryWindow window = set.read(grid, 20.0);
+    EXPECT_TRUE(window.faults.empty());
+    EXPECT_FALSE(window.whole);
+    EXPECT_EQ(window.texels(4, 4).r, 50);
+}
+
+TEST_F(ImagerySets, HaveMoreOnlyWhereAnImageIsSeen) {
+    add("a.tif", plain(480000.0, 5000000.0, 400, 20.0, 200.0));
+    add("tiny.tif", plain(500010.0, 4999990.0, 3, 2.0, 200.0));
+    const ImagerySet set = open({"a.tif", "tiny.tif"}, utm_31);
+    // West of it by less than the margin around its box; and where it begins.
+    EXPECT_FALSE(set.read({{479000.0, 4997000.0}, {100.0, -100.0}, 9, 9}, 100.0).has_more);
+    EXPECT_TRUE(set.read({{479500.0, 4997000.0}, {100.0, -100.0}, 9, 9}, 100.0).has_more);
+    // One between the texels.
+    const ImageryWindow window = set.read({{499000.0, 5000500.0}, {500.0, -500.0}, 5, 5}, 500.0);
+    EXPECT_TRUE(window.has_more);
+}
+
+TEST_F(ImagerySets, WithLittleMemoryShowTheSame) {
+    add("a.tif", picture_of_places(480000.0, 5000000.0, 900, 900, 5.0));
+    const double step = 8.0 / 111200.0;
+    const TileGrid grid{{2.76, 45.14}, {step, -step}, 513, 513};
+    const std::array paths{folder_.path() / "a.tif"};
+    constexpr std::size_t megabyte = std::size_t{1} << 20U;
+    const auto little = ImagerySet::open(paths, wgs84_degrees, megabyte);
+    const auto plenty = ImagerySet::open(paths, wgs84_degrees, 256 * megabyte);
+    ASSERT_TRUE(little && plenty);
+    const Image expected = plenty->read(grid, 8.0).texels;
+    const Image found = little->read(grid, 8.0).texels;
+    int other_alpha = 0; // along the image's border
+    for (int row = 0; row < grid.rows; ++row) {
+        for (int col = 0; col < grid.cols; ++col) {
+            if (found(col, row).a != expected(col, row).a) {
+                ++other_alpha;
+            } else if (expected(col, row).a != 0) {
+                ASSERT_NEAR(found(col, row).r, expected(col, row).r, 2.0) << col << "," << row;
+            }
+        }
+    }
+    EXPECT_LE(other_alpha, grid.cols);
+}
+
+TEST_F(ImagerySets, OverviewsThatCannotBeOpenedAreLeftOut) {
+    add("a.tif", plain(480000.0, 5000000.0, 512, 4.0, 90.0));
+    add("half.tif", plain(480000.0, 5000000.0, 128, 16.0, 120.0));
+    std::ofstream vrt(folder_.path() / "a.vrt");
+    vrt << R"(<VRTDataset rasterXSize="512" rasterYSize="512"><SRS>EPSG:32631</SRS>)"
+        << "<GeoTransform>480000, 4, 0, 5000000, 0, -4</GeoTransform>"
+        << R"(<VRTRasterBand dataType="Byte" band="1"><SimpleSource>)"
+        << R"(<SourceFilename relativeToVRT="1">a.tif</SourceFilename></SimpleSource>)"
+        << R"(<Overview><SourceFilename relativeToVRT="1">gone.tif</SourceFilename>)"
+        << "<SourceBand>1</SourceBand></Overview>"
+        << R"(<Overview><SourceFilename relativeToVRT="1">half.tif</SourceFilename>)"
+        << "<SourceBand>1</SourceBand></Overview></VRTRasterBand></VRTDataset>";
+    vrt.close();
+    const ImagerySet set = open({"a.vrt"}, utm_31);
+    const Image texels = set.read({{480500.0, 4999500.0}, {16.0, -16.0}, 9, 9}, 16.0).texels;
+    EXPECT_EQ(texels(4, 4).a, 255);
 }
 
 TEST_F(ImagerySets, OneWithoutAPlaceIsLeftOutAndTheOthersAreNotTheWhole) {

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <sys/resource.h>
+
 #include <gdal_utils.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -283,6 +285,100 @@ TEST_F(Imagery, AGiantThatIsOnlyAHeaderIsRefusedAtOnce) {
     const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(terrain);
     EXPECT_THAT(terrain.error().message, HasSubstr("vast.pgm"));
+}
+
+/// At most so many files more than are open now, for the scope.
+class FewFiles {
+public:
+    explicit FewFiles(rlim_t more) {
+        ::getrlimit(RLIMIT_NOFILE, &before_);
+        rlimit few = before_;
+        few.rlim_cur = more;
+        for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+            few.rlim_cur += entry.path().empty() ? 0U : 1U;
+        }
+        ::setrlimit(RLIMIT_NOFILE, &few);
+    }
+    ~FewFiles() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+    FewFiles(const FewFiles&) = delete;
+    FewFiles& operator=(const FewFiles&) = delete;
+
+private:
+    rlimit before_{};
+};
+
+TEST_F(Imagery, ThereMayBeMoreImagesThanTheSystemOpens) {
+    MadeRaster heights = flat(64, 4);
+    heights.crs = "EPSG:32631";
+    heights.geotransform = utm;
+    ASSERT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
+    RasterOptions options;
+    for (int i = 0; i < 64; ++i) {
+        MadeRaster column = made_raster(1, 4, [&](int, int) { return 2 * i; });
+        column.type = GDT_Byte;
+        column.crs = "EPSG:32631";
+        column.geotransform = {500000.0 + 10.0 * i, 10.0, 0.0, 5100000.0, 0.0, -10.0};
+        options.imagery.push_back(folder_.path() / ("i" + std::to_string(i) + ".tif"));
+        ASSERT_TRUE(test::write(column, options.imagery.back()));
+    }
+    const FewFiles few(24);
+    const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    EXPECT_EQ(joined(terrain->faults), "");
+    EXPECT_EQ(terrain->color(3, 2).r, 6);
+    EXPECT_EQ(terrain->color(60, 2).r, 120);
+}
+
+TEST_F(Imagery, WhatLiesElsewhereIsPassedOver) {
+    MadeRaster heights = flat(20, 20);
+    heights.crs = "EPSG:32631";
+    heights.geotransform = utm;
+    ASSERT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
+    MadeRaster here = picture(20, 20);
+    here.crs = "EPSG:32631";
+    here.geotransform = utm;
+    ASSERT_TRUE(test::write(here, folder_.path() / "here.tif"));
+    MadeRaster elsewhere = picture(400, 400); // finer
+    elsewhere.crs = "EPSG:4326";
+    elsewhere.geotransform = {40.0, 1e-5, 0.0, 10.0, 0.0, -1e-5};
+    ASSERT_TRUE(test::write(elsewhere, folder_.path() / "elsewhere.tif"));
+    RasterOptions options;
+    options.imagery = {folder_.path() / "elsewhere.tif", folder_.path() / "here.tif"};
+    const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    expect_same(terrain->color, here);
+}
+
+// Pixels of 10 m are 10.004 m and 9.996 m of ground, by how far they are from the meridian.
+TEST_F(Imagery, OfEquallyFineOnesTheNewerCounts) {
+    MadeRaster heights = flat(101, 101);
+    heights.crs = "EPSG:4326";
+    heights.geotransform = {3.0, 0.001, 0.0, 46.0, 0.0, -0.001};
+    ASSERT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
+    RasterOptions options;
+    const auto now = std::filesystem::file_time_type::clock::now();
+    for (const auto& [name, west, value, age] :
+         {std::tuple("a.tif", 495000.0, 50, 0), {"b.tif", 500000.0, 200, 1}}) {
+        for (const bool turned : {false, true}) {
+            MadeRaster image = made_raster(900, 900, [value = value](int, int) { return value; });
+            image.type = GDT_Byte;
+            image.crs = "EPSG:32631";
+            image.geotransform = {west, 10.0, 0.0, 5095000.0, 0.0, -10.0};
+            const auto path = folder_.path() / (turned ? "turned" : "straight") / name;
+            std::filesystem::create_directories(path.parent_path());
+            ASSERT_TRUE(test::write(image, path));
+            std::filesystem::last_write_time(path,
+                                             now - std::chrono::hours(turned ? 1 - age : age));
+        }
+    }
+    for (const auto& [folder, expected] : {std::pair("straight", 50), {"turned", 200}}) {
+        options.imagery = {folder_.path() / folder};
+        const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
+        ASSERT_TRUE(terrain) << terrain.error().message;
+        const Image& color = terrain->color;
+        // 3.025° east and 45.97° north: both show it
+        EXPECT_EQ(color(color.cols() / 4, 3 * color.rows() / 10).r, expected) << folder;
+    }
 }
 
 TEST_F(Imagery, ThePairsOfTheTestDataFit) {

@@ -32,7 +32,7 @@ constexpr double most_bend = 60.0 * 0.5 * 0.5 + 1.2 / 67.0 * 30.0 * 30.0;
 /// West of the middle there are images, in pixels of an eighth of a metre.
 class Pictures {
 public:
-    Pictures() {
+    explicit Pictures(std::size_t memory_budget = std::size_t{400} << 20U) {
         const int count = samples / overview_reduction;
         auto heightfield = test::plane_heightfield(
             test::made_heights(count, count,
@@ -45,12 +45,14 @@ public:
         terrain = &test::add_terrain(scene, std::move(heightfield));
         camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
         auto& node = *terrain->get<scene::TerrainNode>();
-        const scene::TileMaker maker(node.surface, terrain::TileTree(tree_side, tree_side),
-                                     overview_reduction,
-                                     {.finest_pixel = 0.125, .refinement = refinement});
+        const scene::TileMaker maker(
+            node.surface, terrain::TileTree(tree_side, tree_side), overview_reduction,
+            {.finest_pixel = 0.125,
+             .refinement = refinement,
+             .most_texels = scene::TileStream::texels_within(memory_budget)});
         stream = std::make_shared<scene::TileStream>(
             maker, [maker](TreeTile tile, const std::stop_token&) { return read(maker, tile); },
-            scene::TileStreamOptions{.memory_budget = std::size_t{400} << 20, .threads = 2});
+            scene::TileStreamOptions{.memory_budget = memory_budget, .threads = 2});
         node.stream = stream;
     }
     void look_down(glm::dvec3 eye) {
@@ -148,6 +150,16 @@ TEST_F(StreamedPicturesGlTest, WhereImagesAreFinerFinerTilesAreDrawn) {
     };
     EXPECT_LE(finest_level({-80.0, 0.0, 12.0}), 1);
     EXPECT_EQ(finest_level({-80.0, 0.0, 80.0}), 2); // that of all samples: a texel of 0.25 m
+}
+
+TEST_F(StreamedPicturesGlTest, AFlightOverImagesStaysWithinALittleMemory) {
+    constexpr std::size_t budget = std::size_t{64} << 20U;
+    Pictures world(budget);
+    for (int step = 0; step < 12; ++step) {
+        world.look_down({-110.0 + 10.0 * step, 8.0 * step - 50.0, 8.0});
+    }
+    EXPECT_GE(world.stream->stats().read, 16);
+    EXPECT_LE(world.stream->stats().most_bytes, budget);
 }
 
 TEST(StreamedVertices, StandWhereADoubleOracleHasThemSeenFromAMetre) {

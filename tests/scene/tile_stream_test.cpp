@@ -142,6 +142,41 @@ TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
     EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(12, 12), 0.0F);
 }
 
+// Between samples of the overview nothing of what is missing is seen.
+TEST(TileStreams, TilesMadeOfACoarserOverviewHaveItsError) {
+    auto terrain = std::make_shared<terrain::Terrain>(overview()->terrain());
+    Grid<float>& heights = terrain->heightfield.heights;
+    std::fill(heights.samples().begin(), heights.samples().end(), 0.0F);
+    heights(40, 40) = 16.0F; // over samples 320 to 327
+    const auto surface = TerrainSurface::create(terrain);
+    ASSERT_TRUE(surface);
+    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(side, side),
+                         reduction);
+    TileStream stream(make, [make](TreeTile tile, const std::stop_token& /*stop*/) {
+        TileReading reading;
+        reading.heights = make.overview_heights(tile);
+        reading.of_overview = true;
+        return reading;
+    });
+    stream.want(std::array{TreeTile{0, 2, 2}, TreeTile{0, 5, 5}});
+    ASSERT_TRUE(stream.wait({}));
+    EXPECT_FLOAT_EQ(static_cast<float>(stream.find({0, 2, 2})->error), 16.0F);
+    EXPECT_EQ(stream.find({0, 5, 5})->error, 0.0);
+    EXPECT_EQ(make.overview_error({3, 0, 0}), 0.0); // as far apart as the overview's
+}
+
+TEST(TileStreams, HavePicturesOfFewerTexelsWhereMemoryIsSmall) {
+    for (const std::size_t megabytes : {16U, 70U, 100U, 140U, 400U}) {
+        const std::size_t budget = megabytes << 20U;
+        const int texels = TileStream::texels_within(budget);
+        EXPECT_EQ(texels, megabytes < 80 ? 1 : megabytes < 135 ? 2 : 4);
+        const TileMaker make(overview(), TileTree(side, side), reduction,
+                             {.finest_pixel = 0.1, .refinement = 1, .most_texels = texels});
+        EXPECT_EQ(make.bytes_per_tile(), bytes_of_tile(texels));
+        EXPECT_TRUE(texels == 1 || 2 * TileStream::least_drawn * make.bytes_per_tile() <= budget);
+    }
+}
+
 TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
     const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
                          {.finest_pixel = 0.5, .refinement = 4});
@@ -261,6 +296,77 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
     EXPECT_EQ(stream.stats().read, 1);
     EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
     EXPECT_EQ(stream.faulty_files(), 1U);
+}
+
+// A view that moves asks anew with each frame, while the picture is read again.
+TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          if (++readings == 1) {
+                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                              return reading;
+                          }
+                          for (int i = 0; i < 30 && !stop.stop_requested(); ++i) {
+                              std::this_thread::sleep_for(1ms);
+                          }
+                          reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 1ms});
+    const TreeTile tile{0, 0, 0};
+    stream.want(std::array{tile});
+    for (int frame = 0; frame < 200 && (stream.is_busy() || readings < 2); ++frame) {
+        if (stream.find(tile) != nullptr) {
+            stream.want({});
+        }
+        std::this_thread::sleep_for(2ms);
+    }
+    EXPECT_EQ(readings, 2);
+    EXPECT_EQ(stream.stats().cancelled, 0);
+    ASSERT_NE(stream.find(tile), nullptr);
+    EXPECT_EQ(stream.find(tile)->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
+}
+
+TEST(TileStreams, TakeOfALaterReadingOnlyAPictureThatShowsMore) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          const int reading_now = ++readings;
+                          TileReading reading = read_plane(tile, stop);
+                          if (reading_now > 1) { // the file has changed meanwhile
+                              for (float& height : reading.heights.samples()) {
+                                  height += 100.0F;
+                              }
+                          }
+                          reading.picture.texels = Image(129, 129, Rgba8{0, 0, 0, 0});
+                          const int shown = reading_now == 1 ? 4 : reading_now == 2 ? 1 : 9;
+                          for (int col = 0; col < shown; ++col) {
+                              reading.picture.texels(col, 0) = {9, 8, 7, 255};
+                          }
+                          if (reading_now < 3) {
+                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                          }
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 30ms});
+    const TreeTile tile{0, 0, 0};
+    stream.want(std::array{tile});
+    while (stream.find(tile) == nullptr) {
+        std::this_thread::sleep_for(1ms);
+    }
+    const auto first = stream.find(tile);
+    stream.want({});
+    while (stream.stats().failed < 2) {
+        std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_EQ(stream.find(tile), first);
+    EXPECT_TRUE(stream.wait({}));
+    const auto last = stream.find(tile);
+    EXPECT_EQ(last->albedo(8, 0), (Rgba8{9, 8, 7, 255}));
+    EXPECT_EQ(last->heights, first->heights);
+    EXPECT_EQ(last->positions, first->positions);
 }
 
 TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
