@@ -47,6 +47,7 @@ glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
 std::vector<KnownImage::Overview> overviews_of(GDALDataset& rgb) {
     std::vector<KnownImage::Overview> found;
     GDALRasterBand& band = *rgb.GetRasterBand(1);
+    found.reserve(static_cast<std::size_t>(std::max(band.GetOverviewCount(), 0)));
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
         GDALRasterBand* reduced = band.GetOverview(i);
         if (reduced != nullptr && reduced->GetXSize() >= 1) {
