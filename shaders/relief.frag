@@ -97,7 +97,9 @@ vec3 color_at(vec2 place, float level, float metres) {
 bool find_view_hit(vec3 start, vec3 span, out float part, out vec2 place) {
 #ifdef BEAMS
     float clear = clear_part(start, span);
+    begins_above = clear > 0.0;
     bool found = find_hit(start + clear * span, (1.0 - clear) * span, part, place);
+    begins_above = false;
     part = mix(clear, 1.0, part);
     return found;
 #else

@@ -52,6 +52,9 @@ float outward() {
 }
 #endif
 
+// What is known of the ray a search is for.
+bool begins_above = false;
+
 // Whether the surface has such a place.
 bool is_on_surface(vec2 place) {
 #ifdef TILE

@@ -56,7 +56,9 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     // A ray along an axis never leaves through that axis's borders.
     vec2 inverse = vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0);
     vec2 never = vec2(span.x != 0.0 ? 0.0 : 2.0, span.y != 0.0 ? 0.0 : 2.0);
-    bool above = start.z >= height_at(start.xy);
+    bool falls = span.z < 0.0;
+    // Where that is not known, the first cell tells, for less than a look at its height.
+    bool above = begins_above || start.z >= 1.0;
     Walk walk;
     walk.level = min(top_level, start_level);
     walk.part = 0.0;
@@ -68,7 +70,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         while (inside && !reached) {
             exits = exits_of(start, inverse, forward, walk) + never;
             float leave = min(min(exits.x, exits.y), 1.0);
-            float lowest = start.z + (span.z < 0.0 ? leave : walk.part) * span.z;
+            float lowest = start.z + (falls ? leave : walk.part) * span.z;
             bool over = above && lowest > greatest_in(walk);
             reached = !over && walk.level == 0;
             if (over) {
