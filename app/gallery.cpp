@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/misuse.h"
 #include "app/texture_sets.h"
 #include "terrains/gallery.h"
 
@@ -95,9 +96,9 @@ Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescript
                                                          const ViewChoice& view) {
     using Choice = std::optional<scene::Technique>;
     if (view.max_error) {
-        return Error{fmt::format("--max-error: {} found, a terrain was expected: its models are "
-                                 "drawn as they are",
-                                 file)};
+        refuse(fmt::format("--max-error: {} found, a terrain was expected: its models are drawn as "
+                           "they are",
+                           file));
     }
     if (view.technique || view.mixed || description.gallery_technique == "mixed") {
         return Choice(view.technique);

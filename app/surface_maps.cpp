@@ -204,7 +204,8 @@ Result<io::Channels> layer_channels(const MapChoice& choice, const Grid<float>& 
         }
         auto both = terrain::dual_layers(heights.view(), back->view());
         if (!both) {
-            return both.error();
+            return Error{fmt::format("--back: {}, the back of {}: {}", choice.back, choice.picture,
+                                     both.error().message)};
         }
         layers = std::move(*both);
     }

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "app/message.h"
+#include "app/misuse.h"
 #include "app/progress_line.h"
 #include "engine/io/cone_cache.h"
 #include "engine/io/texture_files.h"
@@ -46,9 +47,13 @@ Result<terrain::TextureSet> open_textures(const TextureRequest& request,
     }
     std::error_code ignored;
     if (!std::filesystem::is_directory(request.folder, ignored)) {
-        return Error{fmt::format(
+        const std::string message = fmt::format(
             "{}: texture set '{}' found, one of {}{} or a folder of pictures was expected",
-            request.asked_by, name, request.also, fmt::join(names, ", "))};
+            request.asked_by, name, request.also, fmt::join(names, ", "));
+        if (request.asked_by.starts_with("--")) {
+            refuse(message);
+        }
+        return Error{message};
     }
     const auto files = io::find_texture_files(request.folder);
     if (!files) {

@@ -22,8 +22,8 @@ struct TextureRequest {
     std::string also = {};        ///< what else the user might have said: "NAME, "
 };
 
-/// Makes or reads them. Fails on a name that is neither built in nor a folder, with those that are,
-/// and where pictures cannot be read.
+/// Makes or reads them. Fails on a name that is neither built in nor a folder, with those that are
+/// (misuse.h, where an option asked), and where pictures cannot be read.
 Result<terrain::TextureSet> open_textures(const TextureRequest& request,
                                           const TerrainChoice& choice);
 
