@@ -205,7 +205,7 @@ TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
                 rgba8_from_linear(linear_from_rgba8(plain(col, row)) * share);
             worst = std::max(worst, std::abs(detailed(col, row).g - expected.g));
             ++compared;
-            const int beside = plain(std::min(col + 2, size.x - 1), row).g; // a stripe farther
+            const int beside = plain(col, std::min(row + 2, size.y - 1)).g; // a stripe farther
             striped += std::abs(plain(col, row).g - beside) > 20 ? 1 : 0;
         }
     }
