@@ -66,7 +66,7 @@ public:
         auto set = open_textures(
             {name, terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder,
              terrain_.textures ? "--textures" : terrain_.terrain, description_.seed,
-             file_tile_width, "mixed, "},
+             file_tile_width, std::nullopt, "mixed, "},
             terrain_);
         if (!set) {
             return set.error();

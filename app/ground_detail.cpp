@@ -53,7 +53,7 @@ open_detail(const io::SceneDescription& description, const TerrainChoice& terrai
     }
     auto set =
         open_textures({asked->textures, asked->folder, view.detail ? "--detail" : terrain.terrain,
-                       description.seed, asked->width},
+                       description.seed, asked->width, asked->scale},
                       terrain);
     if (!set) {
         return set.error();

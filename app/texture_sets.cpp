@@ -59,7 +59,9 @@ Result<terrain::TextureSet> open_textures(const TextureRequest& request,
     if (!files) {
         return files.error();
     }
-    return io::read_texture_set(*files, {.width = request.width});
+    io::TextureOptions options{.width = request.width};
+    options.scale = request.scale ? static_cast<float>(*request.scale) : options.scale;
+    return io::read_texture_set(*files, options);
 }
 
 Result<void> add_cones(terrain::TextureSet& set, const scene::Technique& technique,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -19,6 +20,7 @@ struct TextureRequest {
     std::string asked_by;         ///< the option or the scene file
     std::uint32_t seed = 1;       ///< of a built-in one
     double width = 1.0;           ///< metres that the tile covers
+    std::optional<double> scale = {}; ///< of the heights, in widths; absent: as pictures have it
     std::string also = {};        ///< what else the user might have said: "NAME, "
 };
 

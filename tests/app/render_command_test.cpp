@@ -158,6 +158,32 @@ TEST(RenderCommand, a_tile_of_detail_is_refused_where_it_is_unknown_or_nothing_s
     refused(2, {"--technique", "displacement"}, "a mesh with a tile of detail was expected");
 }
 
+// Of the metres that they are drawn as.
+TEST(RenderCommand, HeightsOfEightBitsAreToldWithTheirStepsOnce) {
+    const test::TemporaryFolder folder;
+    const auto dem = folder.write(
+        "dem.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n");
+    const auto tiles = folder.path() / "tiles";
+    std::filesystem::create_directory(tiles);
+    for (const char* name : {"color.png", "height.png"}) {
+        ASSERT_TRUE(io::write_image(tiles / name, Image(8, 8, Rgba8{90, 90, 90, 255})));
+    }
+    const auto result = test::reljef({"render", dem.string(), "--size", "64x48", "--context",
+                                      "osmesa", "-o", (folder.path() / "a.png").string(),
+                                      "--detail", tiles.string() + ":width=40,scale=0.1"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string note = "tiles: heights of 8 bits; over a range of 4 m they come in steps of "
+                             "0.016 m\n";
+    const auto found = result.err.find(note);
+    ASSERT_NE(found, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("8 bits", found + note.size()), std::string::npos);
+}
+
+TEST(RenderCommand, TheTruthOfTheGalleryIsMisuse) {
+    test::expect_refusal(test::reljef({"render", "gallery", "--truth", "-o", "never.png"}), 2,
+                         {"--truth: gallery found", "--technique exact"});
+}
+
 // Told apart by what is wrong first: the gallery's technique is chosen before its textures.
 TEST(RenderCommand, mixed_is_each_models_own_technique_and_a_terrains_none) {
     const test::TemporaryFolder folder;
