@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/misuse.h"
 #include "app/texture_sets.h"
 #include "terrains/gallery.h"
 
@@ -65,7 +66,7 @@ public:
         auto set = open_textures(
             {name, terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder,
              terrain_.textures ? "--textures" : terrain_.terrain, description_.seed,
-             file_tile_width, "mixed, "},
+             file_tile_width, std::nullopt, "mixed, "},
             terrain_);
         if (!set) {
             return set.error();
@@ -95,9 +96,9 @@ Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescript
                                                          const ViewChoice& view) {
     using Choice = std::optional<scene::Technique>;
     if (view.max_error) {
-        return Error{fmt::format("--max-error: {} found, a terrain was expected: its models are "
-                                 "drawn as they are",
-                                 file)};
+        refuse(fmt::format("--max-error: {} found, a terrain was expected: its models are drawn as "
+                           "they are",
+                           file));
     }
     if (view.technique || view.mixed || description.gallery_technique == "mixed") {
         return Choice(view.technique);

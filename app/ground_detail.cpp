@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/misuse.h"
 #include "app/texture_sets.h"
 
 namespace reljef::app {
@@ -41,9 +42,10 @@ open_detail(const io::SceneDescription& description, const TerrainChoice& terrai
     using Detail = std::shared_ptr<const scene::GroundDetail>;
     const auto asked = asked_for(description, view);
     if (!asked) {
-        return view.detail_technique
-                   ? Error{"--detail-technique: found without --detail, whose tile it draws"}
-                   : Result<Detail>(Detail());
+        if (view.detail_technique) {
+            refuse("--detail-technique: found without --detail, whose tile it draws");
+        }
+        return Detail();
     }
     auto technique = technique_for(*asked, description.name, view);
     if (!technique) {
@@ -51,7 +53,7 @@ open_detail(const io::SceneDescription& description, const TerrainChoice& terrai
     }
     auto set =
         open_textures({asked->textures, asked->folder, view.detail ? "--detail" : terrain.terrain,
-                       description.seed, asked->width},
+                       description.seed, asked->width, asked->scale},
                       terrain);
     if (!set) {
         return set.error();

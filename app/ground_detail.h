@@ -11,7 +11,7 @@ namespace reljef::app {
 
 /// The tile of detail that --detail or the scene file lays over the terrain; null: neither. Fails
 /// on a tile that is unknown or cannot be read, on a technique that does not show it, and where it
-/// is stopped.
+/// is stopped; refuses (misuse.h) an option that names no tile or has none.
 Result<std::shared_ptr<const scene::GroundDetail>>
 open_detail(const io::SceneDescription& description, const TerrainChoice& terrain,
             const ViewChoice& view, const std::stop_token& stop);

@@ -89,7 +89,7 @@ void expect_outputs(const MapChoice& choice) {
     }
     for (const NamedFile& file : outputs) {
         if (const auto good = io::check_map_name(file.path); !good) {
-            throw CLI::ValidationError(good.error().message);
+            throw CLI::ValidationError(fmt::format("{}: {}", file.option, good.error().message));
         }
     }
 }

@@ -165,7 +165,7 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "PX");
     add_parsed(command, "--detail", choice.detail, parse_detail,
                "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
-               "heights S widths: brick, rock, cobble, or a folder of pictures",
+               "heights S widths: brick, rock, cobble, fence, rings, copper, or a folder of pictures",
                "NAME|FOLDER[:width=W,scale=S]");
     add_parsed(
         command, "--detail-technique", choice.detail_technique,

@@ -23,6 +23,10 @@ namespace {
 constexpr int done = 0;
 constexpr int failed = 1;
 constexpr int misused = 2;
+constexpr const char* status_help =
+    "Exit status: 0 done; 1 failed, or ended by Ctrl-C (SIGINT, SIGTERM or SIGHUP); 2 misused: "
+    "what was\nasked for is unknown or does not go together, and nothing was written. A second "
+    "signal, half a second\nlater, ends at once, with 128 and its number.";
 
 // A stream that was closed would be the next file opened, and be written into. What is opened in
 // its place cannot be written, so that output that is lost is told.
@@ -138,7 +142,7 @@ int run(const Program& program, int argc, char** argv) {
     CLI::App parser{program.description, program.name};
     parser.set_version_flag("--version", version_text());
     parser.require_subcommand(1);
-    parser.footer(program.footer);
+    parser.footer(program.footer + "\n" + status_help);
     try {
         const std::span<char*> all(argv, static_cast<std::size_t>(argc));
         return parse_and_run(program, all.subspan(argc > 0 ? 1 : 0), parser, interrupt);

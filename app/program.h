@@ -17,8 +17,8 @@ struct Program {
 };
 
 /// Parses the arguments and runs the verb they name. What is wrong is told in one line on stderr.
-/// Returns the exit status: 0, 1 where the verb failed or its output could not be written, 2 where
-/// it was misused.
+/// Returns the exit status: 0, 1 where the verb failed, was interrupted or its output could not be
+/// written, 2 where it was misused. The program's help says so.
 int run_program(const Program& program, int argc, char** argv) noexcept;
 
 } // namespace reljef::app

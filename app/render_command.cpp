@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "app/frame_maker.h"
 #include "app/frame_sink.h"
+#include "app/misuse.h"
 #include "app/options.h"
 #include "app/output_files.h"
 #include "app/progress_line.h"
@@ -125,7 +126,6 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameM
 
 // What the arguments alone show to be wrong.
 void expect_outputs(const RenderChoice& choice) {
-    const auto refuse = [](const std::string& message) { throw CLI::ValidationError(message); };
     if (choice.output.empty() && choice.hits.empty()) {
         refuse("render: no output found, -o FILE or --hit FILE was expected");
     }
@@ -250,6 +250,11 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!source) {
         return source.error();
     }
+    if (choice.truth && source->description.generator == "gallery") {
+        refuse(fmt::format("--truth: {} found, whose models the exact picture does not know; a "
+                           "terrain was expected, or --technique exact",
+                           choice.terrain.terrain));
+    }
     const auto inputs = inputs_of(choice, source->description);
     expect_apart(outputs_of(choice, inputs), inputs);
     if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
@@ -266,11 +271,6 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
                                   : prepare_bisection(*scene, choice.terrain, interrupt.token());
         !ready) {
         return ready;
-    }
-    if (choice.truth && !scene->models.empty()) {
-        return Error{fmt::format("--truth: {} found, whose models the exact picture does not know; "
-                                 "a terrain was expected, or --technique exact",
-                                 choice.terrain.terrain)};
     }
     if (auto drawn = draw_outputs(choice, *scene, **maker, interrupt); !drawn) {
         return drawn;

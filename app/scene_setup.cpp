@@ -10,6 +10,7 @@
 #include "app/gallery.h"
 #include "app/ground_detail.h"
 #include "app/message.h"
+#include "app/misuse.h"
 #include "app/progress_line.h"
 #include "app/streaming.h"
 #include "engine/io/bisection_cache.h"
@@ -171,15 +172,23 @@ void set_projection(scene::Camera& camera, const Box& bounds, const ViewChoice& 
     }
 }
 
+// What draws nothing of the kind is a mistake where an option names it.
+Error refused_technique(const Error& reason, const ViewChoice& view) {
+    if (view.technique) {
+        refuse(reason.message);
+    }
+    return reason;
+}
+
 // How the terrain is drawn.
 Result<void> choose_look(TerrainScene& scene, const ViewChoice& view) {
     if (view.mixed) {
-        return Error{"--technique: mixed found, the gallery was expected: a terrain is drawn with "
-                     "one technique"};
+        refuse("--technique: mixed found, the gallery was expected: a terrain is drawn with one "
+               "technique");
     }
     const scene::Technique technique = technique_of(view);
     if (auto good = scene.check(technique); !good) {
-        return good;
+        return refused_technique(good.error(), view);
     }
     auto& material = scene.terrain->get<scene::TerrainNode>()->material;
     material.technique = technique;
@@ -237,7 +246,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
         for (const scene::Node* const model : result.models) {
             const auto* const mesh = model->get<scene::MeshNode>();
             if (auto good = scene::check_technique(mesh->material.technique, *mesh); !good) {
-                return good.error();
+                return refused_technique(good.error(), view);
             }
         }
     } else if (auto done = choose_look(result, view); !done) {

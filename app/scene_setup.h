@@ -29,7 +29,8 @@ struct TerrainScene {
     [[nodiscard]] Result<void> check(const scene::Technique& technique) const;
 };
 
-/// Builds the scene. Fails where the placement or the camera does not fit the terrain.
+/// Builds the scene. Fails where the placement or the camera does not fit the terrain, and refuses
+/// (misuse.h) options that do not fit what is drawn.
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
                                 const ViewChoice& view, const std::stop_token& stop = {});
 

@@ -27,9 +27,27 @@ void tell_note(const MapChoice& choice, const std::string& note) {
     }
 }
 
+bool is_grey(const io::Channels& channels) {
+    for (int row = 0; row < channels.rows; ++row) {
+        for (int col = 0; col < channels.cols; ++col) {
+            for (int i = 1; i < std::min(channels.count, 3); ++i) {
+                if (channels.at(col, row, i) != channels.at(col, row, 0)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
 // What is known of a file of heights that are all in [0,1].
 void tell_heights(const MapChoice& choice, const std::string& file, const io::Channels& channels,
                   const Grid<float>& heights) {
+    if (channels.count >= 3 && !is_grey(channels)) {
+        tell_note(choice, fmt::format("{}: colours found, of which the first channel is taken for "
+                                      "heights; --from normals or colors reads all",
+                                      file));
+    }
     if (channels.bits == 8) {
         tell_note(choice, fmt::format("{}: heights of 8 bits; over a picture a metre wide, at "
                                       "--scale {}, they come in steps of {:.2g} m",
@@ -204,7 +222,10 @@ Result<io::Channels> layer_channels(const MapChoice& choice, const Grid<float>& 
         }
         auto both = terrain::dual_layers(heights.view(), back->view());
         if (!both) {
-            return both.error();
+            return Error{fmt::format("--back: {}: {} x {} texels found, {} x {} were expected: one "
+                                     "size, that of {}",
+                                     choice.back, back->cols(), back->rows(), heights.cols(),
+                                     heights.rows(), choice.picture)};
         }
         layers = std::move(*both);
     }

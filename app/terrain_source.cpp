@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/message.h"
+#include "app/misuse.h"
 #include "app/progress_line.h"
 #include "engine/core/worker_pool.h"
 #include "engine/io/cone_cache.h"
@@ -63,8 +64,8 @@ Result<terrain::Terrain> generate(const TerrainChoice& choice,
                                              .progress = line.callback(),
                                              .stop = stop};
     if (!choice.imagery.empty()) {
-        return Error{fmt::format("--imagery: {} found, but {} brings its own colours",
-                                 choice.imagery.front().string(), description.name)};
+        refuse(fmt::format("--imagery: {} found, but {} brings its own colours",
+                           choice.imagery.front().string(), description.name));
     }
     if (description.generator == "gallery") {
         return terrains::generate_gallery(options);
@@ -266,9 +267,13 @@ Result<void> refuse_folder_options(const TerrainChoice& choice,
     if (option == nullptr && !description.area) {
         return {};
     }
-    return Error{fmt::format("{}: {} found, but it is no folder of tiles, for which alone that was "
-                             "expected",
-                             description.name, option != nullptr ? option : "[area]")};
+    const std::string message = fmt::format(
+        "{}: {} found, but it is no folder of tiles, for which alone that was expected",
+        description.name, option != nullptr ? option : "[area]");
+    if (option != nullptr) {
+        refuse(message);
+    }
+    return Error{message};
 }
 
 Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescription description,
@@ -341,9 +346,9 @@ Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_
 Result<TerrainSource> open_terrain(io::SceneDescription description, const TerrainChoice& choice,
                                    const std::stop_token& stop, Notes notes) {
     if (choice.textures && description.generator != "gallery") {
-        return Error{fmt::format("--textures: {} found, but only the gallery shows tiles, not {}; "
-                                 "--detail lays one over a terrain",
-                                 *choice.textures, description.name)};
+        refuse(fmt::format("--textures: {} found, but only the gallery shows tiles, not {}; "
+                           "--detail lays one over a terrain",
+                           *choice.textures, description.name));
     }
     auto source = read_source(choice, std::move(description), stop);
     if (!source) {

@@ -39,7 +39,7 @@ struct TerrainSource {
 enum class Notes { told, kept };
 
 /// Opens what TERRAIN names, with progress on stderr. Errors name the terrain, what was found and
-/// what was expected.
+/// what was expected; options that such a terrain has no use for are refused (misuse.h).
 Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop,
                                    Notes notes = Notes::told);
 

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "app/message.h"
+#include "app/misuse.h"
 #include "app/progress_line.h"
 #include "engine/io/cone_cache.h"
 #include "engine/io/texture_files.h"
@@ -46,15 +47,21 @@ Result<terrain::TextureSet> open_textures(const TextureRequest& request,
     }
     std::error_code ignored;
     if (!std::filesystem::is_directory(request.folder, ignored)) {
-        return Error{fmt::format(
+        const std::string message = fmt::format(
             "{}: texture set '{}' found, one of {}{} or a folder of pictures was expected",
-            request.asked_by, name, request.also, fmt::join(names, ", "))};
+            request.asked_by, name, request.also, fmt::join(names, ", "));
+        if (request.asked_by.starts_with("--")) {
+            refuse(message);
+        }
+        return Error{message};
     }
     const auto files = io::find_texture_files(request.folder);
     if (!files) {
         return files.error();
     }
-    return io::read_texture_set(*files, {.width = request.width});
+    io::TextureOptions options{.width = request.width};
+    options.scale = request.scale ? static_cast<float>(*request.scale) : options.scale;
+    return io::read_texture_set(*files, options);
 }
 
 Result<void> add_cones(terrain::TextureSet& set, const scene::Technique& technique,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -19,11 +20,12 @@ struct TextureRequest {
     std::string asked_by;         ///< the option or the scene file
     std::uint32_t seed = 1;       ///< of a built-in one
     double width = 1.0;           ///< metres that the tile covers
+    std::optional<double> scale = {}; ///< of the heights, in widths; absent: as pictures have it
     std::string also = {};        ///< what else the user might have said: "NAME, "
 };
 
-/// Makes or reads them. Fails on a name that is neither built in nor a folder, with those that are,
-/// and where pictures cannot be read.
+/// Makes or reads them. Fails on a name that is neither built in nor a folder, with those that are
+/// (misuse.h, where an option asked), and where pictures cannot be read.
 Result<terrain::TextureSet> open_textures(const TextureRequest& request,
                                           const TerrainChoice& choice);
 

@@ -310,6 +310,14 @@ std::optional<GrowthMarks> marks_of(const GrowthResults& results) {
     return marks;
 }
 
+MetMarks met_marks(const GrowthMarks& marks, const GrowthOptions& options) {
+    constexpr std::size_t megabyte = 1024U * 1024U;
+    return {.frame_ratio = marks.frame_ratio <= most_frame_ratio,
+            .first_picture = marks.first_picture <= most_first_picture,
+            .memory = marks.memory_bytes <=
+                      megabyte * static_cast<std::size_t>(options.memory_megabytes)};
+}
+
 GrowthResults run_growth(const GrowthOptions& options, const std::stop_token& stop) {
     GrowthRun run(options, stop);
     const auto done = run.run();

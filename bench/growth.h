@@ -60,6 +60,14 @@ inline constexpr double most_first_picture = 2.0; // seconds
 /// Absent where the fewest or the most samples were not measured.
 std::optional<GrowthMarks> marks_of(const GrowthResults& results);
 
+/// Which of them are no more than they may be.
+struct MetMarks {
+    bool frame_ratio = false;
+    bool first_picture = false;
+    bool memory = false; ///< --memory
+};
+MetMarks met_marks(const GrowthMarks& marks, const GrowthOptions& options);
+
 /// Writes the same square of ground as GeoTIFFs of growing resolution, tiled and with overviews, to
 /// a folder of its own that is removed in the end, and looks at each from the poses overview and
 /// low as the program does: `view` for the first picture, `render` for the last.

@@ -1,12 +1,14 @@
 #include "bench/output_options.h"
 
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/misuse.h"
 #include "bench/page.h"
 #include "bench/report_csv.h"
 #include "bench/report_json.h"
@@ -107,7 +109,15 @@ Result<void> check_outputs(const OutputChoice& choice, std::span<const app::Name
             return writable.error();
         }
     }
-    return choice.html.empty() ? Result<void>() : check_page_target(choice.html);
+    if (choice.html.empty()) {
+        return {};
+    }
+    auto page = check_page_target(choice.html);
+    std::error_code ignored;
+    if (!page && std::filesystem::is_regular_file(choice.html, ignored)) {
+        app::refuse(page.error().message);
+    }
+    return page;
 }
 
 Result<void> report(const Results& results, const OutputChoice& choice) {

@@ -19,6 +19,15 @@ bool is_same_table(const Row& a, const Row& b) {
            a.size == b.size;
 }
 
+// Of what it is the noise floor, where it is not texture's.
+std::string noise_of(std::span<const Row> rows) {
+    const auto again =
+        std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.null_row; });
+    return again == rows.end() || again->setting.label == rows.front().setting.label
+               ? ""
+               : fmt::format(" of {}", again->setting.label);
+}
+
 std::string heading_of(std::span<const Row> rows) {
     const Row& row = rows.front();
     std::string heading =
@@ -28,7 +37,8 @@ std::string heading_of(std::span<const Row> rows) {
         heading +=
             fmt::format(", {} frame{}", row.timing->frames, row.timing->frames == 1 ? "" : "s");
         heading += row.timing->noise_floor
-                       ? fmt::format(", noise floor {:.1f} %", 100.0 * *row.timing->noise_floor)
+                       ? fmt::format(", noise floor{} {:.1f} %", noise_of(rows),
+                                     100.0 * *row.timing->noise_floor)
                        : ", noise floor unknown";
     }
     return heading + (!row.noisy()           ? ""
@@ -254,8 +264,9 @@ std::vector<std::string> column_notes(const Results& results) {
     }
     if (std::any_of(begin, end,
                     [](const Row& row) { return row.noisy() && !row.has_few_frames(); })) {
-        notes.push_back(fmt::format("NOISY: texture measured twice lies over {:.0f} % apart; a "
-                                    "difference below the floor is none.",
+        notes.push_back(fmt::format("NOISY: what is measured twice, texture or what is named, "
+                                    "lies over {:.0f} % apart; a difference below the floor is "
+                                    "none.",
                                     100.0 * most_noise));
     }
     if (std::any_of(begin, end, [](const Row& row) { return row.has_few_frames(); })) {

@@ -50,8 +50,8 @@ struct Timing {
     /// Of the medians, in the same run; absent where texture shows no terrain, as its time says
     /// nothing then.
     std::optional<double> ratio_to_texture;
-    /// How far the medians of texture and its null row lie apart, a share of the smaller; absent
-    /// where either has under least_frames.
+    /// How far the medians of a null row and of what it is once more lie apart, a share of the
+    /// smaller; absent where either has under least_frames.
     std::optional<double> noise_floor;
     std::optional<double> gpu_ms; ///< median of what the GPU took; absent on software renderers
     render::FrameStats stats;     ///< of the last frame
@@ -88,7 +88,9 @@ struct Row {
     std::string scene; ///< UTF-8 or whatever bytes a file's name has
     scene::Pose pose = scene::Pose::overview;
     Setting setting;
-    bool null_row = false;        ///< texture once more, only for the noise floor (A/A)
+    /// Only for the noise floor (A/A): texture once more, or where it shows no terrain the first
+    /// technique that does.
+    bool null_row = false;
     glm::ivec2 size{0};           ///< of the picture, pixels
     std::optional<Timing> timing; ///< absent: the technique does not exist yet, the row is missing
     std::optional<RowError> error;

@@ -78,10 +78,20 @@ std::vector<Entry> entries_of(const Group& group, std::string_view suite, const 
     return entries;
 }
 
-// Texture again last.
+// What is drawn twice for the noise floor: the first that shows some of the terrain, as the time of
+// others says nothing; texture where none does.
+std::size_t drawn_twice(std::span<const Entry> entries) {
+    const auto first = std::find_if(entries.begin(), entries.end(), [](const Entry& entry) {
+        return entry.technique && !entry.row.shows_nothing();
+    });
+    return first == entries.end() ? 0 : static_cast<std::size_t>(first - entries.begin());
+}
+
+// It again last.
 std::vector<Entry> ended_by_null_row(std::vector<Entry> entries) {
     if (!entries.empty()) {
-        Entry null_entry{entries.front().row, entries.front().technique};
+        const Entry& twice = entries[drawn_twice(entries)];
+        Entry null_entry{twice.row, twice.technique};
         null_entry.row.null_row = true;
         null_entry.row.source.reset();
         null_entry.row.view.reset();
@@ -118,10 +128,10 @@ MeasureOptions one_round() {
     return options;
 }
 
-// Absent where either of texture's two rows, the first and the last, has few frames.
-std::optional<double> noise_floor_of(const Measurement& measurement) {
+// Absent where what is drawn twice, as one thing and as the last, has few frames.
+std::optional<double> noise_floor_of(const Measurement& measurement, std::size_t twice) {
     const bool is_reliable =
-        std::min(measurement.ms.front().size(), measurement.ms.back().size()) >= least_frames;
+        std::min(measurement.ms[twice].size(), measurement.ms.back().size()) >= least_frames;
     return is_reliable ? measurement.noise_floor : std::nullopt;
 }
 
@@ -334,12 +344,14 @@ private:
     Result<void> time_all(std::vector<Entry> entries, Stage& stage, render::Driver& driver,
                           MeasureOptions timing) {
         std::vector<DrawFrame> frames;
-        for (Entry& entry : entries) {
-            if (entry.technique) {
-                frames.push_back(frame_of(entry, stage, driver));
+        std::size_t twice = 0; // of the frames
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            twice = i == drawn_twice(entries) ? frames.size() : twice;
+            if (entries[i].technique) {
+                frames.push_back(frame_of(entries[i], stage, driver));
             }
         }
-        timing.null_pair = {0, frames.size() - 1};
+        timing.null_pair = {twice, frames.size() - 1};
         auto measurement = measure(frames, timing);
         if (measurement && lacks_a_round(*measurement)) {
             measurement = measure(frames, one_round());
@@ -347,18 +359,19 @@ private:
         if (!measurement) {
             return measurement.error();
         }
-        keep_rows(std::move(entries), *measurement);
+        keep_rows(std::move(entries), *measurement, noise_floor_of(*measurement, twice));
         return {};
     }
 
-    void keep_rows(std::vector<Entry> entries, const Measurement& measurement) {
+    void keep_rows(std::vector<Entry> entries, const Measurement& measurement,
+                   std::optional<double> noise_floor) {
         const bool has_measure = !entries.front().row.shows_nothing();
         const double texture = median(measurement.ms.front());
         std::size_t place = 0;
         for (Entry& entry : entries) {
             if (entry.technique) {
                 const std::vector<double>& ms = measurement.ms[place++];
-                Timing timing = timing_of(ms, noise_floor_of(measurement));
+                Timing timing = timing_of(ms, noise_floor);
                 if (has_measure) {
                     timing.ratio_to_texture = timing.ms.median / texture;
                 }

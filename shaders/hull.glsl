@@ -7,9 +7,10 @@ flat in mat3 shares_of_way;  // columns: what a local metre along x, y, z adds t
 flat in mat4x2 coordinates;  // of the corners
 flat in vec4 heights;        // of the corners, 0 or 1 and a little beyond
 flat in mat4x3 corner_normals;
+flat in vec4 parted; // 1 where beyond the side across from a corner normals are others
 
 uniform vec2 repeats;          // tiles along texture coordinates 0 to 1
-uniform vec4 coordinate_range; // of the mesh's texture coordinates: least and greatest
+uniform vec4 coordinate_range; // of the texture where the hull is lowest: least and greatest
 
 vec2 tile_coordinate = vec2(0.0);
 vec2 tiles_per_metre = vec2(1.0); // it is in the frame

@@ -27,12 +27,15 @@ float share_beyond() {
     return max(1.5 / 256.0 * most, 1.0 / 16384.0);
 }
 
-// How much of a way lies in the tetrahedron; `toward`: what the way adds to the shares.
-float way_inside(vec4 toward, float beyond) {
+// How much of a way lies in the tetrahedron, and the corner across from the side where it ends.
+// `toward`: what the way adds to the shares.
+float way_inside(vec4 toward, float beyond, out int across) {
     float inside = 3e38;
+    across = 0;
     for (int i = 0; i < 4; ++i) {
-        float share = max(shares[i], 0.0) + beyond;
-        inside = toward[i] < 0.0 ? min(inside, share / -toward[i]) : inside;
+        float way = toward[i] < 0.0 ? (max(shares[i], 0.0) + beyond) / -toward[i] : 3e38;
+        across = way < inside ? i : across;
+        inside = min(inside, way);
     }
     return inside;
 }
@@ -62,9 +65,14 @@ void main() {
     vec4 toward = shares_along(local_way);
     float near_part = near_depth / max(dot(relative, view_forward.xyz), near_depth);
     float beyond = share_beyond();
-    float more = way_inside(-toward, beyond);
-    float first = way_inside(toward, beyond);
-    first = perspective > 0.5 ? min(first, 1.0 - near_part) : first;
+    int across;
+    float more = way_inside(-toward, beyond, across);
+    float first = way_inside(toward, beyond, across);
+    bool from_face = parted[across] > 0.5; // over an edge, from another face's heights
+    if (perspective > 0.5 && first > 1.0 - near_part) {
+        first = 1.0 - near_part;
+        from_face = false;
+    }
     tile_coordinate = coordinates * shares * repeats;
     vec3 beside = dFdx(relative);
     vec3 above = dFdy(relative);
@@ -82,8 +90,13 @@ void main() {
     vec2 kept = part_on_tile(start, span);
     float part;
     vec2 place;
-    if (kept.x >= kept.y ||
-        !find_hit(start + kept.x * span, (kept.y - kept.x) * span, part, place)) {
+    if (kept.x >= kept.y) {
+        discard;
+    }
+    if (from_face && kept.x <= 0.0 && depth_in_surface(start) > 0.0) {
+        part = 0.0; // where the faces' heights differ stands a wall between them
+        place = start.xy;
+    } else if (!find_hit(start + kept.x * span, (kept.y - kept.x) * span, part, place)) {
         discard;
     }
     float along = mix(first, -more, mix(kept.x, kept.y, part));

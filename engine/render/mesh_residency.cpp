@@ -107,12 +107,19 @@ Result<ResidentMesh> filled(const std::vector<Vertex>& vertices,
     return mesh;
 }
 
-glm::vec4 coordinate_range(const scene::Mesh& mesh) {
+// Of the texture where a hull is lowest: least and greatest.
+glm::vec4 coordinate_range(const std::vector<HullPart>& parts) {
     glm::vec2 least(std::numeric_limits<float>::max());
     glm::vec2 greatest(std::numeric_limits<float>::lowest());
-    for (const glm::vec2 coordinate : mesh.texture_coordinates) {
-        least = glm::min(least, coordinate);
-        greatest = glm::max(greatest, coordinate);
+    for (const HullPart& part : parts) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (part.corners[i].w < 0.5F) {
+                const glm::vec4 two = part.coordinates[i / 2];
+                const glm::vec2 coordinate = i % 2 == 0 ? glm::vec2(two) : glm::vec2(two.z, two.w);
+                least = glm::min(least, coordinate);
+                greatest = glm::max(greatest, coordinate);
+            }
+        }
     }
     return {least, greatest};
 }
@@ -132,12 +139,12 @@ Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, FrameStat
     };
     for (unsigned int i = 0; i < 4; ++i) {
         add(i, 4, offsetof(HullPart, corners) + i * sizeof(glm::vec4));
-        add(6 + i, 3, offsetof(HullPart, normals) + i * sizeof(glm::vec3));
+        add(6 + i, 4, offsetof(HullPart, normals) + i * sizeof(glm::vec4));
     }
     add(4, 4, offsetof(HullPart, coordinates));
     add(5, 4, offsetof(HullPart, coordinates) + sizeof(glm::vec4));
     ResidentHull hull{std::move(*buffer), gl::VertexArray::create(),
-                      static_cast<int>(parts.size())};
+                      static_cast<int>(parts.size()), coordinate_range(parts)};
     hull.vertex_array.set_vertices(0, hull.parts, {.stride = sizeof(HullPart), .divisor = 1},
                                    attributes);
     return hull;
@@ -197,7 +204,6 @@ Result<void> MeshResidency::prepare_hull(const MeshDraw& draw, FrameStats& stats
     if (!hull) {
         return hull.error();
     }
-    hull->coordinate_range = coordinate_range(*draw.mesh->mesh);
     hulls_.push_back({draw.mesh->mesh, detail, std::move(*hull), true});
     return {};
 }

@@ -22,7 +22,7 @@ struct ResidentHull {
     gl::Buffer parts;
     gl::VertexArray vertex_array;
     int count = 0;
-    glm::vec4 coordinate_range{0.0F}; ///< of the mesh's texture coordinates: least and greatest
+    glm::vec4 coordinate_range{0.0F}; ///< of the texture where it is lowest: least, greatest
 };
 
 /// What of the meshes is in the driver's memory: triangles, tiles of detail, displaced triangles.

@@ -104,10 +104,22 @@ glm::dvec3 shared_direction(const Mesh& mesh, std::span<const std::size_t> verti
             sum += glm::dvec3(normal);
         }
     }
-    constexpr double least_share = 0.25; // of a normal's length: no spike is longer than twice it
+    constexpr double least_share = 1.0 / (most_lift * most_lift); // of a normal's length, squared
     const glm::dvec3 mean = sum / static_cast<double>(normals.size());
     const double share = glm::dot(mean, mean);
     return share > 0.0 ? mean / std::max(share, least_share) : glm::dvec3(normals.front());
+}
+
+// Calls `visit` with the vertices at each place.
+template <class Visit> void visit_places(const Mesh& mesh, const Visit& visit) {
+    const std::vector<std::size_t> order = ordered_by_place(mesh.positions);
+    for (auto begin = order.begin(); begin != order.end();) {
+        const auto end = std::find_if(begin, order.end(), [&](std::size_t vertex) {
+            return mesh.positions[vertex] != mesh.positions[*begin];
+        });
+        visit(std::span(begin, end));
+        begin = end;
+    }
 }
 
 int index_on_tile(int index, int count, terrain::TileBorder border) {
@@ -129,12 +141,13 @@ double relief_height(const Mesh& mesh, const TextureDetail& detail) {
 }
 
 double raised_above(const Mesh& mesh, const TextureDetail& detail) {
-    return (1.0 + detail.offset) * relief_height(mesh, detail);
+    return most_lift * (1.0 + detail.offset) * relief_height(mesh, detail);
 }
 
 double hull_reach(const Mesh& mesh, const TextureDetail& detail) {
     const auto offset = static_cast<double>(detail.offset);
-    return (std::max(1.0 + offset, -offset) + hull_margin) * relief_height(mesh, detail);
+    return most_lift * (std::max(1.0 + offset, -offset) + hull_margin) *
+           relief_height(mesh, detail);
 }
 
 Mesh tessellated(const Mesh& mesh, int n) {
@@ -168,23 +181,32 @@ std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail
         return tile_height(*detail.set, coordinate, detail.border);
     };
     std::vector<glm::vec3> positions = mesh.positions;
-    const std::vector<std::size_t> order = ordered_by_place(mesh.positions);
-    for (auto begin = order.begin(); begin != order.end();) {
-        const auto end = std::find_if(begin, order.end(), [&](std::size_t vertex) {
-            return mesh.positions[vertex] != mesh.positions[*begin];
-        });
+    visit_places(mesh, [&](std::span<const std::size_t> vertices) {
         double sum = 0.0;
-        for (auto vertex = begin; vertex != end; ++vertex) {
-            sum += height_of(*vertex);
+        for (const std::size_t vertex : vertices) {
+            sum += height_of(vertex);
         }
-        const double height = sum / static_cast<double>(end - begin);
+        const double height = sum / static_cast<double>(vertices.size());
         const glm::dvec3 way =
-            (height + detail.offset) * lift * shared_direction(mesh, std::span(begin, end));
-        for (; begin != end; ++begin) {
-            positions[*begin] += glm::vec3(way);
+            (height + detail.offset) * lift * shared_direction(mesh, vertices);
+        for (const std::size_t vertex : vertices) {
+            positions[vertex] += glm::vec3(way);
         }
-    }
+    });
     return positions;
+}
+
+std::vector<SharedPlace> shared_places(const Mesh& mesh) {
+    std::vector<SharedPlace> places(mesh.positions.size());
+    std::uint32_t index = 0;
+    visit_places(mesh, [&](std::span<const std::size_t> vertices) {
+        const glm::dvec3 direction = shared_direction(mesh, vertices);
+        for (const std::size_t vertex : vertices) {
+            places[vertex] = {index, direction};
+        }
+        ++index;
+    });
+    return places;
 }
 
 double tile_height(const terrain::TextureSet& set, glm::dvec2 coordinate,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -30,11 +31,14 @@ double tile_width(const Mesh& mesh, glm::vec2 repeats);
 /// Metres that a height of 1 lifts a point of the mesh.
 double relief_height(const Mesh& mesh, const TextureDetail& detail);
 
-/// Metres that the highest points lie above the mesh, the most that displacement adds to its
-/// bounds.
+/// A vertex that is lifted by 1 goes no farther: over an edge as far as each of its faces needs, see
+/// SharedPlace, but no spike is longer.
+inline constexpr double most_lift = 2.0;
+
+/// Metres that displacement adds to a mesh's bounds, at most.
 double raised_above(const Mesh& mesh, const TextureDetail& detail);
 
-/// Metres that a hull around all heights goes off the mesh, either way: a height by hull_margin
+/// Metres that a hull around all heights adds to a mesh's bounds, at most: a height by hull_margin
 /// beyond the lowest and the highest.
 double hull_reach(const Mesh& mesh, const TextureDetail& detail);
 inline constexpr double hull_margin = 1.0 / 4096.0;
@@ -52,6 +56,14 @@ inline constexpr std::size_t most_displaced_triangles = 1'000'000;
 /// one place stay together: they share the mean of their heights, and go along the mean of their
 /// normals, as far along each as they would alone.
 std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail& detail);
+
+/// Where a vertex stands, and where it goes that is lifted by 1.
+struct SharedPlace {
+    std::uint32_t index = 0;   ///< the same of all vertices at one place
+    glm::dvec3 direction{0.0}; ///< likewise: as far along each of their normals
+};
+/// Of each vertex.
+std::vector<SharedPlace> shared_places(const Mesh& mesh);
 
 /// Height in [0,1] at a tile's coordinate, bilinear between texel centres, as GL samples; beyond
 /// the tile (discard) the border's.

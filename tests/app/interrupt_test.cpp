@@ -15,6 +15,14 @@ test::ProgramResult interrupted_after(const std::string& seconds,
     return test::run_program("/usr/bin/timeout", all);
 }
 
+TEST(CtrlC, HasTheExitStatusThatTheHelpTells) {
+    const auto help = test::reljef({"--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.out.find("1 failed, or ended by Ctrl-C (SIGINT, SIGTERM or SIGHUP); 2 misused"),
+              std::string::npos)
+        << help.out;
+}
+
 TEST(CtrlC, ends_a_long_flight_and_leaves_no_rubbish) {
     const test::TemporaryFolder folder;
     const auto video = (folder.path() / "flight.mp4").string();

@@ -153,7 +153,7 @@ TEST_F(MapsCommand, BadInputIsOneSentenceAndLeavesNothing) {
     refused({}, 2, {"PICTURE"});
     refused({file("none.png"), "--normals", file("n.png")}, 1, {"none.png", "does not exist"});
     refused({file("height.png"), "--normals", file("n.jpg")}, 2,
-            {"n.jpg", "cannot be written", ".png, .tif or .exr"});
+            {"--normals: ", "n.jpg", "cannot be written", ".png, .tif or .exr"});
     refused({file("height.png"), "--normals", file("no/n.png")}, 1, {"no/n.png"});
     refused({file("height.png"), "--normals", file("height.png")}, 2,
             {"--normals", "read as PICTURE"});
@@ -169,7 +169,7 @@ TEST_F(MapsCommand, BadInputIsOneSentenceAndLeavesNothing) {
     write(file("back.png"), small);
     refused({file("height.png"), "--back", file("back.png"), "--layers", file("l.png"), "--normals",
              file("n.png")},
-            1, {"32 x 32", "8 x 4", "one size"});
+            1, {"--back: ", "back.png: 8 x 4 texels found, 32 x 32", "one size", "height.png"});
     small.at(5, 2, 0) = 1.5F;
     write(file("high.exr"), small);
     refused({file("high.exr"), "--normals", file("n.png")}, 1,
@@ -257,7 +257,10 @@ TEST_F(MapsCommand, WhatAPersonShouldKnowOfItsInputIsANoteOnce) {
     EXPECT_THAT(made.err, testing::HasSubstr("ramp.png: heights of 8 bits"));
     EXPECT_THAT(made.err, testing::HasSubstr("in steps of 0.001 m"));
     EXPECT_THAT(made.err, testing::HasSubstr("do not fit together"));
-    EXPECT_EQ(std::count(made.err.begin(), made.err.end(), '\n'), 2);
+    EXPECT_EQ(std::count(made.err.begin(), made.err.end(), '\n'), 2); // it is grey
+    ASSERT_TRUE(io::write_image(file("red.png"), Image(8, 8, Rgba8{200, 0, 0, 255})));
+    const auto red = test::reljef({"maps", file("red.png"), "--normals", file("n.png")});
+    EXPECT_THAT(red.err, testing::HasSubstr("red.png: colours found, of which the first channel"));
     io::Channels normals = io::make_channels(8, 8, 3);
     std::fill(normals.values.begin(), normals.values.end(), 1.0F);
     for (int i = 0; i < 3; ++i) {

@@ -110,14 +110,15 @@ TEST(RenderCommand, tiles_are_refused_where_there_are_none_and_where_they_are_un
     const auto refused = [](std::vector<std::string> arguments, const char* words) {
         arguments.insert(arguments.begin(), "render");
         arguments.insert(arguments.end(), {"-o", "never.png", "--context", "osmesa", "--quiet"});
-        const auto result = test::reljef(arguments);
-        EXPECT_EQ(result.exit_code, 1);
-        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+        test::expect_refusal(test::reljef(arguments), 2, {words});
         EXPECT_FALSE(std::filesystem::exists("never.png"));
     };
     refused({"urban", "--textures", "rock"}, "only the gallery shows tiles, not urban");
     refused({"gallery", "--textures", "wood"},
             "one of mixed, brick, rock, cobble, fence, rings, copper or a folder");
+    refused({"urban", "--imagery", "a.png"}, "--imagery: a.png found, but urban brings its own");
+    refused({"gallery", "--max-error", "1"}, "--max-error: gallery found, a terrain was expected");
+    refused({"urban", "--area", "1,2,3,4"}, "--area found, but it is no folder of tiles");
     refused({"urban", "--technique", "emboss"}, "a mesh with a tile of detail was expected");
     refused({"urban", "--technique", "lattice"}, "exact shapes a terrain by its heights");
     refused({"gallery", "--textures", "brick", "--technique", "prewarp"},
@@ -138,7 +139,8 @@ TEST(RenderCommand, a_tile_of_detail_is_refused_where_it_is_unknown_or_nothing_s
         test::expect_refusal(test::reljef(arguments), exit_code, {words});
         EXPECT_FALSE(std::filesystem::exists("never.png"));
     };
-    refused(1, {"--detail", "nowhere/tiles"}, "'nowhere/tiles' found, one of brick, rock");
+    refused(2, {"--detail", "nope"}, "--detail: texture set 'nope' found, one of brick, rock");
+    refused(2, {"--detail", "nowhere/tiles"}, "'nowhere/tiles' found, one of brick, rock");
     refused(1, {"--detail", folder.path().string()}, folder.path().string());
     for (const std::string width : {"0", "-3", "nan", "inf", "1e7", "", "wide"}) {
         refused(2, {"--detail", "rock:width=" + width}, "--detail: width");
@@ -152,28 +154,53 @@ TEST(RenderCommand, a_tile_of_detail_is_refused_where_it_is_unknown_or_nothing_s
     refused(2, {"--detail", "rock", "--detail-technique", "lattice"}, "normal, relief and exact");
     refused(2, {"--detail", "rock", "--detail-technique", "relief:depth=write"},
             "none beside steps and shadow");
-    refused(1, {"--detail-technique", "relief"}, "without --detail");
+    refused(2, {"--detail-technique", "relief"}, "without --detail");
+    refused(2, {"--technique", "displacement"}, "a mesh with a tile of detail was expected");
+}
+
+// Of the metres that they are drawn as.
+TEST(RenderCommand, HeightsOfEightBitsAreToldWithTheirStepsOnce) {
+    const test::TemporaryFolder folder;
+    const auto dem = folder.write(
+        "dem.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n");
+    const auto tiles = folder.path() / "tiles";
+    std::filesystem::create_directory(tiles);
+    for (const char* name : {"color.png", "height.png"}) {
+        ASSERT_TRUE(io::write_image(tiles / name, Image(8, 8, Rgba8{90, 90, 90, 255})));
+    }
+    const auto result = test::reljef({"render", dem.string(), "--size", "64x48", "--context",
+                                      "osmesa", "-o", (folder.path() / "a.png").string(),
+                                      "--detail", tiles.string() + ":width=40,scale=0.1"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string note = "tiles: heights of 8 bits; over a range of 4 m they come in steps of "
+                             "0.016 m\n";
+    const auto found = result.err.find(note);
+    ASSERT_NE(found, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("8 bits", found + note.size()), std::string::npos);
+}
+
+TEST(RenderCommand, TheTruthOfTheGalleryIsMisuse) {
+    test::expect_refusal(test::reljef({"render", "gallery", "--truth", "-o", "never.png"}), 2,
+                         {"--truth: gallery found", "--technique exact"});
 }
 
 // Told apart by what is wrong first: the gallery's technique is chosen before its textures.
 TEST(RenderCommand, mixed_is_each_models_own_technique_and_a_terrains_none) {
     const test::TemporaryFolder folder;
-    const auto refused = [&](const char* keys, const std::vector<std::string>& arguments,
-                             const char* words) {
+    const auto refused = [&](int exit_code, const char* keys,
+                             const std::vector<std::string>& arguments, const char* words) {
         const auto scene =
             folder.write("s.toml", std::string("[terrain]\nsize = 33\n") + keys).string();
         std::vector<std::string> all{"render", scene,     "--context", "osmesa", "--size",
                                      "64x48",  "--quiet", "-o",        "a.png"};
         all.insert(all.end(), arguments.begin(), arguments.end());
-        const auto result = test::reljef(all);
-        EXPECT_EQ(result.exit_code, 1);
-        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+        test::expect_refusal(test::reljef(all), exit_code, {words});
     };
     const char* const gallery =
         "generator = \"gallery\"\n[gallery]\ntechnique = \"magic\"\ntextures = \"wood\"\n";
-    refused(gallery, {}, "technique 'magic' found");
-    refused(gallery, {"--technique", "mixed"}, "texture set 'wood' found");
-    refused("generator = \"natural\"\n", {"--technique", "mixed"}, "--technique: mixed found");
+    refused(1, gallery, {}, "technique 'magic' found");
+    refused(1, gallery, {"--technique", "mixed"}, "texture set 'wood' found");
+    refused(2, "generator = \"natural\"\n", {"--technique", "mixed"}, "--technique: mixed found");
 }
 
 // A folder of that name where the program runs is another one.

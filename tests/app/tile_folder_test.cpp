@@ -109,7 +109,7 @@ TEST_F(TileFolder, area_and_gaps_are_for_folders) {
     test::expect_refusal(run({"info", path("tiles"), "--area", "1,2,3,4"}), 1, {"has nothing"});
     test::expect_refusal(run({"info", path("tiles"), "--area", "3,2,1,4"}), 2,
                          {"--area: '3,2,1,4'"});
-    test::expect_refusal(run({"info", "natural", "--gaps", "sea"}), 1, {"--gaps", "no folder"});
+    test::expect_refusal(run({"info", "natural", "--gaps", "sea"}), 2, {"--gaps", "no folder"});
 }
 
 TEST_F(TileFolder, the_example_scene_shows_a_folder) {

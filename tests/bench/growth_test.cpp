@@ -46,6 +46,45 @@ TEST_F(Growth, TheSameGroundIsSeenWholeAndTileByTile) {
     EXPECT_THAT(growth_markdown(results), testing::HasSubstr("| 700 | low | read |"));
 }
 
+// Ten times the time, the picture soon, and just the memory that there is.
+GrowthResults made_growth() {
+    GrowthResults results;
+    results.options.sides = {64, 700};
+    results.options.memory_megabytes = 16;
+    for (const int side : results.options.sides) {
+        for (const scene::Pose pose : {scene::Pose::overview, scene::Pose::low}) {
+            GrowthRow row;
+            row.side = side;
+            row.pose = pose;
+            row.ms.median = side == 64 ? 1.0 : 10.0;
+            row.first_picture = 0.5;
+            row.memory_bytes = std::size_t{16} << 20U;
+            results.rows.push_back(row);
+        }
+    }
+    return results;
+}
+
+TEST(GrowthMarks, WhatIsMissedIsSaidBesideIt) {
+    GrowthResults results = made_growth();
+    const std::string slow = growth_table(results);
+    EXPECT_THAT(slow, testing::HasSubstr("10.00 times the frame (at most 1.3: missed)"));
+    EXPECT_THAT(slow, testing::HasSubstr("0.50 s (at most 2: met)"));
+    EXPECT_THAT(slow, testing::HasSubstr("16 MB (at most 16: met)"));
+    const auto met = nlohmann::json::parse(growth_json(results)).at("marks").at("met");
+    EXPECT_FALSE(met.at("frame_ratio"));
+    EXPECT_TRUE(met.at("memory_bytes"));
+    for (GrowthRow& row : results.rows) {
+        row.ms.median = 1.0;
+        row.first_picture = 2.5;
+        row.memory_bytes += row.side == 700 ? 1 : 0;
+    }
+    const std::string late = growth_markdown(results);
+    EXPECT_THAT(late, testing::HasSubstr("1.00 times the frame (at most 1.3: met)"));
+    EXPECT_THAT(late, testing::HasSubstr("2.50 s (at most 2: missed)"));
+    EXPECT_THAT(late, testing::HasSubstr("16 MB (at most 16: missed)"));
+}
+
 TEST_F(Growth, StoppedItLeavesNothing) {
     std::stop_source stop;
     options_.suite.progress = [&](double /*fraction*/) { stop.request_stop(); };

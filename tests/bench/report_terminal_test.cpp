@@ -99,6 +99,9 @@ TEST(TerminalReport, ratio_is_no_figure_where_texture_shows_nothing) {
     EXPECT_THAT(line_with(report, "polygons"), HasSubstr("–     –"));
     EXPECT_THAT(report, HasSubstr("shows nothing of the terrain here, so its time says nothing: "
                                   "texture\n"));
+    EXPECT_THAT(report, HasSubstr(", noise floor 5.0 %\n"));
+    results.rows[2].setting = results.rows[1].setting;
+    EXPECT_THAT(terminal_report(results), HasSubstr(", noise floor of polygons:lods=1 5.0 %\n"));
 }
 
 TEST(TerminalReport, floor_of_the_pictures_errors_is_that_of_exact) {

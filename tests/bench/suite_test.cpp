@@ -106,6 +106,9 @@ TEST_F(SuiteOnTinyTerrain,
         EXPECT_GT(row.timing->ms.median, 0.0);
         EXPECT_FALSE(row.timing->ratio_to_texture);
     }
+    EXPECT_TRUE(results.rows[2].null_row);
+    EXPECT_EQ(results.rows[2].setting.technique, "polygons"); // nor does a floor of its time
+    EXPECT_EQ(results.rows[2].timing->stats.triangles, 32U);
 }
 
 TEST_F(SuiteOnTinyTerrain, under_five_frames_there_is_no_interval_no_floor_and_the_row_is_noisy) {

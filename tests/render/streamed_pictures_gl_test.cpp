@@ -29,10 +29,17 @@ glm::dvec3 shown_at(glm::dvec2 sample) {
 // filters mix, which bends by 1.2 over a level of at least 67 where a colour grows by 30 a sample.
 constexpr double most_bend = 60.0 * 0.5 * 0.5 + 1.2 / 67.0 * 30.0 * 30.0;
 
+/// The same in stripes, as wide as two pixels.
+glm::dvec3 striped_at(glm::dvec2 sample) {
+    return glm::dvec3(static_cast<int>(std::floor(4.0 * sample.x)) % 2 == 0 ? 150.0 : 90.0);
+}
+
 /// West of the middle there are images, in pixels of an eighth of a metre.
 class Pictures {
 public:
-    explicit Pictures(std::size_t memory_budget = std::size_t{400} << 20U) {
+    using Show = glm::dvec3 (*)(glm::dvec2);
+
+    explicit Pictures(std::size_t memory_budget = std::size_t{400} << 20U, Show show = shown_at) {
         const int count = samples / overview_reduction;
         auto heightfield = test::plane_heightfield(
             test::made_heights(count, count,
@@ -51,7 +58,10 @@ public:
              .refinement = refinement,
              .most_texels = scene::TileStream::texels_within(memory_budget)});
         stream = std::make_shared<scene::TileStream>(
-            maker, [maker](TreeTile tile, const std::stop_token&) { return read(maker, tile); },
+            maker,
+            [maker, show](TreeTile tile, const std::stop_token&) {
+                return read(maker, tile, show);
+            },
             scene::TileStreamOptions{.memory_budget = memory_budget, .threads = 2});
         node.stream = stream;
     }
@@ -75,7 +85,7 @@ public:
     std::shared_ptr<scene::TileStream> stream;
 
 private:
-    static scene::TileReading read(const scene::TileMaker& maker, TreeTile tile) {
+    static scene::TileReading read(const scene::TileMaker& maker, TreeTile tile, Show show) {
         const glm::ivec2 count = maker.tree().cells(tile) + 3;
         scene::TileReading reading;
         reading.heights = test::made_heights(count.x, count.y, [&](int col, int row) {
@@ -90,7 +100,7 @@ private:
                 const glm::dvec2 sample = maker.first(tile) + maker.step(tile) *
                                                                   glm::dvec2(col, row) * cells /
                                                                   glm::dvec2(texels - 1);
-                const glm::ivec3 color(glm::round(shown_at(sample)));
+                const glm::ivec3 color(glm::round(show(sample)));
                 if (sample.x <= 0.5 * samples) {
                     reading.picture.texels(col, row) = {static_cast<std::uint8_t>(color.r),
                                                         static_cast<std::uint8_t>(color.g),
@@ -134,6 +144,74 @@ TEST_F(StreamedPicturesGlTest, EveryPixelHasTheColourOfItsPlace) {
         }
         EXPECT_GT(compared, 20000);
     }
+}
+
+// Level and of two colours, one beside the other from west to east, six metres wide.
+std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
+    terrain::TextureSet set;
+    set.name = "two colours";
+    set.heights = Grid<float>(16, 16, 1.0F);
+    set.color = Image(16, 16, west);
+    set.specular = 0.0F;
+    for (int row = 0; row < 16; ++row) {
+        for (int col = 8; col < 16; ++col) {
+            set.color(col, row) = east;
+        }
+    }
+    scene::GroundDetail detail;
+    detail.set = std::make_shared<const terrain::TextureSet>(
+        terrain::completed(std::move(set), terrain::TileBorder::wrap).value());
+    detail.width = 6.0;
+    detail.technique = scene::parse_technique("exact:shadow=hard").value();
+    return std::make_shared<const scene::GroundDetail>(std::move(detail));
+}
+
+// The light of a pixel with it over that of the same one without is that of its place on the tile
+// over the tile's mean, whatever the images show there: stripes narrower than the vertices' distance
+// are as sharp.
+TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
+    Pictures world(std::size_t{400} << 20U, striped_at);
+    world.scene.add_light();
+    world.look_down({-70.0, -30.0, 25.0});
+    Driver made = driver();
+    const auto picture = [&](std::shared_ptr<const scene::GroundDetail> detail) {
+        world.terrain->get<scene::TerrainNode>()->detail = std::move(detail);
+        test::must(made.draw(world.scene));
+        return made.read_color();
+    };
+    const Image plain = picture(nullptr);
+    constexpr std::array<Rgba8, 2> colors{Rgba8{180, 180, 180, 255}, Rgba8{130, 130, 130, 255}};
+    const std::array lights{linear_from_rgba8(colors[0]).g, linear_from_rgba8(colors[1]).g};
+    const Image detailed = picture(two_colours(colors[0], colors[1]));
+    const HitBuffer hits = test::must(made.draw_hits(world.scene));
+    const scene::TileMaker& maker = world.stream->maker();
+    int compared = 0;
+    int worst = 0;
+    int striped = 0;
+    for (int row = 0; row < size.y; ++row) {
+        for (int col = 0; col < size.x; ++col) {
+            const Hit hit = hits(col, row);
+            const double x = maker.overview()
+                                 .placement()
+                                 .world_from_sample({maker.on_overview({hit.col, hit.row}), 0.0})
+                                 .x;
+            const double along = glm::fract(x / 6.0);
+            if (hit.col < 1.0F || hit.col > 0.5F * samples - 1.0F ||
+                std::abs(glm::fract(2.0 * along + 0.5) - 0.5) < 0.1) {
+                continue; // its border, where colours are mixed
+            }
+            const float share = lights.at(along < 0.5 ? 0 : 1) / (0.5F * (lights[0] + lights[1]));
+            const Rgba8 expected =
+                rgba8_from_linear(linear_from_rgba8(plain(col, row)) * share);
+            worst = std::max(worst, std::abs(detailed(col, row).g - expected.g));
+            ++compared;
+            const int beside = plain(col, std::min(row + 2, size.y - 1)).g; // a stripe farther
+            striped += std::abs(plain(col, row).g - beside) > 20 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(compared, 20000);
+    EXPECT_LE(worst, 3);
+    EXPECT_GT(striped, compared / 3);
 }
 
 TEST_F(StreamedPicturesGlTest, WhereImagesAreFinerFinerTilesAreDrawn) {

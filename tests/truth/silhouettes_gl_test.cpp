@@ -122,6 +122,117 @@ TEST_F(SilhouettesGlTest, ABoxHasTheOutlinesOfItsSixSides) {
     }
 }
 
+// A cube with a relief on each face, in which all is solid beneath the heights of the face that is
+// nearest.
+class SolidCube {
+public:
+    SolidCube(const Panel& panel, const scene::Mesh& box, double side)
+        : detail_(panel.detail()), side_(side) {
+        const auto relief =
+            ReliefPlane::create(detail_.set->heights.view(),
+                                {side, detail_.scale, detail_.offset, detail_.border});
+        for (std::size_t first = 0; first < box.indices.size(); first += 6) {
+            faces_.push_back({relief.value(), glm::inverse(side_frame(box, first))});
+        }
+    }
+
+    // Over one face after the other.
+    [[nodiscard]] std::optional<ReliefHit> first_hit(const Ray& ray) const {
+        const std::vector<double> ends = changes_along(ray);
+        const PlacedRelief* before = nullptr;
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+            const double begin = ends[i];
+            const PlacedRelief& face = nearest(ray.at(0.5 * (begin + ends[i + 1])));
+            const bool is_next = before != nullptr && before != &face;
+            before = &face;
+            auto hit = is_next ? wall(face, ray, begin) : std::nullopt;
+            if (!hit) {
+                hit = face.first_hit({ray.at(begin), ray.direction});
+                hit = hit && begin + hit->t <= ends[i + 1] ? hit : std::nullopt;
+                if (hit) {
+                    hit->t += begin;
+                }
+            }
+            if (hit) {
+                return hit;
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    // Where two coordinates are equally far from the middle.
+    [[nodiscard]] static std::vector<double> changes_along(const Ray& ray) {
+        std::vector<double> ends{0.0, 100.0};
+        for (const glm::ivec2 axes : {glm::ivec2(0, 1), {1, 2}, {2, 0}}) {
+            for (const double sign : {-1.0, 1.0}) {
+                const double away = ray.origin[axes.x] + sign * ray.origin[axes.y];
+                const double t = -away / (ray.direction[axes.x] + sign * ray.direction[axes.y]);
+                if (t > 0.0 && t < 100.0) {
+                    ends.push_back(t);
+                }
+            }
+        }
+        std::sort(ends.begin(), ends.end());
+        return ends;
+    }
+    [[nodiscard]] static glm::dvec3 local(const PlacedRelief& face, glm::dvec3 point) {
+        return glm::dvec3(face.local_from_world * glm::dvec4(point, 1.0));
+    }
+    [[nodiscard]] const PlacedRelief& nearest(glm::dvec3 point) const {
+        return *std::max_element(faces_.begin(), faces_.end(),
+                                 [&](const PlacedRelief& one, const PlacedRelief& other) {
+                                     return local(one, point).z < local(other, point).z;
+                                 });
+    }
+    // What a ray meets that comes from over another face.
+    [[nodiscard]] std::optional<ReliefHit> wall(const PlacedRelief& face, const Ray& ray,
+                                                double t) const {
+        const glm::dvec3 at = local(face, ray.at(t));
+        ReliefHit hit{{0.5 + at.x / side_, 0.5 - at.y / side_}};
+        hit.height = scene::tile_height(*detail_.set, hit.texture_coordinate, detail_.border);
+        hit.t = t;
+        return at.z < (hit.height + detail_.offset) * detail_.scale * side_ ? std::optional(hit)
+                                                                            : std::nullopt;
+    }
+
+    const scene::TextureDetail& detail_;
+    double side_;
+    std::vector<PlacedRelief> faces_;
+};
+
+// Over its edges the faces' heights go on until they meet; where they differ stands a wall.
+TEST_F(SilhouettesGlTest, ABoxIsClosedAtItsEdges) {
+    RELJEF_RELEASE_ONLY("it is what a shader says");
+    constexpr float side = 2.0F;
+    const scene::Mesh box = scene::box_mesh(glm::vec3(side));
+    Panel panel(noise_tile(16, 16, 21), 1.0F);
+    panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(box);
+    for (const float offset : {-1.0F, -0.5F, 0.0F}) {
+        panel.detail().offset = offset;
+        const SolidCube truth(panel, box, side);
+        for (const glm::dvec3 eye : {glm::dvec3(1.7, -3.4, 1.9), glm::dvec3(0.2, -3.6, -0.3)}) {
+            panel.look(eye, {0.0, 0.0, 0.0});
+            const HitBuffer hits = panel.hits("exact:silhouettes=true");
+            TileErrors found;
+            int far_off = 0;
+            for (int y = 0; y < hits.rows(); ++y) {
+                for (int x = 0; x < hits.cols(); ++x) {
+                    const auto first = truth.first_hit(
+                        scene::view_ray(panel.scene.camera(), mesh_picture, {x + 0.5, y + 0.5}));
+                    if (first || !hits(x, y).is_sky()) {
+                        judge(hits(x, y), first, panel, found);
+                    }
+                    far_off += first && std::abs(hits(x, y).depth / first->t - 1.0) > 1e-3 ? 1 : 0;
+                }
+            }
+            EXPECT_GT(found.pixels, 5000);
+            EXPECT_LE(found.wrong_percent(), 0.3) << offset << ' ' << eye.x;
+            EXPECT_LE(100.0 * far_off / found.pixels, 0.6) << offset << ' ' << eye.x;
+        }
+    }
+}
+
 // Between tetrahedra nothing is lost: a closed shape has no hole, and its outline is a sphere's.
 TEST_F(SilhouettesGlTest, CurvedMeshesHaveNoHolesAndTheRadiusOfTheirHeights) {
     const auto driver = panel_driver();
@@ -275,6 +386,30 @@ TEST(HullMesh, NeighboursShareTheirSidesAndPartsWithoutVolumeAreLeftOut) {
     scene::Mesh point = plane;
     std::fill(point.positions.begin(), point.positions.end(), glm::vec3(1.0F));
     EXPECT_TRUE(render::hull_parts(point, detail).empty());
+}
+
+// Over a cube they fill the shell, and know which of their sides another face's parts lie beyond.
+TEST(HullMesh, FillsTheEdgesOfABox) {
+    scene::TextureDetail detail;
+    detail.scale = 0.1F;
+    detail.offset = 0.0F;
+    const scene::Mesh box = scene::box_mesh(glm::vec3(2.0F));
+    const double lift = scene::relief_height(box, detail);
+    double sum = 0.0;
+    double parted = 0.0;
+    for (const render::HullPart& part : render::hull_parts(box, detail)) {
+        const auto from_first = [&](std::size_t i) {
+            return glm::dvec3(part.corners[i]) - glm::dvec3(part.corners[0]);
+        };
+        sum += glm::dot(from_first(1), glm::cross(from_first(2), from_first(3))) / 6.0;
+        for (const glm::vec4& normal : part.normals) {
+            parted += static_cast<double>(normal.w);
+        }
+    }
+    const double inner = 2.0 - 2.0 * scene::hull_margin * lift;
+    const double outer = 2.0 + 2.0 * (1.0 + scene::hull_margin) * lift;
+    EXPECT_NEAR(sum, std::pow(outer, 3.0) - std::pow(inner, 3.0), 1e-5);
+    EXPECT_EQ(parted, 6.0 * 4.0 * 2.0); // two triangles over each edge of a face
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // Each technique on its own claim, against the exact picture.
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -13,6 +14,7 @@
 #include "engine/scene/poses.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
+#include "terrains/generators.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
 #include "tests/support/release_only.h"
@@ -23,6 +25,7 @@ namespace {
 using scene::Pose;
 
 constexpr glm::ivec2 picture_size{320, 240};
+constexpr std::array every_pose{Pose::overview, Pose::oblique, Pose::low, Pose::grazing, Pose::map};
 
 struct MadeSurface {
     std::string name;
@@ -97,13 +100,25 @@ protected:
 TEST_F(TechniquesGlTest, ExactShowsTheTrueFirstHit) {
     for (const MadeSurface& surface : hard_surfaces()) {
         Stage stage(surface.heights);
-        for (const Pose pose : {Pose::overview, Pose::low, Pose::grazing, Pose::map}) {
+        for (const Pose pose : every_pose) {
             stage.look(pose);
             if (pose == Pose::low && surface.name == "level") {
                 continue; // the eye lies in the surface
             }
             const GeometricErrors found = errors(stage, "exact");
             EXPECT_LE(found.wrong_percent, 0.01) << surface.name << ' ' << to_string(pose);
+        }
+    }
+}
+
+TEST_F(TechniquesGlTest, ExactShowsTheTrueFirstHitOfTheBuiltInTerrains) {
+    RELJEF_RELEASE_ONLY("other surfaces by the same lines");
+    for (auto* const generate : {terrains::generate_natural, terrains::generate_urban}) {
+        const terrain::Terrain made = test::must(generate({.size = 257}));
+        Stage stage(made.heightfield.heights, made.heightfield.spacing);
+        for (const Pose pose : every_pose) {
+            stage.look(pose);
+            EXPECT_LE(errors(stage, "exact").wrong_percent, 0.01) << to_string(pose);
         }
     }
 }
