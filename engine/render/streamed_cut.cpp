@@ -160,7 +160,8 @@ private:
             Grid<std::uint8_t>& needed = splits.at(tile.draw->tile->id);
             if (tile.cut->view != views_[i] || tile.cut->splits != needed) {
                 tile.triangles = tile.cut->shape->triangles(views_[i], needed);
-                tile.cut->view = views_[i];
+                tile.view = views_[i];
+                tile.cut->view.reset();
                 tile.cut->splits = std::move(needed);
             }
         });
@@ -206,7 +207,7 @@ private:
 
 bool is_cut(const StreamedDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    return !draw.flat && technique.id == scene::TechniqueId::polygons &&
+    return !draw.flat && !draw.is_hidden && technique.id == scene::TechniqueId::polygons &&
            scene::parameter(technique, "error") > 0.0;
 }
 
