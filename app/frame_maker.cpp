@@ -97,8 +97,8 @@ std::string DeviceFrames::stats() const {
                "tiles cut: {}\n"
                "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
                "frustum, {} tiles behind nearer ground, {} "
-               "triangles under the error, {} details too small, {} cuts and {} uploads that "
-               "were there\n"
+               "triangles under the error, {} details too small, {} selections, {} cuts and {} "
+               "uploads that were there\n"
                "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
                device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles,
                stats_.draws, stats_.state_changes, stats_.uploads,
@@ -106,8 +106,8 @@ std::string DeviceFrames::stats() const {
                stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
                stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
                stats_.skipped.tiles_occluded, stats_.skipped.triangles_under_error,
-               stats_.skipped.details_too_small, stats_.skipped.cuts_unchanged,
-               stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
+               stats_.skipped.details_too_small, stats_.skipped.selections_unchanged,
+               stats_.skipped.cuts_unchanged, stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
 }
 
 Result<void> TruthFrames::prepare(const scene::Scene& scene) {

@@ -86,6 +86,8 @@ render::FrameStats::Skipped read_skipped(const JsonObject& json) {
         skipped.triangles_under_error = json.count("triangles_under_error");
         skipped.cuts_unchanged = json.whole("cuts_unchanged");
     }
+    skipped.selections_unchanged =
+        json.has("selections_unchanged") ? json.whole("selections_unchanged") : 0;
     skipped.tiles_occluded = json.has("tiles_occluded") ? json.whole("tiles_occluded") : 0;
     skipped.uploads_unchanged = json.whole("uploads_unchanged");
     skipped.sky = json.whole("sky");

@@ -23,6 +23,7 @@ Json to_json(const render::FrameStats::Skipped& skipped) {
             {"tiles_occluded", skipped.tiles_occluded},
             {"triangles_outside_frustum", skipped.triangles_outside_frustum},
             {"triangles_under_error", skipped.triangles_under_error},
+            {"selections_unchanged", skipped.selections_unchanged},
             {"cuts_unchanged", skipped.cuts_unchanged},
             {"uploads_unchanged", skipped.uploads_unchanged},
             {"sky", skipped.sky}};

@@ -15,14 +15,6 @@
 namespace reljef::render {
 namespace {
 
-int count_nodes(const scene::Node& node) {
-    int count = 1;
-    for (const auto& child : node.children()) {
-        count += count_nodes(*child);
-    }
-    return count;
-}
-
 // As it would be drawn.
 std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Tile& tile,
                            bool flat) {
@@ -69,19 +61,23 @@ class Selector {
 public:
     Selector(DrawList& list, const Frustum& frustum) : list_(list), frustum_(frustum) {}
 
-    void add(const scene::Node& node, const glm::dmat4& world_from_local) {
-        if (const auto* mesh = node.get<scene::MeshNode>()) {
-            add_mesh(*mesh, world_from_local, node.local_bounds());
-        } else if (const auto* terrain = node.get<scene::TerrainNode>()) {
-            if (scene::geometry_of(terrain->material.technique.id) == scene::Geometry::box) {
-                add_relief(*terrain, world_from_local);
-            } else if (!add_streamed(*terrain, world_from_local)) {
-                add_tiles(*terrain, world_from_local);
-            }
+    void add(const SeenNode& seen) {
+        if (const auto* mesh = seen.node->get<scene::MeshNode>()) {
+            add_mesh(*mesh, seen.world_from_local, seen.local_bounds);
+        } else if (const auto* terrain = seen.node->get<scene::TerrainNode>()) {
+            add_terrain(*terrain, seen.world_from_local);
         }
     }
 
 private:
+    void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        if (scene::geometry_of(terrain.material.technique.id) == scene::Geometry::box) {
+            add_relief(terrain, world_from_local);
+        } else if (!add_streamed(terrain, world_from_local)) {
+            add_tiles(terrain, world_from_local);
+        }
+    }
+
     void add_mesh(const scene::MeshNode& mesh, const glm::dmat4& world_from_local,
                   const Box& local_bounds) {
         if (frustum_.may_see(transformed(world_from_local, local_bounds))) {
@@ -114,12 +110,19 @@ private:
         const bool flat =
             scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
         TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local);
-        for (TileChoice::Drawn& drawn : choice.drawn) {
+        const auto add = [&](TileChoice::Drawn& drawn, bool is_hidden) {
             list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
                                             drawn.distance, detail_of(terrain, drawn.distance),
-                                            drawn.error});
+                                            drawn.error, is_hidden});
+        };
+        for (TileChoice::Drawn& drawn : choice.drawn) {
+            add(drawn, false);
+        }
+        for (TileChoice::Drawn& hidden : choice.hidden) {
+            add(hidden, true);
         }
         list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
+        list_.stats.skipped.tiles_occluded += choice.hidden_unread;
         list_.stats.tiles_missing += static_cast<int>(choice.wanted.size());
         return true;
     }
@@ -165,27 +168,29 @@ private:
 } // namespace
 
 DrawList select(const scene::Scene& scene, glm::ivec2 size) {
+    return select(SceneView(scene, size));
+}
+
+DrawList select(const SceneView& view) {
     DrawList list;
-    list.camera = scene.camera();
-    list.size = size;
-    list.sun = scene.sun();
-    list.sky = scene.sky();
+    list.camera = view.camera();
+    list.size = view.size();
+    list.sun = view.sun();
+    list.sky = view.sky();
     if (list.camera.projection == scene::ProjectionKind::orthographic) {
-        list.camera = scene::with_fitted_depth(list.camera, scene.root().world_bounds());
+        list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }
-    const Frustum frustum(scene::clip_from_world(list.camera, size));
+    const Frustum frustum(scene::clip_from_world(list.camera, list.size));
     Selector selector(list, frustum);
-    int visited = 0;
-    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& transform) {
-        ++visited;
-        selector.add(node, transform);
-    });
+    for (const SeenNode& seen : view.nodes()) {
+        selector.add(seen);
+    }
     const auto nearer = [](const auto& a, const auto& b) { return a.distance < b.distance; };
     std::stable_sort(list.tiles.begin(), list.tiles.end(), nearer);
     std::stable_sort(list.streamed_tiles.begin(), list.streamed_tiles.end(), nearer);
     std::stable_sort(list.reliefs.begin(), list.reliefs.end(), nearer);
-    list.stats.nodes = count_nodes(scene.root());
-    list.stats.skipped.invisible_nodes = list.stats.nodes - visited;
+    list.stats.nodes = view.node_count();
+    list.stats.skipped.invisible_nodes = view.node_count() - view.visible_count();
     list.stats.skipped.sky = list.sky ? 0 : 1;
     return list;
 }

@@ -12,6 +12,7 @@
 #include "engine/core/result.h"
 #include "engine/render/frame_stats.h"
 #include "engine/render/ground_view.h"
+#include "engine/render/scene_view.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/streamed_tile.h"
 #include "engine/scene/terrain_light.h"
@@ -56,6 +57,8 @@ struct StreamedDraw {
     double distance = 0.0;                  ///< from the eye to its bounds' nearest point, metres
     DetailLevel detail = DetailLevel::none; ///< of what lies over the terrain
     double error = 0.0; ///< that its vertices are seen off by, an estimate, pixels
+    /// Behind nearer ground: drawn by itself, as the tiles around it need not meet it.
+    bool is_hidden = false;
 };
 
 struct MeshDraw {
@@ -78,8 +81,12 @@ struct DrawList {
     FrameStats stats; ///< nodes and what was skipped, so far
 };
 
-/// Looks at the scene through its camera: leaves out what is hidden or outside the frustum and
-/// orders the rest. An orthographic camera's depth range is fitted to the scene.
+/// Leaves out what is hidden or outside the frustum and orders the rest. An orthographic camera's
+/// depth range is fitted to the scene. Reads nothing but the view (and the tiles of its streams,
+/// whose revisions it has): the same view gives the same list. What the list draws is the scene's
+/// own.
+DrawList select(const SceneView& view);
+/// Looks at the scene through its camera.
 DrawList select(const scene::Scene& scene, glm::ivec2 size);
 
 /// Whether each terrain and mesh can be drawn as it is asked to be; fails as

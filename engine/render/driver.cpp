@@ -60,7 +60,7 @@ Result<void> Driver::resize(glm::ivec2 size) {
 
 Result<FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
     const auto start = Clock::now();
-    const DrawList list = list_of(scene);
+    const DrawList& list = list_of(scene);
     FrameStats stats = list.stats;
     if (auto done = prepare(list, false, stats); !done) {
         return done.error();
@@ -96,7 +96,7 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
         hit_target_ = std::move(*target);
     }
-    const DrawList list = list_of(scene);
+    const DrawList& list = list_of(scene);
     FrameStats stats;
     if (auto done = prepare(list, true, stats); !done) {
         return done.error();
@@ -117,12 +117,16 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
     return hits;
 }
 
-DrawList Driver::list_of(const scene::Scene& scene) const {
-    DrawList list = select(scene, size());
-    if (options_.occlusion) {
-        drop_occluded(list);
+const DrawList& Driver::list_of(const scene::Scene& scene) {
+    if (!view_.look(scene, size()) && list_) {
+        list_->stats.skipped.selections_unchanged = 1;
+        return *list_;
     }
-    return list;
+    list_ = select(view_);
+    if (options_.occlusion) {
+        drop_occluded(*list_);
+    }
+    return *list_;
 }
 
 Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {

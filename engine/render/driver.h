@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <glm/vec2.hpp>
 
@@ -51,7 +52,7 @@ public:
 private:
     Driver(const DriverOptions& options, gl::Framebuffer target);
 
-    [[nodiscard]] DrawList list_of(const scene::Scene& scene) const;
+    const DrawList& list_of(const scene::Scene& scene);
     Result<void> prepare(const DrawList& list, bool hits, FrameStats& stats);
     Result<void> draw_content(const DrawList& list, bool hits, FrameStats& stats);
 
@@ -64,6 +65,8 @@ private:
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;
     Residency residency_;
+    SceneView view_;               // of the last frame
+    std::optional<DrawList> list_; // what it shows
 };
 
 } // namespace reljef::render

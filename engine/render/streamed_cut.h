@@ -45,7 +45,7 @@ bool is_cut(const StreamedDraw& draw);
 /// What a tile was cut by, and for.
 struct StreamedCut {
     std::optional<StreamedShape> shape; ///< made where fewer triangles are asked for
-    std::optional<terrain::ErrorView> view;
+    std::optional<terrain::ErrorView> view; ///< absent until those triangles are drawn
     Grid<std::uint8_t> splits; ///< that had to be made for the tiles around it
 };
 
@@ -53,13 +53,15 @@ struct StreamedCut {
 struct TileToCut {
     const StreamedDraw* draw = nullptr;
     StreamedCut* cut = nullptr;
-    std::vector<std::uint16_t> triangles; ///< empty where they are as they were
+    std::vector<std::uint16_t> triangles = {}; ///< empty where they are as they were
+    terrain::ErrorView view = {};              ///< that they were found for
 };
 
 /// Finds the triangles of all tiles of a cover: as few as the view allows where the tiles still
 /// meet vertex on vertex. Of the error that is asked for, theirs is what the estimate of the error
-/// of the vertices leaves (errors of both kinds seldom add up), at least half. Nothing is done
-/// where neither the cover is new nor a tile's view. Precondition: a tile for each of the cover, or
+/// of a tile's vertices leaves (as of independent errors), at least half. Nothing is done
+/// where neither the cover is new nor a tile's view; else the view of a cut whose triangles are new
+/// is for the caller to set, once they are drawn. Precondition: a tile for each of the cover, or
 /// none.
 void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,
                   std::span<TileToCut> tiles);

@@ -120,8 +120,10 @@ Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameS
 StreamedTiles::Cover& StreamedTiles::cover_of(const StreamedByTile& drawn) {
     const auto& stream = drawn.begin()->second->terrain->stream;
     std::set<terrain::TreeTile> ids;
-    for (const auto& entry : drawn) {
-        ids.insert(entry.first);
+    for (const auto& [id, draw] : drawn) {
+        if (!draw->is_hidden) {
+            ids.insert(id);
+        }
     }
     const auto found = covers_.find(stream.get());
     if (found != covers_.end() && found->second.tiles.tiles() == ids) {
@@ -133,17 +135,16 @@ StreamedTiles::Cover& StreamedTiles::cover_of(const StreamedByTile& drawn) {
 
 Result<void> StreamedTiles::prepare_meshes(const terrain::TileCover& cover,
                                            const StreamedByTile& drawn, FrameStats& stats) {
-    std::vector<const StreamedDraw*> changed;
+    static const std::vector<terrain::EdgeMove> none;
+    std::vector<ChangedMesh> changed;
     for (const auto& [id, draw] : drawn) {
-        const std::vector<terrain::EdgeMove>& moves = cover.moves(id);
-        Entry& entry = entry_of(*draw);
+        const std::vector<terrain::EdgeMove>& moves = draw->is_hidden ? none : cover.moves(id);
+        const Entry& entry = entry_of(*draw);
         if (entry.resident && entry.flat == draw->flat && entry.moves == moves) {
             ++stats.skipped.uploads_unchanged;
-            continue;
+        } else {
+            changed.push_back({draw, &moves});
         }
-        entry.moves = moves;
-        entry.flat = draw->flat;
-        changed.push_back(draw);
     }
     for (std::size_t i = 0; i < changed.size(); i += uploaded_together) {
         const auto part = std::span(changed).subspan(i);
@@ -155,18 +156,21 @@ Result<void> StreamedTiles::prepare_meshes(const terrain::TileCover& cover,
     return {};
 }
 
-Result<void> StreamedTiles::upload_all(std::span<const StreamedDraw* const> draws,
+Result<void> StreamedTiles::upload_all(std::span<const ChangedMesh> changed,
                                        const StreamedByTile& drawn, FrameStats& stats) {
-    std::vector<GridMesh> meshes(draws.size());
-    parallel_for(static_cast<int>(draws.size()), [&](int i) {
-        const StreamedDraw& draw = *draws[static_cast<std::size_t>(i)];
-        meshes[static_cast<std::size_t>(i)] =
-            streamed_mesh(draw, entries_.at(key_of(draw)).moves, drawn);
+    std::vector<GridMesh> meshes(changed.size());
+    parallel_for(static_cast<int>(changed.size()), [&](int i) {
+        const auto& [draw, moves] = changed[static_cast<std::size_t>(i)];
+        meshes[static_cast<std::size_t>(i)] = streamed_mesh(*draw, *moves, drawn);
     });
-    for (std::size_t i = 0; i < draws.size(); ++i) {
-        if (auto done = upload(*draws[i], meshes[i], stats); !done) {
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+        const auto& [draw, moves] = changed[i];
+        if (auto done = upload(*draw, meshes[i], stats); !done) {
             return done;
         }
+        Entry& entry = entry_of(*draw);
+        entry.moves = *moves;
+        entry.flat = draw->flat;
     }
     return {};
 }
@@ -214,8 +218,8 @@ Result<void> StreamedTiles::prepare_cuts(const DrawList& list, Cover& cover,
         const StreamedDraw& draw = *by_tile.second;
         Entry& entry = entry_of(draw);
         if (is_cut(draw)) {
-            tiles.push_back({&draw, &entry.cut, {}});
-        } else if (entry.cut.view) {
+            tiles.push_back({&draw, &entry.cut});
+        } else if (entry.resident->mesh.indices.id() != 0U) {
             if (auto done = set_all_triangles(entry, draw.tile->cells, stats); !done) {
                 return done;
             }
@@ -225,9 +229,12 @@ Result<void> StreamedTiles::prepare_cuts(const DrawList& list, Cover& cover,
     for (const TileToCut& tile : tiles) {
         if (tile.triangles.empty()) {
             ++stats.skipped.cuts_unchanged;
-        } else if (auto done = set_triangles(entry_of(*tile.draw), tile.triangles, stats); !done) {
+            continue;
+        }
+        if (auto done = set_triangles(entry_of(*tile.draw), tile.triangles, stats); !done) {
             return done;
         }
+        tile.cut->view = tile.view;
     }
     return {};
 }
@@ -238,8 +245,10 @@ Result<void> StreamedTiles::set_all_triangles(Entry& entry, glm::ivec2 cells, Fr
         return indices.error();
     }
     entry.cut.view.reset();
-    entry.resident->mesh.index_count = 6 * cells.x * cells.y;
-    entry.resident->mesh.vertex_array.set_indices(**indices);
+    ResidentMesh& mesh = entry.resident->mesh;
+    mesh.index_count = 6 * cells.x * cells.y;
+    mesh.vertex_array.set_indices(**indices);
+    mesh.indices = {};
     return {};
 }
 

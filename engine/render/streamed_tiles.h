@@ -62,6 +62,11 @@ private:
         std::unique_ptr<const scene::TerrainIrradiance> irradiance;
     };
 
+    struct ChangedMesh {
+        const StreamedDraw* draw = nullptr;
+        const std::vector<terrain::EdgeMove>* moves = nullptr;
+    };
+
     Result<void> prepare_meshes(const terrain::TileCover& cover, const StreamedByTile& drawn,
                                 FrameStats& stats);
     Result<void> prepare_cuts(const DrawList& list, Cover& cover, const StreamedByTile& drawn,
@@ -70,7 +75,7 @@ private:
     Result<void> set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats);
     Result<void> set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
                                FrameStats& stats);
-    Result<void> upload_all(std::span<const StreamedDraw* const> draws, const StreamedByTile& drawn,
+    Result<void> upload_all(std::span<const ChangedMesh> changed, const StreamedByTile& drawn,
                             FrameStats& stats);
     Result<void> prepare_light(const DrawList& list, const StreamedDraw& draw, FrameStats& stats);
     Result<void> prepare_ground(const StreamedDraw& draw, FrameStats& stats);

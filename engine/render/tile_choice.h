@@ -18,9 +18,11 @@ struct TileChoice {
         double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
         double error = 0.0;    ///< of its vertices as it is seen, an estimate, pixels
     };
-    std::vector<Drawn> drawn;
+    std::vector<Drawn> drawn;              ///< from the eye outwards
+    std::vector<Drawn> hidden;             ///< and there, behind what is drawn
     std::vector<terrain::TreeTile> wanted; ///< and not there, the most urgent first
     int outside_frustum = 0;
+    int hidden_unread = 0; ///< tiles that are not there and need not be
 };
 
 /// The error on the picture that streamed tiles are chosen for where the technique names none,
@@ -29,10 +31,12 @@ inline constexpr double default_tile_error = 1.0;
 /// Where the error allows it, samples are seen at most so many times as far apart.
 inline constexpr double samples_apart_in_errors = 4.0;
 
-/// Best first: the tile whose estimated error is seen largest gives way to those below it, until
-/// none is seen larger than half of the technique's error, or more would be drawn than memory
-/// holds. Where one below is not there yet, it is wanted, and the coarser one drawn meanwhile. The
-/// same view of the same tiles gives the same choice. Nothing at all while the root is not there.
+/// A tile gives way to those below it where its estimated error is seen larger than half of the
+/// technique's error; where more would be drawn than memory holds, only where it is seen larger
+/// than a limit that leaves no more. Where one below is not there yet, it is wanted, and the
+/// coarser one drawn meanwhile. What lies behind nearer ground that is as fine as it should be
+/// (terrain/horizon.h, of polygons on a plane) is neither drawn nor wanted. The same view of the
+/// same tiles gives the same choice. Nothing at all while the root is not there.
 TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, const glm::dmat4& world_from_local);
 

@@ -22,6 +22,8 @@ struct Camera {
     /// The nearest and farthest depth drawn, metres along the view, orthographic.
     double orthographic_near = -1e7;
     double orthographic_far = 1e7;
+
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// Unit vectors of the view. Looking along `up`, or at the eye itself, still gives a right frame:

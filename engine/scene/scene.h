@@ -41,6 +41,8 @@ struct Sky {
     glm::vec3 horizon{0.62F, 0.74F, 0.87F}; ///< linear
     /// Metres at which 2 % of the contrast is left (Koschmieder); 0: no fog.
     double visibility = 0.0;
+
+    friend bool operator==(const Sky&, const Sky&) = default;
 };
 
 /// Share of the light that a metre of the air takes, 1/metre; 0 without fog.
@@ -49,6 +51,8 @@ double extinction(const Sky& sky);
 struct MeshNode {
     std::shared_ptr<const Mesh> mesh;
     Material material;
+
+    friend bool operator==(const MeshNode&, const MeshNode&) = default;
 };
 
 /// Whether the technique can draw the mesh; one of a single colour is drawn by any. Fails, with the

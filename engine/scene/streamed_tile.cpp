@@ -1,6 +1,7 @@
 #include "engine/scene/streamed_tile.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -89,6 +90,12 @@ terrain::HeightRange range_of_heights(const Grid<float>& heights) {
     const auto [low, high] =
         std::minmax_element(heights.samples().begin(), heights.samples().end());
     return {*low, *high};
+}
+
+Grid<terrain::MinMax> blocks_of(const Grid<float>& heights) {
+    const terrain::MinMaxPyramid pyramid(heights.view());
+    constexpr int level = std::countr_zero(static_cast<unsigned>(cells_per_block));
+    return pyramid.level(std::min(level, pyramid.levels() - 1));
 }
 
 double error_of(const Grid<float>& heights) {
@@ -323,6 +330,7 @@ StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights,
     made.cells = cells;
     set_places(around, made);
     made.range = range_of_heights(made.heights);
+    made.blocks = blocks_of(made.heights);
     made.error = overview_->placement().exaggeration() * error_of(made.heights);
     made.up = glm::vec3(overview_->placement().up(made.origin));
     const bool with_overview = picture.texels.empty() || !picture.whole;

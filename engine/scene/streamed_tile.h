@@ -11,6 +11,7 @@
 #include "engine/core/grid.h"
 #include "engine/scene/terrain_light.h"
 #include "engine/scene/terrain_node.h"
+#include "engine/terrain/min_max_pyramid.h"
 #include "engine/terrain/tile_tree.h"
 #include "engine/terrain/tint.h"
 
@@ -23,6 +24,9 @@ struct TilePicture {
     bool whole = true;     ///< false: more may be shown than was read, the overview knows
     bool has_more = false; ///< finer texels are to be had
 };
+
+/// Cells along a side of the blocks that a streamed tile knows the range of.
+inline constexpr int cells_per_block = 8;
 
 /// A tile of a terrain that is read part by part, ready to be drawn.
 struct StreamedTile {
@@ -39,6 +43,7 @@ struct StreamedTile {
     /// Metres between texels where finer ones are to be had, else 0.
     double coarse_texel = 0.0;
     terrain::HeightRange range;
+    Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; the last ones may be cut
     /// Metres that the next finer level is about to move the surface: as far as every second vertex
     /// of this one is from the middle between its neighbours. An estimate: finer detail is smaller
     /// than coarser on natural ground.

@@ -24,6 +24,8 @@ struct Material {
     bool wireframe = false;
     glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain brings its own
     TextureDetail detail;  ///< meshes only; without a set the mesh is of one colour
+
+    friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// The tile of detail as it is drawn: what the technique says of its border comes first.
@@ -91,6 +93,8 @@ struct TerrainNode {
     std::shared_ptr<const GroundDetail> detail = {};
     /// Of the surface, where it was made or read before; null: made when it is first needed.
     std::shared_ptr<const terrain::Bisection> bisection = {};
+
+    friend bool operator==(const TerrainNode&, const TerrainNode&) = default;
 };
 
 /// Whether the technique draws the tiles of a stream; else it draws the overview.

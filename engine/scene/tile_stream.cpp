@@ -65,6 +65,12 @@ std::shared_ptr<const StreamedTile> TileStream::find(terrain::TreeTile tile) con
     return found->second.tile;
 }
 
+std::shared_ptr<const StreamedTile> TileStream::peek(terrain::TreeTile tile) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = tiles_.find(tile);
+    return found != tiles_.end() ? found->second.tile : nullptr;
+}
+
 std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
     const glm::dvec2 last(tree().cols() - 1, tree().rows() - 1);
     const glm::dvec2 sample = glm::clamp(maker_.tree_sample(maker_.from_overview(overview_sample)),
@@ -147,6 +153,11 @@ bool TileStream::wait(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, stop, [&] { return is_settled(Clock::now()); });
     return !stop.stop_requested();
+}
+
+std::uint64_t TileStream::revision() const {
+    const std::lock_guard lock(mutex_);
+    return revision_;
 }
 
 bool TileStream::take_news() {
@@ -278,6 +289,7 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
     stats_.bytes += made.tile->bytes() - (entry.tile != nullptr ? entry.tile->bytes() : 0);
     entry = {std::move(made.tile), view_, made.shown};
     news_ = true;
+    ++revision_;
     evict();
     stats_.most_bytes = std::max(stats_.most_bytes, stats_.bytes);
 }
@@ -315,6 +327,7 @@ void TileStream::evict() {
         }
         stats_.bytes -= oldest->second.tile->bytes();
         ++stats_.evicted;
+        ++revision_;
         tiles_.erase(oldest);
     }
 }

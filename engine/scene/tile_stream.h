@@ -69,8 +69,10 @@ public:
     [[nodiscard]] const TileMaker& maker() const { return maker_; }
     [[nodiscard]] const terrain::TileTree& tree() const { return maker_.tree(); }
 
-    /// A tile that is there, else null.
+    /// A tile that is there, else null. The view has seen it then: others go first.
     [[nodiscard]] std::shared_ptr<const StreamedTile> find(terrain::TreeTile tile) const;
+    /// The same, but it counts as seen no more than before.
+    [[nodiscard]] std::shared_ptr<const StreamedTile> peek(terrain::TreeTile tile) const;
     /// The finest tile that is there over a sample of the overview, and the place on its vertices.
     struct Found {
         std::shared_ptr<const StreamedTile> tile;
@@ -92,6 +94,8 @@ public:
     /// A tile that fails so often is left alone for half a minute.
     static constexpr int most_attempts = 4;
 
+    /// Another number whenever tiles came or went.
+    [[nodiscard]] std::uint64_t revision() const;
     /// Whether tiles came since the last call.
     bool take_news();
     /// Whether something is being read or about to be.
@@ -145,6 +149,7 @@ private:
     std::map<std::string, std::string> faults_; // by file
     std::vector<std::string> new_faults_;
     std::uint64_t view_ = 0;
+    std::uint64_t revision_ = 0;
     bool news_ = false;
     TileStreamStats stats_;
     std::vector<std::jthread> threads_; // last: they stop before the rest goes

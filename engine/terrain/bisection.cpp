@@ -115,24 +115,25 @@ bool reaches_in(GridView<const float> heights, const SampleTriangle& triangle) {
 
 // The two triangles that a split at a sample halves; apexes first.
 std::array<SampleTriangle, 2> halved_at(glm::ivec2 place, int size, bool on_side) {
-    const int half = size / 2;
-    if (!on_side) {
-        // The diagonal of a square comes from the middle of the square around it and its three
-        // neighbours.
-        const bool falls = (place.x / size + place.y / size) % 2 == 0;
-        const glm::ivec2 along(half, falls ? half : -half);
-        const glm::ivec2 across(half, falls ? -half : half);
-        return {SampleTriangle{place + across, place - along, place + along},
-                SampleTriangle{place - across, place - along, place + along}};
-    }
-    const bool is_row = place.y % size == 0;
-    const glm::ivec2 along = is_row ? glm::ivec2(half, 0) : glm::ivec2(0, half);
-    const glm::ivec2 across(along.y, along.x);
+    const auto [along, across] = halving_at(place, size, on_side);
     return {SampleTriangle{place + across, place - along, place + along},
             SampleTriangle{place - across, place - along, place + along}};
 }
 
 } // namespace
+
+Halving halving_at(glm::ivec2 place, int size, bool on_side) {
+    const int half = size / 2;
+    if (on_side) {
+        const glm::ivec2 along = place.y % size == 0 ? glm::ivec2(half, 0) : glm::ivec2(0, half);
+        return {along, {along.y, along.x}};
+    }
+    // The diagonal of a square comes from the middle of the square around it and its three
+    // neighbours.
+    const bool falls = (place.x / size + place.y / size) % 2 == 0;
+    const int down = falls ? half : -half;
+    return {{half, down}, {half, -down}};
+}
 
 // Finds the errors and balls of one level of splits from those of the level below.
 class Bisection::LevelBuilder {

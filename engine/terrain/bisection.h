@@ -31,6 +31,17 @@ struct Split {
     double radius = 0.0;
 };
 
+/// How a split halves its two triangles: their common edge reaches from `place - along` to
+/// `place + along`, and their apexes, where the splits are that it needs, are `place + across` and
+/// `place - across`.
+struct Halving {
+    glm::ivec2 along{0};
+    glm::ivec2 across{0};
+};
+/// At the middle of a square of `size`, or with `on_side` in the middle of one of its sides; place
+/// and size in the same unit. Precondition: size is even.
+Halving halving_at(glm::ivec2 place, int size, bool on_side);
+
 /// The longest-edge bisection of a placed heightfield (Lindstrom and Pascucci 2001): each tile
 /// begins with four triangles around its middle, and a triangle is halved at the middle of its
 /// longest edge. Splits are nested: none has a smaller error or a smaller ball than one that needs

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,6 +21,9 @@ namespace {
 constexpr int sector_count = 256;
 constexpr double sector_angle = 2.0 * std::numbers::pi / sector_count;
 constexpr double radius_growth = 1.0 + 0x1p-4;
+// The rectangle around a stretch reaches less than so many times as far as the stretch: at 45
+// degrees √2 cos(45° − sector_angle/2).
+constexpr double rectangle_growth = 1.0 + 0x1p-6;
 constexpr double hides_nothing = -std::numeric_limits<double>::infinity();
 
 glm::dvec2 direction(double azimuth) {
@@ -31,18 +35,42 @@ glm::dvec2 sample_of(glm::dvec2 place, glm::dvec2 last, glm::dvec2 spacing) {
     return {0.5 * last.x + place.x / spacing.x, 0.5 * last.y - place.y / spacing.y};
 }
 
-double highest_within(const MinMaxPyramid& pyramid, glm::dvec2 sample, glm::dvec2 reach) {
+// Over a rectangle of samples, in metres: of the four blocks at most that hold it.
+HeightRange range_within(const MinMaxPyramid& pyramid, glm::dvec2 low, glm::dvec2 high) {
     const Grid<MinMax>& cells = pyramid.level(0);
-    const glm::ivec2 last(cells.cols() - 1, cells.rows() - 1);
-    const glm::ivec2 low = glm::clamp(glm::ivec2(glm::floor(sample - reach)), glm::ivec2(0), last);
-    const glm::ivec2 high = glm::clamp(glm::ivec2(glm::floor(sample + reach)), glm::ivec2(0), last);
-    double highest = -std::numeric_limits<double>::infinity();
-    for (int row = low.y; row <= high.y; ++row) {
-        for (int col = low.x; col <= high.x; ++col) {
-            highest = std::max(highest, static_cast<double>(cells(col, row).high));
+    const glm::ivec2 last_cell(cells.cols() - 1, cells.rows() - 1);
+    glm::ivec2 first = glm::min(glm::ivec2(low), last_cell);
+    glm::ivec2 last = glm::min(glm::ivec2(high), last_cell);
+    int level = 0;
+    while (last.x - first.x > 1 || last.y - first.y > 1) {
+        first /= 2;
+        last /= 2;
+        ++level;
+    }
+    const Grid<MinMax>& blocks = pyramid.level(level);
+    MinMax range = blocks(first.x, first.y);
+    for (int row = first.y; row <= last.y; ++row) {
+        for (int col = first.x; col <= last.x; ++col) {
+            range.low = std::min(range.low, blocks(col, row).low);
+            range.high = std::max(range.high, blocks(col, row).high);
         }
     }
-    return highest;
+    return {range.low, range.high};
+}
+
+GroundRange ground_of(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
+                      const Placement& placement) {
+    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    return [=, &pyramid, spacing = heightfield.spacing, exaggeration = placement.exaggeration()](
+               glm::dvec2 low, glm::dvec2 high) -> std::optional<HeightRange> {
+        const glm::dvec2 first = sample_of({low.x, high.y}, last, spacing);
+        const glm::dvec2 end = sample_of({high.x, low.y}, last, spacing);
+        if (!(first.x >= 0.0 && first.y >= 0.0 && end.x <= last.x && end.y <= last.y)) {
+            return std::nullopt;
+        }
+        const HeightRange range = range_within(pyramid, first, end);
+        return HeightRange{exaggeration * range.low, exaggeration * range.high};
+    };
 }
 
 // Of the box as it is seen from the eye: from where on, to where, and how high.
@@ -84,40 +112,33 @@ std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const Min
     if (placement.kind() != PlacementKind::plane) {
         return std::nullopt;
     }
-    // Where the placement puts a place in the air over the eye's: next to it.
-    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
-    const glm::dvec2 sample = sample_of(glm::dvec2(view.eye), last, heightfield.spacing);
-    constexpr double most_cells = 8.0; // looked at one by one
-    const glm::dvec2 reach = view.near / heightfield.spacing;
-    const bool is_over = sample.x > reach.x && sample.y > reach.y && sample.x < last.x - reach.x &&
-                         sample.y < last.y - reach.y;
-    if (!is_over || !(std::max(reach.x, reach.y) < most_cells) ||
-        !(view.eye.z - view.near >
-          placement.exaggeration() * highest_within(pyramid, sample, reach))) {
+    GroundRange ground = ground_of(heightfield, pyramid, placement);
+    const glm::dvec2 eye(view.eye);
+    const auto below = ground(eye - view.near, eye + view.near);
+    if (!below || !(view.eye.z - view.near > below->high)) {
         return std::nullopt;
     }
-    return Horizon(heightfield, pyramid, placement, view);
+    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    const glm::dvec2 spacing = heightfield.spacing;
+    return Horizon(std::move(ground),
+                   {std::max(spacing.x, spacing.y), glm::length(last * spacing)}, view);
 }
 
-Horizon::Horizon(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
-                 const Placement& placement, const HorizonView& view)
-    : pyramid_(&pyramid), last_(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1),
-      spacing_(heightfield.spacing), exaggeration_(placement.exaggeration()), view_(view),
-      sectors_(sector_count) {
-    const double farthest = glm::length(last_ * spacing_);
-    for (double radius = std::max(std::max(spacing_.x, spacing_.y), view.near);
-         radius < radius_growth * farthest; radius *= radius_growth) {
+Horizon::Horizon(GroundRange ground, const HorizonReach& reach, const HorizonView& view)
+    : ground_(std::move(ground)), view_(view), sectors_(sector_count) {
+    for (double radius = std::max(reach.first, view.near); radius < radius_growth * reach.last;
+         radius *= radius_growth) {
         radii_.push_back(radius);
     }
 }
 
 bool Horizon::hides(const Box& box) {
     const SeenBox seen = seen_from(view_.eye, box);
-    // Stretches that end before it begins.
-    const auto stretches =
-        std::upper_bound(radii_.begin(), radii_.end(), seen.nearest) - radii_.begin() - 2;
+    // The last stretch that ends before it begins.
+    const double end = seen.nearest / rectangle_growth;
+    const auto stretch = std::upper_bound(radii_.begin(), radii_.end(), end) - radii_.begin() - 2;
     const double angle = std::atan(seen.slope) + view_.margin;
-    if (stretches < 0 || angle >= 0.5 * std::numbers::pi) {
+    if (stretch < 0 || angle >= 0.5 * std::numbers::pi) {
         return false;
     }
     const double slope = std::tan(angle);
@@ -125,73 +146,47 @@ bool Horizon::hides(const Box& box) {
     const int first = static_cast<int>(std::floor((seen.azimuth + seen.before) / sector_angle)) - 1;
     const int last = static_cast<int>(std::floor((seen.azimuth + seen.after) / sector_angle)) + 1;
     for (int index = first; index <= last; ++index) {
-        if (!(slope < sector(index)[static_cast<std::size_t>(stretches)])) {
+        const int sector = (index % sector_count + sector_count) % sector_count;
+        if (!(slope < steepest_before(sector, static_cast<std::size_t>(stretch)))) {
             return false;
         }
     }
     return true;
 }
 
-const std::vector<double>& Horizon::sector(int index) {
-    const int wrapped = (index % sector_count + sector_count) % sector_count;
-    std::vector<double>& made = sectors_[static_cast<std::size_t>(wrapped)];
-    if (made.empty()) {
-        made = make_sector(wrapped);
+// Behind the stretches up to that one, it included.
+double Horizon::steepest_before(int sector, std::size_t stretch) {
+    std::vector<double>& slopes = sectors_[static_cast<std::size_t>(sector)];
+    while (slopes.size() <= stretch) {
+        const double before = slopes.empty() ? hides_nothing : slopes.back();
+        slopes.push_back(std::max(before, slope_of(sector, slopes.size()).value_or(hides_nothing)));
     }
-    return made;
+    return slopes[stretch];
 }
 
-std::vector<double> Horizon::make_sector(int index) const {
+// Nothing where the ground does not cover it.
+std::optional<double> Horizon::slope_of(int sector, std::size_t stretch) const {
     // The tangent to the outer arc in its middle meets the sides there.
     const double outside = 1.0 / std::cos(0.5 * sector_angle);
-    const glm::dvec2 right = direction(index * sector_angle);
-    const glm::dvec2 left = direction((index + 1) * sector_angle);
-    std::vector<double> slopes;
-    slopes.reserve(radii_.size());
-    double steepest = hides_nothing;
-    for (std::size_t i = 0; i + 1 < radii_.size(); ++i) {
-        const double inner = radii_[i];
-        const double outer = radii_[i + 1];
-        const glm::dvec2 eye(view_.eye);
-        const std::array corners{inner * right, inner * left, outside * outer * right,
-                                 outside * outer * left};
-        Stretch stretch{eye + corners[0], eye + corners[0]};
-        for (const glm::dvec2 corner : corners) {
-            stretch.low = glm::min(stretch.low, eye + corner);
-            stretch.high = glm::max(stretch.high, eye + corner);
-        }
-        if (const auto lowest = lowest_in(stretch)) {
-            const double height = *lowest - view_.eye.z;
-            steepest = std::max(steepest, height / (height < 0.0 ? outer : inner));
-        }
-        slopes.push_back(steepest);
+    const glm::dvec2 right = direction(sector * sector_angle);
+    const glm::dvec2 left = direction((sector + 1) * sector_angle);
+    const double inner = radii_[stretch];
+    const double outer = radii_[stretch + 1];
+    const std::array corners{inner * right, inner * left, outside * outer * right,
+                             outside * outer * left};
+    glm::dvec2 low = corners[0];
+    glm::dvec2 high = corners[0];
+    for (const glm::dvec2 corner : corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
     }
-    return slopes;
-}
-
-// Metres; nothing where it reaches over the border.
-std::optional<double> Horizon::lowest_in(const Stretch& stretch) const {
-    const glm::dvec2 a = sample_of({stretch.low.x, stretch.high.y}, last_, spacing_);
-    const glm::dvec2 b = sample_of({stretch.high.x, stretch.low.y}, last_, spacing_);
-    if (a.x < 0.0 || a.y < 0.0 || b.x > last_.x || b.y > last_.y) {
+    const glm::dvec2 eye(view_.eye);
+    const auto ground = ground_(eye + low, eye + high);
+    if (!ground) {
         return std::nullopt;
     }
-    glm::ivec2 first(a);
-    glm::ivec2 last = glm::min(glm::ivec2(b), glm::ivec2(last_) - 1);
-    int level = 0;
-    while (last.x - first.x > 1 || last.y - first.y > 1) {
-        first /= 2;
-        last /= 2;
-        ++level;
-    }
-    const Grid<MinMax>& blocks = pyramid_->level(level);
-    float lowest = blocks(first.x, first.y).low;
-    for (int row = first.y; row <= last.y; ++row) {
-        for (int col = first.x; col <= last.x; ++col) {
-            lowest = std::min(lowest, blocks(col, row).low);
-        }
-    }
-    return exaggeration_ * lowest;
+    const double height = ground->low - view_.eye.z;
+    return height / (height < 0.0 ? outer : inner);
 }
 
 } // namespace reljef::terrain

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,41 +21,43 @@ struct HorizonView {
     double margin = 0.0; ///< radians, >= 0: what hides is seen so much higher than what is hidden
 };
 
-/// How high a heightfield on a plane rises around an eye above it, from below: in each of some
+/// Between which heights (z, scene metres) the ground lies over a rectangle of the plane (x and y,
+/// metres); nothing where it does not cover all of it. More than there is does no harm.
+using GroundRange = std::function<std::optional<HeightRange>(glm::dvec2 low, glm::dvec2 high)>;
+
+/// The stretches of ground that a horizon looks at begin so far from the eye, and end, metres.
+struct HorizonReach {
+    double first = 1.0;
+    double last = 1.0;
+};
+
+/// How high ground over a plane rises around an eye above it, from below: in each of some
 /// sectors of azimuth, and for each of some distances, the steepest ray that is sure to have passed
-/// through ground on the way (the lowest height of each stretch of a sector, from a pyramid of the
-/// least heights). Sectors are made when they are first asked for.
+/// through ground on the way (the lowest height of each stretch of a sector). A stretch is looked
+/// at when it is first asked for, and never again.
 class Horizon {
 public:
-    /// Absent where nothing can be said: the placement is bent, or the eye does not stand clear of
-    /// the ground, above it. The pyramid is the heightfield's; both outlive the horizon.
+    /// Precondition: the eye stands clear of the ground, above it (by more than view.near).
+    Horizon(GroundRange ground, const HorizonReach& reach, const HorizonView& view);
+    /// Of a heightfield, by its pyramid; absent where nothing can be said: the placement is bent, or
+    /// the eye does not stand clear of the ground, above it. All of them outlive the horizon.
     static std::optional<Horizon> create(const Heightfield& heightfield,
                                          const MinMaxPyramid& pyramid, const Placement& placement,
                                          const HorizonView& view);
 
     /// Whether every ray from the eye to a point in the box passes through ground before, by more
-    /// than the margin. Never yes where one does not.
+    /// than the margin. Never yes where one does not. Only ground that is nearer than the box is
+    /// looked at.
     [[nodiscard]] bool hides(const Box& box);
 
 private:
-    struct Stretch {
-        glm::dvec2 low{0.0}; // metres
-        glm::dvec2 high{0.0};
-    };
+    double steepest_before(int sector, std::size_t stretch);
+    [[nodiscard]] std::optional<double> slope_of(int sector, std::size_t stretch) const;
 
-    Horizon(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
-            const Placement& placement, const HorizonView& view);
-    const std::vector<double>& sector(int index);
-    [[nodiscard]] std::vector<double> make_sector(int index) const;
-    [[nodiscard]] std::optional<double> lowest_in(const Stretch& stretch) const;
-
-    const MinMaxPyramid* pyramid_;
-    glm::dvec2 last_{0.0};    // sample
-    glm::dvec2 spacing_{0.0}; // metres
-    double exaggeration_ = 1.0;
+    GroundRange ground_;
     HorizonView view_;
     std::vector<double> radii_; // metres; stretch i lies between radii i and i + 1
-    // By sector, empty until made: the steepest slope that is hidden behind stretches 0 … i.
+    // By sector, as far as asked for: the steepest slope that is hidden behind stretches 0 … i.
     std::vector<std::vector<double>> sectors_;
 };
 

@@ -1,7 +1,6 @@
 #include "engine/terrain/shared_splits.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "engine/terrain/tile_layout.h"
@@ -66,19 +65,6 @@ int low_bit(int value) {
     return value == 0 ? tile_cells : value & -value;
 }
 
-// The apexes of the two triangles that a split halves: where the splits that it needs are.
-std::array<glm::ivec2, 2> apexes_at(glm::ivec2 place, int half) {
-    const int size = 2 * half;
-    glm::ivec2 across(half, 0);
-    if (place.x % size != 0 && place.y % size != 0) { // in the middle of a square
-        const bool falls = (place.x / size + place.y / size) % 2 == 0;
-        across = {half, falls ? -half : half};
-    } else if (place.y % size == 0) {
-        across = {0, half};
-    }
-    return {place + across, place - across};
-}
-
 class SplitSharer {
 public:
     SplitSharer(const TileTree& tree, const TileCover& cover) : cover_(cover) {
@@ -126,9 +112,11 @@ private:
         }
         const int half = std::min(low_bit(place.x), low_bit(place.y));
         if (half < tile_cells / 2) { // no corner, not the middle, nor that of a side
-            for (const glm::ivec2 apex : apexes_at(place, half)) {
-                open_.push_back({at.tile, apex});
-            }
+            const int size = 2 * half;
+            const bool on_side = place.x % size == 0 || place.y % size == 0;
+            const glm::ivec2 across = halving_at(place, size, on_side).across;
+            open_.push_back({at.tile, place + across});
+            open_.push_back({at.tile, place - across});
         }
     }
 
