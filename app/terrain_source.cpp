@@ -373,7 +373,8 @@ Result<io::TileSet> open_tiles(const TerrainChoice& choice, const std::stop_toke
 
 Result<void> report_faults(const std::string& terrain, std::size_t faults) {
     return faults == 0 ? Result<void>()
-                       : Error{fmt::format("{}: {} of its files could not be read and {} left out",
+                       : Error{fmt::format("{}: {} of the files asked for could not be read and {} "
+                                           "left out",
                                            terrain, faults, faults == 1 ? "is" : "are")};
 }
 

@@ -121,12 +121,17 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid,
     return result;
 }
 
+std::string text_of_tiles(const TileSet& tiles, const std::optional<GeodeticArea>& area) {
+    const auto counts = [&](const TileFile& file) { return !area || reaches_into(file, *area); };
+    const auto count = std::count_if(tiles.files().begin(), tiles.files().end(), counts);
+    return count == 1 ? "1 tile" : fmt::format("{} tiles drawn as one", count);
+}
+
 void note_grid(const TileSet& tiles, const TileGrid& grid, int reduction, glm::dvec2 spacing,
-               std::vector<std::string>& notes) {
-    const std::size_t count = tiles.files().size();
-    notes.push_back(fmt::format("{} {} drawn as one in {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
-                                count, count == 1 ? "tile" : "tiles", tiles.crs_name(), grid.cols,
-                                grid.rows, spacing.x, spacing.y,
+               const std::optional<GeodeticArea>& area, std::vector<std::string>& notes) {
+    notes.push_back(fmt::format("{} in {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
+                                text_of_tiles(tiles, area), tiles.crs_name(), grid.cols, grid.rows,
+                                spacing.x, spacing.y,
                                 reduction == 1 ? ""
                                                : fmt::format(": 1/{} of the finest tiles', to fit "
                                                              "the memory",
@@ -186,7 +191,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
                                  name(), samples_grid.cols, samples_grid.rows,
                                  result.faults.empty() ? "" : "; " + result.faults.front())};
     }
-    note_grid(*this, samples_grid, planned->reduction, place->spacing, result.notes);
+    note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     if (!options.raster.imagery.empty()) {
         auto color = read_imagery(*frame, place->grid, options.raster, result.notes, result.faults);

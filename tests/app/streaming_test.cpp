@@ -1,12 +1,17 @@
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <future>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/scene_setup.h"
+#include "app/streaming.h"
 #include "engine/io/image.h"
 #include "tests/app/command_line.h"
 #include "tests/support/http_server.h"
@@ -93,6 +98,36 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("N44E006.hgt"));
     EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
+}
+
+// Cells that share no edge with the one that is gone are drawn as finely as without it.
+TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
+    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+    app::TerrainChoice choice;
+    choice.terrain = path("tiles");
+    choice.memory_megabytes = 32;
+    choice.quiet = true;
+    choice.streamed = true;
+    app::ViewChoice view;
+    view.geodetic = {44.3, 7.7, 3000.0, 90.0, -60.0};
+    auto source = app::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    std::filesystem::remove(folder_.path() / "tiles/N45E006.hgt");
+    auto scene = app::make_scene(std::move(*source), choice, view);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto& terrain = *scene->terrain->get<scene::TerrainNode>();
+    const std::array cameras{scene->scene.camera()};
+    const auto level_there = [&] {
+        const auto eye = terrain.surface->placement().sample_from_world(cameras.front().eye);
+        const auto found = terrain.stream->finest_at(glm::dvec2(*eye));
+        return found ? found->tile->id.level : -1;
+    };
+    for (int i = 0; i < 300 && level_there() != 0; ++i) {
+        app::ask_for_tiles(scene->scene, cameras, {160, 120});
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(level_there(), 0);
+    EXPECT_THAT(terrain.stream->take_faults(), ::testing::Contains(HasSubstr("N45E006.hgt")));
 }
 
 TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {

@@ -265,6 +265,47 @@ TEST_F(Imagery, BadFilesAreNamed) {
     EXPECT_THAT(text.error().message, HasSubstr("text.png"));
 }
 
+TEST_F(Imagery, AmongPlacedOnesOneWithoutAPlaceIsLeftOutAndAloneItIsStretchedAndSaid) {
+    MadeRaster heights = flat(50, 30);
+    MadeRaster image = picture(50, 30);
+    ASSERT_TRUE(test::write(image, folder_.path() / "nowhere.tif"));
+    for (MadeRaster* raster : {&heights, &image}) {
+        raster->crs = "EPSG:32631";
+        raster->geotransform = utm;
+    }
+    ASSERT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
+    ASSERT_TRUE(test::write(image, folder_.path() / "image.tif"));
+    RasterOptions options;
+    options.imagery = {folder_.path() / "nowhere.tif", folder_.path() / "image.tif"};
+    const auto both = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_TRUE(both) << both.error().message;
+    expect_same(both->color, image);
+    ASSERT_EQ(both->faults.size(), 1U);
+    EXPECT_THAT(both->faults.front(), HasSubstr("nowhere.tif: names no place on Earth"));
+    options.imagery.pop_back();
+    const auto alone = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_TRUE(alone) << alone.error().message;
+    EXPECT_THAT(alone->notes, testing::Contains(HasSubstr("nowhere.tif names no place")));
+}
+
+TEST_F(Imagery, HeightsAreNoPictureWhetherAloneOrInAFolder) {
+    ASSERT_TRUE(test::write(flat(9, 9), folder_.path() / "heights.tif"));
+    MadeRaster other = flat(9, 9);
+    other.crs = "EPSG:32631";
+    other.geotransform = utm;
+    const auto images = folder_.path() / "images";
+    std::filesystem::create_directory(images);
+    ASSERT_TRUE(test::write(other, images / "dem.tif"));
+    for (const auto& [name, said] :
+         {std::pair(images / "dem.tif", "as heights are stored"), {images, "holds no image"}}) {
+        RasterOptions options;
+        options.imagery = {name};
+        const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
+        ASSERT_FALSE(terrain);
+        EXPECT_THAT(terrain.error().message, HasSubstr(said));
+    }
+}
+
 TEST_F(Imagery, ACutFileIsAnErrorNotHalfAPicture) {
     MadeRaster image = picture(300, 300);
     ASSERT_TRUE(test::write(flat(300, 300), folder_.path() / "heights.tif"));
