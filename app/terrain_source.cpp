@@ -142,6 +142,18 @@ std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
            static_cast<std::size_t>(grid.rows);
 }
 
+// What the coarsest views of a terrain that is read part by part take, beside the libraries.
+constexpr int least_megabytes = 64;
+
+// What a thread takes to read a tile of heights, bytes.
+constexpr std::size_t bytes_of_reader = std::size_t{4} << 20U;
+
+// No more threads than fit what is for reading.
+unsigned readers_within(std::size_t budget, unsigned threads) {
+    const std::size_t most = std::max<std::size_t>(1, budget / work_part / bytes_of_reader);
+    return static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), most));
+}
+
 // Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
 // side.
 constexpr int most_step_read = 4096 / terrain::tile_cells;
@@ -166,6 +178,7 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
         return std::nullopt;
     }
     io::limit_block_cache(budget / blocks_part);
+    options.threads = readers_within(budget, options.threads);
     return StreamSource{*overview,
                         options.gaps,
                         budget - budget / overview_part - budget / blocks_part - budget / work_part,
@@ -222,6 +235,10 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     }
     if (stream) {
         terrain->notes.emplace_back("finer tiles are read where the view needs them");
+        if (choice.memory_megabytes < least_megabytes) {
+            terrain->notes.push_back(fmt::format("--memory {}: the tiles of a view take up to {}",
+                                                 choice.memory_megabytes, least_megabytes));
+        }
         if (auto missing = io::missing_overviews(tiles)) {
             terrain->notes.push_back(std::move(*missing));
             stream->step_of_overview = std::min(2 * stream->plan.reduction, most_step_read + 1);
@@ -230,7 +247,7 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};
     if (stream && !options.raster.imagery.empty()) {
         const std::size_t budget = raster_options(choice, source.description, stop).memory_budget;
-        add_imagery(options.raster.imagery, budget / work_part / thread_count(stream->threads),
+        add_imagery(options.raster.imagery, budget / work_part / stream->threads,
                     source);
     }
     return source;

@@ -56,7 +56,8 @@ fs::file_time_type changed_at(const fs::path& path) {
 
 } // namespace
 
-ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults) {
+ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults,
+                       const std::stop_token& stop) {
     register_drivers();
     std::vector<fs::path> paths;
     for (const fs::path& name : names) {
@@ -76,7 +77,7 @@ ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>
         } else if (!is_image(**image)) {
             faults.push_back(no_image(path, **image).message);
         } else {
-            files.white = std::max(files.white, white_of(**image));
+            files.white = std::max(files.white, white_of(**image, stop));
             files.paths.push_back(std::move(path));
         }
     }

@@ -355,16 +355,16 @@ std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& h
 }
 
 /// One alone is stretched over the terrain, but not among those that have a place.
-void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::string>& faults) {
+void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::string>& notes) {
     const auto stretched = [](const KnownPicture& picture) { return picture.meeting.stretched; };
     if (std::all_of(pictures.begin(), pictures.end(), stretched)) {
         return;
     }
     for (const KnownPicture& picture : pictures) {
         if (stretched(picture)) {
-            faults.push_back(fmt::format("{}: names no place on Earth, among images that do one "
-                                         "was expected",
-                                         picture.path.string()));
+            notes.push_back(fmt::format("imagery: {} names no place on Earth: it is left out beside "
+                                        "images that do",
+                                        picture.path.filename().string()));
         }
     }
     std::erase_if(pictures, stretched);
@@ -403,13 +403,13 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
                            const RasterOptions& options, std::vector<std::string>& notes,
                            std::vector<std::string>& faults) {
     std::vector<std::string> wrong;
-    const ImageFiles files = image_files(options.imagery, wrong);
+    const ImageFiles files = image_files(options.imagery, wrong, options.stop);
     std::vector<KnownPicture> pictures = known_pictures(files, heights, grid, notes, wrong);
     if (pictures.empty()) {
         check(!wrong.empty(), "a list of images without images");
         return Error{wrong.front()};
     }
-    leave_out_unplaced(pictures, wrong);
+    leave_out_unplaced(pictures, notes);
     note_stretching(pictures, heights, notes);
     std::erase_if(pictures, [](const KnownPicture& picture) { return !picture.meets_heights; });
     if (pictures.empty()) {
