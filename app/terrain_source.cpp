@@ -158,11 +158,27 @@ unsigned readers_within(std::size_t budget, unsigned threads) {
 // side.
 constexpr int most_step_read = 4096 / terrain::tile_cells;
 
+// Whether images are finer than one picture over all of the terrain may be.
+bool has_finer_pictures(const io::TileSet& tiles, const TerrainChoice& choice,
+                        const io::TileTerrainOptions& options) {
+    const std::vector<fs::path>& images = options.raster.imagery;
+    const auto plan = tiles.plan(options);
+    if (!choice.pictures_streamed || images.empty() || !plan) {
+        return false;
+    }
+    const auto imagery = io::ImagerySet::open(images, tiles.crs());
+    const io::TileFile& finest = tiles.files().front();
+    const double side =
+        std::max(plan->grid.cols * finest.spacing.x, plan->grid.rows * finest.spacing.y);
+    return imagery && side > io::longest_image_side * imagery->finest_pixel();
+}
+
 // How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const TerrainChoice& choice,
                                           io::TileTerrainOptions& options) {
     const auto plan = tiles.plan(options);
-    if (!choice.streamed || (plan && plan->reduction == 1) ||
+    const bool fits = plan && plan->reduction == 1;
+    if (!choice.streamed || (fits && !has_finer_pictures(tiles, choice, options)) ||
         std::max(tiles.grid().cols, tiles.grid().rows) > terrain::most_tree_samples) {
         return std::nullopt;
     }
@@ -247,21 +263,32 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};
     if (stream && !options.raster.imagery.empty()) {
         const std::size_t budget = raster_options(choice, source.description, stop).memory_budget;
-        add_imagery(options.raster.imagery, budget / work_part / stream->threads,
-                    source);
+        add_imagery(options.raster.imagery, budget / work_part / stream->threads, source);
     }
     return source;
 }
 
-// A single file that does not fit the memory is read as a set of one, if it can be.
-bool is_to_stream(const TerrainChoice& choice, const io::SceneDescription& description) {
+// A single file that does not fit the memory, or whose images do not, is read as a set of one, if
+// it can be.
+std::optional<io::TileSet> set_to_stream(const TerrainChoice& choice,
+                                         const io::SceneDescription& description,
+                                         const std::stop_token& stop) {
     if (!choice.streamed || !description.generator.empty() || description.spacing) {
-        return false;
+        return std::nullopt;
     }
     const auto info = io::read_raster_info(description.heights);
-    return info && !info->crs_name.empty() &&
-           static_cast<double>(info->cols) * info->rows * io::bytes_per_sample >
-               static_cast<double>(choice.memory_megabytes) * (1U << 20U);
+    if (!info || info->crs_name.empty()) {
+        return std::nullopt;
+    }
+    const bool fits = static_cast<double>(info->cols) * info->rows * io::bytes_per_sample <=
+                      static_cast<double>(choice.memory_megabytes) * (1U << 20U);
+    const io::TileTerrainOptions options = tile_options(choice, description, stop);
+    if (fits && options.raster.imagery.empty()) {
+        return std::nullopt;
+    }
+    auto tiles = open_set(choice, description, stop);
+    const bool streams = tiles && (!fits || has_finer_pictures(*tiles, choice, options));
+    return streams ? std::optional(std::move(*tiles)) : std::nullopt;
 }
 
 Result<terrain::Terrain> read(const TerrainChoice& choice, const io::SceneDescription& description,
@@ -300,10 +327,8 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
     if (auto fits = refuse_folder_options(choice, description); !fits) {
         return fits.error();
     }
-    if (is_to_stream(choice, description)) {
-        if (auto tiles = open_set(choice, description, stop)) {
-            return read_tiles(std::move(*tiles), choice, std::move(description), stop);
-        }
+    if (auto tiles = set_to_stream(choice, description, stop)) {
+        return read_tiles(std::move(*tiles), choice, std::move(description), stop);
     }
     auto terrain = description.generator.empty() ? read(choice, description, stop)
                                                  : generate(choice, description, stop);

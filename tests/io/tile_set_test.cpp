@@ -357,6 +357,17 @@ TEST_F(TileCache, KnowsWhenFilesChangeComeAndGo) {
     EXPECT_EQ(open(options_).files().size(), 1U);
 }
 
+TEST_F(TileCache, AThousandFilesTakeLessThanASecond) {
+    RELJEF_RELEASE_ONLY("is about time");
+    for (int i = 0; i < 999; ++i) {
+        tile("n" + std::to_string(i) + ".tif", utm31, 8, 8,
+             {500000.0 + 80.0 * (i % 40), 4990000.0 + 80.0 * (i / 40), 10.0}, plane);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(open(options_).files().size(), 1000U);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+}
+
 TEST_F(TileCache, ThatCannotBeWrittenIsDoneWithout) {
     options_.cache_folder = cache_.write("a file", "where a folder should be") / "below";
     EXPECT_EQ(open(options_).files().size(), 1U);
