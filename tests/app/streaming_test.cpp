@@ -231,26 +231,25 @@ TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
     EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
 }
 
-// Of 8,000 pixels and more over a terrain that fits the memory; but an error that is promised is
-// kept.
+// A patch of pixels of which 8,400 would lie along the terrain, which fits the memory; but an error
+// that is promised is kept.
 TEST_F(StreamedImagery, that_is_finer_than_one_picture_is_streamed_over_what_fits_the_memory) {
-    folder_.write("fine.ppm", "P6\n64 64\n255\n" + std::string(3 * 64 * 64, '\x60'));
+    folder_.write("fine.ppm", "P6\n256 256\n255\n" + std::string(3 * 256 * 256, '\x60'));
     std::string bands;
     for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
-        bands += fmt::format(
-            "<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}</ColorInterp>"
-            "<SimpleSource><SourceFilename relativeToVRT=\"1\">fine.ppm</SourceFilename>"
-            "<SourceBand>{0}</SourceBand><SrcRect xOff=\"0\" yOff=\"0\" xSize=\"64\" "
-            "ySize=\"64\"/><DstRect xOff=\"0\" yOff=\"0\" xSize=\"8400\" ySize=\"8400\"/>"
-            "</SimpleSource></VRTRasterBand>",
-            band, meaning);
+        bands += fmt::format("<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}"
+                             "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">"
+                             "fine.ppm</SourceFilename><SourceBand>{0}</SourceBand>"
+                             "</SimpleSource></VRTRasterBand>",
+                             band, meaning);
     }
     folder_.write("fine.vrt",
-                  "<VRTDataset rasterXSize=\"8400\" rasterYSize=\"8400\"><SRS>EPSG:4326</SRS>"
-                  "<GeoTransform>6, 0.000119, 0, 45, 0, -0.000119</GeoTransform>" +
+                  "<VRTDataset rasterXSize=\"256\" rasterYSize=\"256\"><SRS>EPSG:4326</SRS>"
+                  "<GeoTransform>6.485, 0.000119, 0, 44.515, 0, -0.000119</GeoTransform>" +
                       bands + "</VRTDataset>");
     const auto render_with = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments{"render",    path("tiles/N44E006.hgt"),
+                                           "--memory",  "64",
                                            "--imagery", path("fine.vrt"),
                                            "-o",        path("a.png"),
                                            "--size",    "64x48",
