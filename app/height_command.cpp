@@ -272,6 +272,10 @@ Command add_height_command(CLI::App& program, Interrupt& interrupt) {
                      "many places: a file of lines LAT,LON, or - for standard input")
         ->type_name("FILE");
     arguments->callback([choice] {
+        if (!choice->terrain.imagery.empty()) {
+            throw CLI::ValidationError("height: --imagery found, but pictures have no heights: "
+                                       "none was expected");
+        }
         if (choice->places.empty() && choice->points.empty()) {
             throw CLI::ValidationError("height: no place found, --at LAT,LON or --points FILE was "
                                        "expected");

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <CLI/CLI.hpp>
@@ -87,22 +88,28 @@ int reduction_of(const io::TileSet& tiles, const terrain::Heightfield& heightfie
 }
 
 // A folder: how many files of which format, and the samples of its part at the finest spacing.
-Json tiles_info(const io::TileSet& tiles, const terrain::Heightfield& heightfield) {
+Json tiles_info(const io::TileSet& tiles, const std::optional<io::GeodeticArea>& area,
+                const terrain::Heightfield& heightfield) {
     Json formats = Json::object();
     std::set<std::string> types;
+    int count = 0;
+    double finest = std::numeric_limits<double>::infinity();
     for (const io::TileFile& file : tiles.files()) {
-        formats[file.format] = formats.value(file.format, 0) + 1;
-        types.insert(file.type);
+        if (!area || io::reaches_into(file, *area)) {
+            formats[file.format] = formats.value(file.format, 0) + 1;
+            types.insert(file.type);
+            finest = std::min({finest, file.spacing.x, file.spacing.y});
+            ++count;
+        }
     }
-    const io::TileFile& finest = tiles.files().front();
     const int reduction = reduction_of(tiles, heightfield);
     return {{"format", "tiles"},
             {"type", fmt::format("{}", fmt::join(types, ", "))},
             {"cols", heightfield.heights.cols() * reduction},
             {"rows", heightfield.heights.rows() * reduction},
-            {"files", tiles.files().size()},
+            {"files", count},
             {"formats", std::move(formats)},
-            {"finest_spacing_m", std::min(finest.spacing.x, finest.spacing.y)}};
+            {"finest_spacing_m", finest}};
 }
 
 Json geoid_info(const geo::Georeference& georeference) {
@@ -115,7 +122,8 @@ int reduction_of(const terrain::Heightfield& heightfield, const Json& cols) {
 
 Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     const terrain::Heightfield& heightfield = source.terrain.heightfield;
-    const Json file = source.tiles ? tiles_info(*source.tiles, heightfield)
+    const auto& area = choice.area ? choice.area : source.description.area;
+    const Json file = source.tiles ? tiles_info(*source.tiles, area, heightfield)
                       : source.description.generator.empty() ? file_info(source.description)
                                                              : Json();
     Json info;

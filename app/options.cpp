@@ -357,6 +357,13 @@ bool may_stream(const ViewChoice& choice) {
     return scene::draws_tiles(technique_of(choice));
 }
 
+bool may_stream_pictures(const ViewChoice& choice) {
+    const scene::Technique technique = technique_of(choice);
+    const bool promised =
+        technique.id == scene::TechniqueId::polygons && scene::parameter(technique, "error") > 0.0;
+    return may_stream(choice) && !promised;
+}
+
 void check_view_options(const ViewChoice& choice) {
     if (choice.eye && choice.look && *choice.eye == *choice.look) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");

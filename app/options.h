@@ -40,6 +40,8 @@ struct TerrainChoice {
     bool quiet = false;
     /// Whether what does not fit the memory may be read part by part; a program's choice.
     bool streamed = false;
+    /// Whether what does may be, too, where images are finer than one picture over it all holds.
+    bool pictures_streamed = false;
 };
 
 /// From where on Earth, and whereto: --camera.
@@ -106,6 +108,9 @@ void add_view_options(CLI::App& command, ViewChoice& choice);
 scene::Technique technique_of(const ViewChoice& choice);
 /// Whether the technique draws a terrain that is read part by part.
 bool may_stream(const ViewChoice& choice);
+/// Whether images may make a terrain a stream of tiles: not where its error is promised, which is
+/// an estimate there.
+bool may_stream_pictures(const ViewChoice& choice);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

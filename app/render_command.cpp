@@ -246,6 +246,7 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     }
     TerrainChoice terrain = choice.terrain;
     terrain.streamed = !choice.truth && may_stream(choice.view);
+    terrain.pictures_streamed = terrain.streamed && may_stream_pictures(choice.view);
     auto source = open_terrain(terrain, interrupt.token());
     if (!source) {
         return source.error();

@@ -39,6 +39,10 @@ scene::TerrainOptions terrain_options(const TerrainChoice& choice, const ViewCho
     return options;
 }
 
+scene::Compass compass_at(const terrain::Placement& placement, glm::dvec3 eye) {
+    return {placement.up(eye), placement.north(eye)};
+}
+
 Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
                                       const GeodeticView& view) {
     const terrain::Placement& placement = surface.placement();
@@ -48,7 +52,7 @@ Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
             fmt::format("--camera: {} is not georeferenced, --eye and --look were expected",
                         surface.terrain().name)};
     }
-    return scene::camera_from_angles(*eye, view.heading, view.pitch, placement.up(*eye));
+    return scene::camera_from_angles(*eye, view.heading, view.pitch, compass_at(placement, *eye));
 }
 
 Result<scene::Camera> choose_camera(const TerrainScene& scene,
@@ -114,7 +118,7 @@ glm::dvec3 look_of(const TerrainScene& scene, std::span<const io::GeodeticKey> k
     if (keys[index].heading) {
         const auto& placement = scene.terrain->get<scene::TerrainNode>()->surface->placement();
         const auto camera = scene::camera_from_angles(
-            eye, *keys[index].heading, keys[index].pitch.value_or(0.0), placement.up(eye));
+            eye, *keys[index].heading, keys[index].pitch.value_or(0.0), compass_at(placement, eye));
         return eye + look_ahead * glm::normalize(camera.look - camera.eye);
     }
     const std::size_t from =
@@ -338,6 +342,7 @@ void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int fram
     const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
     auto& camera = *scene.camera->get<scene::Camera>();
     camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
+    camera.up = scene.terrain->get<scene::TerrainNode>()->surface->placement().up(camera.eye);
 }
 
 } // namespace reljef::app

@@ -58,6 +58,19 @@ scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::Tree
     return reading;
 }
 
+// Where its files fail, a tile that is no finer than the overview is made of it, and read again: no
+// file keeps those of others from being drawn.
+scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduction,
+                                       terrain::TreeTile tile, scene::TileReading reading) {
+    if (reading.faults.empty() || maker.step(tile) < reduction) {
+        return reading;
+    }
+    scene::TileReading coarse = overview_reading(maker, tile);
+    coarse.bytes_read = reading.bytes_read;
+    coarse.picture_faults = std::move(reading.faults);
+    return coarse;
+}
+
 // Adds what images show of a tile.
 void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
                  const scene::TileMaker& maker, terrain::TreeTile tile, const std::stop_token& stop,
@@ -90,6 +103,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const terrain::TileTree tree(grid.cols, grid.rows);
     scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery);
     const auto read = [tiles = *source.tiles, images = source.imagery, grid, maker,
+                       reduction = source.stream->plan.reduction,
                        step_of_overview = source.stream->step_of_overview,
                        gaps = source.stream->gaps](terrain::TreeTile tile,
                                                    const std::stop_token& stop) {
@@ -97,7 +111,11 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
             step_of_overview > 0 && maker.step(tile) >= step_of_overview
                 ? overview_reading(maker, tile)
                 : reading_of(io::read_tree_tile(tiles, grid, maker.tree(), tile, gaps, stop));
-        if (images && reading.faults.empty() && !stop.stop_requested()) {
+        if (stop.stop_requested()) {
+            return reading;
+        }
+        reading = reading_or_overview(maker, reduction, tile, std::move(reading));
+        if (images && reading.faults.empty()) {
             add_picture(*images, grid, maker, tile, stop, reading);
         }
         return reading;

@@ -143,15 +143,43 @@ std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
            static_cast<std::size_t>(grid.rows);
 }
 
+// What the coarsest views of a terrain that is read part by part take, beside the libraries.
+constexpr int least_megabytes = 64;
+
+// What a thread takes to read a tile of heights, bytes.
+constexpr std::size_t bytes_of_reader = std::size_t{4} << 20U;
+
+// No more threads than fit what is for reading.
+unsigned readers_within(std::size_t budget, unsigned threads) {
+    const std::size_t most = std::max<std::size_t>(1, budget / work_part / bytes_of_reader);
+    return static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), most));
+}
+
 // Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
 // side.
 constexpr int most_step_read = 4096 / terrain::tile_cells;
+
+// Whether images are finer than one picture over all of the terrain may be.
+bool has_finer_pictures(const io::TileSet& tiles, const TerrainChoice& choice,
+                        const io::TileTerrainOptions& options) {
+    const std::vector<fs::path>& images = options.raster.imagery;
+    const auto plan = tiles.plan(options);
+    if (!choice.pictures_streamed || images.empty() || !plan) {
+        return false;
+    }
+    const auto imagery = io::ImagerySet::open(images, tiles.crs());
+    const io::TileFile& finest = tiles.files().front();
+    const double side =
+        std::max(plan->grid.cols * finest.spacing.x, plan->grid.rows * finest.spacing.y);
+    return imagery && side > io::longest_image_side * imagery->finest_pixel();
+}
 
 // How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const TerrainChoice& choice,
                                           io::TileTerrainOptions& options) {
     const auto plan = tiles.plan(options);
-    if (!choice.streamed || (plan && plan->reduction == 1) ||
+    const bool fits = plan && plan->reduction == 1;
+    if (!choice.streamed || (fits && !has_finer_pictures(tiles, choice, options)) ||
         std::max(tiles.grid().cols, tiles.grid().rows) > terrain::most_tree_samples) {
         return std::nullopt;
     }
@@ -167,6 +195,7 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
         return std::nullopt;
     }
     io::limit_block_cache(budget / blocks_part);
+    options.threads = readers_within(budget, options.threads);
     return StreamSource{*overview,
                         options.gaps,
                         budget - budget / overview_part - budget / blocks_part - budget / work_part,
@@ -223,6 +252,10 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     }
     if (stream) {
         terrain->notes.emplace_back("finer tiles are read where the view needs them");
+        if (choice.memory_megabytes < least_megabytes) {
+            terrain->notes.push_back(fmt::format("--memory {}: the tiles of a view take up to {}",
+                                                 choice.memory_megabytes, least_megabytes));
+        }
         if (auto missing = io::missing_overviews(tiles)) {
             terrain->notes.push_back(std::move(*missing));
             stream->step_of_overview = std::min(2 * stream->plan.reduction, most_step_read + 1);
@@ -231,21 +264,32 @@ Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
     TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};
     if (stream && !options.raster.imagery.empty()) {
         const std::size_t budget = raster_options(choice, source.description, stop).memory_budget;
-        add_imagery(options.raster.imagery, budget / work_part / thread_count(stream->threads),
-                    source);
+        add_imagery(options.raster.imagery, budget / work_part / stream->threads, source);
     }
     return source;
 }
 
-// A single file that does not fit the memory is read as a set of one, if it can be.
-bool is_to_stream(const TerrainChoice& choice, const io::SceneDescription& description) {
+// A single file that does not fit the memory, or whose images do not, is read as a set of one, if
+// it can be.
+std::optional<io::TileSet> set_to_stream(const TerrainChoice& choice,
+                                         const io::SceneDescription& description,
+                                         const std::stop_token& stop) {
     if (!choice.streamed || !description.generator.empty() || description.spacing) {
-        return false;
+        return std::nullopt;
     }
     const auto info = io::read_raster_info(description.heights);
-    return info && !info->crs_name.empty() &&
-           static_cast<double>(info->cols) * info->rows * io::bytes_per_sample >
-               static_cast<double>(choice.memory_megabytes) * (1U << 20U);
+    if (!info || info->crs_name.empty()) {
+        return std::nullopt;
+    }
+    const bool fits = static_cast<double>(info->cols) * info->rows * io::bytes_per_sample <=
+                      static_cast<double>(choice.memory_megabytes) * (1U << 20U);
+    const io::TileTerrainOptions options = tile_options(choice, description, stop);
+    if (fits && options.raster.imagery.empty()) {
+        return std::nullopt;
+    }
+    auto tiles = open_set(choice, description, stop);
+    const bool streams = tiles && (!fits || has_finer_pictures(*tiles, choice, options));
+    return streams ? std::optional(std::move(*tiles)) : std::nullopt;
 }
 
 Result<terrain::Terrain> read(const TerrainChoice& choice, const io::SceneDescription& description,
@@ -288,10 +332,8 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
     if (auto fits = refuse_folder_options(choice, description); !fits) {
         return fits.error();
     }
-    if (is_to_stream(choice, description)) {
-        if (auto tiles = open_set(choice, description, stop)) {
-            return read_tiles(std::move(*tiles), choice, std::move(description), stop);
-        }
+    if (auto tiles = set_to_stream(choice, description, stop)) {
+        return read_tiles(std::move(*tiles), choice, std::move(description), stop);
     }
     auto terrain = description.generator.empty() ? read(choice, description, stop)
                                                  : generate(choice, description, stop);
@@ -378,7 +420,8 @@ Result<io::TileSet> open_tiles(const TerrainChoice& choice, const std::stop_toke
 
 Result<void> report_faults(const std::string& terrain, std::size_t faults) {
     return faults == 0 ? Result<void>()
-                       : Error{fmt::format("{}: {} of its files could not be read and {} left out",
+                       : Error{fmt::format("{}: {} of the files asked for could not be read and {} "
+                                           "left out",
                                            terrain, faults, faults == 1 ? "is" : "are")};
 }
 

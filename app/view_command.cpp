@@ -201,6 +201,7 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     }
     TerrainChoice terrain = choice.terrain;
     terrain.streamed = may_stream(choice.view);
+    terrain.pictures_streamed = may_stream_pictures(choice.view);
     auto source = open_terrain(terrain, interrupt.token());
     if (!source) {
         return source.error();

@@ -33,6 +33,7 @@ Result<app::DeviceFrames> flight_device(const FlightOptions& options) {
 Result<app::TerrainScene> flight_scene(const FlightOptions& options, const std::stop_token& stop) {
     app::TerrainChoice terrain = options.terrain;
     terrain.streamed = app::may_stream(options.view);
+    terrain.pictures_streamed = app::may_stream_pictures(options.view);
     auto source = app::open_terrain(terrain, stop);
     return source ? app::make_scene(std::move(*source), terrain, options.view, stop)
                   : source.error();

@@ -43,6 +43,12 @@ glm::dvec3 normal_from_geodetic(double latitude, double longitude) {
     return {std::cos(phi) * std::cos(lambda), std::cos(phi) * std::sin(lambda), std::sin(phi)};
 }
 
+glm::dvec3 north_from_geodetic(double latitude, double longitude) {
+    const double phi = glm::radians(latitude);
+    const double lambda = glm::radians(longitude);
+    return {-std::sin(phi) * std::cos(lambda), -std::sin(phi) * std::sin(lambda), std::cos(phi)};
+}
+
 glm::dvec2 metres_per_degree(double latitude) {
     const GeographicLib::Ellipsoid& ellipsoid = GeographicLib::Ellipsoid::WGS84();
     return {glm::radians(ellipsoid.CircleRadius(latitude)),

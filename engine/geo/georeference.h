@@ -121,6 +121,10 @@ private:
 /// (0,0), y towards (0,90), z towards the north pole.
 glm::dvec3 normal_from_geodetic(double latitude, double longitude);
 
+/// Unit vector towards the north pole, level at a latitude and longitude (degrees), geocentric. At
+/// a pole the longitude says which way that is.
+glm::dvec3 north_from_geodetic(double latitude, double longitude);
+
 /// Metres per degree of latitude and of longitude at a latitude on WGS 84: (per longitude degree,
 /// per latitude degree).
 glm::dvec2 metres_per_degree(double latitude);

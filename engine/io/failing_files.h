@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace reljef::io {
 
@@ -14,21 +17,24 @@ public:
     /// `most`: failures after which a file is given up for half a minute.
     explicit FailingFiles(int most) : most_(most) {}
 
-    void note(const std::filesystem::path& path) {
+    void note(const std::filesystem::path& path, std::string message) {
         const std::lock_guard lock(mutex_);
         Failures& failures = failures_[path];
         ++failures.count;
+        failures.message = std::move(message);
         failures.last = Clock::now();
     }
     void forget(const std::filesystem::path& path) {
         const std::lock_guard lock(mutex_);
         failures_.erase(path);
     }
-    [[nodiscard]] bool are_given_up(const std::filesystem::path& path) const {
+    /// What was wrong with a file that is given up for now, else nothing.
+    [[nodiscard]] std::optional<std::string> given_up(const std::filesystem::path& path) const {
         const std::lock_guard lock(mutex_);
         const auto found = failures_.find(path);
-        return found != failures_.end() && found->second.count >= most_ &&
-               Clock::now() < found->second.last + pause;
+        const bool passed_over = found != failures_.end() && found->second.count >= most_ &&
+                                 Clock::now() < found->second.last + pause;
+        return passed_over ? std::optional(found->second.message) : std::nullopt;
     }
 
 private:
@@ -36,6 +42,7 @@ private:
     static constexpr std::chrono::seconds pause{30};
     struct Failures {
         int count = 0;
+        std::string message; // of the last
         Clock::time_point last;
     };
     const int most_;

@@ -132,6 +132,8 @@ void register_drivers() {
     static std::once_flag once;
     std::call_once(once, [] {
         GDALAllRegister();
+        // Of larger folders not each file's opening lists the whole.
+        set_default("GDAL_READDIR_LIMIT_ON_OPEN", "50");
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds
         set_default("GDAL_HTTP_TIMEOUT", "60");
         set_default("GDAL_HTTP_MAX_RETRY", "2");

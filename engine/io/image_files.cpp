@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/rgb_image.h"
+#include "engine/io/sample_decoder.h"
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {
@@ -24,7 +25,7 @@ void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
     for (const IndexedFile& file : index->files) {
         if (file.use == TileUse::fault) {
             faults.push_back(file.fault);
-        } else if (file.use == TileUse::picture || file.type == "Byte") {
+        } else if (file.use == TileUse::picture || file.type == "Byte" || file.type == "UInt16") {
             paths.push_back(folder / file.path);
         }
     }
@@ -34,6 +35,20 @@ void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
     }
 }
 
+/// One band of what only heights are stored as is no grey picture.
+bool is_image(GDALDataset& dataset) {
+    const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+    return dataset.GetRasterCount() >= 3 || kind_of_values(dataset) != ValueKind::plain ||
+           type == GDT_Byte || type == GDT_UInt16;
+}
+
+Error no_image(const fs::path& path, GDALDataset& dataset) {
+    const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+    return {fmt::format("{}: holds {}, as heights are stored, an image (grey of Byte or UInt16, "
+                        "palette or RGB(A)) was expected",
+                        path.string(), GDALGetDataTypeName(type))};
+}
+
 fs::file_time_type changed_at(const fs::path& path) {
     std::error_code ignored;
     return fs::last_write_time(path, ignored);
@@ -41,7 +56,8 @@ fs::file_time_type changed_at(const fs::path& path) {
 
 } // namespace
 
-ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults) {
+ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults,
+                       const std::stop_token& stop) {
     register_drivers();
     std::vector<fs::path> paths;
     for (const fs::path& name : names) {
@@ -56,11 +72,13 @@ ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>
     for (fs::path& path : paths) {
         const GdalMessages messages;
         const auto image = open_raster(path, messages);
-        if (image) {
-            files.white = std::max(files.white, white_of(**image));
-            files.paths.push_back(std::move(path));
-        } else {
+        if (!image) {
             faults.push_back(image.error().message);
+        } else if (!is_image(**image)) {
+            faults.push_back(no_image(path, **image).message);
+        } else {
+            files.white = std::max(files.white, white_of(**image, stop));
+            files.paths.push_back(std::move(path));
         }
     }
     std::stable_sort(

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct ImageFiles {
 };
 
 /// The images that `names` stand for: files, addresses, and folders, whose pictures and 8-bit
-/// rasters are meant. What cannot be opened is told in `faults`, one sentence each, and left out.
+/// and unsigned 16-bit rasters are meant. What cannot be opened, or holds heights, is told in
+/// `faults`, one sentence each, and left out.
 ImageFiles image_files(std::span<const std::filesystem::path> names,
-                       std::vector<std::string>& faults);
+                       std::vector<std::string>& faults, const std::stop_token& stop = {});
 
 } // namespace reljef::io

@@ -44,11 +44,15 @@ std::array<double, 6> geotransform(const geo::PixelAffine& affine) {
 constexpr double pixel_space_origin = 1000.0;
 constexpr geo::PixelAffine pixel_space{pixel_space_origin, 1.0, 0.0, pixel_space_origin, 0.0, -1.0};
 
+bool says_place(GDALDataset& image) {
+    return affine_of(image) || image.GetGCPCount() > 0;
+}
+
 Meeting meeting_of(GDALDataset& heights, GDALDataset& image, std::vector<std::string>& notes) {
     const auto affine = affine_of(heights);
     std::vector<std::string> ignored;
     auto crs = affine ? horizontal_crs(heights, ignored) : std::nullopt;
-    const bool image_placed = affine_of(image) || image.GetGCPCount() > 0;
+    const bool image_placed = says_place(image);
     if (image_placed && affine && crs && crs->IsLocal() == 0) {
         return {*affine, std::move(crs), false};
     }
@@ -69,13 +73,17 @@ geo::PixelAffine stretched(GDALDataset& heights, GDALDataset& image) {
     return {pixel_space.x0 + corner.x, scale.x, 0.0, pixel_space.y0 - corner.y, 0.0, -scale.y};
 }
 
+bool names_crs(GDALDataset& image) {
+    return image.GetSpatialRef() != nullptr || image.GetGCPSpatialRef() != nullptr;
+}
+
 Result<void> place_image(GDALDataset& heights, GDALDataset& image, const Meeting& meeting,
                          const std::string& name) {
     if (meeting.stretched) {
         std::array<double, 6> affine = geotransform(stretched(heights, image));
         image.SetSpatialRef(nullptr);
         image.SetGeoTransform(affine.data());
-    } else if (image.GetSpatialRef() == nullptr && image.GetGCPSpatialRef() == nullptr) {
+    } else if (!names_crs(image)) {
         if (image.SetSpatialRef(&*meeting.crs) != CE_None) {
             return Error{fmt::format(
                 "{}: its place cannot be read, a georeferenced image was expected", name)};
@@ -114,7 +122,8 @@ std::optional<glm::dvec2> pixel_size(GDALDataset& image, const Meeting& meeting)
 struct KnownPicture {
     std::filesystem::path path;
     Meeting meeting;
-    glm::dvec2 pixel{1.0};     ///< of the meeting space
+    glm::dvec2 pixel{1.0}; ///< of the meeting space
+    bool has_place = true;
     bool meets_heights = true; ///< false: it lies elsewhere
 };
 
@@ -297,7 +306,12 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
     if (auto good = check_affine(**image, name); !good) {
         return good.error();
     }
-    KnownPicture picture{path, meeting_of(heights, **image, notes), {}, true};
+    KnownPicture picture{path, meeting_of(heights, **image, notes), {}, says_place(**image), true};
+    if (!picture.meeting.stretched && !names_crs(**image)) {
+        notes.push_back(fmt::format("imagery: {} names no coordinate system, so that of the "
+                                    "terrain is taken",
+                                    path.filename().string()));
+    }
     auto colors = open_colors(path, white, heights, picture.meeting, messages);
     if (!colors) {
         return colors.error();
@@ -340,6 +354,22 @@ std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& h
     return pictures;
 }
 
+/// One alone is stretched over the terrain, but not among those that have a place.
+void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::string>& notes) {
+    const auto stretched = [](const KnownPicture& picture) { return picture.meeting.stretched; };
+    if (std::all_of(pictures.begin(), pictures.end(), stretched)) {
+        return;
+    }
+    for (const KnownPicture& picture : pictures) {
+        if (stretched(picture)) {
+            notes.push_back(fmt::format("imagery: {} names no place on Earth: it is left out beside "
+                                        "images that do",
+                                        picture.path.filename().string()));
+        }
+    }
+    std::erase_if(pictures, stretched);
+}
+
 std::string name_of(const std::vector<std::filesystem::path>& images) {
     return images.size() == 1 ? images.front().string()
                               : fmt::format("the {} images", images.size());
@@ -356,18 +386,31 @@ void note_share(double share, std::vector<std::string>& notes) {
     }
 }
 
+void note_stretching(std::span<const KnownPicture> pictures, GDALDataset& heights,
+                     std::vector<std::string>& notes) {
+    for (const KnownPicture& picture : pictures) {
+        if (!picture.has_place && affine_of(heights)) {
+            notes.push_back(fmt::format("imagery: {} names no place, so it is stretched over the "
+                                        "terrain",
+                                        picture.path.filename().string()));
+        }
+    }
+}
+
 } // namespace
 
 Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
                            const RasterOptions& options, std::vector<std::string>& notes,
                            std::vector<std::string>& faults) {
     std::vector<std::string> wrong;
-    const ImageFiles files = image_files(options.imagery, wrong);
+    const ImageFiles files = image_files(options.imagery, wrong, options.stop);
     std::vector<KnownPicture> pictures = known_pictures(files, heights, grid, notes, wrong);
     if (pictures.empty()) {
         check(!wrong.empty(), "a list of images without images");
         return Error{wrong.front()};
     }
+    leave_out_unplaced(pictures, notes);
+    note_stretching(pictures, heights, notes);
     std::erase_if(pictures, [](const KnownPicture& picture) { return !picture.meets_heights; });
     if (pictures.empty()) {
         return shows_nothing(options);

@@ -207,7 +207,7 @@ struct ImagerySet::State {
     bool add(const KnownImage& image, const Choice& choice, const TileGrid& grid,
              std::span<const double> turns, ImageryWindow& window,
              const std::stop_token& stop) const {
-        if (choice.pixels > ImagerySet::most_pixels_read || failing.are_given_up(image.path)) {
+        if (choice.pixels > ImagerySet::most_pixels_read || failing.given_up(image.path)) {
             window.whole = false;
             return true;
         }
@@ -220,7 +220,7 @@ struct ImagerySet::State {
             if (!done) {
                 window.whole = false;
                 if (!stop.stop_requested()) {
-                    failing.note(image.path);
+                    failing.note(image.path, done.error().message);
                     window.faults.push_back({image.path, done.error().message});
                 }
                 return true;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <cpl_string.h>
 #include <fmt/format.h>
@@ -67,6 +69,64 @@ bool has_last_block(GDALDataset& image) {
         block->DropLock();
     }
     return block != nullptr;
+}
+
+/// A block of a band, pixels.
+struct StoredBlock {
+    int col = 0;
+    int row = 0;
+    int cols = 0;
+    int rows = 0;
+};
+
+/// All blocks of a band, or so many, evenly spread, that together have a few million pixels.
+std::vector<StoredBlock> spread_blocks(GDALRasterBand& band) {
+    constexpr double most_pixels = 1U << 22U;
+    int cols = 0;
+    int rows = 0;
+    band.GetBlockSize(&cols, &rows);
+    const std::int64_t across = (band.GetXSize() - 1) / cols + 1;
+    const std::int64_t count = across * ((band.GetYSize() - 1) / rows + 1);
+    const auto wanted =
+        static_cast<std::int64_t>(most_pixels / (static_cast<double>(cols) * rows)) + 1;
+    std::int64_t step = std::max<std::int64_t>(1, count / wanted);
+    step += step > 1 && step % across == 0 ? 1 : 0; // not always the same column
+    std::vector<StoredBlock> blocks;
+    for (std::int64_t i = 0; i < count; i += step) {
+        const int col = static_cast<int>(i % across) * cols;
+        const int row = static_cast<int>(i / across) * rows;
+        blocks.push_back({col, row, std::min(cols, band.GetXSize() - col),
+                          std::min(rows, band.GetYSize() - row)});
+    }
+    return blocks;
+}
+
+/// At least 0; 0 where it cannot be read.
+double highest_in(GDALRasterBand& band, const StoredBlock& block) {
+    std::vector<double> values(static_cast<std::size_t>(block.cols) *
+                               static_cast<std::size_t>(block.rows));
+    if (band.RasterIO(GF_Read, block.col, block.row, block.cols, block.rows, values.data(),
+                      block.cols, block.rows, GDT_Float64, 0, 0, nullptr) != CE_None) {
+        return 0.0;
+    }
+    int declares = 0;
+    const double nodata = band.GetNoDataValue(&declares);
+    double highest = 0.0;
+    for (const double value : values) {
+        const bool counts = std::isfinite(value) && (declares == 0 || value != nodata);
+        highest = counts ? std::max(highest, value) : highest;
+    }
+    return highest;
+}
+
+double highest_of(GDALRasterBand& band, const std::stop_token& stop) {
+    double highest = 0.0;
+    for (const StoredBlock& block : spread_blocks(band)) {
+        if (!stop.stop_requested()) {
+            highest = std::max(highest, highest_in(band, block));
+        }
+    }
+    return highest;
 }
 
 CPLStringList words_for_rgb(GDALDataset& image, double white) {
@@ -148,7 +208,7 @@ Rgba8 over(Rgba8 top, Rgba8 beneath) {
 
 } // namespace
 
-double white_of(GDALDataset& image) {
+double white_of(GDALDataset& image, const std::stop_token& stop) {
     const ColorBands bands = color_bands(image);
     const GDALDataType type = image.GetRasterBand(bands.color[0])->GetRasterDataType();
     if (bands.palette || type == GDT_Byte) {
@@ -156,11 +216,7 @@ double white_of(GDALDataset& image) {
     }
     double white = 0.0;
     for (const int index : bands.color) {
-        std::array<double, 2> range{};
-        GDALRasterBand& band = *image.GetRasterBand(index);
-        if (band.ComputeRasterMinMax(TRUE, range.data()) == CE_None) {
-            white = std::max(white, range[1]);
-        }
+        white = std::max(white, highest_of(*image.GetRasterBand(index), stop));
     }
     if (GDALDataTypeIsFloating(type) != 0 && white <= 1.0) {
         return 1.0;

@@ -11,8 +11,9 @@
 namespace reljef::io {
 
 /// The value of an image's colours that is to be white where they are wider than 8 bits: 1 for
-/// fractions, else the highest found; 0 for 8 bits, whose white is 255.
-double white_of(GDALDataset& image);
+/// fractions, else the highest found; 0 for 8 bits, whose white is 255. Of huge images only a part
+/// is looked at.
+double white_of(GDALDataset& image, const std::stop_token& stop = {});
 
 /// An image of any bands and type as 8-bit red, green, blue and perhaps alpha, still on disk, with
 /// its overviews; it keeps `image` open. Values of more than 8 bits are divided by `white`. Null

@@ -166,6 +166,11 @@ double SampleDecoder::bounded(double height) {
     return height;
 }
 
+bool SampleDecoder::fits(std::span<const double> first, std::span<const double> others) const {
+    return encoding_ == HeightEncoding::none || kind_ != ValueKind::color ||
+           may_be_heights(first, others.first(first.size()), others.subspan(first.size()));
+}
+
 void SampleDecoder::decode(std::span<double> first, std::span<const double> others,
                            std::span<const unsigned char> mask) {
     for (std::size_t i = 0; i < first.size(); ++i) {

@@ -34,6 +34,9 @@ public:
     /// Bands to read for one value: 1, or 3 for colours.
     [[nodiscard]] int bands() const { return kind_ == ValueKind::color ? 3 : 1; }
 
+    /// Whether stored values, as decode() takes them, can be what the raster is read as.
+    [[nodiscard]] bool fits(std::span<const double> first, std::span<const double> others) const;
+
     /// In place in `first`, which holds the stored values of the first band; `others` holds those
     /// of the second and third after one another, or nothing. A mask value of 0 is a void.
     void decode(std::span<double> first, std::span<const double> others,

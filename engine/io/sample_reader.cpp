@@ -155,6 +155,10 @@ Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time
         if (!reader.read(tiles[i])) {
             return reading_failed(name, tiles[i], plan, messages);
         }
+        if (!decoder.fits(reader.first(), reader.others())) {
+            return Error{
+                fmt::format("{}: is grey, heights in red, green and blue were expected", name)};
+        }
         decoder.decode(reader.first(), reader.others(), reader.mask());
         store_tile(tiles[i], reader.first(), reader.taps(), store);
         if (options.progress) {

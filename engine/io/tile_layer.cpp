@@ -158,18 +158,37 @@ private:
     Grid<std::uint8_t> closed_;
 };
 
+/// Nobody waits for a server that does not answer again and again.
+Result<DatasetPool::Loan> borrow(const std::filesystem::path& path, const TileReading& reading,
+                                 const GdalMessages& messages) {
+    if (auto wrong = reading.unopened->given_up(path)) {
+        return Error{std::move(*wrong)};
+    }
+    auto dataset = reading.pool->borrow(path, messages);
+    if (dataset) {
+        reading.unopened->forget(path);
+    } else if (is_remote(path)) {
+        reading.unopened->note(path, dataset.error().message);
+    }
+    return dataset;
+}
+
 struct TileValues {
     ReadPlan plan;
     Grid<double> values;
 };
 
+std::filesystem::path path_of(const LayerTile& tile, const TileReading& reading) {
+    return reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path;
+}
+
 /// The part of a tile that lies in `part`, lattice points.
 Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int reduction,
                              const TileReading& reading) {
     const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
-    const std::filesystem::path path = reading.folder / file.path;
+    const std::filesystem::path path = path_of(tile, reading);
     GdalMessages messages;
-    auto dataset = reading.pool->borrow(path, messages);
+    auto dataset = borrow(path, reading, messages);
     if (!dataset) {
         return dataset.error();
     }
@@ -185,7 +204,7 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     result.plan = plan_window(**dataset, window, std::max(1, reduction / taps_a_side));
     auto values = read_heights(**dataset, result.plan, path.string(), reading.options, messages);
     if (!values) {
-        if (!reading.options.stop.stop_requested()) {
+        if (!reading.options.stop.stop_requested() && !is_tile_pyramid(path)) {
             dataset->spoil();
         }
         return values.error();
@@ -197,6 +216,47 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
                            static_cast<std::size_t>(GDALGetDataTypeSizeBytes(
                                (*dataset)->GetRasterBand(1)->GetRasterDataType()));
     return result;
+}
+
+/// Samples of the finest level along a tile of the level that is read for a reduction.
+int side_of_pyramid_tile(int reduction) {
+    return tile_pyramid_side << std::max(0, std::ilogb(std::max(1, reduction / taps_a_side)));
+}
+
+/// One by one, so that one that is damaged takes no other with it.
+void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reduction,
+                       const TileReading& reading, CellSums& sums, std::vector<TileFault>& faults) {
+    const int side = side_of_pyramid_tile(reduction);
+    const glm::ivec2 corner(tile.col, tile.row);
+    const glm::ivec2 first = (part.low - corner) / side;
+    const glm::ivec2 last = (part.high - 1 - corner) / side;
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            const glm::ivec2 low = corner + glm::ivec2(x, y) * side;
+            const Rectangle one{glm::max(part.low, low), glm::min(part.high, low + side)};
+            const auto read = read_part(tile, one, reduction, reading);
+            if (read) {
+                sums.add(tile, read->plan, read->values);
+            } else if (!reading.options.stop.stop_requested()) {
+                const int level = std::ilogb(tile.cols / side);
+                faults.push_back(tile_pyramid_fault(path_of(tile, reading), {x, y}, level));
+            }
+        }
+    }
+}
+
+/// Adds the part of a tile to sums over cells, or tells what fails.
+void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
+              const TileReading& reading, CellSums& sums, std::vector<TileFault>& faults) {
+    const auto read = read_part(tile, part, reduction, reading);
+    const std::filesystem::path path = path_of(tile, reading);
+    if (read) {
+        sums.add(tile, read->plan, read->values);
+    } else if (is_tile_pyramid(path) && !reading.options.stop.stop_requested()) {
+        add_pyramid_tiles(tile, part, reduction, reading, sums, faults);
+    } else {
+        faults.push_back({path, read.error().message});
+    }
 }
 
 } // namespace
@@ -246,15 +306,8 @@ Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
         if (part.empty() || reading.options.stop.stop_requested()) {
             continue;
         }
-        const auto read = read_part(tile, part, window.reduction, reading);
-        if (read) {
-            sums.add(tile, read->plan, read->values);
-            sums.close_covered();
-        } else {
-            faults.push_back(
-                {reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path,
-                 read.error().message});
-        }
+        add_part(tile, part, window.reduction, reading, sums, faults);
+        sums.close_covered();
     }
     return std::move(sums).averages();
 }

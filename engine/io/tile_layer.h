@@ -13,6 +13,7 @@
 #include "engine/core/grid.h"
 #include "engine/io/crs_transform.h"
 #include "engine/io/dataset_pool.h"
+#include "engine/io/failing_files.h"
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {
@@ -86,10 +87,12 @@ struct TileReading {
     RasterOptions options;                          ///< scale, offset, stop
     std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
     DatasetPool* pool = nullptr;                    ///< where the files are open
+    FailingFiles* unopened = nullptr;               ///< on servers
 };
 
 /// The averages of a layer's samples over cells, of the newest tile where there are several; NaN
-/// where there is none. What fails is added to the faults and left out.
+/// where there is none. What fails is added to the faults and left out: a file, of a tile pyramid
+/// only those of its tiles that cannot be read.
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
                         const TileReading& reading, std::vector<TileFault>& faults);
 

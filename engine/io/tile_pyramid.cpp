@@ -126,6 +126,11 @@ Result<TileSource> source_of(const fs::path& path) {
     if (is_address(address)) {
         return source_of_address(address);
     }
+    std::error_code ignored;
+    if (!fs::is_directory(address, ignored)) {
+        return Error{
+            fmt::format("{}: is no folder, one of tiles as z/x/y.png was expected", address)};
+    }
     const FolderLevel finest = finest_level(address);
     if (finest.level < 0) {
         return Error{
@@ -157,6 +162,31 @@ double encoded_height(HeightEncoding encoding, double red, double green, double 
     return encoding == HeightEncoding::terrarium
                ? red * 256.0 + green + blue / 256.0 - 32768.0
                : (red * 65536.0 + green * 256.0 + blue) / 10.0 - 10000.0;
+}
+
+bool may_be_heights(std::span<const double> red, std::span<const double> green,
+                    std::span<const double> blue) {
+    // Heights of so many neighbours are grey only where the ground is level.
+    constexpr int most_grey = 32;
+    constexpr int most_steps = 2;
+    int grey = 0;
+    int steps = 0;
+    for (std::size_t i = 0; i < red.size(); ++i) {
+        const bool is_grey = red[i] == green[i] && red[i] == blue[i] && red[i] > 0.0;
+        steps = is_grey && grey > 0 ? steps + (red[i] == red[i - 1] ? 0 : 1) : 0;
+        grey = is_grey ? grey + 1 : 0;
+        if (grey > most_grey && steps > most_steps) {
+            return false;
+        }
+    }
+    return true;
+}
+
+TileFault tile_pyramid_fault(const fs::path& path, glm::ivec2 tile, int level) {
+    const std::string name = fmt::format("{}/{}/{}", level, tile.x, tile.y);
+    return {path / name, fmt::format("{}: its tile {} cannot be read, a whole picture of heights "
+                                     "in red, green and blue was expected",
+                                     path.string(), name)};
 }
 
 HeightEncoding height_encoding_of(std::string_view name) {

@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+
+#include <glm/vec2.hpp>
 
 #include "engine/core/result.h"
 #include "engine/io/tile_set.h"
@@ -20,6 +23,17 @@ enum class HeightEncoding { none, terrarium, terrain_rgb };
 /// Metres; NaN for black, which stands for nothing. Precondition: an encoding.
 /// Terrarium: Tilezen, "joerd", docs/formats.md. Terrain-RGB: Mapbox, "Access elevation data".
 double encoded_height(HeightEncoding encoding, double red, double green, double blue);
+
+/// Whether colours can be heights: not where they are grey, along many pixels of several shades.
+/// Channels 0 to 255, of the same size.
+bool may_be_heights(std::span<const double> red, std::span<const double> green,
+                    std::span<const double> blue);
+
+/// Pixels along a tile.
+inline constexpr int tile_pyramid_side = 256;
+
+/// Of one tile (x, y) of a level that cannot be read.
+TileFault tile_pyramid_fault(const std::filesystem::path& path, glm::ivec2 tile, int level);
 
 /// By how the name begins; none: it names no such tiles.
 HeightEncoding height_encoding_of(std::string_view name);

@@ -159,6 +159,12 @@ std::vector<glm::dvec2> outline_of(const GeodeticArea& area) {
 
 } // namespace
 
+bool reaches_into(const TileFile& file, const GeodeticArea& area) {
+    const double turn = 360.0 * std::ceil((area.west - file.east) / 360.0);
+    const bool beside = file.west + turn >= area.east || file.east + turn <= area.west;
+    return !beside && file.south < area.north && file.north > area.south;
+}
+
 void keep_each_once(std::vector<TileFault>& faults) {
     const auto by_file = [](const TileFault& a, const TileFault& b) { return a.file < b.file; };
     std::stable_sort(faults.begin(), faults.end(), by_file);
@@ -167,7 +173,7 @@ void keep_each_once(std::vector<TileFault>& faults) {
 }
 
 TileReading TileSet::State::reading(const std::stop_token& stop) const {
-    TileReading reading{indexed, folder, {}, &bytes_read, &pool};
+    TileReading reading{indexed, folder, {}, &bytes_read, &pool, &unopened};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
     reading.options.stop = stop;

@@ -59,6 +59,9 @@ struct GeodeticArea {
     double east = 180.0;
 };
 
+/// Whether a tile has samples inside an area, not only on its edge.
+bool reaches_into(const TileFile& file, const GeodeticArea& area);
+
 /// What lies where the set has no tile.
 enum class Gaps { holes, sea };
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/io/dataset_pool.h"
+#include "engine/io/failing_files.h"
 #include "engine/io/tile_layer.h"
 #include "engine/io/tile_set.h"
 
@@ -29,6 +30,7 @@ struct TileSet::State {
     DegreeBox box{}; ///< around all tiles
     mutable std::atomic<std::size_t> bytes_read{0};
     mutable DatasetPool pool;
+    mutable FailingFiles unopened{4}; ///< what cannot be opened is not asked for by every tile
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };

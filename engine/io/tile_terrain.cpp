@@ -13,7 +13,9 @@
 namespace reljef::io {
 namespace {
 
-constexpr int read_block = 512; // samples a side that one thread reads at a time
+// Samples a side that one thread reads at a time, and where each is the average of many.
+constexpr int read_block = 512;
+constexpr int reduced_block = 256;
 
 /// The last word of a path, which may end with a slash.
 std::string name_of(const std::filesystem::path& path) {
@@ -60,15 +62,15 @@ struct GridBlock {
     TileGrid grid;
 };
 
-std::vector<GridBlock> blocks_of_grid(const TileGrid& grid) {
+std::vector<GridBlock> blocks_of_grid(const TileGrid& grid, int side) {
     std::vector<GridBlock> blocks;
-    for (int row = 0; row < grid.rows; row += read_block) {
-        for (int col = 0; col < grid.cols; col += read_block) {
+    for (int row = 0; row < grid.rows; row += side) {
+        for (int col = 0; col < grid.cols; col += side) {
             blocks.push_back(
                 {col,
                  row,
                  {grid.first + grid.step * glm::dvec2(col, row), grid.step,
-                  std::min(read_block, grid.cols - col), std::min(read_block, grid.rows - row)}});
+                  std::min(side, grid.cols - col), std::min(side, grid.rows - row)}});
         }
     }
     return blocks;
@@ -91,12 +93,12 @@ struct SetSamples {
     std::vector<TileFault> faults;
 };
 
-Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid,
+Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int reduction,
                             const TileTerrainOptions& options) {
     SetSamples result;
     result.samples.heights = Grid<float>(grid.cols, grid.rows);
     result.samples.void_mask = Grid<std::uint8_t>(grid.cols, grid.rows);
-    const std::vector<GridBlock> blocks = blocks_of_grid(grid);
+    const std::vector<GridBlock> blocks = blocks_of_grid(grid, reduction > 1 ? reduced_block : read_block);
     std::mutex mutex;
     const auto read_one = [&](int number) {
         const GridBlock& block = blocks[static_cast<std::size_t>(number)];
@@ -121,12 +123,17 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid,
     return result;
 }
 
+std::string text_of_tiles(const TileSet& tiles, const std::optional<GeodeticArea>& area) {
+    const auto counts = [&](const TileFile& file) { return !area || reaches_into(file, *area); };
+    const auto count = std::count_if(tiles.files().begin(), tiles.files().end(), counts);
+    return count == 1 ? "1 tile" : fmt::format("{} tiles drawn as one", count);
+}
+
 void note_grid(const TileSet& tiles, const TileGrid& grid, int reduction, glm::dvec2 spacing,
-               std::vector<std::string>& notes) {
-    const std::size_t count = tiles.files().size();
-    notes.push_back(fmt::format("{} {} drawn as one in {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
-                                count, count == 1 ? "tile" : "tiles", tiles.crs_name(), grid.cols,
-                                grid.rows, spacing.x, spacing.y,
+               const std::optional<GeodeticArea>& area, std::vector<std::string>& notes) {
+    notes.push_back(fmt::format("{} in {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
+                                text_of_tiles(tiles, area), tiles.crs_name(), grid.cols, grid.rows,
+                                spacing.x, spacing.y,
                                 reduction == 1 ? ""
                                                : fmt::format(": 1/{} of the finest tiles', to fit "
                                                              "the memory",
@@ -175,7 +182,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     if (place->georeference) {
         place->georeference->vertical_datum = state_->vertical_datum;
     }
-    auto read = read_all(*this, samples_grid, options);
+    auto read = read_all(*this, samples_grid, planned->reduction, options);
     if (!read) {
         return read.error();
     }
@@ -186,7 +193,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
                                  name(), samples_grid.cols, samples_grid.rows,
                                  result.faults.empty() ? "" : "; " + result.faults.front())};
     }
-    note_grid(*this, samples_grid, planned->reduction, place->spacing, result.notes);
+    note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     if (!options.raster.imagery.empty()) {
         auto color = read_imagery(*frame, place->grid, options.raster, result.notes, result.faults);

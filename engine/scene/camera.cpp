@@ -104,9 +104,9 @@ Projected project(const Camera& camera, glm::ivec2 size, glm::dvec3 world) {
     return {{0.5 * (x + 1.0) * size.x, 0.5 * (1.0 - y) * size.y}, depth};
 }
 
-Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, glm::dvec3 up) {
-    const glm::dvec3 upward = direction_or(up, {0.0, 0.0, 1.0});
-    glm::dvec3 east = glm::cross(glm::dvec3(0.0, 1.0, 0.0), upward);
+Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Compass& compass) {
+    const glm::dvec3 upward = direction_or(compass.up, {0.0, 0.0, 1.0});
+    glm::dvec3 east = glm::cross(compass.north, upward);
     east = direction_or(east, {1.0, 0.0, 0.0});
     const glm::dvec3 north = glm::cross(upward, east);
     const double h = glm::radians(heading);

@@ -61,8 +61,14 @@ struct Projected {
 };
 Projected project(const Camera& camera, glm::ivec2 size, glm::dvec3 world);
 
+/// What angles count from at a place, world directions.
+struct Compass {
+    glm::dvec3 up{0.0, 0.0, 1.0};
+    glm::dvec3 north{0.0, 1.0, 0.0}; ///< need not be level: what is level of it counts
+};
+
 /// Heading clockwise from north and pitch above the horizon, degrees; roll is none.
 Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch,
-                          glm::dvec3 up = {0.0, 0.0, 1.0});
+                          const Compass& compass = {});
 
 } // namespace reljef::scene

@@ -90,6 +90,12 @@ glm::dvec3 FreeFlight::up() const {
     return options_.up ? options_.up(camera_.eye) : glm::dvec3(0.0, 0.0, 1.0);
 }
 
+Compass FreeFlight::compass() const {
+    Compass compass;
+    compass.up = up();
+    return compass;
+}
+
 void FreeFlight::set_camera(const Camera& camera) {
     camera_ = camera;
     const ViewAxes axes = view_axes(camera);
@@ -99,7 +105,7 @@ void FreeFlight::set_camera(const Camera& camera) {
     // Straight down, what is up in the picture says where it heads.
     const bool is_steep = std::abs(rise) > 1.0 - 1e-12;
     const glm::dvec3 level = is_steep ? -std::copysign(1.0, rise) * axes.up : axes.forward;
-    const ViewAxes north = view_axes(camera_from_angles(camera.eye, 0.0, 0.0, upward));
+    const ViewAxes north = view_axes(camera_from_angles(camera.eye, 0.0, 0.0, compass()));
     heading_ =
         glm::degrees(std::atan2(glm::dot(level, north.right), glm::dot(level, north.forward)));
     height_.reset();
@@ -108,7 +114,7 @@ void FreeFlight::set_camera(const Camera& camera) {
 }
 
 Camera FreeFlight::camera() const {
-    const Camera turned = camera_from_angles(camera_.eye, heading_, pitch_, up());
+    const Camera turned = camera_from_angles(camera_.eye, heading_, pitch_, compass());
     Camera camera = camera_;
     camera.look = turned.look;
     camera.up = turned.up;
@@ -186,7 +192,7 @@ bool FreeFlight::advance(double seconds) {
     const glm::dvec3 from = camera_.eye;
     if (wanted != glm::dvec3(0.0)) {
         const double pitch = follows_ground_ ? 0.0 : pitch_;
-        const ViewAxes axes = view_axes(camera_from_angles(from, heading_, pitch, up()));
+        const ViewAxes axes = view_axes(camera_from_angles(from, heading_, pitch, compass()));
         camera_.eye += wanted.x * axes.right + wanted.y * axes.forward + wanted.z * up();
         if (height_) {
             *height_ = std::max(*height_ + wanted.z, options_.clearance);

@@ -85,6 +85,7 @@ private:
     bool receive_move(const MouseMoveEvent& event);
     bool receive_scroll(const ScrollEvent& event);
     [[nodiscard]] glm::dvec3 up() const;
+    [[nodiscard]] Compass compass() const;
     void keep_above_ground();
 
     FreeFlightOptions options_;

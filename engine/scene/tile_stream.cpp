@@ -143,8 +143,8 @@ bool TileStream::is_wanting(terrain::TreeTile tile) const {
 bool TileStream::is_settled(Clock::time_point now) const {
     const auto given_up = [&](terrain::TreeTile tile) {
         const auto failure = failures_.find(tile);
-        return failure != failures_.end() && failure->second.attempts >= most_attempts &&
-               now < failure->second.again;
+        return failure != failures_.end() && failure->second.latest.attempts >= most_attempts &&
+               now < failure->second.latest.again;
     };
     return std::all_of(wanted_.begin(), wanted_.end(), given_up);
 }
@@ -191,7 +191,7 @@ TileStreamStats TileStream::stats() const {
 std::optional<terrain::TreeTile> TileStream::next_tile(Clock::time_point now) {
     for (const terrain::TreeTile tile : wanted_) {
         const auto failure = failures_.find(tile);
-        const bool pauses = failure != failures_.end() && now < failure->second.again;
+        const bool pauses = failure != failures_.end() && now < failure->second.latest.again;
         if (!pauses && !in_flight_.contains(tile)) {
             return tile;
         }
@@ -204,7 +204,8 @@ std::optional<TileStream::Clock::time_point> TileStream::next_attempt() const {
     for (const terrain::TreeTile tile : wanted_) {
         const auto failure = failures_.find(tile);
         if (failure != failures_.end() && !in_flight_.contains(tile)) {
-            first = std::min(failure->second.again, first.value_or(failure->second.again));
+            const Clock::time_point again = failure->second.latest.again;
+            first = std::min(again, first.value_or(again));
         }
     }
     return first;
@@ -273,7 +274,7 @@ void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made
     const bool is_better = reading.picture_faults.empty() || before == tiles_.end() ||
                            made.shown > before->second.shown;
     if (reading.picture_faults.empty()) {
-        failures_.erase(tile);
+        forget_failure(tile);
         std::erase(wanted_, tile);
     } else {
         note_failure(tile, reading.picture_faults);
@@ -294,16 +295,43 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
     stats_.most_bytes = std::max(stats_.most_bytes, stats_.bytes);
 }
 
+// What is wrong with a file is wrong for each of its tiles: they wait together, so that a flight is
+// held up once by a file and not by every tile that comes into view.
 void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults) {
     ++stats_.failed;
-    Failure& failure = failures_[tile];
-    if (failure.attempts >= most_attempts) {
-        failure.attempts = 0;
+    const auto now = Clock::now();
+    TileFailure failure;
+    for (const TileReading::Fault& fault : faults) {
+        const Failure& file = file_failure(fault.file, now);
+        if (failure.files.empty() || failure.latest.again < file.again) {
+            failure.latest = file;
+        }
+        failure.files.push_back(fault.file);
     }
-    const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
-    ++failure.attempts;
-    failure.again = Clock::now() + (failure.attempts < most_attempts ? pause : long_pause);
+    failures_[tile] = std::move(failure);
     tell(faults);
+}
+
+// Failures within one pause are one.
+const TileStream::Failure& TileStream::file_failure(const std::string& file,
+                                                    Clock::time_point now) {
+    Failure& failure = file_failures_[file];
+    if (now >= failure.again) {
+        const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
+        failure.attempts = std::min(failure.attempts + 1, most_attempts);
+        failure.again = now + (failure.attempts < most_attempts ? pause : long_pause);
+    }
+    return failure;
+}
+
+void TileStream::forget_failure(terrain::TreeTile tile) {
+    const auto found = failures_.find(tile);
+    if (found != failures_.end()) {
+        for (const std::string& file : found->second.files) {
+            file_failures_.erase(file);
+        }
+        failures_.erase(found);
+    }
 }
 
 void TileStream::tell(std::span<const TileReading::Fault> faults) {

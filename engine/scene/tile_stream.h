@@ -41,7 +41,8 @@ using TileReader = std::function<TileReading(terrain::TreeTile, std::stop_token)
 struct TileStreamOptions {
     std::size_t memory_budget = std::size_t{256} << 20; ///< bytes, for tiles here and when drawn
     unsigned threads = 0;                               ///< 0: as many as the machine has
-    /// After the first failure of a tile it is read again so much later, then four times that, …
+    /// After the first failure of a file its tiles are read again so much later, then four times
+    /// that, …
     std::chrono::milliseconds first_pause{200};
 };
 
@@ -91,7 +92,8 @@ public:
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
     /// was stopped. Only while nobody else wants.
     bool wait(const std::stop_token& stop);
-    /// A tile that fails so often is left alone for half a minute.
+    /// The tiles that need a file which fails so often are left alone for half a minute, then read
+    /// once more, and so on.
     static constexpr int most_attempts = 4;
 
     /// Another number whenever tiles came or went.
@@ -121,6 +123,10 @@ private:
         int attempts = 0;
         Clock::time_point again;
     };
+    struct TileFailure {
+        Failure latest; // of the files' the one that lasts longest
+        std::vector<std::string> files;
+    };
     void work(const std::stop_token& stop);
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
@@ -128,6 +134,8 @@ private:
                             const StreamedTile* before) const;
     void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
+    void forget_failure(terrain::TreeTile tile);
+    const Failure& file_failure(const std::string& file, Clock::time_point now);
     void tell(std::span<const TileReading::Fault> faults);
     void keep(terrain::TreeTile tile, Made made);
     [[nodiscard]] std::vector<terrain::TreeTile>
@@ -145,8 +153,9 @@ private:
     std::map<terrain::TreeTile, Entry> tiles_;
     std::vector<terrain::TreeTile> wanted_; // most urgent first
     std::map<terrain::TreeTile, std::stop_source> in_flight_;
-    std::map<terrain::TreeTile, Failure> failures_;
-    std::map<std::string, std::string> faults_; // by file
+    std::map<terrain::TreeTile, TileFailure> failures_;
+    std::map<std::string, Failure> file_failures_; // they fail for all their tiles alike
+    std::map<std::string, std::string> faults_;    // by file
     std::vector<std::string> new_faults_;
     std::uint64_t view_ = 0;
     std::uint64_t revision_ = 0;

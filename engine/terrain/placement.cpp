@@ -83,6 +83,26 @@ glm::dvec3 Placement::up(glm::dvec3 world) const {
         geo::normal_from_geodetic(position.latitude, position.longitude));
 }
 
+glm::dvec3 Placement::north(glm::dvec3 world) const {
+    const auto position = geodetic_from_world(world);
+    if (!position) {
+        return {0.0, 1.0, 0.0};
+    }
+    if (frame_) {
+        return frame_->local_direction(
+            geo::north_from_geodetic(position->latitude, position->longitude));
+    }
+    // Degrees: metres on the ground, and never across a pole.
+    constexpr double step = 1e-5;
+    const double toward = position->latitude > 0.0 ? -step : step;
+    const auto beside =
+        world_from_geodetic({position->latitude + toward, position->longitude, position->height});
+    const glm::dvec3 way = beside ? (*beside - world) / toward : glm::dvec3(0.0);
+    const double length = std::hypot(way.x, way.y);
+    return length > 0.0 ? glm::dvec3(way.x / length, way.y / length, 0.0)
+                        : glm::dvec3(0.0, 1.0, 0.0);
+}
+
 std::optional<geo::Geodetic> Placement::geodetic_from_world(glm::dvec3 world) const {
     if (!geodetic_) {
         return std::nullopt;

@@ -38,6 +38,10 @@ public:
     /// Unit vector away from the Earth at a world position.
     [[nodiscard]] glm::dvec3 up(glm::dvec3 world) const;
 
+    /// Unit vector towards true north at a world position, level there: on a plane that of the map.
+    /// Without a georeference y.
+    [[nodiscard]] glm::dvec3 north(glm::dvec3 world) const;
+
     /// WGS 84, with the height in true metres; nothing without a georeference.
     [[nodiscard]] std::optional<geo::Geodetic> geodetic_from_world(glm::dvec3 world) const;
     [[nodiscard]] std::optional<glm::dvec3> world_from_geodetic(geo::Geodetic position) const;

@@ -90,7 +90,7 @@ TEST_F(BadInput, folder_without_tiles) {
 
 TEST_F(BadInput, tiles_of_heights_in_colours_may_lie_in_a_folder_without_a_path) {
     const auto result = test::reljef({"info", "terrarium+nowhere"});
-    expect_refusal(result, 1, {"nowhere", "holds no tiles"});
+    expect_refusal(result, 1, {"nowhere", "is no folder"});
     EXPECT_EQ(result.err.find("no such terrain"), std::string::npos) << result.err;
 }
 
@@ -227,6 +227,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"render", "natural", "--eye", "1,2,3", "--look", "1,2,4", "--path", "orbit", "-o",
                 "a.png"},
                "--path"},
+        Misuse{{"height", "natural", "--at", "45,6", "--imagery", "missing.tif"}, "--imagery"},
         Misuse{{"height", "natural"}, "--at"}, Misuse{{"height", "natural", "--at", "45"}, "45"}));
 
 TEST_F(BadInput, NoOutputAppearsWhereAnotherCannot) {

@@ -1,12 +1,17 @@
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <future>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/scene_setup.h"
+#include "app/streaming.h"
 #include "engine/io/image.h"
 #include "tests/app/command_line.h"
 #include "tests/support/http_server.h"
@@ -93,6 +98,36 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("N44E006.hgt"));
     EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
+}
+
+// Cells that share no edge with the one that is gone are drawn as finely as without it.
+TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
+    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+    app::TerrainChoice choice;
+    choice.terrain = path("tiles");
+    choice.memory_megabytes = 32;
+    choice.quiet = true;
+    choice.streamed = true;
+    app::ViewChoice view;
+    view.geodetic = {44.3, 7.7, 3000.0, 90.0, -60.0};
+    auto source = app::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    std::filesystem::remove(folder_.path() / "tiles/N45E006.hgt");
+    auto scene = app::make_scene(std::move(*source), choice, view);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto& terrain = *scene->terrain->get<scene::TerrainNode>();
+    const std::array cameras{scene->scene.camera()};
+    const auto level_there = [&] {
+        const auto eye = terrain.surface->placement().sample_from_world(cameras.front().eye);
+        const auto found = terrain.stream->finest_at(glm::dvec2(*eye));
+        return found ? found->tile->id.level : -1;
+    };
+    for (int i = 0; i < 300 && level_there() != 0; ++i) {
+        app::ask_for_tiles(scene->scene, cameras, {160, 120});
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(level_there(), 0);
+    EXPECT_THAT(terrain.stream->take_faults(), ::testing::Contains(HasSubstr("N45E006.hgt")));
 }
 
 TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
@@ -194,6 +229,42 @@ TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
     const Image picture = picture_of("c.png");
     EXPECT_EQ(shown(picture(2, 60)), Shown::red);
     EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
+}
+
+// A patch of pixels of which 8,400 would lie along the terrain, which fits the memory; but an error
+// that is promised is kept.
+TEST_F(StreamedImagery, that_is_finer_than_one_picture_is_streamed_over_what_fits_the_memory) {
+    folder_.write("fine.ppm", "P6\n256 256\n255\n" + std::string(3 * 256 * 256, '\x60'));
+    std::string bands;
+    for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
+        bands += fmt::format("<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}"
+                             "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">"
+                             "fine.ppm</SourceFilename><SourceBand>{0}</SourceBand>"
+                             "</SimpleSource></VRTRasterBand>",
+                             band, meaning);
+    }
+    folder_.write("fine.vrt",
+                  "<VRTDataset rasterXSize=\"256\" rasterYSize=\"256\"><SRS>EPSG:4326</SRS>"
+                  "<GeoTransform>6.485, 0.000119, 0, 44.515, 0, -0.000119</GeoTransform>" +
+                      bands + "</VRTDataset>");
+    const auto render_with = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"render",    path("tiles/N44E006.hgt"),
+                                           "--memory",  "64",
+                                           "--imagery", path("fine.vrt"),
+                                           "-o",        path("a.png"),
+                                           "--size",    "64x48",
+                                           "--context", "osmesa",
+                                           "--camera",  "44.5,6.5,3500,0,-60",
+                                           "--stats"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return test::reljef(arguments, options_);
+    };
+    const auto fine = render_with({});
+    ASSERT_EQ(fine.exit_code, 0) << fine.err;
+    EXPECT_THAT(fine.out, HasSubstr("streamed: "));
+    const auto promised = render_with({"--max-error", "1"});
+    ASSERT_EQ(promised.exit_code, 0) << promised.err;
+    EXPECT_THAT(promised.out, Not(HasSubstr("streamed: ")));
 }
 
 TEST_F(StreamedImagery, that_is_missing_is_told_once_and_the_rest_is_shown) {

@@ -94,7 +94,8 @@ TEST_F(TileFolder, a_broken_tile_is_left_out_told_and_shows_in_the_exit_status) 
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("left out: "));
     EXPECT_THAT(result.err, HasSubstr("broken.tif"));
-    EXPECT_THAT(result.err, HasSubstr("1 of its files could not be read and is left out"));
+    EXPECT_THAT(result.err,
+                HasSubstr("1 of the files asked for could not be read and is left out"));
     EXPECT_GT(test::read_bytes(path("out.png")).size(), 100U);
     std::filesystem::remove(path("tiles/broken.tif"));
     const auto whole = run({"render", path("tiles"), "-o", path("out.png"), "--size", "64x48",
@@ -105,7 +106,11 @@ TEST_F(TileFolder, a_broken_tile_is_left_out_told_and_shows_in_the_exit_status) 
 TEST_F(TileFolder, area_and_gaps_are_for_folders) {
     const auto part = run({"info", path("tiles"), "--json", "--area", "40.02,10.03,40.05,10.06"});
     ASSERT_EQ(part.exit_code, 0) << part.err;
-    EXPECT_EQ(nlohmann::json::parse(part.out)["cols"], 4); // 10.03 to 10.06
+    const auto info = nlohmann::json::parse(part.out);
+    EXPECT_EQ(info["cols"], 4); // 10.03 to 10.06
+    EXPECT_EQ(info["tiles"]["files"], 1);
+    EXPECT_EQ(info["tiles"]["formats"]["AAIGrid"], 1);
+    EXPECT_EQ(info["notes"].dump().find("as one"), std::string::npos) << info["notes"];
     test::expect_refusal(run({"info", path("tiles"), "--area", "1,2,3,4"}), 1, {"has nothing"});
     test::expect_refusal(run({"info", path("tiles"), "--area", "3,2,1,4"}), 2,
                          {"--area: '3,2,1,4'"});

@@ -3,7 +3,9 @@
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <vector>
 
+#include <GeographicLib/Geocentric.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -159,6 +161,21 @@ TEST(LocalFrame, DirectionsKeepTheirAnglesAndTheNormalIsUp) {
     EXPECT_NEAR(glm::length(frame.local_direction(other)), 1.0, 1e-15);
     EXPECT_NEAR(frame.local_direction(other).z, glm::dot(other, normal_from_geodetic(-33.9, 151.2)),
                 1e-15);
+}
+
+TEST(LocalFrame, NorthAndUpAreThoseOfGeographicLibsOwnFrame) {
+    for (const double latitude : {-90.0, -33.9, 0.0, 45.8, 89.9, 90.0}) {
+        for (const double longitude : {-180.0, -71.0, 0.0, 6.9, 151.2}) {
+            std::vector<double> axes(9); // x, y, z of east, north and up, in three rows
+            glm::dvec3 ignored;
+            const GeographicLib::Geocentric& earth = GeographicLib::Geocentric::WGS84();
+            earth.Forward(latitude, longitude, 0.0, ignored.x, ignored.y, ignored.z, axes);
+            const glm::dvec3 north(axes[1], axes[4], axes[7]);
+            const glm::dvec3 up(axes[2], axes[5], axes[8]);
+            EXPECT_LT(glm::distance(north_from_geodetic(latitude, longitude), north), 1e-15);
+            EXPECT_LT(glm::distance(normal_from_geodetic(latitude, longitude), up), 1e-15);
+        }
+    }
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/raster.h"
+#include "engine/io/rgb_image.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -265,6 +267,46 @@ TEST_F(Imagery, BadFilesAreNamed) {
     EXPECT_THAT(text.error().message, HasSubstr("text.png"));
 }
 
+TEST_F(Imagery, AmongPlacedOnesOneWithoutAPlaceIsLeftOutAndAloneItIsStretchedBothSaid) {
+    MadeRaster heights = flat(50, 30);
+    MadeRaster image = picture(50, 30);
+    ASSERT_TRUE(test::write(image, folder_.path() / "nowhere.tif"));
+    for (MadeRaster* raster : {&heights, &image}) {
+        raster->crs = "EPSG:32631";
+        raster->geotransform = utm;
+    }
+    ASSERT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
+    ASSERT_TRUE(test::write(image, folder_.path() / "image.tif"));
+    RasterOptions options;
+    options.imagery = {folder_.path() / "nowhere.tif", folder_.path() / "image.tif"};
+    const auto both = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_TRUE(both) << both.error().message;
+    expect_same(both->color, image);
+    EXPECT_THAT(both->notes, testing::Contains(HasSubstr("nowhere.tif names no place on Earth")));
+    options.imagery.pop_back();
+    const auto alone = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_TRUE(alone) << alone.error().message;
+    EXPECT_THAT(alone->notes, testing::Contains(HasSubstr("nowhere.tif names no place")));
+}
+
+TEST_F(Imagery, HeightsAreNoPictureWhetherAloneOrInAFolder) {
+    ASSERT_TRUE(test::write(flat(9, 9), folder_.path() / "heights.tif"));
+    MadeRaster other = flat(9, 9);
+    other.crs = "EPSG:32631";
+    other.geotransform = utm;
+    const auto images = folder_.path() / "images";
+    std::filesystem::create_directory(images);
+    ASSERT_TRUE(test::write(other, images / "dem.tif"));
+    for (const auto& [name, said] :
+         {std::pair(images / "dem.tif", "as heights are stored"), {images, "holds no image"}}) {
+        RasterOptions options;
+        options.imagery = {name};
+        const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
+        ASSERT_FALSE(terrain);
+        EXPECT_THAT(terrain.error().message, HasSubstr(said));
+    }
+}
+
 TEST_F(Imagery, ACutFileIsAnErrorNotHalfAPicture) {
     MadeRaster image = picture(300, 300);
     ASSERT_TRUE(test::write(flat(300, 300), folder_.path() / "heights.tif"));
@@ -285,6 +327,35 @@ TEST_F(Imagery, AGiantThatIsOnlyAHeaderIsRefusedAtOnce) {
     const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_FALSE(terrain);
     EXPECT_THAT(terrain.error().message, HasSubstr("vast.pgm"));
+}
+
+// All of it would take a minute.
+TEST_F(Imagery, OfAHugeOneInDeepColoursOnlyAPartIsLookedAtForItsWhite) {
+    MadeRaster small = picture(64, 64);
+    small.type = GDT_UInt16;
+    ASSERT_TRUE(test::write(small, folder_.path() / "small.tif"));
+    std::string bands;
+    for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
+        bands += std::string("<VRTRasterBand dataType=\"UInt16\" band=\"") + band +
+                 "\"><ColorInterp>" + meaning +
+                 "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">small.tif"
+                 "</SourceFilename><SourceBand>" +
+                 band +
+                 "</SourceBand><SrcRect xOff=\"0\" yOff=\"0\" xSize=\"64\" ySize=\"64\"/>"
+                 "<DstRect xOff=\"0\" yOff=\"0\" xSize=\"400000\" ySize=\"400000\"/>"
+                 "</SimpleSource></VRTRasterBand>";
+    }
+    const auto vast = folder_.write(
+        "vast.vrt",
+        "<VRTDataset rasterXSize=\"400000\" rasterYSize=\"400000\">" + bands + "</VRTDataset>");
+    const GdalMessages messages;
+    auto image = open_raster(vast, messages);
+    ASSERT_TRUE(image) << image.error().message;
+    const auto start = std::chrono::steady_clock::now();
+    const double white = white_of(**image);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
+    EXPECT_GT(white, 200.0);
+    EXPECT_LE(white, 255.0);
 }
 
 /// At most so many files more than are open now, for the scope.

@@ -143,11 +143,47 @@ TEST_P(TilePyramids, OfAFolderAreATerrainWhereTheyLie) {
     EXPECT_LE(terrain->heightfield.range.high, 2500.0);
 }
 
+TEST_P(TilePyramids, OneThatIsDamagedTakesNoOtherWithIt) {
+    const auto damaged = folder_.path() / "6/34/22.png";
+    std::filesystem::resize_file(damaged, 400);
+    const auto tiles = TileSet::open(name());
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    TileTerrainOptions options;
+    options.area = tile_pyramid_area(name());
+    const auto terrain = tiles->terrain(options);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    EXPECT_EQ(terrain->heightfield.void_count, 2U * 256U * 256U);
+    ASSERT_EQ(terrain->faults.size(), 1U);
+    EXPECT_EQ(terrain->faults.front(),
+              name().string() + ": its tile 6/34/22 cannot be read, a whole picture of heights in "
+                                "red, green and blue was expected");
+}
+
+TEST_P(TilePyramids, OneInGreyIsNoHeights) {
+    test::MadeRaster grey = test::made_raster(pixels_a_side, pixels_a_side,
+                                              [](int col, int row) { return (col + row) % 251; });
+    grey.type = GDT_Byte;
+    grey.format = "PNG";
+    ASSERT_TRUE(test::write(grey, folder_.path() / "6/33/23.png"));
+    const auto tiles = TileSet::open(name());
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    TileTerrainOptions options;
+    options.area = tile_pyramid_area(name());
+    const auto terrain = tiles->terrain(options);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    EXPECT_EQ(terrain->heightfield.void_count, 2U * 256U * 256U);
+    ASSERT_EQ(terrain->faults.size(), 1U);
+    EXPECT_THAT(terrain->faults.front(), HasSubstr("its tile 6/33/23 "));
+}
+
 TEST_P(TilePyramids, ThatAreNoneAreRefused) {
     const test::TemporaryFolder empty;
     const auto nothing = TileSet::open(GetParam() + empty.path().string());
     ASSERT_FALSE(nothing);
-    EXPECT_THAT(nothing.error().message, HasSubstr("z/x/y.png was expected"));
+    EXPECT_THAT(nothing.error().message, HasSubstr("holds no tiles"));
+    const auto missing = TileSet::open(GetParam() + (empty.path() / "nowhere").string());
+    ASSERT_FALSE(missing);
+    EXPECT_THAT(missing.error().message, HasSubstr("nowhere: is no folder"));
     for (const char* address :
          {"http://127.0.0.1/{z}/{x}.png", "http://127.0.0.1/{z:99}/{x}/{y}"}) {
         const auto bad = TileSet::open(std::string(GetParam()) + address);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 #include <glm/geometric.hpp>
@@ -355,6 +356,23 @@ TEST_F(TileCache, KnowsWhenFilesChangeComeAndGo) {
     EXPECT_EQ(open(options_).files().size(), 2U);
     std::filesystem::remove(folder_.path() / "a.tif");
     EXPECT_EQ(open(options_).files().size(), 1U);
+}
+
+// Of the processor, by all threads together: on a machine of its own it takes as long or less.
+TEST_F(TileCache, AThousandFilesTakeLessThanASecond) {
+    RELJEF_RELEASE_ONLY("is about time");
+    for (int i = 0; i < 999; ++i) {
+        tile("n" + std::to_string(i) + ".tif", utm31, 8, 8,
+             {500000.0 + 80.0 * (i % 40), 4990000.0 + 80.0 * (i / 40), 10.0}, plane);
+    }
+    double least = 1e9;
+    for (int round = 0; round < 3 && least >= 1.0; ++round) {
+        options_.cache_folder = cache_.path() / std::to_string(round);
+        const std::clock_t start = std::clock();
+        EXPECT_EQ(open(options_).files().size(), 1000U);
+        least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    EXPECT_LT(least, 1.0);
 }
 
 TEST_F(TileCache, ThatCannotBeWrittenIsDoneWithout) {

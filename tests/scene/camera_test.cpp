@@ -254,10 +254,11 @@ TEST(CameraFromAngles, HasNoRollAndKeepsItsHeadingStraightUpAndDown) {
 
 TEST(CameraFromAngles, StandsOnTheGroundThatIsGiven) {
     const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, -0.2, 1.0));
-    const Camera level = camera_from_angles(glm::dvec3(0.0), 123.0, 0.0, up);
+    const Camera level = camera_from_angles(glm::dvec3(0.0), 123.0, 0.0, {.up = up});
     EXPECT_NEAR(glm::dot(view_axes(level).forward, up), 0.0, 1e-12);
     EXPECT_NEAR(glm::dot(view_axes(level).right, up), 0.0, 1e-12);
-    expect_right_frame(view_axes(camera_from_angles(glm::dvec3(0.0), 5.0, 6.0, {0.0, 1.0, 0.0})));
+    expect_right_frame(
+        view_axes(camera_from_angles(glm::dvec3(0.0), 5.0, 6.0, {.up = {0.0, 1.0, 0.0}})));
 }
 
 } // namespace

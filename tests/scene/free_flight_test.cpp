@@ -288,7 +288,7 @@ TEST(FreeFlight, CameraItIsGivenIsTheOneItShows) {
             glm::normalize(glm::dvec3(angle(random) / 900.0, angle(random) / 900.0, 1.0));
         options.up = [up](glm::dvec3) { return up; };
         const Camera given =
-            camera_from_angles({1.0, 2.0, 300.0}, angle(random), 0.49 * angle(random), up);
+            camera_from_angles({1.0, 2.0, 300.0}, angle(random), 0.49 * angle(random), {.up = up});
         const Camera shown = FreeFlight(given, options).camera();
         ASSERT_LT(glm::distance(shown.look - shown.eye, given.look - given.eye), 1e-6);
         ASSERT_LT(glm::distance(view_axes(shown).up, view_axes(given).up), 1e-6);

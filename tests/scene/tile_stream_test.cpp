@@ -373,8 +373,9 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     TileStream stream(maker(),
                       [](TreeTile tile, const std::stop_token& stop) {
                           TileReading reading = read_plane(tile, stop);
-                          if (tile.col == 3) {
-                              reading.faults = {{"b.tif", "b.tif: is cut"}};
+                          if (tile.col == 3) { // each tile has a file of its own
+                              const std::string file = std::to_string(tile.row) + ".tif";
+                              reading.faults = {{file, file + ": is cut"}};
                           }
                           return reading;
                       },
@@ -384,6 +385,32 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     EXPECT_EQ(stream.stats().read, 56);
     EXPECT_EQ(stream.stats().failed, 8 * TileStream::most_attempts);
     EXPECT_FALSE(stream.is_busy());
+}
+
+// What a file is wrong with it is for all its tiles: only the first of them wait for it.
+TEST(TileStreams, WaitOnceForAFileThatFailsForGood) {
+    std::atomic<bool> is_back{false};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          if (!is_back) {
+                              reading.faults = {{"b.tif", "b.tif: is gone"}};
+                          }
+                          return reading;
+                      },
+                      {.threads = 2, .first_pause = 2ms});
+    stream.want(std::array{TreeTile{0, 0, 0}});
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(stream.stats().failed, TileStream::most_attempts);
+    stream.want(level_0());
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_EQ(stream.stats().failed, TileStream::most_attempts + 63);
+    EXPECT_FALSE(stream.is_busy());
+    // What of it was not tried is read as soon as it is wanted.
+    is_back = true;
+    stream.want(std::array{TreeTile{3, 0, 0}});
+    EXPECT_TRUE(stream.wait({}));
+    EXPECT_NE(stream.find({3, 0, 0}), nullptr);
 }
 
 TEST(TileStreams, EndInTheMiddleOfReading) {

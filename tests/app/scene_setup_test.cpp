@@ -1,0 +1,111 @@
+// Cameras and paths in geographic coordinates, where the terrain's own axes lean away from north
+// and up.
+#include "app/scene_setup.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::app {
+namespace {
+
+const std::string wgs84_prj =
+    R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
+    R"(PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]])";
+
+class GeodeticCamera : public testing::Test {
+protected:
+    /// Level ground, 20° around (50, 10).
+    [[nodiscard]] TerrainScene scene_of(const ViewChoice& view,
+                                        terrain::PlacementKind placement) const {
+        std::string text = "ncols 41\nnrows 41\nxllcenter -10\nyllcenter 30\ncellsize 1\n";
+        for (int i = 0; i < 41 * 41; ++i) {
+            text += "100 ";
+        }
+        folder_.write("ground.prj", wgs84_prj);
+        TerrainChoice choice;
+        choice.terrain = folder_.write("ground.asc", text).string();
+        choice.placement = placement;
+        choice.quiet = true;
+        auto source = open_terrain(choice, {});
+        EXPECT_TRUE(source) << (source ? "" : source.error().message);
+        return std::move(*make_scene(std::move(*source), choice, view));
+    }
+    static ViewChoice view_of(const GeodeticView& geodetic) {
+        ViewChoice view;
+        view.geodetic = geodetic;
+        return view;
+    }
+    /// What is so far ahead at a place, by the local frame at that very place.
+    static geo::Geodetic ahead_of(const GeodeticView& view, double metres) {
+        const double heading = glm::radians(view.heading);
+        const double pitch = glm::radians(view.pitch);
+        const geo::LocalFrame there({view.latitude, view.longitude, view.height});
+        return there.geodetic_from_local(metres * glm::dvec3(std::sin(heading) * std::cos(pitch),
+                                                             std::cos(heading) * std::cos(pitch),
+                                                             std::sin(pitch)));
+    }
+    static const terrain::Placement& placement_of(const TerrainScene& scene) {
+        return scene.terrain->get<scene::TerrainNode>()->surface->placement();
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+constexpr double right_angle = 1e-9; // radians
+
+TEST_F(GeodeticCamera, LooksAlongTheHeadingAndThePitchOfItsOwnPlace) {
+    for (const double latitude : {32.0, 50.0, 69.0}) {
+        for (const double longitude : {-9.0, 10.0, 29.0}) {
+            for (const double heading : {0.0, 90.0, 217.0}) {
+                for (const double pitch : {-60.0, 0.0, 20.0}) {
+                    const GeodeticView view{latitude, longitude, 5000.0, heading, pitch};
+                    const auto scene = scene_of(view_of(view), terrain::PlacementKind::ellipsoid);
+                    const auto& camera = *scene.camera->get<scene::Camera>();
+                    const glm::dvec3 target =
+                        *placement_of(scene).world_from_geodetic(ahead_of(view, 10000.0));
+                    const glm::dvec3 wanted = glm::normalize(target - camera.eye);
+                    const scene::ViewAxes axes = scene::view_axes(camera);
+                    EXPECT_LT(glm::distance(axes.forward, wanted), right_angle)
+                        << latitude << "," << longitude << " " << heading << " " << pitch;
+                    EXPECT_LT(std::abs(glm::dot(axes.right, placement_of(scene).up(camera.eye))),
+                              right_angle);
+                }
+            }
+        }
+    }
+}
+
+TEST_F(GeodeticCamera, OnAPlaneLooksAlongTheMapsNorth) {
+    const GeodeticView view{60.0, 25.0, 5000.0, 0.0, 0.0};
+    const auto scene = scene_of(view_of(view), terrain::PlacementKind::plane);
+    const auto& camera = *scene.camera->get<scene::Camera>();
+    EXPECT_LT(glm::distance(scene::view_axes(camera).forward, {0.0, 1.0, 0.0}), 1e-6);
+}
+
+TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
+    ViewChoice view;
+    view.path = folder_
+                    .write("path.toml", "[[key]]\ntime = 0\nlatitude = 65\nlongitude = 28\n"
+                                        "height = 5000\nheading = 40\npitch = -10\n"
+                                        "[[key]]\ntime = 1\nlatitude = 65.01\nlongitude = 28\n"
+                                        "height = 5000\nheading = 40\npitch = -10\n")
+                    .string();
+    auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
+    const auto path = open_path(scene, view);
+    ASSERT_TRUE(path) << path.error().message;
+    fly_to(scene, **path, 0, 2);
+    const auto& camera = *scene.camera->get<scene::Camera>();
+    const GeodeticView first{65.0, 28.0, 5000.0, 40.0, -10.0};
+    const glm::dvec3 target = *placement_of(scene).world_from_geodetic(ahead_of(first, 1000.0));
+    const scene::ViewAxes axes = scene::view_axes(camera);
+    EXPECT_LT(glm::distance(axes.forward, glm::normalize(target - camera.eye)), right_angle);
+    EXPECT_LT(std::abs(glm::dot(axes.right, placement_of(scene).up(camera.eye))), right_angle);
+}
+
+} // namespace
+} // namespace reljef::app
