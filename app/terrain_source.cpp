@@ -146,12 +146,14 @@ std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
 // What the coarsest views of a terrain that is read part by part take, beside the libraries.
 constexpr int least_megabytes = 64;
 
-// What a thread takes to read a tile of heights, bytes.
+// What a thread takes to read a tile of heights, and one with a picture, bytes.
 constexpr std::size_t bytes_of_reader = std::size_t{4} << 20U;
+constexpr std::size_t bytes_of_picture_reader = std::size_t{8} << 20U;
 
 // No more threads than fit what is for reading.
-unsigned readers_within(std::size_t budget, unsigned threads) {
-    const std::size_t most = std::max<std::size_t>(1, budget / work_part / bytes_of_reader);
+unsigned readers_within(std::size_t budget, unsigned threads, bool with_pictures) {
+    const std::size_t each = with_pictures ? bytes_of_picture_reader : bytes_of_reader;
+    const std::size_t most = std::max<std::size_t>(1, budget / work_part / each);
     return static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), most));
 }
 
@@ -195,7 +197,7 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Terrai
         return std::nullopt;
     }
     io::limit_block_cache(budget / blocks_part);
-    options.threads = readers_within(budget, options.threads);
+    options.threads = readers_within(budget, options.threads, !options.raster.imagery.empty());
     return StreamSource{*overview,
                         options.gaps,
                         budget - budget / overview_part - budget / blocks_part - budget / work_part,

@@ -62,6 +62,20 @@ double highest_at(GridView<const float> heights, glm::dvec2 sample) {
     return std::max({falling, rising, terrain::bilinear_height(heights, sample)});
 }
 
+/// True metres along the place's own vertical; nothing beside the terrain.
+std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye) {
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    const auto sample = terrain.surface->placement().sample_from_world(eye);
+    if (!sample || sample->x < 0.0 || sample->y < 0.0 || sample->x > heights.cols() - 1 ||
+        sample->y > heights.rows() - 1) {
+        return std::nullopt;
+    }
+    const auto tile =
+        terrain.stream != nullptr ? terrain.stream->finest_at(glm::dvec2(*sample)) : std::nullopt;
+    return sample->z - (tile ? terrain::bilinear_height(tile->tile->heights.view(), tile->place)
+                             : terrain::bilinear_height(heights.view(), glm::dvec2(*sample)));
+}
+
 std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y) {
     const scene::TerrainSurface& surface = *terrain.surface;
     const auto height = scene::height_at(terrain, x, y);
@@ -374,13 +388,14 @@ std::string Viewer::title(const render::FrameStats& stats, const FrameTiming& ti
 }
 
 std::string Viewer::place() const {
-    const auto& surface = *scene_.terrain->get<scene::TerrainNode>()->surface;
+    const auto& terrain = *scene_.terrain->get<scene::TerrainNode>();
+    const scene::TerrainSurface& surface = *terrain.surface;
     const glm::dvec3 eye = camera().eye;
     std::string text;
     if (map_) {
         text = "map, " + length_text(camera().view_height) + " high";
-    } else if (const auto ground = scene_.scene.height_at(eye.x, eye.y)) {
-        text = length_text(eye.z - *ground) + " above ground";
+    } else if (const auto height = height_above_ground(terrain, eye)) {
+        text = length_text(*height) + " above ground";
     } else {
         text = "beside the terrain";
     }

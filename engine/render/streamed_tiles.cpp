@@ -36,6 +36,9 @@ std::map<const scene::TileStream*, StreamedByTile> draws_by_stream(const DrawLis
     return streams;
 }
 
+// What is not drawn for longer is uploaded again.
+constexpr std::uint64_t kept_frames = 8;
+
 // Vertices of so many tiles are made at a time: what waits to be uploaded takes memory, too.
 constexpr std::size_t uploaded_together = 8;
 
@@ -93,7 +96,13 @@ GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::Edge
 }
 
 Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
-    std::erase_if(entries_, [](const auto& entry) { return entry.second.owner.expired(); });
+    ++frame_;
+    for (const StreamedDraw& draw : list.streamed_tiles) {
+        entry_of(draw).drawn = frame_;
+    }
+    std::erase_if(entries_, [&](const auto& entry) {
+        return entry.second.owner.expired() || entry.second.drawn + kept_frames < frame_;
+    });
     std::erase_if(lights_, [](const auto& entry) { return entry.second.owner.expired(); });
     std::erase_if(covers_, [](const auto& entry) { return entry.second.owner.expired(); });
     for (const auto& streamed : draws_by_stream(list)) {

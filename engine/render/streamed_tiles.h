@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,7 +31,8 @@ struct ResidentStreamed {
 };
 
 /// The tiles of streamed terrains: uploaded when they are first drawn, again where a neighbour of
-/// another level moves their border or the sun moves. They go when the stream lets go of them.
+/// another level moves their border or the sun moves. They go when the stream lets go of them, and
+/// when they have not been drawn for some frames: most tiles of a stream stand above those drawn.
 /// Needs a current context; destroy while it is current.
 class StreamedTiles {
 public:
@@ -44,6 +46,7 @@ private:
     using Key = std::pair<const scene::TileStream*, terrain::TreeTile>;
     struct Entry {
         std::weak_ptr<const scene::StreamedTile> owner;
+        std::uint64_t drawn = 0; // frame that drew it last
         bool flat = false;
         std::vector<terrain::EdgeMove> moves;
         std::optional<scene::TerrainLight> light;
@@ -88,6 +91,7 @@ private:
     }
     Entry& entry_of(const StreamedDraw& draw);
 
+    std::uint64_t frame_ = 0;
     std::map<Key, Entry> entries_;
     std::map<const scene::TileStream*, Cover> covers_;
     std::map<const scene::TileStream*, SharedLight> lights_;

@@ -447,6 +447,21 @@ TEST(ViewerOnEarth, TitleTellsPlaceHeightAndHeading) {
     }
 }
 
+// Ten degrees of the Earth from the terrain's middle, whose vertical leans by as much.
+TEST(ViewerOnEarth, TitleTellsHeightsAlongThePlacesOwnVertical) {
+    TerrainSource source;
+    source.terrain.name = "europe";
+    source.terrain.heightfield =
+        test::geographic_heightfield(Grid<float>(33, 33, 1000.0F), 46.0, 7.0, 0.5);
+    ViewChoice view;
+    view.geodetic = GeodeticView{45.5, 8.0, 1500.0, 250.0, -30.0};
+    TerrainScene over = make_scene(std::move(source), {}, view).value();
+    const std::string title =
+        Viewer(over, scene::orbit_path(over.bounds), {400, 300}).title({}, {});
+    EXPECT_THAT(title, HasSubstr("500 m above ground - 1500 m above sea"));
+    EXPECT_THAT(title, HasSubstr("heading 250\u00b0"));
+}
+
 TEST(Viewer, HelpNamesEveryKeyOnce) {
     const std::string keys = Viewer::keys();
     for (const char* name :

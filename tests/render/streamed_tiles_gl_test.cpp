@@ -221,6 +221,28 @@ TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
                                         glm::dvec3(-600.0, 300.0, 400.0)}));
 }
 
+TEST_F(StreamedTilesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
+    StreamedWorld world;
+    Driver made = driver();
+    const auto uploads_of_ground = [&] {
+        world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
+        world.bring();
+        return test::must(made.draw(world.scene)).uploads;
+    };
+    const auto look_away = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            world.look({-300.0, -400.0, 180.0}, {-300.0, -400.0, 1e6});
+            test::must(made.draw(world.scene));
+        }
+    };
+    const auto first = uploads_of_ground();
+    EXPECT_GT(first, 8);
+    look_away(4);
+    EXPECT_LE(uploads_of_ground(), 1); // no tile among them
+    look_away(20);
+    EXPECT_GT(uploads_of_ground(), first / 2);
+}
+
 // A tile of detail, as wide as some of its samples.
 std::shared_ptr<const scene::GroundDetail> striped_detail() {
     terrain::TextureSet set;
