@@ -88,20 +88,21 @@ std::vector<glm::ivec2> StreamedShape::border_splits(const terrain::ErrorView& v
     return terrain::border_splits(data_->bisection, view);
 }
 
-std::vector<std::uint16_t> StreamedShape::triangles(const terrain::ErrorView& view,
-                                                    const Grid<std::uint8_t>& splits) const {
+CutTriangles StreamedShape::triangles(const terrain::ErrorView& view,
+                                      const Grid<std::uint8_t>& splits) const {
     const Grid<float>& heights = data_->heightfield.heights;
     const glm::ivec2 cells(heights.cols() - 1, heights.rows() - 1);
     const terrain::Tile tile{0, 0, cells.x, cells.y, {}};
-    const terrain::Triangulation cut =
+    terrain::Triangulation found =
         terrain::triangulate_samples(data_->bisection, tile, view, splits);
-    std::vector<std::uint16_t> indices;
-    indices.reserve(cut.indices.size());
-    for (const std::uint16_t index : cut.indices) {
-        const glm::ivec2 vertex = cut.vertices[index] / terrain::steps_per_sample;
-        indices.push_back(static_cast<std::uint16_t>(vertex.y * heights.cols() + vertex.x));
+    CutTriangles cut;
+    cut.vertices.reserve(found.vertices.size());
+    for (const glm::ivec2 place : found.vertices) {
+        const glm::ivec2 vertex = place / terrain::steps_per_sample;
+        cut.vertices.push_back(static_cast<std::uint16_t>(vertex.y * heights.cols() + vertex.x));
     }
-    return indices;
+    cut.indices = std::move(found.indices);
+    return cut;
 }
 
 namespace {

@@ -15,6 +15,12 @@
 
 namespace reljef::render {
 
+/// Some of a tile's triangles, counter-clockwise from above.
+struct CutTriangles {
+    std::vector<std::uint16_t> vertices; ///< of the tile's, row after row: those that are used
+    std::vector<std::uint16_t> indices;  ///< of `vertices`, in the order of their first use
+};
+
 /// A streamed tile as heights over the plane that touches it, with their bisection: what fewer
 /// triangles of its vertices may be off, the curvature of the Earth included.
 class StreamedShape {
@@ -26,10 +32,9 @@ public:
 
     /// As terrain::border_splits().
     [[nodiscard]] std::vector<glm::ivec2> border_splits(const terrain::ErrorView& view) const;
-    /// Triangles over the tile's vertices, row after row, as few as the view and the splits that
-    /// must be made allow.
-    [[nodiscard]] std::vector<std::uint16_t> triangles(const terrain::ErrorView& view,
-                                                       const Grid<std::uint8_t>& splits) const;
+    /// As few triangles as the view and the splits that must be made allow.
+    [[nodiscard]] CutTriangles triangles(const terrain::ErrorView& view,
+                                         const Grid<std::uint8_t>& splits) const;
     /// Local metres from those of the plane.
     [[nodiscard]] const glm::dmat4& local_from_plane() const { return local_from_plane_; }
 
@@ -53,8 +58,8 @@ struct StreamedCut {
 struct TileToCut {
     const StreamedDraw* draw = nullptr;
     StreamedCut* cut = nullptr;
-    std::vector<std::uint16_t> triangles = {}; ///< empty where they are as they were
-    terrain::ErrorView view = {};              ///< that they were found for
+    std::optional<CutTriangles> triangles = {}; ///< absent where they are as they were
+    terrain::ErrorView view = {};               ///< that they were found for
 };
 
 /// Finds the triangles of all tiles of a cover: as few as the view allows where the tiles still

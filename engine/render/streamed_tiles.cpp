@@ -149,7 +149,8 @@ Result<void> StreamedTiles::prepare_meshes(const terrain::TileCover& cover,
     for (const auto& [id, draw] : drawn) {
         const std::vector<terrain::EdgeMove>& moves = draw->is_hidden ? none : cover.moves(id);
         const Entry& entry = entry_of(*draw);
-        if (entry.resident && entry.flat == draw->flat && entry.moves == moves) {
+        const bool is_there = is_cut(*draw) ? !entry.vertices.empty() : entry.is_whole;
+        if (is_there && entry.flat == draw->flat && entry.moves == moves) {
             ++stats.skipped.uploads_unchanged;
         } else {
             changed.push_back({draw, &moves});
@@ -174,10 +175,13 @@ Result<void> StreamedTiles::upload_all(std::span<const ChangedMesh> changed,
     });
     for (std::size_t i = 0; i < changed.size(); ++i) {
         const auto& [draw, moves] = changed[i];
-        if (auto done = upload(*draw, meshes[i], stats); !done) {
+        Entry& entry = entry_of(*draw);
+        entry.cut.view.reset();
+        if (is_cut(*draw)) {
+            entry.vertices = std::move(meshes[i].vertices);
+        } else if (auto done = upload(*draw, meshes[i], stats); !done) {
             return done;
         }
-        Entry& entry = entry_of(*draw);
         entry.moves = *moves;
         entry.flat = draw->flat;
     }
@@ -206,18 +210,24 @@ Result<void> StreamedTiles::upload(const StreamedDraw& draw, const GridMesh& mes
     count_upload(stats, vertices->size());
     ResidentMesh made = resident_grid(std::move(*vertices), 6 * mesh.cols * mesh.rows);
     made.vertex_array.set_indices(**indices);
+    set_mesh(draw, std::move(made));
     Entry& entry = entry_of(draw);
-    entry.cut.view.reset();
+    entry.is_whole = true;
+    entry.vertices = {};
+    return {};
+}
+
+void StreamedTiles::set_mesh(const StreamedDraw& draw, ResidentMesh mesh) {
+    Entry& entry = entry_of(draw);
     if (entry.resident) {
-        entry.resident->mesh = std::move(made);
+        entry.resident->mesh = std::move(mesh);
     } else {
         entry.resident.emplace(
-            ResidentStreamed{std::move(made),
+            ResidentStreamed{std::move(mesh),
                              std::nullopt,
                              lit_from_samples(draw.terrain->stream->maker(), *draw.tile),
                              {}});
     }
-    return {};
 }
 
 Result<void> StreamedTiles::prepare_cuts(const DrawList& list, Cover& cover,
@@ -225,22 +235,17 @@ Result<void> StreamedTiles::prepare_cuts(const DrawList& list, Cover& cover,
     std::vector<TileToCut> tiles;
     for (const auto& by_tile : drawn) {
         const StreamedDraw& draw = *by_tile.second;
-        Entry& entry = entry_of(draw);
         if (is_cut(draw)) {
-            tiles.push_back({&draw, &entry.cut});
-        } else if (entry.resident->mesh.indices.id() != 0U) {
-            if (auto done = set_all_triangles(entry, draw.tile->cells, stats); !done) {
-                return done;
-            }
+            tiles.push_back({&draw, &entry_of(draw).cut});
         }
     }
     cut_together(list, cover.tiles, std::exchange(cover.is_new, false), tiles);
     for (const TileToCut& tile : tiles) {
-        if (tile.triangles.empty()) {
+        if (!tile.triangles) {
             ++stats.skipped.cuts_unchanged;
             continue;
         }
-        if (auto done = set_triangles(entry_of(*tile.draw), tile.triangles, stats); !done) {
+        if (auto done = set_triangles(*tile.draw, *tile.triangles, stats); !done) {
             return done;
         }
         tile.cut->view = tile.view;
@@ -248,31 +253,31 @@ Result<void> StreamedTiles::prepare_cuts(const DrawList& list, Cover& cover,
     return {};
 }
 
-Result<void> StreamedTiles::set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats) {
-    auto indices = indices_for(cells, stats);
-    if (!indices) {
-        return indices.error();
-    }
-    entry.cut.view.reset();
-    ResidentMesh& mesh = entry.resident->mesh;
-    mesh.index_count = 6 * cells.x * cells.y;
-    mesh.vertex_array.set_indices(**indices);
-    mesh.indices = {};
-    return {};
-}
-
-Result<void> StreamedTiles::set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
+Result<void> StreamedTiles::set_triangles(const StreamedDraw& draw, const CutTriangles& triangles,
                                           FrameStats& stats) {
-    auto indices = gl::Buffer::create(bytes_of(triangles));
+    Entry& entry = entry_of(draw);
+    std::vector<GridVertex> used;
+    used.reserve(triangles.vertices.size());
+    for (const std::uint16_t vertex : triangles.vertices) {
+        used.push_back(entry.vertices[vertex]);
+    }
+    auto vertices = gl::Buffer::create(bytes_of(used));
+    if (!vertices) {
+        return vertices.error();
+    }
+    auto indices = gl::Buffer::create(bytes_of(triangles.indices));
     if (!indices) {
         return indices.error();
     }
+    count_upload(stats, vertices->size());
     count_upload(stats, indices->size());
     ++stats.tiles_cut;
-    ResidentMesh& mesh = entry.resident->mesh;
+    ResidentMesh mesh =
+        resident_grid(std::move(*vertices), static_cast<int>(triangles.indices.size()));
     mesh.indices = std::move(*indices);
-    mesh.index_count = static_cast<int>(triangles.size());
     mesh.vertex_array.set_indices(mesh.indices);
+    set_mesh(draw, std::move(mesh));
+    entry.is_whole = false;
     return {};
 }
 

@@ -51,6 +51,8 @@ private:
         std::vector<terrain::EdgeMove> moves;
         std::optional<scene::TerrainLight> light;
         std::optional<ResidentStreamed> resident;
+        bool is_whole = false;            // the resident mesh has all triangles
+        std::vector<GridVertex> vertices; // where it has fewer: all that they are chosen from
         StreamedCut cut;
     };
     // The tiles of a stream that were drawn last.
@@ -75,9 +77,9 @@ private:
     Result<void> prepare_cuts(const DrawList& list, Cover& cover, const StreamedByTile& drawn,
                               FrameStats& stats);
     Cover& cover_of(const StreamedByTile& drawn);
-    Result<void> set_all_triangles(Entry& entry, glm::ivec2 cells, FrameStats& stats);
-    Result<void> set_triangles(Entry& entry, const std::vector<std::uint16_t>& triangles,
+    Result<void> set_triangles(const StreamedDraw& draw, const CutTriangles& triangles,
                                FrameStats& stats);
+    void set_mesh(const StreamedDraw& draw, ResidentMesh mesh);
     Result<void> upload_all(std::span<const ChangedMesh> changed, const StreamedByTile& drawn,
                             FrameStats& stats);
     Result<void> prepare_light(const DrawList& list, const StreamedDraw& draw, FrameStats& stats);

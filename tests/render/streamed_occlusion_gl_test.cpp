@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "engine/render/occlusion.h"
 #include "engine/render/tile_choice.h"
@@ -41,6 +43,7 @@ struct RidgeWorld {
     Scene scene;
     Node* camera = nullptr;
     scene::TerrainNode* terrain = nullptr;
+    glm::ivec2 picture = size;
 
     explicit RidgeWorld(const char* technique = "polygons:error=1") {
         const int side = ridge_samples / ridge_reduction;
@@ -66,7 +69,7 @@ struct RidgeWorld {
     }
 
     [[nodiscard]] TileChoice choice() const {
-        return choose_tiles(*terrain, scene.camera(), size, glm::dmat4(1.0));
+        return choose_tiles(*terrain, scene.camera(), picture, glm::dmat4(1.0));
     }
 
     void look(const Camera& view) { *camera->get<Camera>() = view; }
@@ -86,6 +89,16 @@ Camera view_across_ridges(test::Chance& chance) {
     const double ground = ridge_height(sample_at(at));
     Camera camera = camera_at({at.x, at.y, ground + chance.between(2.0, 60.0)},
                               {0.0, chance.between(-4000, 4000), ground});
+    camera.near = 0.01;
+    return camera;
+}
+
+// From the bottom between two ridges, across all others.
+Camera view_from_valley(test::Chance& chance) {
+    const double x = -3063.0;
+    const double y = chance.between(-4000, 4000);
+    const double z = ridge_height(sample_at({x, y})) + chance.between(2.0, 60.0);
+    Camera camera = camera_at({x, y, z}, {0.0, y + chance.between(-1000, 1000), z + 30.0});
     camera.near = 0.01;
     return camera;
 }
@@ -115,11 +128,12 @@ TEST_F(StreamedOcclusion, ThePictureIsTheSameToTheBitWithoutTheTilesThatAreHidde
     Driver without = test::must(
         Driver::create({.size = size, .shader_dir = {}, .software = true, .occlusion = false}));
     int hidden = 0;
-    for (const char* technique : {"polygons:error=1", "polygons:error=4", "polygons"}) {
+    const std::array techniques{std::pair("polygons:error=1", 4), std::pair("polygons", 2)};
+    for (const auto& [technique, views] : techniques) {
         RidgeWorld world(technique);
         test::Chance chance(21);
-        for (int i = 0; i < 4; ++i) {
-            world.look(view_across_ridges(chance));
+        for (int i = 0; i < views; ++i) {
+            world.look(i % 2 == 0 ? view_from_valley(chance) : view_across_ridges(chance));
             world.bring();
             const FrameStats fewer = test::must(with.draw(world.scene));
             const FrameStats all = test::must(without.draw(world.scene));
@@ -132,7 +146,7 @@ TEST_F(StreamedOcclusion, ThePictureIsTheSameToTheBitWithoutTheTilesThatAreHidde
                 << technique << ' ' << i;
         }
     }
-    EXPECT_GT(hidden, 40);
+    EXPECT_GT(hidden, 20);
 }
 
 TEST_F(StreamedOcclusion, NothingIsSeenThroughNearerGround) {
@@ -141,7 +155,7 @@ TEST_F(StreamedOcclusion, NothingIsSeenThroughNearerGround) {
     test::Chance chance(22);
     const double pixels_per_radian = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
     for (int i = 0; i < 4; ++i) {
-        world.look(view_across_ridges(chance));
+        world.look(view_from_valley(chance));
         world.bring();
         ASSERT_FALSE(world.choice().hidden.empty()) << i;
         const HitBuffer hits = test::must(made.draw_hits(world.scene));
@@ -158,22 +172,23 @@ TEST_F(StreamedOcclusion, NothingIsSeenThroughNearerGround) {
     }
 }
 
-TEST_F(StreamedOcclusion, TilesThatAreHiddenAreNotRead) {
+TEST(StreamedOcclusionChoice, TilesThatAreHiddenAreNotRead) {
     RidgeWorld world;
+    world.picture = {1600, 1200};
     test::Chance chance(23);
-    world.look(view_across_ridges(chance));
+    world.look(view_from_valley(chance));
     world.bring();
     const int read = world.terrain->stream->stats().read;
-    EXPECT_FALSE(world.choice().hidden.empty());
+    EXPECT_GT(world.choice().hidden_unread + static_cast<int>(world.choice().hidden.size()), 10);
     world.terrain->material.wireframe = true; // through which all is seen
     world.bring();
     EXPECT_TRUE(world.choice().hidden.empty());
-    EXPECT_LT(4 * read, 3 * world.terrain->stream->stats().read);
+    EXPECT_LT(5 * read, 4 * world.terrain->stream->stats().read);
 }
 
 TEST_F(StreamedOcclusion, TheSameViewGivesTheSamePictureWhateverCameBefore) {
     test::Chance chance(24);
-    const Camera view = view_across_ridges(chance);
+    const Camera view = view_from_valley(chance);
     const auto picture = [&](bool with_more) {
         RidgeWorld world;
         Driver made = driver();
@@ -191,7 +206,7 @@ TEST_F(StreamedOcclusion, TheSameViewGivesTheSamePictureWhateverCameBefore) {
 TEST(StreamedOcclusionChoice, NothingIsHiddenWhereItIsNotSure) {
     RidgeWorld world;
     test::Chance chance(25);
-    Camera camera = view_across_ridges(chance);
+    Camera camera = view_from_valley(chance);
     const auto hidden = [&] {
         world.look(camera);
         world.bring();
