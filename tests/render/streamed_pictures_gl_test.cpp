@@ -6,6 +6,8 @@
 #include "engine/render/tile_choice.h"
 #include "engine/scene/tile_stream.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/terrain/made_tiles.h"
 
 namespace reljef::render {
 namespace {
@@ -40,15 +42,9 @@ public:
     using Show = glm::dvec3 (*)(glm::dvec2);
 
     explicit Pictures(std::size_t memory_budget = std::size_t{400} << 20U, Show show = shown_at) {
-        const int count = samples / overview_reduction;
-        auto heightfield = test::plane_heightfield(
-            test::made_heights(count, count,
-                               [](int col, int row) {
-                                   return hill((glm::dvec2(col, row) + 0.5) *
-                                                   static_cast<double>(overview_reduction) -
-                                               0.5);
-                               }),
-            glm::dvec2(static_cast<double>(overview_reduction)));
+        auto heightfield =
+            test::plane_heightfield(test::overview_heights(samples, overview_reduction, hill),
+                                    glm::dvec2(static_cast<double>(overview_reduction)));
         terrain = &test::add_terrain(scene, std::move(heightfield));
         camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
         auto& node = *terrain->get<scene::TerrainNode>();
@@ -67,16 +63,7 @@ public:
     }
     void look_down(glm::dvec3 eye) {
         *camera->get<Camera>() = camera_at(eye, {eye.x + 0.01, eye.y, 0.0});
-        while (true) {
-            const auto wanted = choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(),
-                                             size, glm::dmat4(1.0))
-                                    .wanted;
-            stream->want(wanted);
-            if (wanted.empty()) {
-                return;
-            }
-            stream->wait({});
-        }
+        bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera());
     }
 
     Scene scene;
@@ -86,10 +73,9 @@ public:
 
 private:
     static scene::TileReading read(const scene::TileMaker& maker, TreeTile tile, Show show) {
-        const glm::ivec2 count = maker.tree().cells(tile) + 3;
         scene::TileReading reading;
-        reading.heights = test::made_heights(count.x, count.y, [&](int col, int row) {
-            return hill(maker.sample(tile, {col - 1, row - 1}));
+        reading.heights = test::tile_heights(maker.tree().cells(tile), [&](glm::ivec2 vertex) {
+            return hill(maker.sample(tile, vertex));
         });
         const glm::ivec2 texels = maker.picture_size(tile);
         const glm::dvec2 cells(maker.tree().cells(tile));
