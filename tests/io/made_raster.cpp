@@ -125,8 +125,7 @@ std::string stretched_vrt(const std::string& source, const StretchedVrt& vrt) {
         R"(<DstRect xOff="0" yOff="0" xSize="65536" ySize="65536"/></SimpleSource>)"
         "</VRTRasterBand>{3}</VRTDataset>",
         vrt.step, vrt.type, source,
-        vrt.overviews.empty() ? ""
-                              : fmt::format("<OverviewList>{}</OverviewList>", vrt.overviews));
+        vrt.overviews.empty() ? "" : fmt::format("<OverviewList>{}</OverviewList>", vrt.overviews));
 }
 
 } // namespace reljef::test

@@ -153,8 +153,8 @@ std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
 }
 
 // The light of a pixel with it over that of the same one without is that of its place on the tile
-// over the tile's mean, whatever the images show there: stripes narrower than the vertices' distance
-// are as sharp.
+// over the tile's mean, whatever the images show there: stripes narrower than the vertices'
+// distance are as sharp.
 TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
     Pictures world(std::size_t{400} << 20U, striped_at);
     world.scene.add_light();
@@ -187,8 +187,7 @@ TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
                 continue; // its border, where colours are mixed
             }
             const float share = lights.at(along < 0.5 ? 0 : 1) / (0.5F * (lights[0] + lights[1]));
-            const Rgba8 expected =
-                rgba8_from_linear(linear_from_rgba8(plain(col, row)) * share);
+            const Rgba8 expected = rgba8_from_linear(linear_from_rgba8(plain(col, row)) * share);
             worst = std::max(worst, std::abs(detailed(col, row).g - expected.g));
             ++compared;
             const int beside = plain(col, std::min(row + 2, size.y - 1)).g; // a stripe farther

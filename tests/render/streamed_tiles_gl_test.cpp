@@ -65,9 +65,7 @@ struct StreamedWorld {
         return choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
                             glm::dmat4(1.0));
     }
-    void bring() const {
-        bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera());
-    }
+    void bring() const { bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera()); }
     void look(glm::dvec3 eye, glm::dvec3 at) { *camera->get<Camera>() = camera_at(eye, at); }
 };
 

@@ -24,8 +24,7 @@ double height_of(glm::dvec2 sample) {
 }
 
 std::shared_ptr<const TerrainSurface> overview() {
-    auto heightfield =
-        test::plane_heightfield(test::overview_heights(side, reduction, height_of));
+    auto heightfield = test::plane_heightfield(test::overview_heights(side, reduction, height_of));
     heightfield.spacing = glm::dvec2(10.0 * reduction);
     auto surface = TerrainSurface::create(std::make_shared<const terrain::Terrain>(
         terrain::Terrain{"made", std::move(heightfield), {}, {}}));

@@ -18,9 +18,8 @@ Grid<float> overview_heights(int side, int reduction, const Height& height) {
 /// Of a tile of a tree, as scene::TileReading has them: with one around its vertices; `height` of a
 /// vertex, glm::ivec2.
 template <class Height> Grid<float> tile_heights(glm::ivec2 cells, const Height& height) {
-    return made_heights(cells.x + 3, cells.y + 3, [&](int col, int row) {
-        return height(glm::ivec2(col - 1, row - 1));
-    });
+    return made_heights(cells.x + 3, cells.y + 3,
+                        [&](int col, int row) { return height(glm::ivec2(col - 1, row - 1)); });
 }
 
 } // namespace reljef::test
