@@ -163,10 +163,11 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "polygons: no pixel farther from where it belongs, with as few triangles as that "
                "takes (every sample a vertex)",
                "PX");
-    add_parsed(command, "--detail", choice.detail, parse_detail,
-               "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
-               "heights S widths: brick, rock, cobble, fence, rings, copper, or a folder of pictures",
-               "NAME|FOLDER[:width=W,scale=S]");
+    add_parsed(
+        command, "--detail", choice.detail, parse_detail,
+        "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
+        "heights S widths: brick, rock, cobble, fence, rings, copper, or a folder of pictures",
+        "NAME|FOLDER[:width=W,scale=S]");
     add_parsed(
         command, "--detail-technique", choice.detail_technique,
         [](const std::string& text) { return parse_detail_technique(text); },

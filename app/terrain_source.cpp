@@ -313,9 +313,9 @@ Result<void> refuse_folder_options(const TerrainChoice& choice,
     if (option == nullptr && !description.area) {
         return {};
     }
-    const std::string message = fmt::format(
-        "{}: {} found, but it is no folder of tiles, for which alone that was expected",
-        description.name, option != nullptr ? option : "[area]");
+    const std::string message =
+        fmt::format("{}: {} found, but it is no folder of tiles, for which alone that was expected",
+                    description.name, option != nullptr ? option : "[area]");
     if (option != nullptr) {
         refuse(message);
     }

@@ -15,13 +15,13 @@ namespace reljef::app {
 
 /// Which maps of a tile of detail.
 struct TextureRequest {
-    std::string name;             ///< as the user said it: a built-in one, or a folder
-    std::filesystem::path folder; ///< of pictures, where it is none that is built in
-    std::string asked_by;         ///< the option or the scene file
-    std::uint32_t seed = 1;       ///< of a built-in one
-    double width = 1.0;           ///< metres that the tile covers
+    std::string name;                 ///< as the user said it: a built-in one, or a folder
+    std::filesystem::path folder;     ///< of pictures, where it is none that is built in
+    std::string asked_by;             ///< the option or the scene file
+    std::uint32_t seed = 1;           ///< of a built-in one
+    double width = 1.0;               ///< metres that the tile covers
     std::optional<double> scale = {}; ///< of the heights, in widths; absent: as pictures have it
-    std::string also = {};        ///< what else the user might have said: "NAME, "
+    std::string also = {};            ///< what else the user might have said: "NAME, "
 };
 
 /// Makes or reads them. Fails on a name that is neither built in nor a folder, with those that are

@@ -4,6 +4,10 @@
 #include <array>
 #include <iterator>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/misuse.h"
 #include "terrains/detail_tiles.h"
 
 namespace reljef::bench {
@@ -79,6 +83,26 @@ std::vector<scene::TechniqueInfo> techniques_of(const StageChoice& stage) {
     std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(infos),
                  [&](const scene::TechniqueInfo& info) { return suits(info.id, stage); });
     return infos;
+}
+
+void expect_suited(const std::vector<scene::Technique>& techniques,
+                   const std::vector<std::string>& terrains) {
+    std::vector<StageChoice> stages;
+    for (const std::string& terrain : terrains) {
+        const auto more =
+            terrain == "gallery" ? gallery_stages() : std::vector{StageChoice{.terrain = terrain}};
+        stages.insert(stages.end(), more.begin(), more.end());
+    }
+    const auto is_drawn = [&](const scene::Technique& technique) {
+        return std::any_of(stages.begin(), stages.end(),
+                           [&](const StageChoice& stage) { return suits(technique.id, stage); });
+    };
+    if (!techniques.empty() && std::none_of(techniques.begin(), techniques.end(), is_drawn)) {
+        app::refuse(fmt::format("--technique: {} found, which shows nothing of {}; the gallery "
+                                "shows what bump, emboss, normal, displacement and the layers "
+                                "draw, terrains what polygons draws",
+                                scene::to_string(techniques.front()), fmt::join(terrains, ", ")));
+    }
 }
 
 } // namespace reljef::bench

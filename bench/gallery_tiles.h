@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,11 @@ std::vector<StageChoice> gallery_stages();
 /// heights all others but polygons, which shows a mesh as texture does; and texture any. Of
 /// terrains those that draw any.
 bool suits(scene::TechniqueId id, const StageChoice& stage);
+
+/// Refuses (app/misuse.h) techniques of which none suits any of the terrains; where none are chosen
+/// there is nothing to refuse.
+void expect_suited(const std::vector<scene::Technique>& techniques,
+                   const std::vector<std::string>& terrains);
 
 /// The techniques of the catalogue that suit a stage.
 std::vector<scene::TechniqueInfo> techniques_of(const StageChoice& stage);

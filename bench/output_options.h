@@ -24,7 +24,8 @@ struct OutputChoice {
 void add_output_options(CLI::App& command, OutputChoice& choice);
 
 /// Fails where a file could not be written, and refuses (CLI::ParseError) one that is an input or
-/// another output, and a page into a file: asked before anything is measured, leaves nothing behind.
+/// another output, and a page into a file: asked before anything is measured, leaves nothing
+/// behind.
 Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs);
 
 /// Writes the files and the page, with the pictures of the rows that have a view: all, or none

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/gallery_tiles.h"
 #include "bench/output_options.h"
 #include "bench/pareto_suite.h"
 #include "bench/suite_arguments.h"
@@ -32,6 +33,9 @@ Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& comm
         return good;
     }
     ParetoOptions options = choice.options;
+    if (!options.terrains.empty()) { // else there are all kinds
+        expect_suited(options.techniques, options.terrains);
+    }
     options.suite = with_quick_size(options.suite, command, pareto_quick_size);
     options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_pareto(options, interrupt.token()), choice.outputs);

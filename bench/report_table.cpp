@@ -36,10 +36,9 @@ std::string heading_of(std::span<const Row> rows) {
     if (row.timing) {
         heading +=
             fmt::format(", {} frame{}", row.timing->frames, row.timing->frames == 1 ? "" : "s");
-        heading += row.timing->noise_floor
-                       ? fmt::format(", noise floor{} {:.1f} %", noise_of(rows),
-                                     100.0 * *row.timing->noise_floor)
-                       : ", noise floor unknown";
+        heading += row.timing->noise_floor ? fmt::format(", noise floor{} {:.1f} %", noise_of(rows),
+                                                         100.0 * *row.timing->noise_floor)
+                                           : ", noise floor unknown";
     }
     return heading + (!row.noisy()           ? ""
                       : row.has_few_frames() ? ": NOISY, too few frames"

@@ -91,8 +91,8 @@ public:
         const glm::dvec3 direction = places_[vertex].direction;
         const double lift = (height + heights.offset) * heights.lift;
         const glm::dvec3 moved = glm::dvec3(mesh_.positions[vertex]) + lift * direction;
-        const glm::dvec2 coordinate = glm::dvec2(mesh_.texture_coordinates[vertex]) +
-                                      slopes_ * (lift * (direction - normal));
+        const glm::dvec2 coordinate =
+            glm::dvec2(mesh_.texture_coordinates[vertex]) + slopes_ * (lift * (direction - normal));
         return {glm::vec4(glm::vec3(moved), static_cast<float>(height)), glm::vec2(coordinate),
                 mesh_.normals[vertex], places_[vertex].index};
     }
@@ -108,9 +108,8 @@ std::array<std::uint32_t, 3> by_place(const scene::Mesh& mesh, const Places& pla
                                       std::size_t first) {
     std::array<std::uint32_t, 3> corners{mesh.indices[first], mesh.indices[first + 1],
                                          mesh.indices[first + 2]};
-    std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return places[a].index < places[b].index;
-    });
+    std::sort(corners.begin(), corners.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return places[a].index < places[b].index; });
     return corners;
 }
 

@@ -143,8 +143,8 @@ Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, FrameStat
     }
     add(4, 4, offsetof(HullPart, coordinates));
     add(5, 4, offsetof(HullPart, coordinates) + sizeof(glm::vec4));
-    ResidentHull hull{std::move(*buffer), gl::VertexArray::create(),
-                      static_cast<int>(parts.size()), coordinate_range(parts)};
+    ResidentHull hull{std::move(*buffer), gl::VertexArray::create(), static_cast<int>(parts.size()),
+                      coordinate_range(parts)};
     hull.vertex_array.set_vertices(0, hull.parts, {.stride = sizeof(HullPart), .divisor = 1},
                                    attributes);
     return hull;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
@@ -51,6 +52,22 @@ bool holds(const Node& node, const Node* sought) {
                                           [&](const auto& child) { return holds(*child, sought); });
 }
 
+// The option that does not go with them, and why; empty: none.
+std::string_view reason_against_silhouettes(const TechniqueOptions& options) {
+    if (!options.true_silhouettes) {
+        return {};
+    }
+    if (options.fade) {
+        return "fade, which was not expected: heights that change with the view have no outline";
+    }
+    if (options.smooth_edges) {
+        return "edges, which was not expected: what a ray misses in one part of the hull it may "
+               "meet in the next";
+    }
+    return options.two_sided ? "sides=two, which was not expected: a hull is seen from outside"
+                             : std::string_view();
+}
+
 } // namespace
 
 glm::dvec3 to_light(const Light& light) {
@@ -75,12 +92,8 @@ Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
     if (mesh.material.detail.set == nullptr) {
         return {};
     }
-    const TechniqueOptions& options = technique.options;
-    if (options.true_silhouettes && (options.fade || options.smooth_edges || options.two_sided)) {
-        return Error{
-            fmt::format("technique {}: silhouettes=true found beside fade, edges or sides, "
-                        "none of these was expected",
-                        name)};
+    if (const auto reason = reason_against_silhouettes(technique.options); !reason.empty()) {
+        return Error{fmt::format("technique {}: silhouettes=true found beside {}", name, reason)};
     }
     if (!draws_any_mesh(technique.id) && !texture_plane(*mesh.mesh)) {
         return Error{fmt::format("technique {}: a mesh that is not flat found, one plane was "

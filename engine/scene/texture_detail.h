@@ -31,8 +31,8 @@ double tile_width(const Mesh& mesh, glm::vec2 repeats);
 /// Metres that a height of 1 lifts a point of the mesh.
 double relief_height(const Mesh& mesh, const TextureDetail& detail);
 
-/// A vertex that is lifted by 1 goes no farther: over an edge as far as each of its faces needs, see
-/// SharedPlace, but no spike is longer.
+/// A vertex that is lifted by 1 goes no farther: over an edge as far as each of its faces needs,
+/// see SharedPlace, but no spike is longer.
 inline constexpr double most_lift = 2.0;
 
 /// Metres that displacement adds to a mesh's bounds, at most.

@@ -10,6 +10,7 @@
 #include "engine/core/worker_pool.h"
 #include "engine/io/crs_transform.h"
 #include "tests/io/made_raster.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::io {
@@ -210,15 +211,7 @@ TEST_F(ImagerySets, CoarseViewsReadTheOverviewThatIsJustFiner) {
 }
 
 TEST_F(ImagerySets, WhatWouldTakeTooLongWithoutOverviewsIsLeftOutAndSaid) {
-    std::ofstream vrt(folder_.path() / "huge.vrt");
-    vrt << R"(<VRTDataset rasterXSize="65536" rasterYSize="65536"><SRS>EPSG:32631</SRS>)"
-        << "<GeoTransform>300000, 1, 0, 5600000, 0, -1</GeoTransform>"
-        << R"(<VRTRasterBand dataType="Byte" band="1"><SimpleSource>)"
-        << R"(<SourceFilename relativeToVRT="1">part.tif</SourceFilename>)"
-        << R"(<SrcRect xOff="0" yOff="0" xSize="256" ySize="256"/>)"
-        << R"(<DstRect xOff="0" yOff="0" xSize="65536" ySize="65536"/></SimpleSource>)"
-        << "</VRTRasterBand></VRTDataset>";
-    vrt.close();
+    folder_.write("huge.vrt", test::stretched_vrt("part.tif", {.step = 1.0, .type = "Byte"}));
     add("part.tif", plain(0.0, 0.0, 256, 1.0, 77.0));
     const ImagerySet set = open({"huge.vrt"}, utm_31);
     ASSERT_TRUE(set.missing_overviews());
@@ -352,21 +345,14 @@ TEST_F(ImagerySets, AreReadBySeveralThreadsAtATime) {
 }
 
 TEST_F(ImagerySets, LeaveNoFileOpen) {
-    const auto open_files = [] {
-        std::size_t count = 0;
-        for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-            count += entry.path().empty() ? 0U : 1U;
-        }
-        return count;
-    };
     add("a.tif", plain(480000.0, 5000000.0, 100, 80.0, 50.0));
-    const std::size_t before = open_files();
+    const std::size_t before = test::open_files();
     {
         const ImagerySet set = open({"a.tif"}, utm_31);
         EXPECT_EQ(set.read({{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9}, 20.0).texels(4, 4).r, 50);
-        EXPECT_GT(open_files(), before);
+        EXPECT_GT(test::open_files(), before);
     }
-    EXPECT_EQ(open_files(), before);
+    EXPECT_EQ(test::open_files(), before);
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include "engine/io/raster.h"
 #include "engine/io/rgb_image.h"
 #include "tests/io/made_raster.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -364,10 +365,7 @@ public:
     explicit FewFiles(rlim_t more) {
         ::getrlimit(RLIMIT_NOFILE, &before_);
         rlimit few = before_;
-        few.rlim_cur = more;
-        for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-            few.rlim_cur += entry.path().empty() ? 0U : 1U;
-        }
+        few.rlim_cur = more + test::open_files();
         ::setrlimit(RLIMIT_NOFILE, &few);
     }
     ~FewFiles() { ::setrlimit(RLIMIT_NOFILE, &before_); }

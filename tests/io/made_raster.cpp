@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <cpl_string.h>
+#include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 namespace reljef::test {
@@ -112,6 +113,19 @@ bool write(const MadeRaster& raster, const std::filesystem::path& path) {
     const Dataset copy(
         wanted->CreateCopy(path.c_str(), dataset.get(), FALSE, options.List(), nullptr, nullptr));
     return copy != nullptr;
+}
+
+std::string stretched_vrt(const std::string& source, const StretchedVrt& vrt) {
+    return fmt::format(
+        R"(<VRTDataset rasterXSize="65536" rasterYSize="65536"><SRS>EPSG:32631</SRS>)"
+        "<GeoTransform>300000, {0}, 0, 5600000, 0, -{0}</GeoTransform>"
+        R"(<VRTRasterBand dataType="{1}" band="1"><SimpleSource>)"
+        R"(<SourceFilename relativeToVRT="1">{2}</SourceFilename>)"
+        R"(<SrcRect xOff="0" yOff="0" xSize="256" ySize="256"/>)"
+        R"(<DstRect xOff="0" yOff="0" xSize="65536" ySize="65536"/></SimpleSource>)"
+        "</VRTRasterBand>{3}</VRTDataset>",
+        vrt.step, vrt.type, source,
+        vrt.overviews.empty() ? "" : fmt::format("<OverviewList>{}</OverviewList>", vrt.overviews));
 }
 
 } // namespace reljef::test

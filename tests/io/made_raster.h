@@ -30,7 +30,6 @@ struct MadeRaster {
     std::vector<GDALColorEntry> palette;
 };
 
-/// A raster with value(col, row) at every sample.
 /// One note a line.
 inline std::string joined(const std::vector<std::string>& notes) {
     std::string text;
@@ -40,6 +39,7 @@ inline std::string joined(const std::vector<std::string>& notes) {
     return text;
 }
 
+/// A raster with value(col, row) at every sample.
 template <class Value> MadeRaster made_raster(int cols, int rows, const Value& value) {
     MadeRaster raster;
     raster.cols = cols;
@@ -54,6 +54,15 @@ template <class Value> MadeRaster made_raster(int cols, int rows, const Value& v
 
 /// Writes it; false where GDAL cannot.
 bool write(const MadeRaster& raster, const std::filesystem::path& path);
+
+struct StretchedVrt {
+    double step = 1.0; ///< metres between samples, from 300 km east, 5600 km north in UTM 31
+    std::string type;  ///< as GDAL names it: "Byte"
+    std::string overviews = {}; ///< "2 4 8", which GDAL makes as it reads; empty: none
+};
+/// The text of a virtual raster of 65,536 samples a side, all of them those of the 256 a side that
+/// `source`, beside it, has.
+std::string stretched_vrt(const std::string& source, const StretchedVrt& vrt);
 
 /// Keeps GDAL quiet for the scope.
 class QuietGdal {

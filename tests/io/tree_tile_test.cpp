@@ -1,12 +1,12 @@
 #include "engine/io/tree_tile.h"
 
 #include <cmath>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/io/made_raster.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -20,14 +20,6 @@ TileSet open_set(const std::filesystem::path& path) {
     auto tiles = TileSet::open(path);
     EXPECT_TRUE(tiles) << (tiles ? "" : tiles.error().message);
     return std::move(*tiles);
-}
-
-std::size_t open_files() {
-    std::size_t count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        count += entry.path().empty() ? 0U : 1U;
-    }
-    return count;
 }
 
 /// A raster in metres, UTM, as `made`.
@@ -107,16 +99,11 @@ TEST(TreeTiles, LeaveNoFileOpenAndSpareTheRestOfAHugeRaster) {
     auto raster = placed(test::made_raster(256, 256, value), 10.0);
     ASSERT_TRUE(test::write(raster, folder.path() / "part.tif"));
     // 65536² samples: the same part everywhere, with overviews that GDAL makes as it reads.
-    std::ofstream vrt(folder.path() / "huge.vrt");
-    vrt << R"(<VRTDataset rasterXSize="65536" rasterYSize="65536"><SRS>EPSG:32631</SRS>)"
-        << "<GeoTransform>300000, 10, 0, 5600000, 0, -10</GeoTransform>"
-        << R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource>)"
-        << R"(<SourceFilename relativeToVRT="1">part.tif</SourceFilename>)"
-        << R"(<SrcRect xOff="0" yOff="0" xSize="256" ySize="256"/>)"
-        << R"(<DstRect xOff="0" yOff="0" xSize="65536" ySize="65536"/></SimpleSource>)"
-        << "</VRTRasterBand><OverviewList>2 4 8 16 32 64 128 256 512</OverviewList></VRTDataset>";
-    vrt.close();
-    const std::size_t before = open_files();
+    folder.write("huge.vrt", test::stretched_vrt("part.tif", {.step = 10.0,
+                                                              .type = "Float32",
+                                                              .overviews = "2 4 8 16 32 64 128 256 "
+                                                                           "512"}));
+    const std::size_t before = test::open_files();
     {
         const TileSet tiles = open_set(folder.path() / "huge.vrt");
         const TileTree tree(65536, 65536);
@@ -127,9 +114,9 @@ TEST(TreeTiles, LeaveNoFileOpenAndSpareTheRestOfAHugeRaster) {
             ASSERT_FALSE(std::isnan(window.heights(60, 60)));
         }
         EXPECT_LT(tiles.bytes_read(), std::size_t{64} << 20);
-        EXPECT_LT(open_files(), before + 8);
+        EXPECT_LT(test::open_files(), before + 8);
     }
-    EXPECT_EQ(open_files(), before);
+    EXPECT_EQ(test::open_files(), before);
 }
 
 TEST(TreeTiles, TellTheCommandThatMakesOverviews) {

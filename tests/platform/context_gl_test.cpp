@@ -17,7 +17,7 @@
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/platform/glfw_context.h"
-#include "tests/platform/process_state.h"
+#include "tests/support/process_state.h"
 #include "tests/support/test_program.h"
 
 namespace reljef::platform {

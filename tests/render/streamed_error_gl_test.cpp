@@ -9,6 +9,7 @@
 #include "engine/scene/tile_stream.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/terrain/chance.h"
+#include "tests/terrain/made_tiles.h"
 
 namespace reljef::render {
 namespace {
@@ -73,10 +74,9 @@ protected:
         node.material.technique = scene::parse_technique("polygons:error=1").value();
         const terrain::TileTree tree(ground_samples, ground_samples);
         const auto read = [ground = ground_, tree](TreeTile tile, const std::stop_token&) {
-            const glm::ivec2 count = tree.cells(tile) + 3;
             scene::TileReading reading;
-            reading.heights = test::made_heights(count.x, count.y, [&](int col, int row) {
-                return mean_around(*ground, glm::dvec2(tree.sample(tile, {col - 1, row - 1})),
+            reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
+                return mean_around(*ground, glm::dvec2(tree.sample(tile, vertex)),
                                    terrain::TileTree::step(tile));
             });
             return reading;

@@ -6,6 +6,8 @@
 #include "engine/render/tile_choice.h"
 #include "engine/scene/tile_stream.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/terrain/made_tiles.h"
 
 namespace reljef::render {
 namespace {
@@ -40,15 +42,9 @@ public:
     using Show = glm::dvec3 (*)(glm::dvec2);
 
     explicit Pictures(std::size_t memory_budget = std::size_t{400} << 20U, Show show = shown_at) {
-        const int count = samples / overview_reduction;
-        auto heightfield = test::plane_heightfield(
-            test::made_heights(count, count,
-                               [](int col, int row) {
-                                   return hill((glm::dvec2(col, row) + 0.5) *
-                                                   static_cast<double>(overview_reduction) -
-                                               0.5);
-                               }),
-            glm::dvec2(static_cast<double>(overview_reduction)));
+        auto heightfield =
+            test::plane_heightfield(test::overview_heights(samples, overview_reduction, hill),
+                                    glm::dvec2(static_cast<double>(overview_reduction)));
         terrain = &test::add_terrain(scene, std::move(heightfield));
         camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
         auto& node = *terrain->get<scene::TerrainNode>();
@@ -67,16 +63,7 @@ public:
     }
     void look_down(glm::dvec3 eye) {
         *camera->get<Camera>() = camera_at(eye, {eye.x + 0.01, eye.y, 0.0});
-        while (true) {
-            const auto wanted = choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(),
-                                             size, glm::dmat4(1.0))
-                                    .wanted;
-            stream->want(wanted);
-            if (wanted.empty()) {
-                return;
-            }
-            stream->wait({});
-        }
+        bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera());
     }
 
     Scene scene;
@@ -86,10 +73,9 @@ public:
 
 private:
     static scene::TileReading read(const scene::TileMaker& maker, TreeTile tile, Show show) {
-        const glm::ivec2 count = maker.tree().cells(tile) + 3;
         scene::TileReading reading;
-        reading.heights = test::made_heights(count.x, count.y, [&](int col, int row) {
-            return hill(maker.sample(tile, {col - 1, row - 1}));
+        reading.heights = test::tile_heights(maker.tree().cells(tile), [&](glm::ivec2 vertex) {
+            return hill(maker.sample(tile, vertex));
         });
         const glm::ivec2 texels = maker.picture_size(tile);
         const glm::dvec2 cells(maker.tree().cells(tile));
@@ -167,8 +153,8 @@ std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
 }
 
 // The light of a pixel with it over that of the same one without is that of its place on the tile
-// over the tile's mean, whatever the images show there: stripes narrower than the vertices' distance
-// are as sharp.
+// over the tile's mean, whatever the images show there: stripes narrower than the vertices'
+// distance are as sharp.
 TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
     Pictures world(std::size_t{400} << 20U, striped_at);
     world.scene.add_light();
@@ -201,8 +187,7 @@ TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
                 continue; // its border, where colours are mixed
             }
             const float share = lights.at(along < 0.5 ? 0 : 1) / (0.5F * (lights[0] + lights[1]));
-            const Rgba8 expected =
-                rgba8_from_linear(linear_from_rgba8(plain(col, row)) * share);
+            const Rgba8 expected = rgba8_from_linear(linear_from_rgba8(plain(col, row)) * share);
             worst = std::max(worst, std::abs(detailed(col, row).g - expected.g));
             ++compared;
             const int beside = plain(col, std::min(row + 2, size.y - 1)).g; // a stripe farther

@@ -7,7 +7,9 @@
 #include "engine/render/tile_choice.h"
 #include "engine/scene/tile_stream.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/render/made_stream.h"
 #include "tests/terrain/chance.h"
+#include "tests/terrain/made_tiles.h"
 
 namespace reljef::render {
 namespace {
@@ -27,16 +29,12 @@ Grid<float> rough_hills(int samples, double step, double offset) {
 
 scene::TileReading read_hills(const Grid<float>& all, TreeTile tile) {
     const terrain::TileTree tree(side, side);
-    const glm::ivec2 count = tree.cells(tile) + 3;
     scene::TileReading reading;
-    reading.heights = Grid<float>(count.x, count.y);
-    for (int row = 0; row < count.y; ++row) {
-        for (int col = 0; col < count.x; ++col) {
-            const glm::ivec2 sample = tree.sample(tile, {col - 1, row - 1});
-            // Coarser levels are higher: where two meet without their borders joined is a step.
-            reading.heights(col, row) = all(sample.x, sample.y) + static_cast<float>(tile.level);
-        }
-    }
+    reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
+        const glm::ivec2 sample = tree.sample(tile, vertex);
+        // Coarser levels are higher: where two meet without their borders joined is a step.
+        return all(sample.x, sample.y) + static_cast<float>(tile.level);
+    });
     return reading;
 }
 
@@ -67,16 +65,7 @@ struct StreamedWorld {
         return choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
                             glm::dmat4(1.0));
     }
-    void bring() const {
-        while (true) {
-            const auto wanted = choice().wanted;
-            stream->want(wanted);
-            if (wanted.empty()) {
-                return;
-            }
-            stream->wait({});
-        }
-    }
+    void bring() const { bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera()); }
     void look(glm::dvec3 eye, glm::dvec3 at) { *camera->get<Camera>() = camera_at(eye, at); }
 };
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/worker_pool.h"
-#include "tests/terrain/made_heightfield.h"
+#include "tests/terrain/made_tiles.h"
 
 namespace reljef::scene {
 namespace {
@@ -24,11 +24,7 @@ double height_of(glm::dvec2 sample) {
 }
 
 std::shared_ptr<const TerrainSurface> overview() {
-    const int count = side / reduction;
-    auto heights = test::made_heights(count, count, [](int col, int row) {
-        return height_of((glm::dvec2(col, row) + 0.5) * static_cast<double>(reduction) - 0.5);
-    });
-    auto heightfield = test::plane_heightfield(std::move(heights));
+    auto heightfield = test::plane_heightfield(test::overview_heights(side, reduction, height_of));
     heightfield.spacing = glm::dvec2(10.0 * reduction);
     auto surface = TerrainSurface::create(std::make_shared<const terrain::Terrain>(
         terrain::Terrain{"made", std::move(heightfield), {}, {}}));
@@ -38,15 +34,10 @@ std::shared_ptr<const TerrainSurface> overview() {
 
 TileReading read_plane(TreeTile tile, const std::stop_token& /*stop*/) {
     const TileTree tree(side, side);
-    const glm::ivec2 count = tree.cells(tile) + 3;
     TileReading reading;
-    reading.heights = Grid<float>(count.x, count.y);
-    for (int row = 0; row < count.y; ++row) {
-        for (int col = 0; col < count.x; ++col) {
-            reading.heights(col, row) =
-                static_cast<float>(height_of(glm::dvec2(tree.sample(tile, {col - 1, row - 1}))));
-        }
-    }
+    reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
+        return height_of(glm::dvec2(tree.sample(tile, vertex)));
+    });
     return reading;
 }
 

@@ -281,6 +281,22 @@ TEST_F(MeshTechniquesGlTest, WhatNoMeshCanShowIsRefusedWithTheReason) {
         << drawn.error().message;
 }
 
+TEST_F(MeshTechniquesGlTest, SilhouettesAreRefusedBesideWhatTheyDoNotGoWith) {
+    const Panel panel(wave_tile(8));
+    const auto refusal = [&](const std::string& options) {
+        const auto technique = scene::parse_technique("exact:silhouettes=true" + options).value();
+        const auto good = scene::check_technique(technique, *panel.node->get<scene::MeshNode>());
+        return good ? std::string() : good.error().message;
+    };
+    EXPECT_EQ(refusal(",shadow=soft,0.3,border=clamp,depth=write"), "");
+    EXPECT_EQ(
+        refusal(",fade=0.2..1"),
+        "technique exact: silhouettes=true found beside fade, which was not expected: heights "
+        "that change with the view have no outline");
+    EXPECT_NE(refusal(",edges=smooth").find("beside edges"), std::string::npos);
+    EXPECT_NE(refusal(",sides=two").find("a hull is seen from outside"), std::string::npos);
+}
+
 // Forward, the relief lands where rays find it, but for what lies within a sample of a silhouette.
 TEST_F(MeshTechniquesGlTest, PrewarpShowsOnAFlatMeshWhatRaysFind) {
     for (const float offset : {-1.0F, -0.4F}) {

@@ -128,9 +128,8 @@ class SolidCube {
 public:
     SolidCube(const Panel& panel, const scene::Mesh& box, double side)
         : detail_(panel.detail()), side_(side) {
-        const auto relief =
-            ReliefPlane::create(detail_.set->heights.view(),
-                                {side, detail_.scale, detail_.offset, detail_.border});
+        const auto relief = ReliefPlane::create(
+            detail_.set->heights.view(), {side, detail_.scale, detail_.offset, detail_.border});
         for (std::size_t first = 0; first < box.indices.size(); first += 6) {
             faces_.push_back({relief.value(), glm::inverse(side_frame(box, first))});
         }

@@ -1,4 +1,4 @@
-#include "tests/platform/process_state.h"
+#include "tests/support/process_state.h"
 
 #include <filesystem>
 #include <fstream>
