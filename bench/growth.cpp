@@ -97,6 +97,7 @@ Result<GrowthStage> open_stage(const fs::path& path, const GrowthOptions& option
     choice.context_options.visible = false;
     choice.driver.size = options.suite.size;
     choice.driver.shader_dir = options.suite.shader_dir;
+    choice.driver.selects_always = true;
     auto device = app::Device::create(choice);
     if (!device) {
         return device.error();

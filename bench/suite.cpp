@@ -241,6 +241,7 @@ private:
         const std::size_t left = suite_.groups.size() - index;
         const double seconds = group_seconds(options_, seconds_since(begin_), left);
         group_begin_ = Clock::now();
+        driver.forget_scene();
         const auto stage = stages_.get(group.stage);
         if (!stage) {
             return stage.error();

@@ -10,6 +10,7 @@ Result<app::Device> make_device(const SuiteOptions& options) {
     device.context_options.visible = false;
     device.driver.size = options.size;
     device.driver.shader_dir = options.shader_dir;
+    device.driver.selects_always = true;
     return app::Device::create(device);
 }
 

@@ -117,8 +117,14 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
     return hits;
 }
 
+void Driver::forget_scene() {
+    view_ = {};
+    list_.reset();
+}
+
 const DrawList& Driver::list_of(const scene::Scene& scene) {
-    if (!view_.look(scene, size()) && list_) {
+    const bool is_new = view_.look(scene, size());
+    if (!is_new && list_ && !options_.selects_always) {
         list_->stats.skipped.selections_unchanged = 1;
         return *list_;
     }

@@ -25,10 +25,12 @@ struct DriverOptions {
     std::filesystem::path shader_dir; ///< files there come before the built-in shaders
     bool software = true;             ///< the renderer is a CPU: time by a clock, not by queries
     bool occlusion = true;            ///< tiles behind nearer ground are left out, see occlusion.h
+    bool selects_always = false;      ///< a view that is as it was, too: to measure it
 };
 
 /// Draws scenes with the context that is current, into a framebuffer object of its own with 32-bit
-/// float depth, reversed. Destroy while its context is current.
+/// float depth, reversed. Holds what the last scene shows, though the scene be gone, until another
+/// is drawn or forget_scene(). Destroy while its context is current.
 class Driver {
 public:
     /// Fails when the size is outside what the driver can draw.
@@ -37,6 +39,9 @@ public:
     /// Draws a frame; fails as check_techniques() and check_support() do. `wait` also waits until
     /// it is finished and fills FrameStats::gpu_ms.
     Result<FrameStats> draw(const scene::Scene& scene, bool wait = false);
+
+    /// Lets go of the last scene's terrains, before another is read.
+    void forget_scene();
 
     /// Draws what each pixel of the scene shows instead of its colour.
     Result<HitBuffer> draw_hits(const scene::Scene& scene);
