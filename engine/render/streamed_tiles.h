@@ -65,6 +65,7 @@ private:
         std::unique_ptr<const scene::TerrainIrradiance> irradiance;
     };
 
+    void forget_unused(const DrawList& list);
     Result<void> prepare_meshes(const terrain::TileCover& cover, const StreamedByTile& drawn,
                                 FrameStats& stats);
     Result<void> prepare_cuts(const DrawList& list, Cover& cover, const StreamedByTile& drawn,
