@@ -362,9 +362,10 @@ void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::st
     }
     for (const KnownPicture& picture : pictures) {
         if (stretched(picture)) {
-            notes.push_back(fmt::format("imagery: {} names no place on Earth: it is left out beside "
-                                        "images that do",
-                                        picture.path.filename().string()));
+            notes.push_back(
+                fmt::format("imagery: {} names no place on Earth: it is left out beside "
+                            "images that do",
+                            picture.path.filename().string()));
         }
     }
     std::erase_if(pictures, stretched);
