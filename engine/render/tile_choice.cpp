@@ -311,6 +311,7 @@ std::vector<terrain::TreeTile> most_urgent(std::vector<Candidate> missing) {
     });
     missing.resize(std::min(missing.size(), most_wanted));
     std::vector<terrain::TreeTile> wanted;
+    wanted.reserve(missing.size());
     for (const Candidate& candidate : missing) {
         wanted.push_back(candidate.id);
     }
