@@ -35,17 +35,20 @@ void Box::add(const Box& box) {
 }
 
 Box transformed(const glm::dmat4& to_from_local, const Box& box) {
-    Box result;
     if (box.empty()) {
-        return result;
+        return {};
     }
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 point{(corner & 1U) != 0 ? box.high.x : box.low.x,
-                               (corner & 2U) != 0 ? box.high.y : box.low.y,
-                               (corner & 4U) != 0 ? box.high.z : box.low.z};
-        result.add(glm::dvec3(to_from_local * glm::dvec4(point, 1.0)));
+    // Each axis moves the corners by itself (Arvo 1990). Summed up as a product of matrix and
+    // corner is, so that the sides are those of the outermost corners to the bit.
+    std::array<Box, 3> moved;
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dvec3 low = glm::dvec3(to_from_local[axis]) * box.low[axis];
+        const glm::dvec3 high = glm::dvec3(to_from_local[axis]) * box.high[axis];
+        moved[static_cast<std::size_t>(axis)] = {glm::min(low, high), glm::max(low, high)};
     }
-    return result;
+    const glm::dvec3 origin(to_from_local[3]);
+    return {(moved[0].low + moved[1].low) + (moved[2].low + origin),
+            (moved[0].high + moved[1].high) + (moved[2].high + origin)};
 }
 
 bool is_finite(const Ray& ray) {
@@ -78,6 +81,14 @@ Frustum::Frustum(const glm::dmat4& clip_from_world) {
     const glm::dmat4 rows = glm::transpose(clip_from_world);
     planes_ = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
                rows[3] - rows[1], rows[2],           rows[3] - rows[2]};
+}
+
+Frustum Frustum::in_local(const glm::dmat4& world_from_local) const {
+    Frustum local = *this;
+    for (glm::dvec4& plane : local.planes_) {
+        plane = plane * world_from_local;
+    }
+    return local;
 }
 
 bool Frustum::may_see(const Box& box) const {

@@ -70,6 +70,10 @@ public:
     /// drops a visible one.
     [[nodiscard]] bool may_see(const Box& box) const;
 
+    /// The same half-spaces in local coordinates: boxes there need not be transformed, and stay as
+    /// tight as they are.
+    [[nodiscard]] Frustum in_local(const glm::dmat4& world_from_local) const;
+
 private:
     std::array<glm::dvec4, 6> planes_;
 };

@@ -1,12 +1,14 @@
 #include "engine/render/draw_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/core/nearest_first.h"
 #include "engine/render/error_view.h"
 #include "engine/render/grid_mesh.h"
 #include "engine/render/tile_choice.h"
@@ -52,14 +54,18 @@ std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
     return terrain::patch_levels(surface.heightfield(), surface.placement(), eye, levels);
 }
 
-double distance_to(glm::dvec3 point, const Box& box) {
-    return glm::distance(point, glm::clamp(point, box.low, box.high));
+// From a box's nearest point.
+glm::dvec3 away_from(glm::dvec3 point, const Box& box) {
+    return point - glm::clamp(point, box.low, box.high);
 }
 
 // Adds what one visible node shows.
 class Selector {
 public:
-    Selector(DrawList& list, const Frustum& frustum) : list_(list), frustum_(frustum) {}
+    Selector(DrawList& list, const Frustum& frustum, std::size_t most_tiles)
+        : list_(list), frustum_(frustum) {
+        seen_.reserve(most_tiles);
+    }
 
     void add(const SeenNode& seen) {
         if (const auto* mesh = seen.node->get<scene::MeshNode>()) {
@@ -69,7 +75,32 @@ public:
         }
     }
 
+    /// The tiles of all terrains, front to back.
+    void order_tiles() {
+        seen_ = nearest_first(std::move(seen_));
+        list_.tiles.reserve(seen_.size());
+        for (const SeenTile& seen : seen_) {
+            const ShownTerrain& shown = shown_[static_cast<std::size_t>(seen.transform)];
+            const double distance = std::sqrt(seen.distance);
+            list_.tiles.push_back({shown.terrain, distance, seen.transform, seen.tile,
+                                   detail_of(*shown.terrain, distance), shown.is_flat,
+                                   shown.is_coarse});
+        }
+    }
+
 private:
+    struct SeenTile {
+        double distance = 0.0; // squared
+        int transform = 0;
+        int tile = 0;
+    };
+    // With DrawList::transforms.
+    struct ShownTerrain {
+        const scene::TerrainNode* terrain = nullptr;
+        bool is_flat = false;
+        bool is_coarse = false;
+    };
+
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         if (scene::geometry_of(terrain.material.technique.id) == scene::Geometry::box) {
             add_relief(terrain, world_from_local);
@@ -95,7 +126,7 @@ private:
         const Box bounds = transformed(world_from_local, terrain.surface->bounds());
         if (frustum_.may_see(bounds)) {
             list_.reliefs.push_back(
-                {&terrain, world_from_local, distance_to(list_.camera.eye, bounds)});
+                {&terrain, world_from_local, glm::length(away_from(list_.camera.eye, bounds))});
         } else {
             ++list_.stats.skipped.nodes_outside_frustum;
         }
@@ -131,24 +162,32 @@ private:
         const bool flat =
             scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
         const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
-        const std::size_t before = list_.tiles.size();
+        const Frustum frustum = frustum_.in_local(world_from_local);
+        const std::size_t before = seen_.size();
         auto coarseness = coarseness_of(terrain, list_.camera, list_.size, world_from_local);
+        const int transform = static_cast<int>(list_.transforms.size());
+        const bool is_only_moved = glm::dmat3(world_from_local) == glm::dmat3(1.0);
+        const glm::dvec3 eye =
+            list_.camera.eye - (is_only_moved ? glm::dvec3(world_from_local[3]) : glm::dvec3(0.0));
         for (std::size_t i = 0; i < tiles.size(); ++i) {
-            const Box bounds = transformed(world_from_local, tiles[i].bounds);
-            if (frustum_.may_see(bounds)) {
-                const double distance = distance_to(list_.camera.eye, bounds);
-                list_.tiles.push_back({&terrain, world_from_local, static_cast<int>(i), flat,
-                                       distance, coarseness.has_value(),
-                                       detail_of(terrain, distance)});
+            if (frustum.may_see(tiles[i].bounds)) {
+                const glm::dvec3 away =
+                    away_from(eye, is_only_moved ? tiles[i].bounds
+                                                 : transformed(world_from_local, tiles[i].bounds));
+                seen_.push_back({glm::dot(away, away), transform, static_cast<int>(i)});
             } else {
                 ++list_.stats.skipped.tiles_outside_frustum;
                 list_.stats.skipped.triangles_outside_frustum +=
                     triangle_count(terrain, tiles[i], flat);
             }
         }
-        if (list_.tiles.size() == before) {
+        if (seen_.size() == before) {
             ++list_.stats.skipped.nodes_outside_frustum;
-        } else if (coarseness) {
+            return;
+        }
+        list_.transforms.push_back(world_from_local);
+        shown_.push_back({&terrain, flat, coarseness.has_value()});
+        if (coarseness) {
             list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
         }
     }
@@ -163,7 +202,18 @@ private:
 
     DrawList& list_;
     const Frustum& frustum_;
+    std::vector<SeenTile> seen_;
+    std::vector<ShownTerrain> shown_;
 };
+
+std::size_t most_tiles(const SceneView& view) {
+    std::size_t most = 0;
+    for (const SeenNode& seen : view.nodes()) {
+        const auto* const terrain = seen.node->get<scene::TerrainNode>();
+        most += terrain != nullptr ? terrain->surface->tiles().size() : 0;
+    }
+    return most;
+}
 
 } // namespace
 
@@ -181,14 +231,13 @@ DrawList select(const SceneView& view) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }
     const Frustum frustum(scene::clip_from_world(list.camera, list.size));
-    Selector selector(list, frustum);
+    Selector selector(list, frustum, most_tiles(view));
     for (const SeenNode& seen : view.nodes()) {
         selector.add(seen);
     }
-    const auto nearer = [](const auto& a, const auto& b) { return a.distance < b.distance; };
-    std::stable_sort(list.tiles.begin(), list.tiles.end(), nearer);
-    std::stable_sort(list.streamed_tiles.begin(), list.streamed_tiles.end(), nearer);
-    std::stable_sort(list.reliefs.begin(), list.reliefs.end(), nearer);
+    selector.order_tiles();
+    list.streamed_tiles = nearest_first(std::move(list.streamed_tiles));
+    list.reliefs = nearest_first(std::move(list.reliefs));
     list.stats.nodes = view.node_count();
     list.stats.skipped.invisible_nodes = view.node_count() - view.visible_count();
     list.stats.skipped.sky = list.sky ? 0 : 1;

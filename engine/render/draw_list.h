@@ -27,12 +27,12 @@ using Coarseness = std::variant<terrain::ErrorView, Grid<std::uint8_t>>;
 /// One terrain tile to draw.
 struct TileDraw {
     const scene::TerrainNode* terrain = nullptr;
-    glm::dmat4 world_from_local{1.0};
-    int tile = 0;          ///< index into the surface's tiles
-    bool flat = false;     ///< the reference surface instead of the heightfield
-    double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
-    bool coarse = false;   ///< as DrawList::coarse_terrains says, instead of every sample
+    double distance = 0.0;                  ///< from the eye to its bounds' nearest point, metres
+    int transform = 0;                      ///< index into DrawList::transforms
+    int tile = 0;                           ///< index into the surface's tiles
     DetailLevel detail = DetailLevel::none; ///< of what lies over the terrain
+    bool flat = false;                      ///< the reference surface instead of the heightfield
+    bool coarse = false; ///< as DrawList::coarse_terrains says, instead of every sample
 };
 
 /// One terrain whose tiles need not have every sample as a vertex.
@@ -73,12 +73,17 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
+    std::vector<glm::dmat4> transforms;       ///< world from local, of the nodes with tiles
     std::vector<TileDraw> tiles;              ///< front to back
     std::vector<StreamedDraw> streamed_tiles; ///< front to back
     std::vector<CoarseTerrain> coarse_terrains;
     std::vector<ReliefDraw> reliefs; ///< front to back
     std::vector<MeshDraw> meshes;
     FrameStats stats; ///< nodes and what was skipped, so far
+
+    [[nodiscard]] const glm::dmat4& world_from_local(const TileDraw& draw) const {
+        return transforms[static_cast<std::size_t>(draw.transform)];
+    }
 };
 
 /// Leaves out what is hidden or outside the frustum and orders the rest. An orthographic camera's

@@ -81,7 +81,7 @@ Result<void> GroundResidency::prepare_ground(const DrawList& list, const TileDra
     if (auto done = prepare_tile(*terrain.detail, stats); !done) {
         return done;
     }
-    const auto light = light_on(list, draw.world_from_local);
+    const auto light = light_on(list, list.world_from_local(draw));
     const auto found = grounds_.find(&terrain);
     if (found != grounds_.end() && found->second.owner.lock() == terrain.surface &&
         found->second.light == light) {

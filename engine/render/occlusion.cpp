@@ -24,7 +24,7 @@ std::optional<terrain::Horizon> horizon_of(const DrawList& list, const TileDraw&
     if (draw.flat || draw.terrain->material.wireframe || !error) {
         return std::nullopt;
     }
-    const auto view = horizon_view(list.camera, list.size, draw.world_from_local, *error);
+    const auto view = horizon_view(list.camera, list.size, list.world_from_local(draw), *error);
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     return view ? terrain::Horizon::create(surface.heightfield(), surface.pyramid(),
                                            surface.placement(), *view)

@@ -175,7 +175,8 @@ Result<void> Residency::upload_tile(const TileDraw& draw, const GridMesh& grid, 
 Result<void> Residency::prepare_all_maps(const DrawList& list, FrameStats& stats) {
     maps_.clear();
     for (const TileDraw& draw : list.tiles) {
-        if (auto done = prepare_maps(list, *draw.terrain, draw.world_from_local, stats); !done) {
+        if (auto done = prepare_maps(list, *draw.terrain, list.world_from_local(draw), stats);
+            !done) {
             return done;
         }
     }
@@ -266,7 +267,7 @@ Result<void> Residency::prepare_warped(const DrawList& list, FrameStats& stats) 
             continue;
         }
         const Grid<glm::vec4> places =
-            warped_places(*terrain.surface, warp_eye(list.camera, draw.world_from_local));
+            warped_places(*terrain.surface, warp_eye(list.camera, list.world_from_local(draw)));
         auto texture = place_texture({places.cols(), places.rows()}, before[&terrain]);
         if (!texture) {
             return texture.error();

@@ -29,13 +29,14 @@ public:
 
     Result<void> draw(const TileDraw& draw) {
         const DetailLevel detail = shown(draw.detail);
+        const glm::dmat4& world_from_local = painting_.list.world_from_local(draw);
         if (!is_set_for(*draw.terrain, detail)) {
-            if (auto set = set_for(*draw.terrain, detail, draw.world_from_local); !set) {
+            if (auto set = set_for(*draw.terrain, detail, world_from_local); !set) {
                 return set;
             }
             bind_maps(*draw.terrain);
         }
-        set_place(draw.world_from_local);
+        set_place(world_from_local);
         draw_samples(draw);
         return {};
     }
