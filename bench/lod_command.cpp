@@ -14,6 +14,7 @@
 #include "bench/output_options.h"
 #include "bench/promise.h"
 #include "bench/promise_report.h"
+#include "bench/selection_suite.h"
 #include "bench/suite_arguments.h"
 #include "engine/render/error_view.h"
 
@@ -30,6 +31,7 @@ struct LodChoice {
     double error = 1.0;
     bool methods = false;
     bool growth = false;
+    bool selection = false;
     int memory_megabytes = 512;
 };
 
@@ -48,6 +50,13 @@ Result<void> run_triangle_methods(const LodChoice& choice, const app::Interrupt&
     options.suite = choice.suite;
     options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
     return report(run_methods(options, interrupt.token()), choice.outputs.json);
+}
+
+Result<void> run_selection_command(const LodChoice& choice, const app::Interrupt& interrupt) {
+    SelectionOptions options;
+    options.suite = choice.suite;
+    options.rounds = choice.suite.quick ? 100 : options.rounds;
+    return report(run_selection(options, interrupt.token()), choice.outputs.json);
 }
 
 Result<void> run_growth_command(const LodChoice& choice, const CLI::App& command,
@@ -74,6 +83,9 @@ Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
     }
     if (choice.methods) {
         return run_triangle_methods(choice, interrupt);
+    }
+    if (choice.selection) {
+        return run_selection_command(choice, interrupt);
     }
     if (choice.growth) {
         return run_growth_command(choice, command, interrupt);
@@ -121,19 +133,29 @@ void add_methods_option(CLI::App& command, LodChoice& choice) {
     command.add_flag("--methods", choice.methods,
                      "instead of the tables: triangles and the worst error of several ways to "
                      "triangulate, for errors of 0.3, 1 and 3 % of the height range");
+    command.add_flag("--selection", choice.selection,
+                     "instead of the tables: how long it takes to choose among 10,000 tiles what "
+                     "is drawn");
 }
 
 void check_poses_options(const LodChoice& choice, const CLI::App& command) {
     const OutputChoice& outputs = choice.outputs;
     const auto refuse = [](const char* message) { throw CLI::ValidationError(message); };
-    if ((choice.poses ? 1 : 0) + (choice.methods ? 1 : 0) + (choice.growth ? 1 : 0) > 1) {
-        refuse("--poses, --methods, --growth: more than one found, one was expected");
+    if ((choice.poses ? 1 : 0) + (choice.methods ? 1 : 0) + (choice.growth ? 1 : 0) +
+            (choice.selection ? 1 : 0) >
+        1) {
+        refuse("--poses, --methods, --growth, --selection: more than one found, one was expected");
     }
-    if ((choice.poses || choice.methods) &&
+    if (choice.selection && !choice.terrains.empty()) {
+        refuse("--selection: --terrain found, none was expected with it");
+    }
+    if ((choice.poses || choice.methods || choice.selection) &&
         !(outputs.csv.empty() && outputs.markdown.empty() && outputs.html.empty())) {
         throw CLI::ValidationError(
             fmt::format("{}: --csv, --markdown or --html found, only --json was expected with it",
-                        choice.poses ? "--poses" : "--methods"));
+                        choice.poses     ? "--poses"
+                        : choice.methods ? "--methods"
+                                         : "--selection"));
     }
     if (choice.growth &&
         !(outputs.csv.empty() && outputs.html.empty() && choice.terrains.empty())) {
@@ -169,7 +191,8 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
         "  reljef-bench lod --terrain N45E006.hgt --json lod.json\n"
         "  reljef-bench lod --terrain N45E006.hgt --poses 10000 --max-error 1\n"
         "  reljef-bench lod --terrain N45E006.hgt --terrain urban --methods\n"
-        "  reljef-bench lod --growth --json growth.json");
+        "  reljef-bench lod --growth --json growth.json\n"
+        "  reljef-bench lod --selection");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_lod_command(*choice, *arguments, interrupt);
             }};
