@@ -107,7 +107,8 @@ std::string DeviceFrames::stats() const {
                stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
                stats_.skipped.tiles_occluded, stats_.skipped.triangles_under_error,
                stats_.skipped.details_too_small, stats_.skipped.selections_unchanged,
-               stats_.skipped.cuts_unchanged, stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
+               stats_.skipped.cuts_unchanged, stats_.skipped.uploads_unchanged, stats_.cpu_ms,
+               stats_.gpu_ms);
 }
 
 Result<void> TruthFrames::prepare(const scene::Scene& scene) {

@@ -87,7 +87,7 @@ std::optional<HeightRange> DrawnGround::range_within(glm::dvec2 first, glm::dvec
     }
     const glm::dvec2 inside = glm::min(end, part->end);
     HeightRange range = range_of(*part->tile, (first - part->first) / part->step,
-                                        (inside - part->first) / part->step);
+                                 (inside - part->first) / part->step);
     if (end.x > part->end.x) {
         const auto east = range_within({part->end.x, first.y}, end);
         if (!east) {

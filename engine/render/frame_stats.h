@@ -23,7 +23,7 @@ struct FrameStats {
         int tiles_occluded = 0; ///< behind nearer ground of the same terrain
         std::size_t triangles_outside_frustum = 0;
         std::size_t triangles_under_error = 0; ///< that the samples have more than was drawn
-        int selections_unchanged = 0; ///< 1: what to draw was decided for the frame before
+        int selections_unchanged = 0;          ///< 1: what to draw was decided for the frame before
         int details_too_small = 0; ///< terrain tiles too far for the tile of detail on them
         int cuts_unchanged = 0;    ///< tiles whose triangles are those of the frame before
         int uploads_unchanged = 0; ///< tiles and maps already where they are drawn from

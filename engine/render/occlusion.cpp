@@ -43,8 +43,8 @@ void drop_occluded(DrawList& list) {
         const auto tile = static_cast<std::size_t>(draw.tile);
         return entry->second && entry->second->hides(draw.terrain->surface->tiles()[tile].bounds);
     });
-    const auto streamed = std::erase_if(list.streamed_tiles,
-                                        [](const StreamedDraw& draw) { return draw.is_hidden; });
+    const auto streamed =
+        std::erase_if(list.streamed_tiles, [](const StreamedDraw& draw) { return draw.is_hidden; });
     list.stats.skipped.tiles_occluded += static_cast<int>(dropped + streamed);
 }
 

@@ -49,9 +49,9 @@ bool is_cut(const StreamedDraw& draw);
 
 /// What a tile was cut by, and for.
 struct StreamedCut {
-    std::optional<StreamedShape> shape; ///< made where fewer triangles are asked for
+    std::optional<StreamedShape> shape;     ///< made where fewer triangles are asked for
     std::optional<terrain::ErrorView> view; ///< absent until those triangles are drawn
-    Grid<std::uint8_t> splits; ///< that had to be made for the tiles around it
+    Grid<std::uint8_t> splits;              ///< that had to be made for the tiles around it
 };
 
 /// A tile and its cut, which lasts.

@@ -34,8 +34,8 @@ constexpr std::size_t most_wanted = 16;
 struct Candidate {
     double along = 0.0; // metres from the eye, along the ground
     terrain::TreeTile id;
-    Box expected;          // local metres
-    double urgency = 0.0;  // excess of the tile above
+    Box expected;         // local metres
+    double urgency = 0.0; // excess of the tile above
     terrain::TreeTile above;
 
     friend bool operator<(const Candidate& a, const Candidate& b) {
@@ -56,8 +56,7 @@ public:
         : stream_(*terrain.stream), camera_(camera), world_from_local_(world_from_local),
           frustum_(scene::clip_from_world(camera, size)) {
         const bool is_solid = terrain.material.technique.id == scene::TechniqueId::polygons;
-        const double error =
-            is_solid ? scene::parameter(terrain.material.technique, "error") : 0.0;
+        const double error = is_solid ? scene::parameter(terrain.material.technique, "error") : 0.0;
         most_error_ = error > 0.0 ? error : default_tile_error;
         is_perspective_ = camera.projection == scene::ProjectionKind::perspective;
         pixels_per_metre_ = is_perspective_
@@ -66,8 +65,8 @@ public:
         eye_ = glm::dvec3(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
         if (is_solid && !terrain.material.wireframe &&
             stream_.maker().overview().placement().kind() == terrain::PlacementKind::plane) {
-            horizon_ = horizon_view(camera, size, world_from_local,
-                                    (1.0 + share_of_tiles) * most_error_);
+            horizon_ =
+                horizon_view(camera, size, world_from_local, (1.0 + share_of_tiles) * most_error_);
         }
     }
 
@@ -165,8 +164,13 @@ public:
 private:
     // Of the error of a level: what all finer ones move the ground by together.
     static constexpr double all_finer = 2.0;
+    // Four times as coarse as that of a whole terrain: a view is chosen for again and again, and
+    // hardly more is drawn.
+    static constexpr int sectors = 128;
+    static constexpr double stretch_growth = 1.0 + 1.0 / 8.0;
 
-    [[nodiscard]] std::optional<terrain::HeightRange> range_at_eye(const DrawnGround& ground) const {
+    [[nodiscard]] std::optional<terrain::HeightRange>
+    range_at_eye(const DrawnGround& ground) const {
         const glm::dvec2 eye(view_.horizon()->eye);
         return ground.range(eye - view_.horizon()->near, eye + view_.horizon()->near);
     }
@@ -185,7 +189,8 @@ private:
         };
         horizon_.emplace(ground,
                          terrain::HorizonReach{view_.stream().maker().spacing(0),
-                                               glm::length(samples * overview.spacing)},
+                                               glm::length(samples * overview.spacing), sectors,
+                                               stretch_growth},
                          *view_.horizon());
     }
 
@@ -242,8 +247,8 @@ private:
     void add(std::shared_ptr<const scene::StreamedTile> tile, double along) {
         const double excess = view_.excess_of(*tile);
         const bool gives_way = excess > most_excess_ && !whole_.contains(tile->id);
-        const Box box = gives_way ? view_.stream().maker().bounds(tile->id, range_below(*tile))
-                                  : tile->bounds;
+        const Box box =
+            gives_way ? view_.stream().maker().bounds(tile->id, range_below(*tile)) : tile->bounds;
         if (nearer_.hides(box, along)) {
             choice_.hidden.push_back(view_.drawn(std::move(tile)));
         } else if (gives_way) {
@@ -306,6 +311,7 @@ std::vector<terrain::TreeTile> most_urgent(std::vector<Candidate> missing) {
     });
     missing.resize(std::min(missing.size(), most_wanted));
     std::vector<terrain::TreeTile> wanted;
+    wanted.reserve(missing.size());
     for (const Candidate& candidate : missing) {
         wanted.push_back(candidate.id);
     }

@@ -18,12 +18,6 @@
 namespace reljef::terrain {
 namespace {
 
-constexpr int sector_count = 256;
-constexpr double sector_angle = 2.0 * std::numbers::pi / sector_count;
-constexpr double radius_growth = 1.0 + 0x1p-4;
-// The rectangle around a stretch reaches less than so many times as far as the stretch: at 45
-// degrees √2 cos(45° − sector_angle/2).
-constexpr double rectangle_growth = 1.0 + 0x1p-6;
 constexpr double hides_nothing = -std::numeric_limits<double>::infinity();
 
 glm::dvec2 direction(double azimuth) {
@@ -120,14 +114,19 @@ std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const Min
     }
     const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
     const glm::dvec2 spacing = heightfield.spacing;
-    return Horizon(std::move(ground),
-                   {std::max(spacing.x, spacing.y), glm::length(last * spacing)}, view);
+    return Horizon(std::move(ground), {std::max(spacing.x, spacing.y), glm::length(last * spacing)},
+                   view);
 }
 
 Horizon::Horizon(GroundRange ground, const HorizonReach& reach, const HorizonView& view)
-    : ground_(std::move(ground)), view_(view), sectors_(sector_count) {
-    for (double radius = std::max(reach.first, view.near); radius < radius_growth * reach.last;
-         radius *= radius_growth) {
+    : ground_(std::move(ground)), view_(view),
+      sector_angle_(2.0 * std::numbers::pi / reach.sectors),
+      sectors_(static_cast<std::size_t>(reach.sectors)) {
+    // The most is at 45 degrees.
+    rectangle_growth_ =
+        std::sqrt(2.0) * std::cos(0.25 * std::numbers::pi - 0.5 * sector_angle_) + 0x1p-10;
+    for (double radius = std::max(reach.first, view.near); radius < reach.growth * reach.last;
+         radius *= reach.growth) {
         radii_.push_back(radius);
     }
 }
@@ -135,18 +134,20 @@ Horizon::Horizon(GroundRange ground, const HorizonReach& reach, const HorizonVie
 bool Horizon::hides(const Box& box) {
     const SeenBox seen = seen_from(view_.eye, box);
     // The last stretch that ends before it begins.
-    const double end = seen.nearest / rectangle_growth;
+    const double end = seen.nearest / rectangle_growth_;
     const auto stretch = std::upper_bound(radii_.begin(), radii_.end(), end) - radii_.begin() - 2;
     const double angle = std::atan(seen.slope) + view_.margin;
     if (stretch < 0 || angle >= 0.5 * std::numbers::pi) {
         return false;
     }
     const double slope = std::tan(angle);
+    const auto count = static_cast<int>(sectors_.size());
     // One more on each side is for the rounding.
-    const int first = static_cast<int>(std::floor((seen.azimuth + seen.before) / sector_angle)) - 1;
-    const int last = static_cast<int>(std::floor((seen.azimuth + seen.after) / sector_angle)) + 1;
+    const int first =
+        static_cast<int>(std::floor((seen.azimuth + seen.before) / sector_angle_)) - 1;
+    const int last = static_cast<int>(std::floor((seen.azimuth + seen.after) / sector_angle_)) + 1;
     for (int index = first; index <= last; ++index) {
-        const int sector = (index % sector_count + sector_count) % sector_count;
+        const int sector = (index % count + count) % count;
         if (!(slope < steepest_before(sector, static_cast<std::size_t>(stretch)))) {
             return false;
         }
@@ -167,9 +168,9 @@ double Horizon::steepest_before(int sector, std::size_t stretch) {
 // Nothing where the ground does not cover it.
 std::optional<double> Horizon::slope_of(int sector, std::size_t stretch) const {
     // The tangent to the outer arc in its middle meets the sides there.
-    const double outside = 1.0 / std::cos(0.5 * sector_angle);
-    const glm::dvec2 right = direction(sector * sector_angle);
-    const glm::dvec2 left = direction((sector + 1) * sector_angle);
+    const double outside = 1.0 / std::cos(0.5 * sector_angle_);
+    const glm::dvec2 right = direction(sector * sector_angle_);
+    const glm::dvec2 left = direction((sector + 1) * sector_angle_);
     const double inner = radii_[stretch];
     const double outer = radii_[stretch + 1];
     const std::array corners{inner * right, inner * left, outside * outer * right,

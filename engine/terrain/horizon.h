@@ -25,10 +25,13 @@ struct HorizonView {
 /// metres); nothing where it does not cover all of it. More than there is does no harm.
 using GroundRange = std::function<std::optional<HeightRange>(glm::dvec2 low, glm::dvec2 high)>;
 
-/// The stretches of ground that a horizon looks at begin so far from the eye, and end, metres.
+/// The stretches of ground that a horizon looks at: begin so far from the eye, and end, metres; and
+/// how fine they are.
 struct HorizonReach {
     double first = 1.0;
     double last = 1.0;
+    int sectors = 256;                ///< >= 8
+    double growth = 1.0 + 1.0 / 16.0; ///< > 1, of the distance from each to the next
 };
 
 /// How high ground over a plane rises around an eye above it, from below: in each of some
@@ -39,8 +42,8 @@ class Horizon {
 public:
     /// Precondition: the eye stands clear of the ground, above it (by more than view.near).
     Horizon(GroundRange ground, const HorizonReach& reach, const HorizonView& view);
-    /// Of a heightfield, by its pyramid; absent where nothing can be said: the placement is bent, or
-    /// the eye does not stand clear of the ground, above it. All of them outlive the horizon.
+    /// Of a heightfield, by its pyramid; absent where nothing can be said: the placement is bent,
+    /// or the eye does not stand clear of the ground, above it. All of them outlive the horizon.
     static std::optional<Horizon> create(const Heightfield& heightfield,
                                          const MinMaxPyramid& pyramid, const Placement& placement,
                                          const HorizonView& view);
@@ -56,7 +59,9 @@ private:
 
     GroundRange ground_;
     HorizonView view_;
-    std::vector<double> radii_; // metres; stretch i lies between radii i and i + 1
+    double sector_angle_ = 0.0;     // radians
+    double rectangle_growth_ = 1.0; // a stretch's rectangle reaches at most so many times as far
+    std::vector<double> radii_;     // metres; stretch i lies between radii i and i + 1
     // By sector, as far as asked for: the steepest slope that is hidden behind stretches 0 … i.
     std::vector<std::vector<double>> sectors_;
 };

@@ -45,7 +45,10 @@ std::vector<SceneChange> scene_changes() {
     return {
         {"eye", [](ViewedWorld& world) { world.camera->get<Camera>()->eye.x += 1.0; }},
         {"fov", [](ViewedWorld& world) { world.camera->get<Camera>()->vertical_fov = 40.0; }},
-        {"camera node", [](ViewedWorld& world) { world.camera->set_position({0, 0, 1}); }},
+        {"camera node",
+         [](ViewedWorld& world) {
+             world.camera->set_position({0, 0, 1});
+         }},
         {"another camera",
          [](ViewedWorld& world) {
              world.scene.set_active_camera(world.scene.add_camera(Camera{}));
@@ -55,7 +58,10 @@ std::vector<SceneChange> scene_changes() {
         {"no sun", [](ViewedWorld& world) { world.light->set_visible(false); }},
         {"sky", [](ViewedWorld& world) { world.scene.set_sky({.visibility = 100.0}); }},
         {"no sky", [](ViewedWorld& world) { world.scene.remove_sky(); }},
-        {"terrain's place", [](ViewedWorld& world) { world.terrain->set_position({0, 0, 3}); }},
+        {"terrain's place",
+         [](ViewedWorld& world) {
+             world.terrain->set_position({0, 0, 3});
+         }},
         {"technique",
          [](ViewedWorld& world) {
              world.ground().material.technique = scene::parse_technique("polygons:error=2").value();
@@ -73,8 +79,10 @@ std::vector<SceneChange> scene_changes() {
          [](ViewedWorld& world) {
              world.ground().detail = std::make_shared<const scene::GroundDetail>();
          }},
-        {"mesh", [](ViewedWorld& world) { world.mesh->get<scene::MeshNode>()->mesh =
-                                              std::make_shared<const scene::Mesh>(); }},
+        {"mesh",
+         [](ViewedWorld& world) {
+             world.mesh->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>();
+         }},
         {"mesh's colour",
          [](ViewedWorld& world) {
              world.mesh->get<scene::MeshNode>()->material.color = glm::vec3(0.1F);

@@ -47,15 +47,14 @@ struct RidgeWorld {
 
     explicit RidgeWorld(const char* technique = "polygons:error=1") {
         const int side = ridge_samples / ridge_reduction;
-        auto overview =
-            test::plane_heightfield(test::made_heights(side, side,
-                                                       [](int col, int row) {
-                                                           return ridge_height(
-                                                               1.0 * ridge_reduction *
-                                                                   glm::dvec2(col, row) +
-                                                               0.5 * (ridge_reduction - 1));
-                                                       }),
-                                    glm::dvec2(ridge_spacing * ridge_reduction));
+        auto overview = test::plane_heightfield(
+            test::made_heights(side, side,
+                               [](int col, int row) {
+                                   return ridge_height(1.0 * ridge_reduction *
+                                                           glm::dvec2(col, row) +
+                                                       0.5 * (ridge_reduction - 1));
+                               }),
+            glm::dvec2(ridge_spacing * ridge_reduction));
         terrain = test::add_terrain(scene, std::move(overview)).get<scene::TerrainNode>();
         terrain->material.technique = scene::parse_technique(technique).value();
         camera = &scene.add_camera();
@@ -163,8 +162,7 @@ TEST_F(StreamedOcclusion, NothingIsSeenThroughNearerGround) {
             for (int x = 3; x < size.x; x += 7) {
                 const Hit& hit = hits(x, y);
                 const double depth = hit.col < 0.0F ? 1e9 : 0.98 * hit.depth;
-                const Ray ray =
-                    scene::view_ray(world.scene.camera(), size, glm::dvec2(x, y) + 0.5);
+                const Ray ray = scene::view_ray(world.scene.camera(), size, glm::dvec2(x, y) + 0.5);
                 ASSERT_LE(deepest_before(ray, depth) * pixels_per_radian, 2.0)
                     << i << ": " << x << ',' << y;
             }
@@ -210,7 +208,8 @@ TEST(StreamedOcclusionChoice, NothingIsHiddenWhereItIsNotSure) {
     const auto hidden = [&] {
         world.look(camera);
         world.bring();
-        return world.choice().hidden.size() + static_cast<std::size_t>(world.choice().hidden_unread);
+        return world.choice().hidden.size() +
+               static_cast<std::size_t>(world.choice().hidden_unread);
     };
     EXPECT_GT(hidden(), 0U);
     camera.projection = scene::ProjectionKind::orthographic;
