@@ -129,9 +129,10 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
 void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop) {
     const std::array views{scene.camera()};
     for_each_stream(scene, [&](scene::TileStream& stream) {
+        const auto readings = [&] { return stream.stats().read + stream.stats().failed; };
         int before = -1;
-        while (!stop.stop_requested() && stream.stats().read != before) {
-            before = stream.stats().read;
+        while (!stop.stop_requested() && readings() != before) {
+            before = readings();
             const auto wanted = render::wanted_tiles(scene, stream, views, size);
             stream.want(wanted);
             if (wanted.empty() || !stream.wait(stop)) {

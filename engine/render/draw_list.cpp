@@ -62,8 +62,9 @@ glm::dvec3 away_from(glm::dvec3 point, const Box& box) {
 // Adds what one visible node shows.
 class Selector {
 public:
-    Selector(DrawList& list, const Frustum& frustum, std::size_t most_tiles)
-        : list_(list), frustum_(frustum) {
+    Selector(DrawList& list, const Frustum& frustum, const TileChoiceOptions& options,
+             std::size_t most_tiles)
+        : list_(list), frustum_(frustum), options_(options) {
         seen_.reserve(most_tiles);
     }
 
@@ -140,7 +141,8 @@ private:
         }
         const bool flat =
             scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
-        TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local);
+        TileChoice choice =
+            choose_tiles(terrain, list_.camera, list_.size, world_from_local, options_);
         const auto add = [&](TileChoice::Drawn& drawn, bool is_hidden) {
             list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
                                             drawn.distance, detail_of(terrain, drawn.distance),
@@ -202,6 +204,7 @@ private:
 
     DrawList& list_;
     const Frustum& frustum_;
+    const TileChoiceOptions& options_;
     std::vector<SeenTile> seen_;
     std::vector<ShownTerrain> shown_;
 };
@@ -221,7 +224,7 @@ DrawList select(const scene::Scene& scene, glm::ivec2 size) {
     return select(SceneView(scene, size));
 }
 
-DrawList select(const SceneView& view) {
+DrawList select(const SceneView& view, const TileChoiceOptions& options) {
     DrawList list;
     list.camera = view.camera();
     list.size = view.size();
@@ -231,7 +234,7 @@ DrawList select(const SceneView& view) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }
     const Frustum frustum(scene::clip_from_world(list.camera, list.size));
-    Selector selector(list, frustum, most_tiles(view));
+    Selector selector(list, frustum, options, most_tiles(view));
     for (const SeenNode& seen : view.nodes()) {
         selector.add(seen);
     }

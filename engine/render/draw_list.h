@@ -13,6 +13,7 @@
 #include "engine/render/frame_stats.h"
 #include "engine/render/ground_view.h"
 #include "engine/render/scene_view.h"
+#include "engine/render/tile_choice.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/streamed_tile.h"
 #include "engine/scene/terrain_light.h"
@@ -90,7 +91,7 @@ struct DrawList {
 /// depth range is fitted to the scene. Reads nothing but the view (and the tiles of its streams,
 /// whose revisions it has): the same view gives the same list. What the list draws is the scene's
 /// own.
-DrawList select(const SceneView& view);
+DrawList select(const SceneView& view, const TileChoiceOptions& options = {});
 /// Looks at the scene through its camera.
 DrawList select(const scene::Scene& scene, glm::ivec2 size);
 

@@ -27,6 +27,12 @@ void for_each_within(const Grid<Value>& grid, glm::ivec2 low, glm::ivec2 high, c
     }
 }
 
+// Which of the four tiles below one of a level holds a sample of it.
+std::size_t way_below(int level, glm::ivec2 sample) {
+    const int side = terrain::tile_cells << (level - 1);
+    return static_cast<std::size_t>((sample.x / side) % 2 + 2 * ((sample.y / side) % 2));
+}
+
 // Between two places on a tile's vertices, true metres: of the vertices around where these are few,
 // else of blocks.
 HeightRange range_of(const scene::StreamedTile& tile, glm::dvec2 first, glm::dvec2 end) {
@@ -52,12 +58,22 @@ HeightRange range_of(const scene::StreamedTile& tile, glm::dvec2 first, glm::dve
 } // namespace
 
 DrawnGround::DrawnGround(const scene::TileMaker& maker)
-    : maker_(&maker), last_(maker.tree().cols() - 1, maker.tree().rows() - 1) {}
+    : maker_(&maker), last_(maker.tree().cols() - 1, maker.tree().rows() - 1), branches_(1) {}
 
 void DrawnGround::add(std::shared_ptr<const scene::StreamedTile> tile) {
     const TileTree& tree = maker_->tree();
-    parts_.push_back({glm::dvec2(TileTree::first(tile->id)),
-                      glm::dvec2(tree.sample(tile->id, tile->cells)),
+    const glm::ivec2 first = TileTree::first(tile->id);
+    std::size_t at = 0;
+    for (int level = tree.root().level; level > tile->id.level; --level) {
+        const std::size_t way = way_below(level, first);
+        if (branches_[at].below[way] < 0) {
+            branches_[at].below[way] = static_cast<int>(branches_.size());
+            branches_.emplace_back();
+        }
+        at = static_cast<std::size_t>(branches_[at].below[way]);
+    }
+    branches_[at].part = static_cast<int>(parts_.size());
+    parts_.push_back({glm::dvec2(first), glm::dvec2(tree.sample(tile->id, tile->cells)),
                       static_cast<double>(TileTree::step(tile->id)), std::move(tile)});
 }
 
@@ -106,19 +122,20 @@ std::optional<HeightRange> DrawnGround::range_within(glm::dvec2 first, glm::dvec
 }
 
 const DrawnGround::Part* DrawnGround::part_at(glm::dvec2 sample) const {
-    const auto holds = [&](const Part& part) {
-        return sample.x >= part.first.x && sample.y >= part.first.y && sample.x < part.end.x &&
-               sample.y < part.end.y;
-    };
-    if (latest_ < parts_.size() && holds(parts_[latest_])) {
-        return &parts_[latest_];
+    const glm::ivec2 at(sample);
+    int level = maker_->tree().root().level;
+    const Branch* branch = &branches_.front();
+    while (branch->part < 0) {
+        const int below = level > 0 ? branch->below[way_below(level, at)] : -1;
+        if (below < 0) {
+            return nullptr;
+        }
+        branch = &branches_[static_cast<std::size_t>(below)];
+        --level;
     }
-    const auto found = std::find_if(parts_.begin(), parts_.end(), holds);
-    if (found == parts_.end()) {
-        return nullptr;
-    }
-    latest_ = static_cast<std::size_t>(found - parts_.begin());
-    return &*found;
+    const Part& part = parts_[static_cast<std::size_t>(branch->part)];
+    // Not on the raster's far border, beyond which nothing is.
+    return sample.x < part.end.x && sample.y < part.end.y ? &part : nullptr;
 }
 
 } // namespace reljef::render

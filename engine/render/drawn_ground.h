@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -30,6 +31,11 @@ private:
         double step = 1.0; // samples of the tree from vertex to vertex
         std::shared_ptr<const scene::StreamedTile> tile;
     };
+    // A tile of the tree: a part, or what is below it.
+    struct Branch {
+        int part = -1;
+        std::array<int, 4> below{-1, -1, -1, -1}; // branches
+    };
     [[nodiscard]] glm::dvec2 sample_of(glm::dvec2 place) const;
     [[nodiscard]] const Part* part_at(glm::dvec2 sample) const;
     [[nodiscard]] std::optional<terrain::HeightRange> range_within(glm::dvec2 first,
@@ -38,7 +44,7 @@ private:
     const scene::TileMaker* maker_;
     glm::dvec2 last_{0.0}; // sample of the tree
     std::vector<Part> parts_;
-    mutable std::size_t latest_ = 0; // part that was found: the next is often the same
+    std::vector<Branch> branches_; // the root first
 };
 
 } // namespace reljef::render

@@ -128,7 +128,7 @@ const DrawList& Driver::list_of(const scene::Scene& scene) {
         list_->stats.skipped.selections_unchanged = 1;
         return *list_;
     }
-    list_ = select(view_);
+    list_ = select(view_, {.keeps_hidden = !options_.occlusion});
     if (options_.occlusion) {
         drop_occluded(*list_);
     }

@@ -64,7 +64,8 @@ struct TileToCut {
 
 /// Finds the triangles of all tiles of a cover: as few as the view allows where the tiles still
 /// meet vertex on vertex. Of the error that is asked for, theirs is what the estimate of the error
-/// of a tile's vertices leaves (as of independent errors), at least half. Nothing is done
+/// of the vertices leaves, the tile's own and on its borders those around it (errors of both kinds
+/// seldom add up), at least half. Nothing is done
 /// where neither the cover is new nor a tile's view; else the view of a cut whose triangles are new
 /// is for the caller to set, once they are drawn. Precondition: a tile for each of the cover, or
 /// none.

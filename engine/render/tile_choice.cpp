@@ -12,18 +12,27 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/render/drawn_ground.h"
 #include "engine/render/horizon_view.h"
+#include "engine/render/nearer_ground.h"
 
 namespace reljef::render {
 namespace {
 
-// How far beyond a tile's own heights those of the finer ones below it are looked for: averages
-// are lower than peaks.
+// How far beyond a tile's own heights those of the finer ones below it are looked for, an estimate
+// (averages are lower than peaks): of its range, and errors of its own. What is left out as hidden
+// is looked for farther: a tower where four averages meet stands 16 times as high in the next
+// level.
 constexpr double more_of_range = 0.25;
+constexpr double errors_seen = 1.0;
+constexpr double errors_hidden = 16.0;
 
 // Of the error: what is left is for fewer triangles.
 constexpr double share_of_tiles = 0.5;
+
+// Errors that what hides may be seen lower, and what is hidden higher, than its tile's heights.
+// Where every tile is as fine as it should be a border goes to the vertices of a coarser tile that
+// is, too: both of their errors, on either side. Fewer triangles may take all of the error.
+constexpr double errors_of_horizon = 2.0 * (share_of_tiles + share_of_tiles) + 1.0;
 
 // Of images where finer ones are to be had, pixels from texel to texel.
 constexpr double most_texel = 1.0;
@@ -37,14 +46,15 @@ struct Candidate {
     Box expected;         // local metres
     double urgency = 0.0; // excess of the tile above
     terrain::TreeTile above;
+    bool is_hidden = false; // the tile above is
 
     friend bool operator<(const Candidate& a, const Candidate& b) {
         return a.along != b.along ? a.along > b.along : b.id < a.id;
     }
 };
 
-terrain::HeightRange range_below(const scene::StreamedTile& tile) {
-    const double more = more_of_range * (tile.range.high - tile.range.low) + tile.error;
+terrain::HeightRange range_below(const scene::StreamedTile& tile, double errors) {
+    const double more = more_of_range * (tile.range.high - tile.range.low) + errors * tile.error;
     return {tile.range.low - more, tile.range.high + more};
 }
 
@@ -66,7 +76,7 @@ public:
         if (is_solid && !terrain.material.wireframe &&
             stream_.maker().overview().placement().kind() == terrain::PlacementKind::plane) {
             horizon_ =
-                horizon_view(camera, size, world_from_local, (1.0 + share_of_tiles) * most_error_);
+                horizon_view(camera, size, world_from_local, errors_of_horizon * most_error_);
         }
     }
 
@@ -108,11 +118,6 @@ public:
         return std::max(errors, texels);
     }
 
-    /// Whether a tile's vertices are as near to the ground as they should be.
-    [[nodiscard]] bool is_true(const TileChoice::Drawn& drawn) const {
-        return drawn.error <= share_of_tiles * most_error_;
-    }
-
 private:
     [[nodiscard]] double distance_to(const scene::StreamedTile& tile) const {
         const Box bounds = transformed(world_from_local_, tile.bounds);
@@ -134,79 +139,30 @@ private:
     std::optional<terrain::HorizonView> horizon_;
 };
 
-// What hides farther tiles of a stream, as far as it is known.
-class NearerGround {
-public:
-    explicit NearerGround(const StreamView& view) : view_(view), ground_(view.stream().maker()) {}
+// What keeps a walk from the tiles that the view should have.
+struct WalkLimits {
+    double most_excess = 1.0;          // tiles of no more do not give way
+    std::set<terrain::TreeTile> whole; // nor do these: what is below them is not there
+    // Nearer ground hides what is behind it. Only where nothing else keeps tiles from giving way:
+    // a border goes to the vertices of the coarsest tile beside it, however far that is off.
+    bool hides = true;
 
-    void add(std::shared_ptr<const scene::StreamedTile> tile) { ground_.add(std::move(tile)); }
-
-    /// A tile that is under the eye, where it is not seen.
-    void add_under_eye(std::shared_ptr<const scene::StreamedTile> tile) {
-        if (view_.horizon()) {
-            const double more = all_finer * tile->error;
-            DrawnGround ground(view_.stream().maker());
-            ground.add(std::move(tile));
-            if (const auto range = range_at_eye(ground)) {
-                under_eye_ = range->high + more;
-            }
-        }
+    void raise(double excess) {
+        most_excess = excess;
+        hides = false;
     }
-
-    /// Precondition: all that is nearer than `along` has been added.
-    bool hides(const Box& box, double along) {
-        if (!is_looked_for_ && view_.horizon() && along > view_.horizon()->near) {
-            make_horizon();
-        }
-        return horizon_ && horizon_->hides(box);
+    void keep_whole(terrain::TreeTile tile) {
+        whole.insert(tile);
+        hides = false;
     }
-
-private:
-    // Of the error of a level: what all finer ones move the ground by together.
-    static constexpr double all_finer = 2.0;
-    // Four times as coarse as that of a whole terrain: a view is chosen for again and again, and
-    // hardly more is drawn.
-    static constexpr int sectors = 128;
-    static constexpr double stretch_growth = 1.0 + 1.0 / 8.0;
-
-    [[nodiscard]] std::optional<terrain::HeightRange>
-    range_at_eye(const DrawnGround& ground) const {
-        const glm::dvec2 eye(view_.horizon()->eye);
-        return ground.range(eye - view_.horizon()->near, eye + view_.horizon()->near);
-    }
-
-    void make_horizon() {
-        is_looked_for_ = true;
-        const auto drawn = range_at_eye(ground_);
-        const std::optional<double> highest = drawn ? std::optional(drawn->high) : under_eye_;
-        if (!highest || !(view_.horizon()->eye.z - view_.horizon()->near > *highest)) {
-            return;
-        }
-        const terrain::Heightfield& overview = view_.stream().maker().overview().heightfield();
-        const glm::dvec2 samples(overview.heights.cols(), overview.heights.rows());
-        const auto ground = [this](glm::dvec2 low, glm::dvec2 high) {
-            return ground_.range(low, high);
-        };
-        horizon_.emplace(ground,
-                         terrain::HorizonReach{view_.stream().maker().spacing(0),
-                                               glm::length(samples * overview.spacing), sectors,
-                                               stretch_growth},
-                         *view_.horizon());
-    }
-
-    const StreamView& view_;
-    DrawnGround ground_;
-    std::optional<double> under_eye_; // metres; highest
-    bool is_looked_for_ = false;
-    std::optional<terrain::Horizon> horizon_; // absent: nothing is sure to hide anything
 };
 
 // One walk through the tree, from the eye outwards.
 class TreeWalk {
 public:
-    /// Tiles of no more than `most_excess`, and those in `whole`, do not give way.
-    TreeWalk(const StreamView& view, double most_excess, const std::set<terrain::TreeTile>& whole)
-        : view_(view), most_excess_(most_excess), whole_(whole), nearer_(view) {}
+    TreeWalk(const StreamView& view, const WalkLimits& limits, const TileChoiceOptions& options)
+        : view_(view), limits_(limits), options_(options),
+          nearer_(view.stream().maker(), limits.hides ? view.horizon() : std::nullopt) {}
     TreeWalk(const TreeWalk&) = delete;
 
     void walk(const scene::StreamedTile& root) {
@@ -222,55 +178,70 @@ public:
     [[nodiscard]] std::size_t count() const { return choice_.drawn.size() + missing_.size(); }
     /// Of the tiles that gave way.
     [[nodiscard]] std::vector<double>& excesses() { return excesses_; }
-    /// What is drawn and what is over it.
-    [[nodiscard]] const std::vector<terrain::TreeTile>& seen() const { return seen_; }
+    /// What would be drawn and what is over it stays in memory.
+    void mark_seen() const {
+        for (const terrain::TreeTile tile : seen_) {
+            static_cast<void>(view_.stream().find(tile));
+        }
+    }
     TileChoice take() { return std::move(choice_); }
 
 private:
     void visit(const Candidate& candidate) {
         // Whether it is there makes no difference: the choice is the same whatever came before.
-        const bool is_expected_hidden = nearer_.hides(candidate.expected, candidate.along);
+        const bool is_hidden =
+            candidate.is_hidden || nearer_.hides(candidate.expected, candidate.along);
         auto tile = view_.stream().peek(candidate.id);
-        if (is_expected_hidden && tile == nullptr) {
-            ++choice_.hidden_unread;
-        } else if (is_expected_hidden) {
-            choice_.hidden.push_back(view_.drawn(std::move(tile)));
+        if (is_hidden && !options_.keeps_hidden) {
+            leave_out(std::move(tile));
         } else if (tile == nullptr) {
             missing_.push_back(candidate);
         } else if (tile->id.level == 0 && !view_.may_see(tile->bounds)) {
             note_outside(tile, candidate.along);
         } else {
-            add(std::move(tile), candidate.along);
+            add(std::move(tile), candidate.along, is_hidden);
         }
     }
 
-    void add(std::shared_ptr<const scene::StreamedTile> tile, double along) {
-        const double excess = view_.excess_of(*tile);
-        const bool gives_way = excess > most_excess_ && !whole_.contains(tile->id);
-        const Box box =
-            gives_way ? view_.stream().maker().bounds(tile->id, range_below(*tile)) : tile->bounds;
-        if (nearer_.hides(box, along)) {
-            choice_.hidden.push_back(view_.drawn(std::move(tile)));
-        } else if (gives_way) {
-            excesses_.push_back(excess);
-            seen_.push_back(tile->id);
-            push_below(tile, excess);
+    void leave_out(std::shared_ptr<const scene::StreamedTile> tile) {
+        if (tile == nullptr) {
+            ++choice_.hidden_unread;
         } else {
-            seen_.push_back(tile->id);
-            choice_.drawn.push_back(view_.drawn(std::move(tile)));
-            if (view_.is_true(choice_.drawn.back())) {
-                nearer_.add(choice_.drawn.back().tile);
-            }
+            choice_.hidden.push_back(view_.drawn(std::move(tile)));
         }
     }
 
-    void push_below(const std::shared_ptr<const scene::StreamedTile>& tile, double excess) {
-        const scene::TileStream& stream = view_.stream();
-        for (const terrain::TreeTile below : stream.tree().children(tile->id)) {
-            const Box expected = stream.maker().bounds(below, range_below(*tile));
+    void add(std::shared_ptr<const scene::StreamedTile> tile, double along, bool is_above_hidden) {
+        const double excess = view_.excess_of(*tile);
+        const bool gives_way = excess > limits_.most_excess && !limits_.whole.contains(tile->id);
+        const Box box =
+            gives_way ? view_.stream().maker().bounds(tile->id, range_below(*tile, errors_hidden))
+                      : tile->bounds;
+        const bool is_hidden = is_above_hidden || nearer_.hides(box, along);
+        if (is_hidden && !options_.keeps_hidden) {
+            leave_out(std::move(tile));
+            return;
+        }
+        seen_.push_back(tile->id);
+        if (gives_way) {
+            excesses_.push_back(excess);
+            push_below(tile, excess, is_hidden);
+        } else if (is_hidden) {
+            choice_.hidden.push_back(view_.drawn(std::move(tile)));
+        } else {
+            nearer_.add(tile);
+            choice_.drawn.push_back(view_.drawn(std::move(tile)));
+        }
+    }
+
+    void push_below(const std::shared_ptr<const scene::StreamedTile>& tile, double excess,
+                    bool is_hidden) {
+        const scene::TileMaker& maker = view_.stream().maker();
+        for (const terrain::TreeTile below : view_.stream().tree().children(tile->id)) {
+            const Box expected = maker.bounds(below, range_below(*tile, errors_hidden));
             const double along = view_.along(expected);
-            if (view_.may_see(expected)) {
-                open_.push({along, below, expected, excess, tile->id});
+            if (view_.may_see(maker.bounds(below, range_below(*tile, errors_seen)))) {
+                open_.push({along, below, expected, excess, tile->id, is_hidden});
             } else {
                 note_outside(tile, along);
             }
@@ -286,8 +257,8 @@ private:
     }
 
     const StreamView& view_;
-    double most_excess_;
-    const std::set<terrain::TreeTile>& whole_;
+    const WalkLimits& limits_;
+    const TileChoiceOptions& options_;
     NearerGround nearer_;
     std::priority_queue<Candidate> open_;
     std::vector<Candidate> missing_;
@@ -318,10 +289,51 @@ std::vector<terrain::TreeTile> most_urgent(std::vector<Candidate> missing) {
     return wanted;
 }
 
+bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>& missing) {
+    return !missing.empty() &&
+           std::all_of(missing.begin(), missing.end(), [&](const Candidate& candidate) {
+               return stream.has_given_up(candidate.id);
+           });
+}
+
+// Walks until one finds all that it needs. An end there is: each walk but the last raises the limit
+// to the excess of a tile that gave way, or keeps one whole that did, or is the last that hides.
+TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
+                  const TileChoiceOptions& options) {
+    const scene::TileStream& stream = view.stream();
+    WalkLimits limits;
+    std::optional<std::vector<terrain::TreeTile>> wanted;
+    while (true) {
+        TreeWalk walk(view, limits, options);
+        walk.walk(root);
+        if (walk.count() > stream.most_drawn()) {
+            limits.raise(raised_limit(walk.excesses(), walk.count() - stream.most_drawn()));
+            continue;
+        }
+        walk.mark_seen();
+        if (limits.hides && are_given_up(stream, walk.missing())) {
+            limits.hides = false; // for long: what is drawn meanwhile is wanted, too
+            continue;
+        }
+        if (!wanted) {
+            wanted = most_urgent(walk.missing());
+        }
+        if (walk.missing().empty()) {
+            TileChoice choice = walk.take();
+            choice.wanted = std::move(*wanted);
+            return choice;
+        }
+        for (const Candidate& candidate : walk.missing()) {
+            limits.keep_whole(candidate.above);
+        }
+    }
+}
+
 } // namespace
 
 TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
-                        glm::ivec2 size, const glm::dmat4& world_from_local) {
+                        glm::ivec2 size, const glm::dmat4& world_from_local,
+                        const TileChoiceOptions& options) {
     check(terrain.stream != nullptr, "a streamed terrain was expected");
     const scene::TileStream& stream = *terrain.stream;
     const auto root = stream.find(stream.tree().root());
@@ -330,32 +342,7 @@ TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& 
         choice.wanted.push_back(stream.tree().root());
         return choice;
     }
-    const StreamView view(terrain, camera, size, world_from_local);
-    double most_excess = 1.0;
-    std::set<terrain::TreeTile> whole; // as what is below them is not there
-    std::optional<std::vector<terrain::TreeTile>> wanted;
-    while (true) {
-        TreeWalk walk(view, most_excess, whole);
-        walk.walk(*root);
-        if (walk.count() > stream.most_drawn()) {
-            most_excess = raised_limit(walk.excesses(), walk.count() - stream.most_drawn());
-            continue;
-        }
-        if (!wanted) {
-            wanted = most_urgent(walk.missing());
-        }
-        if (walk.missing().empty()) {
-            for (const terrain::TreeTile tile : walk.seen()) {
-                static_cast<void>(stream.find(tile));
-            }
-            TileChoice choice = walk.take();
-            choice.wanted = std::move(*wanted);
-            return choice;
-        }
-        for (const Candidate& candidate : walk.missing()) {
-            whole.insert(candidate.above);
-        }
-    }
+    return chosen(StreamView(terrain, camera, size, world_from_local), *root, options);
 }
 
 std::vector<terrain::TreeTile> wanted_tiles(const scene::Scene& scene,

@@ -19,7 +19,7 @@ struct TileChoice {
         double error = 0.0;    ///< of its vertices as it is seen, an estimate, pixels
     };
     std::vector<Drawn> drawn;              ///< from the eye outwards
-    std::vector<Drawn> hidden;             ///< and there, behind what is drawn
+    std::vector<Drawn> hidden;             ///< behind what is drawn, of what is there
     std::vector<terrain::TreeTile> wanted; ///< and not there, the most urgent first
     int outside_frustum = 0;
     int hidden_unread = 0; ///< tiles that are not there and need not be
@@ -31,14 +31,25 @@ inline constexpr double default_tile_error = 1.0;
 /// Where the error allows it, samples are seen at most so many times as far apart.
 inline constexpr double samples_apart_in_errors = 4.0;
 
+struct TileChoiceOptions {
+    /// What nearer ground hides is wanted and chosen as finely as all else, to be `hidden`: for
+    /// looking at what it takes from the picture to leave it out.
+    bool keeps_hidden = false;
+};
+
 /// A tile gives way to those below it where its estimated error is seen larger than half of the
 /// technique's error; where more would be drawn than memory holds, only where it is seen larger
 /// than a limit that leaves no more. Where one below is not there yet, it is wanted, and the
-/// coarser one drawn meanwhile. What lies behind nearer ground that is as fine as it should be
-/// (terrain/horizon.h, of polygons on a plane) is neither drawn nor wanted. The same view of the
+/// coarser one drawn meanwhile. What lies behind nearer ground (terrain/horizon.h, of polygons on a
+/// plane) is neither drawn nor wanted, where all that is drawn is as fine as it should be: nothing
+/// is hidden by what only stands in for finer tiles (and nothing goes unread for that where these
+/// fail for long). How high the ground of tiles rises that are not read is an estimate out of the
+/// coarser ones' range and error: what sticks out of these by more, as a tower of a few samples
+/// does, may be left out, behind nearer ground as beyond the picture's border. The same view of the
 /// same tiles gives the same choice. Nothing at all while the root is not there.
 TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
-                        glm::ivec2 size, const glm::dmat4& world_from_local);
+                        glm::ivec2 size, const glm::dmat4& world_from_local,
+                        const TileChoiceOptions& options = {});
 
 /// All that the cameras' views of a scene want of a stream, the first camera's first.
 std::vector<terrain::TreeTile> wanted_tiles(const scene::Scene& scene,

@@ -117,6 +117,7 @@ void TileStream::want(std::span<const terrain::TreeTile> tiles) {
             }
         }
         wanted_ = std::move(asked);
+        evict();
     }
     changed_.notify_all();
 }
@@ -153,6 +154,13 @@ bool TileStream::wait(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, stop, [&] { return is_settled(Clock::now()); });
     return !stop.stop_requested();
+}
+
+bool TileStream::has_given_up(terrain::TreeTile tile) const {
+    const std::lock_guard lock(mutex_);
+    const auto failure = failures_.find(tile);
+    return failure != failures_.end() && failure->second.latest.attempts >= most_attempts &&
+           !tiles_.contains(tile);
 }
 
 std::uint64_t TileStream::revision() const {

@@ -88,6 +88,7 @@ public:
 
     /// Begins a view: what is to be read, the most urgent first. What was wanted before and is not
     /// any more is cancelled; tiles that are seen and lack some of their picture are asked for too.
+    /// What memory does not hold of views before the last goes.
     void want(std::span<const terrain::TreeTile> tiles);
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
     /// was stopped. Only while nobody else wants.
@@ -95,6 +96,9 @@ public:
     /// The tiles that need a file which fails so often are left alone for half a minute, then read
     /// once more, and so on.
     static constexpr int most_attempts = 4;
+
+    /// Whether a tile is not there as it failed so often, for half a minute at least.
+    [[nodiscard]] bool has_given_up(terrain::TreeTile tile) const;
 
     /// Another number whenever tiles came or went.
     [[nodiscard]] std::uint64_t revision() const;

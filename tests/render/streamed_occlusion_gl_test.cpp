@@ -1,7 +1,12 @@
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include "engine/render/occlusion.h"
 #include "engine/render/tile_choice.h"
@@ -29,14 +34,65 @@ glm::dvec2 sample_at(glm::dvec2 place) {
     return {middle + place.x / ridge_spacing, middle - place.y / ridge_spacing};
 }
 
-scene::TileReading read_ridges(TreeTile tile) {
+// A ridge before a plain, metres.
+double wall_height(glm::dvec2 sample) {
+    const double from_ridge = (sample.x - 1500.0) / 40.0;
+    return 60.0 * std::exp(-from_ridge * from_ridge) + 0.2 * std::sin(0.31 * sample.x);
+}
+
+// Towers of two samples a side over all of it, and how many of the first samples they take.
+constexpr int from_tower_to_tower = 41; // samples
+
+int tower_samples(int samples) {
+    return 2 * (samples / from_tower_to_tower) + std::min(samples % from_tower_to_tower, 2);
+}
+
+// Of the step² samples around one.
+double share_of_towers(glm::dvec2 sample, int step) {
+    const glm::ivec2 first = glm::max(glm::ivec2(glm::ceil(sample - 0.5 * step)), 0);
+    const auto along = [&](int at) {
+        return static_cast<double>(tower_samples(at + step) - tower_samples(at)) / step;
+    };
+    return along(first.x) * along(first.y);
+}
+
+struct Ridges {
+    const char* technique = "polygons:error=1";
+    double (*ground)(glm::dvec2) = ridge_height;
+    double towers = 0.0;     // metres high
+    std::size_t tiles = 400; // that memory holds
+    std::function<bool(TreeTile)> fails = [](TreeTile) { return false; };
+};
+
+// Heights as means, as far as the ridges are not the same then.
+scene::TileReading read_ridges(const Ridges& ridges, TreeTile tile) {
+    scene::TileReading reading;
+    if (ridges.fails(tile)) {
+        reading.faults.push_back({"ridges.tif", "ridges.tif cannot be read"});
+        return reading;
+    }
     const terrain::TileTree tree(ridge_samples, ridge_samples);
     const glm::ivec2 count = tree.cells(tile) + 3;
-    scene::TileReading reading;
     reading.heights = test::made_heights(count.x, count.y, [&](int col, int row) {
-        return ridge_height(glm::dvec2(tree.sample(tile, {col - 1, row - 1})));
+        const glm::dvec2 sample(tree.sample(tile, {col - 1, row - 1}));
+        return ridges.ground(sample) +
+               ridges.towers * share_of_towers(sample, terrain::TileTree::step(tile));
     });
     return reading;
+}
+
+terrain::Heightfield overview_of(const Ridges& ridges) {
+    const int side = ridge_samples / ridge_reduction;
+    return test::plane_heightfield(
+        test::made_heights(side, side,
+                           [&](int col, int row) {
+                               const glm::dvec2 sample =
+                                   1.0 * ridge_reduction * glm::dvec2(col, row) +
+                                   0.5 * (ridge_reduction - 1);
+                               return ridges.ground(sample) +
+                                      ridges.towers * share_of_towers(sample, ridge_reduction);
+                           }),
+        glm::dvec2(ridge_spacing * ridge_reduction));
 }
 
 struct RidgeWorld {
@@ -45,41 +101,50 @@ struct RidgeWorld {
     scene::TerrainNode* terrain = nullptr;
     glm::ivec2 picture = size;
 
-    explicit RidgeWorld(const char* technique = "polygons:error=1") {
-        const int side = ridge_samples / ridge_reduction;
-        auto overview = test::plane_heightfield(
-            test::made_heights(side, side,
-                               [](int col, int row) {
-                                   return ridge_height(1.0 * ridge_reduction *
-                                                           glm::dvec2(col, row) +
-                                                       0.5 * (ridge_reduction - 1));
-                               }),
-            glm::dvec2(ridge_spacing * ridge_reduction));
-        terrain = test::add_terrain(scene, std::move(overview)).get<scene::TerrainNode>();
-        terrain->material.technique = scene::parse_technique(technique).value();
+    explicit RidgeWorld(const Ridges& ridges = {}) {
+        terrain = test::add_terrain(scene, overview_of(ridges)).get<scene::TerrainNode>();
+        terrain->material.technique = scene::parse_technique(ridges.technique).value();
         camera = &scene.add_camera();
         scene.add_light();
         scene.set_sky({});
         terrain->stream = std::make_shared<scene::TileStream>(
             scene::TileMaker(terrain->surface, terrain::TileTree(ridge_samples, ridge_samples),
                              ridge_reduction),
-            [](TreeTile tile, const std::stop_token&) { return read_ridges(tile); },
-            scene::TileStreamOptions{.memory_budget = 400 * scene::bytes_per_tile, .threads = 2});
+            [ridges](TreeTile tile, const std::stop_token&) { return read_ridges(ridges, tile); },
+            scene::TileStreamOptions{.memory_budget = ridges.tiles * scene::bytes_per_tile,
+                                     .threads = 2,
+                                     .first_pause = std::chrono::milliseconds(1)});
     }
 
-    [[nodiscard]] TileChoice choice() const {
-        return choose_tiles(*terrain, scene.camera(), picture, glm::dmat4(1.0));
+    [[nodiscard]] TileChoice choice(const TileChoiceOptions& options = {}) const {
+        return choose_tiles(*terrain, scene.camera(), picture, glm::dmat4(1.0), options);
     }
 
     void look(const Camera& view) { *camera->get<Camera>() = view; }
 
-    void bring() const {
-        for (auto wanted = choice().wanted; !wanted.empty(); wanted = choice().wanted) {
+    // All that is wanted and can be read.
+    void bring(const TileChoiceOptions& options = {}) const {
+        for (auto wanted = choice(options).wanted;
+             !std::all_of(wanted.begin(), wanted.end(),
+                          [&](TreeTile tile) { return terrain->stream->has_given_up(tile); });
+             wanted = choice(options).wanted) {
             terrain->stream->want(wanted);
             terrain->stream->wait({});
         }
     }
 };
+
+std::vector<TreeTile> drawn_tiles(const TileChoice& choice) {
+    std::vector<TreeTile> tiles;
+    for (const TileChoice::Drawn& drawn : choice.drawn) {
+        tiles.push_back(drawn.tile->id);
+    }
+    return tiles;
+}
+
+int hidden_tiles(const TileChoice& choice) {
+    return static_cast<int>(choice.hidden.size()) + choice.hidden_unread;
+}
 
 // From low down on the slope of a ridge, across the others.
 Camera view_across_ridges(test::Chance& chance) {
@@ -102,9 +167,23 @@ Camera view_from_valley(test::Chance& chance) {
     return camera;
 }
 
-bool same_hits(const HitBuffer& a, const HitBuffer& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.samples().data(), b.samples().data(), a.samples().size_bytes()) == 0;
+// Over the ridge to the plain behind it.
+Camera view_over_wall(test::Chance& chance) {
+    const double ridge = (1500.0 - 0.5 * (ridge_samples - 1)) * ridge_spacing;
+    const double y = chance.between(-4000, 4000);
+    const glm::dvec3 eye(ridge - chance.between(250, 500), y, chance.between(30, 50));
+    Camera camera = camera_at(eye, {ridge, y + chance.between(-300, 300), 60.0});
+    camera.near = 0.01;
+    return camera;
+}
+
+int pixels_off(const HitBuffer& a, const HitBuffer& b) {
+    const auto other = b.samples();
+    int off = 0;
+    for (std::size_t i = 0; i < other.size(); ++i) {
+        off += std::memcmp(&a.samples()[i], &other[i], sizeof(Hit)) == 0 ? 0 : 1;
+    }
+    return off;
 }
 
 // Metres that a ray is under the ground at most before a depth.
@@ -120,44 +199,131 @@ double deepest_before(const Ray& ray, double depth) {
     return deepest;
 }
 
-class StreamedOcclusion : public DriverGlTest {};
+class StreamedOcclusion : public DriverGlTest {
+protected:
+    static Driver driver_of_all() {
+        return test::must(
+            Driver::create({.size = size, .shader_dir = {}, .software = true, .occlusion = false}));
+    }
+};
 
-TEST_F(StreamedOcclusion, ThePictureIsTheSameToTheBitWithoutTheTilesThatAreHidden) {
+TEST_F(StreamedOcclusion, ThePictureIsTheSameToTheBitWithAllThatIsHiddenReadAndDrawn) {
     Driver with = driver();
-    Driver without = test::must(
-        Driver::create({.size = size, .shader_dir = {}, .software = true, .occlusion = false}));
+    Driver without = driver_of_all();
     int hidden = 0;
-    const std::array techniques{std::pair("polygons:error=1", 4), std::pair("polygons", 2)};
+    const std::array techniques{std::pair("polygons:error=1", 2), std::pair("polygons", 1)};
     for (const auto& [technique, views] : techniques) {
-        RidgeWorld world(technique);
+        RidgeWorld world({.technique = technique});
         test::Chance chance(21);
         for (int i = 0; i < views; ++i) {
             world.look(i % 2 == 0 ? view_from_valley(chance) : view_across_ridges(chance));
             world.bring();
             const FrameStats fewer = test::must(with.draw(world.scene));
+            world.bring({.keeps_hidden = true});
             const FrameStats all = test::must(without.draw(world.scene));
-            EXPECT_EQ(fewer.skipped.tiles_occluded,
-                      all.skipped.tiles_occluded + all.tiles - fewer.tiles);
+            EXPECT_EQ(all.skipped.tiles_occluded, 0);
             hidden += all.tiles - fewer.tiles;
             EXPECT_EQ(with.read_color(), without.read_color()) << technique << ' ' << i;
-            EXPECT_TRUE(same_hits(test::must(with.draw_hits(world.scene)),
-                                  test::must(without.draw_hits(world.scene))))
+            EXPECT_EQ(pixels_off(test::must(with.draw_hits(world.scene)),
+                                 test::must(without.draw_hits(world.scene))),
+                      0)
                 << technique << ' ' << i;
         }
     }
-    EXPECT_GT(hidden, 20);
+    EXPECT_GT(hidden, 10);
+}
+
+// What they rise to is known only once they are read. Found: none is missed; 56 pixels would be if
+// tiles that are not read were looked for no higher than what is there over them.
+TEST_F(StreamedOcclusion, TowersOfTwoSamplesThatAreHigherThanNearerGroundAreSeen) {
+    Driver with = driver();
+    Driver without = driver_of_all();
+    RidgeWorld world({.ground = wall_height, .towers = 200.0});
+    test::Chance chance(26);
+    world.look(view_over_wall(chance));
+    world.bring();
+    EXPECT_GT(hidden_tiles(world.choice()), 3);
+    const HitBuffer fewer = test::must(with.draw_hits(world.scene));
+    world.bring({.keeps_hidden = true});
+    EXPECT_EQ(pixels_off(fewer, test::must(without.draw_hits(world.scene))), 0);
+}
+
+TEST_F(StreamedOcclusion, WhatStandsInForTilesThatFailHidesNothing) {
+    Driver with = driver();
+    Driver without = driver_of_all();
+    RidgeWorld world(
+        {.fails = [](TreeTile tile) { return tile.level < 3 && (tile.col + tile.row) % 5 == 0; }});
+    test::Chance chance(27);
+    for (int i = 0; i < 2; ++i) {
+        world.look(view_from_valley(chance));
+        world.bring();
+        const TileChoice choice = world.choice();
+        ASSERT_FALSE(choice.wanted.empty());
+        EXPECT_EQ(hidden_tiles(choice), 0);
+        EXPECT_EQ(drawn_tiles(choice), drawn_tiles(world.choice({.keeps_hidden = true})));
+        const HitBuffer hits = test::must(with.draw_hits(world.scene));
+        EXPECT_EQ(pixels_off(hits, test::must(without.draw_hits(world.scene))), 0);
+    }
+}
+
+// Whatever of it is there, and on the way: an end there always is.
+TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShort) {
+    int hiding = 0;
+    int coarse = 0;
+    for (const std::size_t tiles : {1U, 60U}) {
+        RidgeWorld world({.technique = "polygons:error=0.25", .towers = 60.0, .tiles = tiles});
+        test::Chance chance(28);
+        for (int i = 0; i < 4; ++i) {
+            world.look(i % 2 == 0 ? view_from_valley(chance) : view_across_ridges(chance));
+            for (int round = 0; round < 12; ++round) {
+                const TileChoice choice = world.choice();
+                double worst = 0.0; // pixels
+                for (const TileChoice::Drawn& drawn : choice.drawn) {
+                    worst = std::max(worst, drawn.error);
+                }
+                ASSERT_LE(choice.drawn.size(), world.terrain->stream->most_drawn());
+                ASSERT_TRUE(hidden_tiles(choice) == 0 || worst <= 0.125) << worst;
+                hiding += hidden_tiles(choice) > 0 ? 1 : 0;
+                coarse += worst > 0.125 ? 1 : 0;
+                world.terrain->stream->want(choice.wanted);
+                world.terrain->stream->wait({});
+            }
+        }
+    }
+    EXPECT_GT(hiding, 0);
+    EXPECT_GT(coarse, 0);
+}
+
+TEST(StreamedOcclusionChoice, TilesThatWaitForOthersStayInMemory) {
+    const TreeTile failing{1, 5, 6};
+    const std::array waiting{TreeTile{1, 4, 6}, TreeTile{1, 5, 7}, TreeTile{1, 4, 7}};
+    RidgeWorld world({.tiles = 60, .fails = [=](TreeTile tile) { return tile == failing; }});
+    world.look(camera_at({-600.0, -600.0, 900.0}, {-600.0, -590.0, 0.0}));
+    world.bring();
+    const scene::TileStream& stream = *world.terrain->stream;
+    ASSERT_EQ(world.choice().wanted, std::vector{failing});
+    for (int round = 0; round < 30; ++round) {
+        std::vector<TreeTile> wanted = world.choice().wanted;
+        wanted.insert(wanted.end(), {{0, round % 24, 0}, {0, round % 24, 23}}); // of views ahead
+        world.terrain->stream->want(wanted);
+        world.terrain->stream->wait({});
+    }
+    EXPECT_GT(stream.stats().evicted, 0);
+    for (const TreeTile tile : waiting) {
+        EXPECT_NE(stream.peek(tile), nullptr);
+    }
 }
 
 TEST_F(StreamedOcclusion, NothingIsSeenThroughNearerGround) {
+    Driver with = driver();
     RidgeWorld world;
-    Driver made = driver();
     test::Chance chance(22);
     const double pixels_per_radian = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
     for (int i = 0; i < 4; ++i) {
         world.look(view_from_valley(chance));
         world.bring();
         ASSERT_FALSE(world.choice().hidden.empty()) << i;
-        const HitBuffer hits = test::must(made.draw_hits(world.scene));
+        const HitBuffer hits = test::must(with.draw_hits(world.scene));
         for (int y = 3; y < size.y; y += 7) {
             for (int x = 3; x < size.x; x += 7) {
                 const Hit& hit = hits(x, y);
@@ -177,7 +343,7 @@ TEST(StreamedOcclusionChoice, TilesThatAreHiddenAreNotRead) {
     world.look(view_from_valley(chance));
     world.bring();
     const int read = world.terrain->stream->stats().read;
-    EXPECT_GT(world.choice().hidden_unread + static_cast<int>(world.choice().hidden.size()), 10);
+    EXPECT_GT(hidden_tiles(world.choice()), 10);
     world.terrain->material.wireframe = true; // through which all is seen
     world.bring();
     EXPECT_TRUE(world.choice().hidden.empty());
@@ -208,19 +374,18 @@ TEST(StreamedOcclusionChoice, NothingIsHiddenWhereItIsNotSure) {
     const auto hidden = [&] {
         world.look(camera);
         world.bring();
-        return world.choice().hidden.size() +
-               static_cast<std::size_t>(world.choice().hidden_unread);
+        return hidden_tiles(world.choice());
     };
-    EXPECT_GT(hidden(), 0U);
+    EXPECT_GT(hidden(), 0);
     camera.projection = scene::ProjectionKind::orthographic;
     camera.view_height = 500.0;
-    EXPECT_EQ(hidden(), 0U);
+    EXPECT_EQ(hidden(), 0);
     camera.projection = scene::ProjectionKind::perspective;
     camera.eye.z -= 500.0; // under the ground
-    EXPECT_EQ(hidden(), 0U);
+    EXPECT_EQ(hidden(), 0);
     camera.eye.z += 500.0;
     world.terrain->material.technique = scene::make_technique(scene::TechniqueId::texture);
-    EXPECT_EQ(hidden(), 0U);
+    EXPECT_EQ(hidden(), 0);
 }
 
 } // namespace

@@ -213,6 +213,16 @@ TEST(TileStreams, StayWithinTheirMemoryAndDropTheLeastRecentlySeen) {
     EXPECT_EQ(stream.stats().evicted, 64 - static_cast<int>(stream.stats().tiles));
 }
 
+TEST(TileStreams, DropWhatOneViewHadTooMuchWhenOthersBegin) {
+    TileStream stream(maker(), read_plane, {.memory_budget = 8 * bytes_per_tile, .threads = 2});
+    stream.want(level_0());
+    stream.wait({});
+    EXPECT_EQ(stream.stats().tiles, 64U);
+    stream.want({});
+    stream.want({});
+    EXPECT_LE(stream.stats().bytes, 8 * bytes_per_tile);
+}
+
 TEST(TileStreams, CancelWhatIsPassedBy) {
     std::atomic<bool> go_on{false};
     std::atomic<int> begun{0};
@@ -376,6 +386,8 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     EXPECT_EQ(stream.stats().read, 56);
     EXPECT_EQ(stream.stats().failed, 8 * TileStream::most_attempts);
     EXPECT_FALSE(stream.is_busy());
+    EXPECT_TRUE(stream.has_given_up({0, 3, 5}));
+    EXPECT_FALSE(stream.has_given_up({0, 4, 5}));
 }
 
 // What a file is wrong with it is for all its tiles: only the first of them wait for it.
