@@ -362,9 +362,10 @@ void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::st
     }
     for (const KnownPicture& picture : pictures) {
         if (stretched(picture)) {
-            notes.push_back(fmt::format("imagery: {} names no place on Earth: it is left out beside "
-                                        "images that do",
-                                        picture.path.filename().string()));
+            notes.push_back(
+                fmt::format("imagery: {} names no place on Earth: it is left out beside "
+                            "images that do",
+                            picture.path.filename().string()));
         }
     }
     std::erase_if(pictures, stretched);
@@ -403,7 +404,11 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
                            const RasterOptions& options, std::vector<std::string>& notes,
                            std::vector<std::string>& faults) {
     std::vector<std::string> wrong;
-    const ImageFiles files = image_files(options.imagery, wrong, options.stop);
+    const ImageFiles files =
+        image_files(options.imagery, wrong, options.stop, options.imagery_white);
+    if (options.stop.stop_requested()) {
+        return Error{name_of(options.imagery) + ": reading was stopped"};
+    }
     std::vector<KnownPicture> pictures = known_pictures(files, heights, grid, notes, wrong);
     if (pictures.empty()) {
         check(!wrong.empty(), "a list of images without images");

@@ -14,7 +14,6 @@ namespace {
 // Of a view's tiles those that are drawn: their ancestors stay too, a third as many, and what is
 // read ahead.
 constexpr double drawn_share = 0.5;
-constexpr std::chrono::seconds long_pause{30};
 
 std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) {
     return static_cast<std::size_t>(drawn_share * static_cast<double>(memory_budget) /
@@ -143,8 +142,7 @@ bool TileStream::is_wanting(terrain::TreeTile tile) const {
 bool TileStream::is_settled(Clock::time_point now) const {
     const auto given_up = [&](terrain::TreeTile tile) {
         const auto failure = failures_.find(tile);
-        return failure != failures_.end() && failure->second.latest.attempts >= most_attempts &&
-               now < failure->second.latest.again;
+        return failure != failures_.end() && failure->second.latest.is_given_up(now);
     };
     return std::all_of(wanted_.begin(), wanted_.end(), given_up);
 }
@@ -191,7 +189,7 @@ TileStreamStats TileStream::stats() const {
 std::optional<terrain::TreeTile> TileStream::next_tile(Clock::time_point now) {
     for (const terrain::TreeTile tile : wanted_) {
         const auto failure = failures_.find(tile);
-        const bool pauses = failure != failures_.end() && now < failure->second.latest.again;
+        const bool pauses = failure != failures_.end() && now < failure->second.latest.again();
         if (!pauses && !in_flight_.contains(tile)) {
             return tile;
         }
@@ -204,7 +202,7 @@ std::optional<TileStream::Clock::time_point> TileStream::next_attempt() const {
     for (const terrain::TreeTile tile : wanted_) {
         const auto failure = failures_.find(tile);
         if (failure != failures_.end() && !in_flight_.contains(tile)) {
-            const Clock::time_point again = failure->second.latest.again;
+            const Clock::time_point again = failure->second.latest.again();
             first = std::min(again, first.value_or(again));
         }
     }
@@ -302,8 +300,8 @@ void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReadin
     const auto now = Clock::now();
     TileFailure failure;
     for (const TileReading::Fault& fault : faults) {
-        const Failure& file = file_failure(fault.file, now);
-        if (failure.files.empty() || failure.latest.again < file.again) {
+        const BackOff& file = file_failure(fault.file, now);
+        if (failure.files.empty() || failure.latest.again() < file.again()) {
             failure.latest = file;
         }
         failure.files.push_back(fault.file);
@@ -312,15 +310,9 @@ void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReadin
     tell(faults);
 }
 
-// Failures within one pause are one.
-const TileStream::Failure& TileStream::file_failure(const std::string& file,
-                                                    Clock::time_point now) {
-    Failure& failure = file_failures_[file];
-    if (now >= failure.again) {
-        const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
-        failure.attempts = std::min(failure.attempts + 1, most_attempts);
-        failure.again = now + (failure.attempts < most_attempts ? pause : long_pause);
-    }
+const BackOff& TileStream::file_failure(const std::string& file, Clock::time_point now) {
+    BackOff& failure = file_failures_.try_emplace(file, options_.first_pause).first->second;
+    failure.fail(now);
     return failure;
 }
 

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/core/back_off.h"
 #include "engine/scene/streamed_tile.h"
 
 namespace reljef::scene {
@@ -43,7 +44,7 @@ struct TileStreamOptions {
     unsigned threads = 0;                               ///< 0: as many as the machine has
     /// After the first failure of a file its tiles are read again so much later, then four times
     /// that, …
-    std::chrono::milliseconds first_pause{200};
+    std::chrono::milliseconds first_pause = BackOff::usual_first_pause;
 };
 
 struct TileStreamStats {
@@ -94,7 +95,7 @@ public:
     bool wait(const std::stop_token& stop);
     /// The tiles that need a file which fails so often are left alone for half a minute, then read
     /// once more, and so on.
-    static constexpr int most_attempts = 4;
+    static constexpr int most_attempts = BackOff::most_attempts;
 
     /// Another number whenever tiles came or went.
     [[nodiscard]] std::uint64_t revision() const;
@@ -109,7 +110,7 @@ public:
     [[nodiscard]] TileStreamStats stats() const;
 
 private:
-    using Clock = std::chrono::steady_clock;
+    using Clock = BackOff::Clock;
     struct Entry {
         std::shared_ptr<const StreamedTile> tile;
         mutable std::uint64_t used = 0; // view that looked at it last
@@ -119,12 +120,8 @@ private:
         std::shared_ptr<const StreamedTile> tile; // null: there were faults
         std::size_t shown = 0;
     };
-    struct Failure {
-        int attempts = 0;
-        Clock::time_point again;
-    };
     struct TileFailure {
-        Failure latest; // of the files' the one that lasts longest
+        BackOff latest; // of the files' the one that lasts longest
         std::vector<std::string> files;
     };
     void work(const std::stop_token& stop);
@@ -135,7 +132,7 @@ private:
     void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
     void forget_failure(terrain::TreeTile tile);
-    const Failure& file_failure(const std::string& file, Clock::time_point now);
+    const BackOff& file_failure(const std::string& file, Clock::time_point now);
     void tell(std::span<const TileReading::Fault> faults);
     void keep(terrain::TreeTile tile, Made made);
     [[nodiscard]] std::vector<terrain::TreeTile>
@@ -154,7 +151,7 @@ private:
     std::vector<terrain::TreeTile> wanted_; // most urgent first
     std::map<terrain::TreeTile, std::stop_source> in_flight_;
     std::map<terrain::TreeTile, TileFailure> failures_;
-    std::map<std::string, Failure> file_failures_; // they fail for all their tiles alike
+    std::map<std::string, BackOff> file_failures_; // they fail for all their tiles alike
     std::map<std::string, std::string> faults_;    // by file
     std::vector<std::string> new_faults_;
     std::uint64_t view_ = 0;
