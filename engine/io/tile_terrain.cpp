@@ -66,11 +66,10 @@ std::vector<GridBlock> blocks_of_grid(const TileGrid& grid, int side) {
     std::vector<GridBlock> blocks;
     for (int row = 0; row < grid.rows; row += side) {
         for (int col = 0; col < grid.cols; col += side) {
-            blocks.push_back(
-                {col,
-                 row,
-                 {grid.first + grid.step * glm::dvec2(col, row), grid.step,
-                  std::min(side, grid.cols - col), std::min(side, grid.rows - row)}});
+            blocks.push_back({col,
+                              row,
+                              {grid.first + grid.step * glm::dvec2(col, row), grid.step,
+                               std::min(side, grid.cols - col), std::min(side, grid.rows - row)}});
         }
     }
     return blocks;
@@ -98,7 +97,8 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int redu
     SetSamples result;
     result.samples.heights = Grid<float>(grid.cols, grid.rows);
     result.samples.void_mask = Grid<std::uint8_t>(grid.cols, grid.rows);
-    const std::vector<GridBlock> blocks = blocks_of_grid(grid, reduction > 1 ? reduced_block : read_block);
+    const std::vector<GridBlock> blocks =
+        blocks_of_grid(grid, reduction > 1 ? reduced_block : read_block);
     std::mutex mutex;
     const auto read_one = [&](int number) {
         const GridBlock& block = blocks[static_cast<std::size_t>(number)];

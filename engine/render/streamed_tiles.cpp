@@ -95,7 +95,7 @@ GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::Edge
     return mesh;
 }
 
-Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
+void StreamedTiles::forget_unused(const DrawList& list) {
     ++frame_;
     for (const StreamedDraw& draw : list.streamed_tiles) {
         entry_of(draw).drawn = frame_;
@@ -105,6 +105,10 @@ Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameS
     });
     std::erase_if(lights_, [](const auto& entry) { return entry.second.owner.expired(); });
     std::erase_if(covers_, [](const auto& entry) { return entry.second.owner.expired(); });
+}
+
+Result<void> StreamedTiles::prepare(const DrawList& list, bool with_maps, FrameStats& stats) {
+    forget_unused(list);
     for (const auto& streamed : draws_by_stream(list)) {
         const StreamedByTile& drawn = streamed.second;
         Cover& cover = cover_of(drawn);

@@ -72,6 +72,7 @@ private:
         const std::vector<terrain::EdgeMove>* moves = nullptr;
     };
 
+    void forget_unused(const DrawList& list);
     Result<void> prepare_meshes(const terrain::TileCover& cover, const StreamedByTile& drawn,
                                 FrameStats& stats);
     Result<void> prepare_cuts(const DrawList& list, Cover& cover, const StreamedByTile& drawn,

@@ -345,9 +345,9 @@ TEST_F(Imagery, OfAHugeOneInDeepColoursOnlyAPartIsLookedAtForItsWhite) {
                  "<DstRect xOff=\"0\" yOff=\"0\" xSize=\"400000\" ySize=\"400000\"/>"
                  "</SimpleSource></VRTRasterBand>";
     }
-    const auto vast = folder_.write(
-        "vast.vrt",
-        "<VRTDataset rasterXSize=\"400000\" rasterYSize=\"400000\">" + bands + "</VRTDataset>");
+    const auto vast =
+        folder_.write("vast.vrt", "<VRTDataset rasterXSize=\"400000\" rasterYSize=\"400000\">" +
+                                      bands + "</VRTDataset>");
     const GdalMessages messages;
     auto image = open_raster(vast, messages);
     ASSERT_TRUE(image) << image.error().message;
