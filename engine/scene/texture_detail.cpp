@@ -187,8 +187,7 @@ std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail
             sum += height_of(vertex);
         }
         const double height = sum / static_cast<double>(vertices.size());
-        const glm::dvec3 way =
-            (height + detail.offset) * lift * shared_direction(mesh, vertices);
+        const glm::dvec3 way = (height + detail.offset) * lift * shared_direction(mesh, vertices);
         for (const std::size_t vertex : vertices) {
             positions[vertex] += glm::vec3(way);
         }

@@ -22,7 +22,8 @@ namespace reljef::scene {
 
 /// What a source has for a tile: heights at its vertices and one step around them (NaN: none), what
 /// images show of it, and what went wrong, one sentence a file. With faults the heights do not
-/// count; with those of images the tile is drawn as it is, and read again.
+/// count; with those of its picture the tile is drawn as it is, and read again: its picture, and
+/// its heights where they are the overview's.
 struct TileReading {
     Grid<float> heights;
     TilePicture picture;
@@ -31,9 +32,9 @@ struct TileReading {
         std::string message;
     };
     std::vector<Fault> faults;
-    std::vector<Fault> picture_faults;
-    bool of_overview = false;   ///< the heights are TileMaker::overview_heights
-    std::size_t bytes_read = 0; ///< that it took from its files
+    std::vector<Fault> picture_faults; ///< and of heights that the overview stands in for
+    bool of_overview = false;          ///< the heights are TileMaker::overview_heights
+    std::size_t bytes_read = 0;        ///< that it took from its files
 };
 
 /// Reads a tile; called from several threads at a time. May give up where a stop is asked for.
@@ -111,14 +112,13 @@ public:
 
 private:
     using Clock = BackOff::Clock;
-    struct Entry {
-        std::shared_ptr<const StreamedTile> tile;
-        mutable std::uint64_t used = 0; // view that looked at it last
-        std::size_t shown = 0;          // texels of its picture that images show
-    };
     struct Made {
         std::shared_ptr<const StreamedTile> tile; // null: there were faults
-        std::size_t shown = 0;
+        std::size_t shown = 0;                    // texels of its picture that images show
+    };
+    struct Entry {
+        Made made;
+        mutable std::uint64_t used = 0; // view that looked at it last
     };
     struct TileFailure {
         BackOff latest; // of the files' the one that lasts longest
@@ -127,8 +127,8 @@ private:
     void work(const std::stop_token& stop);
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
-    [[nodiscard]] Made make(terrain::TreeTile tile, TileReading& reading,
-                            const StreamedTile* before) const;
+    [[nodiscard]] Made make(terrain::TreeTile tile, TileReading& reading, const Made& before) const;
+    static Made better_of(const Made& before, Made now, bool has_whole_picture);
     void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
     void forget_failure(terrain::TreeTile tile);
