@@ -59,7 +59,8 @@ scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::Tree
 }
 
 // Where its files fail, a tile that is no finer than the overview is made of it, and read again: no
-// file keeps those of others from being drawn.
+// file keeps those of others from being drawn. What fails is told as faults of the picture: those
+// are of tiles that are drawn as they are.
 scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduction,
                                        terrain::TreeTile tile, scene::TileReading reading) {
     if (reading.faults.empty() || maker.step(tile) < reduction) {

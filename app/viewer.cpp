@@ -101,6 +101,7 @@ scene::FreeFlight make_flight(const TerrainScene& scene, const scene::Camera& st
     options.clearance = std::min(highest_clearance, clearance_in_widths * width_of(scene));
     options.ground = [terrain](double x, double y) { return ground_at(terrain, x, y); };
     options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
+    options.north = [surface](glm::dvec3 world) { return surface->placement().north(world); };
     return {start, std::move(options)};
 }
 

@@ -8,21 +8,24 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/back_off.h"
+
 namespace reljef::io {
 
 /// Files that fail again and again: they are passed over for a while, so that not every tile waits
 /// for them. Safe from several threads at a time.
 class FailingFiles {
 public:
-    /// `most`: failures after which a file is given up for half a minute.
-    explicit FailingFiles(int most) : most_(most) {}
+    /// Of BackOff's pauses the first.
+    explicit FailingFiles(std::chrono::milliseconds first_pause = BackOff::usual_first_pause)
+        : first_pause_(first_pause) {}
 
     void note(const std::filesystem::path& path, std::string message) {
         const std::lock_guard lock(mutex_);
-        Failures& failures = failures_[path];
-        ++failures.count;
+        Failures& failures =
+            failures_.try_emplace(path, Failures{BackOff(first_pause_), {}}).first->second;
+        failures.back_off.fail(BackOff::Clock::now());
         failures.message = std::move(message);
-        failures.last = Clock::now();
     }
     void forget(const std::filesystem::path& path) {
         const std::lock_guard lock(mutex_);
@@ -32,20 +35,17 @@ public:
     [[nodiscard]] std::optional<std::string> given_up(const std::filesystem::path& path) const {
         const std::lock_guard lock(mutex_);
         const auto found = failures_.find(path);
-        const bool passed_over = found != failures_.end() && found->second.count >= most_ &&
-                                 Clock::now() < found->second.last + pause;
+        const bool passed_over =
+            found != failures_.end() && found->second.back_off.is_given_up(BackOff::Clock::now());
         return passed_over ? std::optional(found->second.message) : std::nullopt;
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::seconds pause{30};
     struct Failures {
-        int count = 0;
+        BackOff back_off;
         std::string message; // of the last
-        Clock::time_point last;
     };
-    const int most_;
+    const std::chrono::milliseconds first_pause_;
     mutable std::mutex mutex_;
     std::map<std::filesystem::path, Failures> failures_;
 };

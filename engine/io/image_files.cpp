@@ -57,7 +57,7 @@ fs::file_time_type changed_at(const fs::path& path) {
 } // namespace
 
 ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults,
-                       const std::stop_token& stop) {
+                       const std::stop_token& stop, std::optional<double> white) {
     register_drivers();
     std::vector<fs::path> paths;
     for (const fs::path& name : names) {
@@ -69,7 +69,11 @@ ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>
         }
     }
     ImageFiles files;
+    files.white = white.value_or(0.0);
     for (fs::path& path : paths) {
+        if (stop.stop_requested()) {
+            break;
+        }
         const GdalMessages messages;
         const auto image = open_raster(path, messages);
         if (!image) {
@@ -77,7 +81,9 @@ ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>
         } else if (!is_image(**image)) {
             faults.push_back(no_image(path, **image).message);
         } else {
-            files.white = std::max(files.white, white_of(**image, stop));
+            if (!white) {
+                files.white = std::max(files.white, white_of(**image, stop));
+            }
             files.paths.push_back(std::move(path));
         }
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -16,8 +17,10 @@ struct ImageFiles {
 
 /// The images that `names` stand for: files, addresses, and folders, whose pictures and 8-bit
 /// and unsigned 16-bit rasters are meant. What cannot be opened, or holds heights, is told in
-/// `faults`, one sentence each, and left out.
+/// `faults`, one sentence each, and left out. `white`, where given, is not looked for anew. Once a
+/// stop is asked for no more are looked at.
 ImageFiles image_files(std::span<const std::filesystem::path> names,
-                       std::vector<std::string>& faults, const std::stop_token& stop = {});
+                       std::vector<std::string>& faults, const std::stop_token& stop = {},
+                       std::optional<double> white = {});
 
 } // namespace reljef::io

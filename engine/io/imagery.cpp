@@ -404,7 +404,11 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
                            const RasterOptions& options, std::vector<std::string>& notes,
                            std::vector<std::string>& faults) {
     std::vector<std::string> wrong;
-    const ImageFiles files = image_files(options.imagery, wrong, options.stop);
+    const ImageFiles files =
+        image_files(options.imagery, wrong, options.stop, options.imagery_white);
+    if (options.stop.stop_requested()) {
+        return Error{name_of(options.imagery) + ": reading was stopped"};
+    }
     std::vector<KnownPicture> pictures = known_pictures(files, heights, grid, notes, wrong);
     if (pictures.empty()) {
         check(!wrong.empty(), "a list of images without images");

@@ -161,19 +161,22 @@ double units_in_degree(const std::string& crs) {
 } // namespace
 
 struct ImagerySet::State {
-    State(std::string grid_crs, double white, std::size_t memory)
-        : crs(std::move(grid_crs)), turn(units_in_degree(crs)), reading_memory(memory),
-          pool([white, this](const std::filesystem::path& path, const GdalMessages& messages) {
+    State(std::string grid_crs, double white_of_all, const ImagerySetOptions& options)
+        : crs(std::move(grid_crs)), turn(units_in_degree(crs)),
+          reading_memory(options.reading_memory), white(white_of_all),
+          pool([this](const std::filesystem::path& path, const GdalMessages& messages) {
               return open_rgb(path, white, crs, messages);
-          }) {}
+          }),
+          failing(options.first_pause) {}
 
     std::string crs;                ///< WKT of what is asked for
     double turn;                    ///< units of x in a degree; 0: no degrees
     std::size_t reading_memory;     ///< bytes, for each that reads
+    double white;                   ///< see white_of
     std::vector<KnownImage> images; ///< finest first
     bool complete = true;           ///< all that could be opened are among them
     mutable DatasetPool pool;
-    mutable FailingFiles failing{ImagerySet::most_failures};
+    mutable FailingFiles failing;
 
     /// Draws what an image shows into an empty picture. Fails where it cannot be read.
     Result<void> draw(const KnownImage& image, const Choice& choice, const TileGrid& grid,
@@ -237,17 +240,22 @@ struct ImagerySet::State {
 };
 
 Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names,
-                                    const std::string& crs, std::size_t reading_memory) {
+                                    const std::string& crs, const ImagerySetOptions& options) {
     std::vector<std::string> faults;
-    const ImageFiles files = image_files(names, faults);
-    auto state = std::make_shared<State>(crs, files.white, reading_memory);
+    const ImageFiles files = image_files(names, faults, options.stop);
+    auto state = std::make_shared<State>(crs, files.white, options);
     std::vector<std::optional<KnownImage>> found(files.paths.size());
-    parallel_for(static_cast<int>(found.size()), [&](int i) {
+    const auto look = [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         const GdalMessages messages;
         const auto rgb = open_rgb(files.paths[index], files.white, crs, messages);
         found[index] = rgb ? known(files.paths[index], **rgb) : std::nullopt;
-    });
+    };
+    parallel_for(static_cast<int>(found.size()), look,
+                 {.threads = 0, .stop = options.stop, .progress = {}});
+    if (options.stop.stop_requested()) {
+        return Error{"the images: reading was stopped"};
+    }
     for (std::optional<KnownImage>& image : found) {
         if (image) {
             state->images.push_back(std::move(*image));
@@ -268,6 +276,10 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
 
 std::size_t ImagerySet::size() const {
     return state_->images.size();
+}
+
+double ImagerySet::white() const {
+    return state_->white;
 }
 
 double ImagerySet::finest_pixel() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/back_off.h"
 #include "engine/core/color.h"
 #include "engine/core/result.h"
 #include "engine/io/tile_set.h"
@@ -22,6 +24,13 @@ struct ImageryWindow {
     std::vector<TileFault> faults;
 };
 
+struct ImagerySetOptions {
+    /// Bytes that each thread takes to read, beside GDAL's blocks; at least 1 MB.
+    std::size_t reading_memory = std::size_t{64} << 20;
+    std::chrono::milliseconds first_pause = BackOff::usual_first_pause; ///< see BackOff
+    std::stop_token stop = {};                                          ///< of opening
+};
+
 /// Georeferenced images of any coordinate systems as one picture, read where and when it is asked
 /// for. Where several show something the finest counts, of equally fine ones the newer. Safe from
 /// several threads at a time.
@@ -29,25 +38,25 @@ class ImagerySet {
 public:
     /// `crs`: WKT of the places that it will be asked for; images that have a place but name no
     /// coordinate system are in that. Images without a place (or only with ground control points),
-    /// and those that cannot be opened, are left out. Fails where none is left. `reading_memory`:
-    /// bytes that each thread takes to read, beside GDAL's blocks; at least 1 MB.
+    /// and those that cannot be opened, are left out. Fails where none is left, or it was stopped.
     static Result<ImagerySet> open(std::span<const std::filesystem::path> names,
-                                   const std::string& crs,
-                                   std::size_t reading_memory = std::size_t{64} << 20);
+                                   const std::string& crs, const ImagerySetOptions& options = {});
 
     [[nodiscard]] std::size_t size() const;
+    /// What the images' colours are divided by: see RasterOptions::imagery_white.
+    [[nodiscard]] double white() const;
     /// Metres, a side of the finest image's pixels at its middle.
     [[nodiscard]] double finest_pixel() const;
 
     /// The picture at the places of `grid`, `spacing` metres apart, from the overviews that are
     /// just finer. Neighbours that share a row or a column of places have the same texels there
     /// (places are right to a tenth of a texel where `reading_memory` holds no whole reading). An
-    /// image of which more than `most_pixels_read` would be read is left out, and for half a minute
-    /// one that has failed `most_failures` times, without a fault.
+    /// image of which more than `most_pixels_read` would be read is left out, and one that is given
+    /// up for now, as BackOff says, without a fault.
     [[nodiscard]] ImageryWindow read(const TileGrid& grid, double spacing,
                                      const std::stop_token& stop = {}) const;
     static constexpr double most_pixels_read = 1U << 26U;
-    static constexpr int most_failures = 4;
+    static constexpr int most_failures = BackOff::most_attempts;
 
     /// Where an image is so large that it is left out of coarse views, because it has no overviews:
     /// a sentence that names the first such file and the command that makes them.

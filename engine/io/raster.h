@@ -33,6 +33,8 @@ struct RasterOptions {
     /// image without a place, which is stretched over the whole raster, corner pixels on corner
     /// samples. The finest counts, where it shows nothing the next. Empty: none.
     std::vector<std::filesystem::path> imagery;
+    /// Where it is known already (ImagerySet::white) the images are not looked through for it.
+    std::optional<double> imagery_white;
     Progress progress;
     std::stop_token stop;
 };

@@ -69,6 +69,14 @@ GroundMap streamed_ground(const scene::TileMaker& maker, const scene::StreamedTi
     return map;
 }
 
+std::set<terrain::TreeTile> tiles_of(const std::vector<terrain::EdgeMove>& moves) {
+    std::set<terrain::TreeTile> tiles;
+    for (const terrain::EdgeMove& move : moves) {
+        tiles.insert(move.to.tile);
+    }
+    return tiles;
+}
+
 } // namespace
 
 GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::EdgeMove>& moves,
@@ -154,7 +162,7 @@ Result<void> StreamedTiles::prepare_meshes(const terrain::TileCover& cover,
         const std::vector<terrain::EdgeMove>& moves = draw->is_hidden ? none : cover.moves(id);
         const Entry& entry = entry_of(*draw);
         const bool is_there = is_cut(*draw) ? !entry.vertices.empty() : entry.is_whole;
-        if (is_there && entry.flat == draw->flat && entry.moves == moves) {
+        if (is_there && entry.flat == draw->flat && is_moved_as(*draw, moves)) {
             ++stats.skipped.uploads_unchanged;
         } else {
             changed.push_back({draw, &moves});
@@ -187,9 +195,22 @@ Result<void> StreamedTiles::upload_all(std::span<const ChangedMesh> changed,
             return done;
         }
         entry.moves = *moves;
+        entry.moved_to = tiles_of(*moves);
         entry.flat = draw->flat;
+        entry.uploaded = frame_;
     }
     return {};
+}
+
+// Onto the same vertices, of tiles that are no newer than its own.
+bool StreamedTiles::is_moved_as(const StreamedDraw& draw,
+                                const std::vector<terrain::EdgeMove>& moves) const {
+    const Entry& entry = entries_.at(key_of(draw));
+    const auto is_newer = [&](terrain::TreeTile tile) {
+        return entries_.at({key_of(draw).first, tile}).since > entry.uploaded;
+    };
+    return entry.moves == moves &&
+           std::none_of(entry.moved_to.begin(), entry.moved_to.end(), is_newer);
 }
 
 StreamedTiles::Entry& StreamedTiles::entry_of(const StreamedDraw& draw) {
@@ -197,6 +218,7 @@ StreamedTiles::Entry& StreamedTiles::entry_of(const StreamedDraw& draw) {
     if (entry.owner.lock() != draw.tile) {
         entry = {};
         entry.owner = draw.tile;
+        entry.since = frame_;
     }
     return entry;
 }

@@ -31,9 +31,9 @@ struct ResidentStreamed {
 };
 
 /// The tiles of streamed terrains: uploaded when they are first drawn, again where a neighbour of
-/// another level moves their border or the sun moves. They go when the stream lets go of them, and
-/// when they have not been drawn for some frames: most tiles of a stream stand above those drawn.
-/// Needs a current context; destroy while it is current.
+/// another level moves their border, or has other heights than before, or the sun moves. They go
+/// when the stream lets go of them, and when they have not been drawn for some frames: most tiles
+/// of a stream stand above those drawn. Needs a current context; destroy while it is current.
 class StreamedTiles {
 public:
     /// Fails when the driver has no memory left.
@@ -46,9 +46,12 @@ private:
     using Key = std::pair<const scene::TileStream*, terrain::TreeTile>;
     struct Entry {
         std::weak_ptr<const scene::StreamedTile> owner;
-        std::uint64_t drawn = 0; // frame that drew it last
+        std::uint64_t drawn = 0;    // frame that drew it last
+        std::uint64_t since = 0;    // frame that drew it first
+        std::uint64_t uploaded = 0; // frame that made its vertices
         bool flat = false;
         std::vector<terrain::EdgeMove> moves;
+        std::set<terrain::TreeTile> moved_to; // the tiles that they name
         std::optional<scene::TerrainLight> light;
         std::optional<ResidentStreamed> resident;
         bool is_whole = false;            // the resident mesh has all triangles
@@ -93,6 +96,8 @@ private:
         return {draw.terrain->stream.get(), draw.tile->id};
     }
     Entry& entry_of(const StreamedDraw& draw);
+    [[nodiscard]] bool is_moved_as(const StreamedDraw& draw,
+                                   const std::vector<terrain::EdgeMove>& moves) const;
 
     std::uint64_t frame_ = 0;
     std::map<Key, Entry> entries_;

@@ -93,7 +93,17 @@ glm::dvec3 FreeFlight::up() const {
 Compass FreeFlight::compass() const {
     Compass compass;
     compass.up = up();
+    if (options_.north) {
+        compass.north = options_.north(camera_.eye);
+    }
     return compass;
+}
+
+// Degrees; of a direction what is level of it counts.
+double FreeFlight::heading_of(glm::dvec3 direction) const {
+    const ViewAxes north = view_axes(camera_from_angles(camera_.eye, 0.0, 0.0, compass()));
+    return glm::degrees(
+        std::atan2(glm::dot(direction, north.right), glm::dot(direction, north.forward)));
 }
 
 void FreeFlight::set_camera(const Camera& camera) {
@@ -105,9 +115,7 @@ void FreeFlight::set_camera(const Camera& camera) {
     // Straight down, what is up in the picture says where it heads.
     const bool is_steep = std::abs(rise) > 1.0 - 1e-12;
     const glm::dvec3 level = is_steep ? -std::copysign(1.0, rise) * axes.up : axes.forward;
-    const ViewAxes north = view_axes(camera_from_angles(camera.eye, 0.0, 0.0, compass()));
-    heading_ =
-        glm::degrees(std::atan2(glm::dot(level, north.right), glm::dot(level, north.forward)));
+    heading_ = heading_of(level);
     height_.reset();
     turned_ = false;
     keep_above_ground();
@@ -193,11 +201,16 @@ bool FreeFlight::advance(double seconds) {
     if (wanted != glm::dvec3(0.0)) {
         const double pitch = follows_ground_ ? 0.0 : pitch_;
         const ViewAxes axes = view_axes(camera_from_angles(from, heading_, pitch, compass()));
+        const glm::dvec3 ahead =
+            view_axes(camera_from_angles(from, heading_, 0.0, compass())).forward;
         camera_.eye += wanted.x * axes.right + wanted.y * axes.forward + wanted.z * up();
         if (height_) {
             *height_ = std::max(*height_ + wanted.z, options_.clearance);
         }
         keep_above_ground();
+        if (options_.north && camera_.eye != from) {
+            heading_ = heading_of(ahead);
+        }
     }
     if (step > 0.0) {
         keys_.forget_taps();

@@ -49,12 +49,14 @@ struct FreeFlightOptions {
     std::function<std::optional<GroundAt>(double x, double y)> ground;
     /// Unit vector away from the Earth; absent: z.
     std::function<glm::dvec3(glm::dvec3 world)> up;
+    /// Unit vector towards north at a place, level there; absent: y.
+    std::function<glm::dvec3(glm::dvec3 world)> north;
 };
 
 /// A camera flown by hand: the mouse (left button held) turns, the steering keys move, the wheel
 /// changes the speed, shift is four times as fast. The eye keeps its height above the ground until
 /// it is told to rise or sink; without follow_ground it flies where it looks. It is never under the
-/// ground.
+/// ground. It goes straight on, over a pole too: what changes on the way is the heading.
 class FreeFlight {
 public:
     FreeFlight(const Camera& start, FreeFlightOptions options);
@@ -86,6 +88,7 @@ private:
     bool receive_scroll(const ScrollEvent& event);
     [[nodiscard]] glm::dvec3 up() const;
     [[nodiscard]] Compass compass() const;
+    [[nodiscard]] double heading_of(glm::dvec3 direction) const;
     void keep_above_ground();
 
     FreeFlightOptions options_;

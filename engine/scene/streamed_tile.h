@@ -48,6 +48,7 @@ struct StreamedTile {
     /// of this one is from the middle between its neighbours. An estimate: finer detail is smaller
     /// than coarser on natural ground.
     double error = 0.0;
+    bool of_overview = false; ///< the heights are TileMaker::overview_heights
 
     /// Of a vertex, local metres, to half a unit: 4 µm where the tile is 12 km wide.
     [[nodiscard]] glm::dvec3 place(glm::ivec2 vertex) const {

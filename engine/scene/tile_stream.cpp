@@ -14,7 +14,6 @@ namespace {
 // Of a view's tiles those that are drawn: their ancestors stay too, a third as many, and what is
 // read ahead.
 constexpr double drawn_share = 0.5;
-constexpr std::chrono::seconds long_pause{30};
 
 std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) {
     return static_cast<std::size_t>(drawn_share * static_cast<double>(memory_budget) /
@@ -62,13 +61,13 @@ std::shared_ptr<const StreamedTile> TileStream::find(terrain::TreeTile tile) con
         return nullptr;
     }
     found->second.used = view_;
-    return found->second.tile;
+    return found->second.made.tile;
 }
 
 std::shared_ptr<const StreamedTile> TileStream::peek(terrain::TreeTile tile) const {
     const std::lock_guard lock(mutex_);
     const auto found = tiles_.find(tile);
-    return found != tiles_.end() ? found->second.tile : nullptr;
+    return found != tiles_.end() ? found->second.made.tile : nullptr;
 }
 
 std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
@@ -83,7 +82,7 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
         if (found != tiles_.end()) {
             const glm::dvec2 from_first =
                 sample - glm::dvec2(terrain::TileTree::first(found->first));
-            return Found{found->second.tile,
+            return Found{found->second.made.tile,
                          from_first / static_cast<double>(terrain::TileTree::step(found->first))};
         }
     }
@@ -144,8 +143,7 @@ bool TileStream::is_wanting(terrain::TreeTile tile) const {
 bool TileStream::is_settled(Clock::time_point now) const {
     const auto given_up = [&](terrain::TreeTile tile) {
         const auto failure = failures_.find(tile);
-        return failure != failures_.end() && failure->second.latest.attempts >= most_attempts &&
-               now < failure->second.latest.again;
+        return failure != failures_.end() && failure->second.latest.is_given_up(now);
     };
     return std::all_of(wanted_.begin(), wanted_.end(), given_up);
 }
@@ -199,7 +197,7 @@ TileStreamStats TileStream::stats() const {
 std::optional<terrain::TreeTile> TileStream::next_tile(Clock::time_point now) {
     for (const terrain::TreeTile tile : wanted_) {
         const auto failure = failures_.find(tile);
-        const bool pauses = failure != failures_.end() && now < failure->second.latest.again;
+        const bool pauses = failure != failures_.end() && now < failure->second.latest.again();
         if (!pauses && !in_flight_.contains(tile)) {
             return tile;
         }
@@ -212,7 +210,7 @@ std::optional<TileStream::Clock::time_point> TileStream::next_attempt() const {
     for (const terrain::TreeTile tile : wanted_) {
         const auto failure = failures_.find(tile);
         if (failure != failures_.end() && !in_flight_.contains(tile)) {
-            const Clock::time_point again = failure->second.latest.again;
+            const Clock::time_point again = failure->second.latest.again();
             first = std::min(again, first.value_or(again));
         }
     }
@@ -234,13 +232,13 @@ void TileStream::work(const std::stop_token& stop) {
         }
         const std::stop_token cancelled = in_flight_[*tile].get_token();
         const auto entry = tiles_.find(*tile);
-        const auto before = entry != tiles_.end() ? entry->second.tile : nullptr;
+        const Made before = entry != tiles_.end() ? entry->second.made : Made{};
         lock.unlock();
         TileReading reading = read_(*tile, cancelled);
         const bool stopped = cancelled.stop_requested();
         Made made;
         if (!stopped && reading.faults.empty()) {
-            made = make(*tile, reading, before.get());
+            made = make(*tile, reading, before);
         }
         lock.lock();
         finish(*tile, reading, std::move(made), stopped);
@@ -248,21 +246,33 @@ void TileStream::work(const std::stop_token& stop) {
     }
 }
 
-// Of one that was there before only the picture is new: its neighbours' borders lie on its heights.
 TileStream::Made TileStream::make(terrain::TreeTile tile, TileReading& reading,
-                                  const StreamedTile* before) const {
+                                  const Made& before) const {
     StreamedTile made = maker_.make(tile, std::move(reading.heights), reading.picture);
+    made.of_overview = reading.of_overview;
     if (reading.of_overview) {
         made.error = std::max(made.error, maker_.overview_error(tile));
     }
-    if (before != nullptr) {
-        StreamedTile with_picture = *before;
-        with_picture.albedo = std::move(made.albedo);
-        with_picture.coarse_texel = made.coarse_texel;
-        made = std::move(with_picture);
+    Made now{std::make_shared<const StreamedTile>(std::move(made)),
+             texels_shown(reading.picture.texels)};
+    return before.tile == nullptr
+               ? now
+               : better_of(before, std::move(now), reading.picture_faults.empty());
+}
+
+// Of one that was there before heights stay, but for the overview's: its neighbours' borders lie on
+// them. Of pictures that are not whole the one that shows more counts.
+TileStream::Made TileStream::better_of(const Made& before, Made now, bool has_whole_picture) {
+    const bool heights_recovered = before.tile->of_overview && !now.tile->of_overview;
+    const bool shows_more = has_whole_picture || now.shown > before.shown;
+    if (heights_recovered == shows_more) {
+        return shows_more ? now : before;
     }
-    return {std::make_shared<const StreamedTile>(std::move(made)),
-            texels_shown(reading.picture.texels)};
+    const Made& with_picture = shows_more ? now : before;
+    StreamedTile tile = heights_recovered ? *now.tile : *before.tile;
+    tile.albedo = with_picture.tile->albedo;
+    tile.coarse_texel = with_picture.tile->coarse_texel;
+    return {std::make_shared<const StreamedTile>(std::move(tile)), with_picture.shown};
 }
 
 void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made made,
@@ -278,25 +288,24 @@ void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made
         note_failure(tile, reading.faults);
         return;
     }
-    const auto before = tiles_.find(tile);
-    const bool is_better = reading.picture_faults.empty() || before == tiles_.end() ||
-                           made.shown > before->second.shown;
     if (reading.picture_faults.empty()) {
         forget_failure(tile);
         std::erase(wanted_, tile);
     } else {
         note_failure(tile, reading.picture_faults);
     }
-    if (is_better) {
+    const auto before = tiles_.find(tile);
+    if (before == tiles_.end() || before->second.made.tile != made.tile) {
         keep(tile, std::move(made));
     }
 }
 
 void TileStream::keep(terrain::TreeTile tile, Made made) {
     Entry& entry = tiles_[tile];
-    stats_.read += entry.tile == nullptr ? 1 : 0;
-    stats_.bytes += made.tile->bytes() - (entry.tile != nullptr ? entry.tile->bytes() : 0);
-    entry = {std::move(made.tile), view_, made.shown};
+    const StreamedTile* before = entry.made.tile.get();
+    stats_.read += before == nullptr ? 1 : 0;
+    stats_.bytes += made.tile->bytes() - (before != nullptr ? before->bytes() : 0);
+    entry = {std::move(made), view_};
     news_ = true;
     ++revision_;
     evict();
@@ -310,8 +319,8 @@ void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReadin
     const auto now = Clock::now();
     TileFailure failure;
     for (const TileReading::Fault& fault : faults) {
-        const Failure& file = file_failure(fault.file, now);
-        if (failure.files.empty() || failure.latest.again < file.again) {
+        const BackOff& file = file_failure(fault.file, now);
+        if (failure.files.empty() || failure.latest.again() < file.again()) {
             failure.latest = file;
         }
         failure.files.push_back(fault.file);
@@ -320,15 +329,9 @@ void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReadin
     tell(faults);
 }
 
-// Failures within one pause are one.
-const TileStream::Failure& TileStream::file_failure(const std::string& file,
-                                                    Clock::time_point now) {
-    Failure& failure = file_failures_[file];
-    if (now >= failure.again) {
-        const auto pause = options_.first_pause * (1 << (2 * failure.attempts));
-        failure.attempts = std::min(failure.attempts + 1, most_attempts);
-        failure.again = now + (failure.attempts < most_attempts ? pause : long_pause);
-    }
+const BackOff& TileStream::file_failure(const std::string& file, Clock::time_point now) {
+    BackOff& failure = file_failures_.try_emplace(file, options_.first_pause).first->second;
+    failure.fail(now);
     return failure;
 }
 
@@ -361,7 +364,7 @@ void TileStream::evict() {
         if (oldest->second.used + 1 >= view_) {
             return;
         }
-        stats_.bytes -= oldest->second.tile->bytes();
+        stats_.bytes -= oldest->second.made.tile->bytes();
         ++stats_.evicted;
         ++revision_;
         tiles_.erase(oldest);

@@ -15,13 +15,15 @@
 #include <thread>
 #include <vector>
 
+#include "engine/core/back_off.h"
 #include "engine/scene/streamed_tile.h"
 
 namespace reljef::scene {
 
 /// What a source has for a tile: heights at its vertices and one step around them (NaN: none), what
 /// images show of it, and what went wrong, one sentence a file. With faults the heights do not
-/// count; with those of images the tile is drawn as it is, and read again.
+/// count; with those of its picture the tile is drawn as it is, and read again: its picture, and
+/// its heights where they are the overview's.
 struct TileReading {
     Grid<float> heights;
     TilePicture picture;
@@ -30,9 +32,9 @@ struct TileReading {
         std::string message;
     };
     std::vector<Fault> faults;
-    std::vector<Fault> picture_faults;
-    bool of_overview = false;   ///< the heights are TileMaker::overview_heights
-    std::size_t bytes_read = 0; ///< that it took from its files
+    std::vector<Fault> picture_faults; ///< and of heights that the overview stands in for
+    bool of_overview = false;          ///< the heights are TileMaker::overview_heights
+    std::size_t bytes_read = 0;        ///< that it took from its files
 };
 
 /// Reads a tile; called from several threads at a time. May give up where a stop is asked for.
@@ -43,7 +45,7 @@ struct TileStreamOptions {
     unsigned threads = 0;                               ///< 0: as many as the machine has
     /// After the first failure of a file its tiles are read again so much later, then four times
     /// that, …
-    std::chrono::milliseconds first_pause{200};
+    std::chrono::milliseconds first_pause = BackOff::usual_first_pause;
 };
 
 struct TileStreamStats {
@@ -95,7 +97,7 @@ public:
     bool wait(const std::stop_token& stop);
     /// The tiles that need a file which fails so often are left alone for half a minute, then read
     /// once more, and so on.
-    static constexpr int most_attempts = 4;
+    static constexpr int most_attempts = BackOff::most_attempts;
 
     /// Whether a tile is not there as it failed so often, for half a minute at least.
     [[nodiscard]] bool has_given_up(terrain::TreeTile tile) const;
@@ -113,33 +115,28 @@ public:
     [[nodiscard]] TileStreamStats stats() const;
 
 private:
-    using Clock = std::chrono::steady_clock;
-    struct Entry {
-        std::shared_ptr<const StreamedTile> tile;
-        mutable std::uint64_t used = 0; // view that looked at it last
-        std::size_t shown = 0;          // texels of its picture that images show
-    };
+    using Clock = BackOff::Clock;
     struct Made {
         std::shared_ptr<const StreamedTile> tile; // null: there were faults
-        std::size_t shown = 0;
+        std::size_t shown = 0;                    // texels of its picture that images show
     };
-    struct Failure {
-        int attempts = 0;
-        Clock::time_point again;
+    struct Entry {
+        Made made;
+        mutable std::uint64_t used = 0; // view that looked at it last
     };
     struct TileFailure {
-        Failure latest; // of the files' the one that lasts longest
+        BackOff latest; // of the files' the one that lasts longest
         std::vector<std::string> files;
     };
     void work(const std::stop_token& stop);
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
-    [[nodiscard]] Made make(terrain::TreeTile tile, TileReading& reading,
-                            const StreamedTile* before) const;
+    [[nodiscard]] Made make(terrain::TreeTile tile, TileReading& reading, const Made& before) const;
+    static Made better_of(const Made& before, Made now, bool has_whole_picture);
     void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
     void forget_failure(terrain::TreeTile tile);
-    const Failure& file_failure(const std::string& file, Clock::time_point now);
+    const BackOff& file_failure(const std::string& file, Clock::time_point now);
     void tell(std::span<const TileReading::Fault> faults);
     void keep(terrain::TreeTile tile, Made made);
     [[nodiscard]] std::vector<terrain::TreeTile>
@@ -158,7 +155,7 @@ private:
     std::vector<terrain::TreeTile> wanted_; // most urgent first
     std::map<terrain::TreeTile, std::stop_source> in_flight_;
     std::map<terrain::TreeTile, TileFailure> failures_;
-    std::map<std::string, Failure> file_failures_; // they fail for all their tiles alike
+    std::map<std::string, BackOff> file_failures_; // they fail for all their tiles alike
     std::map<std::string, std::string> faults_;    // by file
     std::vector<std::string> new_faults_;
     std::uint64_t view_ = 0;

@@ -77,12 +77,13 @@ protected:
         ASSERT_TRUE(test::write(raster, folder_.path() / name));
     }
     [[nodiscard]] ImagerySet open(const std::vector<std::string>& names,
-                                  const std::string& crs = wgs84_degrees) const {
+                                  const std::string& crs = wgs84_degrees,
+                                  const ImagerySetOptions& options = {}) const {
         std::vector<std::filesystem::path> paths;
         for (const std::string& name : names) {
             paths.push_back(folder_.path() / name);
         }
-        auto set = ImagerySet::open(paths, crs);
+        auto set = ImagerySet::open(paths, crs, options);
         EXPECT_TRUE(set) << (set ? "" : set.error().message);
         return std::move(*set);
     }
@@ -240,7 +241,9 @@ TEST_F(ImagerySets, AFileThatIsGoneIsAFaultAndTheNextOneShows) {
 TEST_F(ImagerySets, AFileThatFailsAgainAndAgainIsPassedOverWithoutAFault) {
     add("coarse.tif", plain(480000.0, 5000000.0, 100, 80.0, 50.0));
     add("fine.tif", plain(480000.0, 5000000.0, 400, 20.0, 200.0));
-    const ImagerySet set = open({"coarse.tif", "fine.tif"}, utm_31);
+    // Failures within one pause are one.
+    const ImagerySet set =
+        open({"coarse.tif", "fine.tif"}, utm_31, {.first_pause = std::chrono::milliseconds(0)});
     std::filesystem::remove(folder_.path() / "fine.tif");
     const TileGrid grid{{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9};
     for (int i = 0; i < ImagerySet::most_failures; ++i) {
@@ -270,8 +273,8 @@ TEST_F(ImagerySets, WithLittleMemoryShowTheSame) {
     const TileGrid grid{{2.76, 45.14}, {step, -step}, 513, 513};
     const std::array paths{folder_.path() / "a.tif"};
     constexpr std::size_t megabyte = std::size_t{1} << 20U;
-    const auto little = ImagerySet::open(paths, wgs84_degrees, megabyte);
-    const auto plenty = ImagerySet::open(paths, wgs84_degrees, 256 * megabyte);
+    const auto little = ImagerySet::open(paths, wgs84_degrees, {.reading_memory = megabyte});
+    const auto plenty = ImagerySet::open(paths, wgs84_degrees, {.reading_memory = 256 * megabyte});
     ASSERT_TRUE(little && plenty);
     const Image expected = plenty->read(grid, 8.0).texels;
     const Image found = little->read(grid, 8.0).texels;

@@ -1,7 +1,10 @@
 // Tiles from a server on the loopback that is slow, fails, and recovers.
+#include <atomic>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/core/worker_pool.h"
 #include "engine/io/tree_tile.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/http_server.h"
@@ -63,6 +66,24 @@ TEST_F(RemoteTiles, AreFaultsWhileTheServerFailsAndThereOnceItHasRecovered) {
         ASSERT_TRUE(good.faults.empty()) << good.faults.front().message;
         EXPECT_EQ(good.heights(1, 1), 5 * 128 + 2 * 5 * 128);
     }
+}
+
+// One short outage that many threads meet at once is one failure, not as many as they are.
+TEST_F(RemoteTiles, AreThereAtOnceAfterAShortOutageThatManyThreadsMet) {
+    const auto tiles = TileSet::open(server_.url("dem.tif"));
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    server_.set_fault(Fault::not_found);
+    std::atomic<int> failed{0};
+    parallel_for(16,
+                 [&](int i) {
+                     failed += read(*tiles, {0, i % 4, i / 4}).faults.empty() ? 0 : 1;
+                 },
+                 {.threads = 4, .stop = {}, .progress = {}});
+    EXPECT_EQ(failed, 16);
+    server_.set_fault(Fault::none);
+    const auto good = read(*tiles, {0, 5, 5});
+    ASSERT_TRUE(good.faults.empty()) << good.faults.front().message;
+    EXPECT_EQ(good.heights(1, 1), 5 * 128 + 2 * 5 * 128);
 }
 
 } // namespace

@@ -1,6 +1,9 @@
 #include "engine/render/streamed_tiles.h"
 
 #include <array>
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -230,6 +233,75 @@ TEST_F(StreamedTilesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
     EXPECT_LE(uploads_of_ground(), 1); // no tile among them
     look_away(20);
     EXPECT_GT(uploads_of_ground(), first / 2);
+}
+
+// A drawn tile onto whose vertices one beside it, of its own level, is moved.
+TreeTile tile_beside_another(const TileChoice& choice) {
+    for (const TileChoice::Drawn& drawn : choice.drawn) {
+        const TreeTile id = drawn.tile->id;
+        for (const TileChoice::Drawn& other : choice.drawn) {
+            if (other.tile->id == TreeTile{id.level, id.col + 1, id.row}) {
+                return id;
+            }
+        }
+    }
+    ADD_FAILURE() << "no two tiles of a level are drawn side by side";
+    return {};
+}
+
+TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem) {
+    const auto look = [](StreamedWorld& world) {
+        world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
+    };
+    StreamedWorld whole;
+    look(whole);
+    whole.bring();
+    const TreeTile failing = tile_beside_another(whole.choice());
+
+    StreamedWorld world;
+    std::atomic<int> readings{0};
+    std::atomic<bool> recovers{false};
+    const Grid<float> all = rough_hills(side, 1.0, 0.0);
+    const auto read = [&](TreeTile tile, const std::stop_token& stop) {
+        scene::TileReading reading = read_hills(all, tile);
+        if (tile == failing && ++readings == 1) {
+            for (float& height : reading.heights.samples()) {
+                height += 25.0F;
+            }
+            reading.of_overview = true;
+            reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+        }
+        while (tile == failing && readings > 1 && !recovers && !stop.stop_requested()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return reading;
+    };
+    world.stream = std::make_shared<scene::TileStream>(
+        world.stream->maker(), read,
+        scene::TileStreamOptions{.memory_budget = 400 * scene::bytes_per_tile,
+                                 .threads = 2,
+                                 .first_pause = std::chrono::milliseconds(1)});
+    world.terrain->get<scene::TerrainNode>()->stream = world.stream;
+    look(world);
+    for (auto wanted = world.choice().wanted; !wanted.empty(); wanted = world.choice().wanted) {
+        world.stream->want(wanted);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ASSERT_TRUE(world.stream->find(failing)->of_overview);
+    Driver made = driver();
+    test::must(made.draw(world.scene));
+    const Image before = made.read_color();
+    recovers = true;
+    world.bring();
+    while (world.stream->is_busy()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    test::must(made.draw(world.scene));
+    const Image after = made.read_color();
+    EXPECT_NE(after, before);
+    Driver fresh = driver();
+    test::must(fresh.draw(whole.scene));
+    EXPECT_EQ(after, fresh.read_color());
 }
 
 // A tile of detail, as wide as some of its samples.

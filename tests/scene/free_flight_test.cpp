@@ -308,5 +308,49 @@ TEST(FreeFlight, StraightDownTheTopOfThePictureIsTheHeading) {
     EXPECT_NEAR(pitch_of(flight.camera()), -89.9, 1e-6);
 }
 
+// A sphere around the middle, whose poles are on z.
+constexpr double radius = 1000.0;
+glm::dvec3 north_of_sphere(glm::dvec3 world) {
+    const glm::dvec3 up = glm::normalize(world);
+    const glm::dvec3 axis(0.0, 0.0, 1.0);
+    return glm::normalize(axis - up * glm::dot(axis, up));
+}
+FreeFlightOptions over_sphere() {
+    FreeFlightOptions options;
+    options.speed = 100.0;
+    options.up = [](glm::dvec3 world) { return glm::normalize(world); };
+    options.north = north_of_sphere;
+    return options;
+}
+
+TEST(FreeFlight, HeadingsCountFromTheNorthOfThePlace) {
+    const glm::dvec3 eye(radius, 0.0, 0.0); // on the equator: north is z, east is y
+    const Compass compass{.up = {1.0, 0.0, 0.0}, .north = {0.0, 0.0, 1.0}};
+    FreeFlight flight(camera_from_angles(eye, 30.0, 0.0, compass), over_sphere());
+    flight.receive(MouseButtonEvent{.button = MouseButton::left, .pressed = true});
+    flight.receive(MouseMoveEvent{{0.0, 0.0}});
+    flight.receive(MouseMoveEvent{{400.0, 0.0}}); // 60 degrees to the right
+    const Camera camera = flight.camera();
+    EXPECT_LT(glm::distance(view_axes(camera).forward, {0.0, 1.0, 0.0}), 1e-9);
+}
+
+TEST(FreeFlight, GoesStraightOnOverAPole) {
+    const glm::dvec3 up = glm::normalize(glm::dvec3(0.1, 0.0003, 1.0));
+    FreeFlight flight(
+        camera_from_angles(radius * up, 0.0, 0.0, {.up = up, .north = north_of_sphere(up)}),
+        over_sphere());
+    const glm::dvec3 ahead = view_axes(flight.camera()).forward;
+    const glm::dvec3 across = glm::normalize(glm::cross(up, ahead));
+    flight.receive(press(Key::w));
+    for (int i = 0; i < 20; ++i) { // 0.025 each: 0.1 to the pole and on
+        flight.advance(0.25);
+        const Camera camera = flight.camera();
+        ASSERT_LT(std::abs(glm::dot(camera.eye, across)), 1e-6) << i;
+        ASSERT_LT(std::abs(glm::dot(view_axes(camera).forward, across)), 1e-9) << i;
+        ASSERT_GT(glm::dot(view_axes(camera).forward, ahead), 0.8) << i;
+    }
+    EXPECT_LT(flight.camera().eye.x, -0.3 * radius);
+}
+
 } // namespace
 } // namespace reljef::scene

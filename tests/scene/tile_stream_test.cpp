@@ -370,6 +370,50 @@ TEST(TileStreams, TakeOfALaterReadingOnlyAPictureThatShowsMore) {
     EXPECT_EQ(last->positions, first->positions);
 }
 
+// What the overview stands in for is replaced once it can be read; its picture stays where it shows
+// more.
+TEST(TileStreams, TakeOfALaterReadingTheHeightsThatTheOverviewStoodInFor) {
+    std::atomic<int> readings{0};
+    TileStream stream(maker(),
+                      [&](TreeTile tile, const std::stop_token& stop) {
+                          const int reading_now = ++readings;
+                          TileReading reading = read_plane(tile, stop);
+                          reading.of_overview = reading_now == 1 || reading_now == 3;
+                          if (reading.of_overview) {
+                              for (float& height : reading.heights.samples()) {
+                                  height += 100.0F;
+                              }
+                          }
+                          reading.picture.texels = Image(129, 129, Rgba8{0, 0, 0, 0});
+                          const int shown = reading_now == 1 ? 4 : 1;
+                          for (int col = 0; col < shown; ++col) {
+                              reading.picture.texels(col, 0) = {9, 8, 7, 255};
+                          }
+                          if (reading_now < 4) {
+                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                          }
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 3ms});
+    const TreeTile tile{0, 0, 0};
+    stream.want(std::array{tile});
+    while (stream.find(tile) == nullptr) {
+        std::this_thread::sleep_for(1ms);
+    }
+    while (stream.stats().failed < 2) {
+        std::this_thread::sleep_for(1ms);
+    }
+    const auto recovered = stream.find(tile);
+    EXPECT_FALSE(recovered->of_overview);
+    EXPECT_NEAR(recovered->heights(5, 5), height_of({5.0, 5.0}), 1e-3);
+    EXPECT_EQ(recovered->albedo(3, 0), (Rgba8{9, 8, 7, 255}));
+    EXPECT_TRUE(stream.wait({}));
+    const auto last = stream.find(tile);
+    EXPECT_EQ(readings, 4);
+    EXPECT_EQ(last->heights, recovered->heights);
+    EXPECT_NE(last->albedo(3, 0), (Rgba8{9, 8, 7, 255}));
+}
+
 TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     TileStream stream(maker(),
                       [](TreeTile tile, const std::stop_token& stop) {
