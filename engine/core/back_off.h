@@ -27,8 +27,10 @@ public:
     }
     /// When the pause is over.
     [[nodiscard]] Clock::time_point again() const { return again_; }
+    /// Whether it has failed `most_attempts` times, if it be tried once in a while since.
+    [[nodiscard]] bool has_failed_for_good() const { return attempts_ >= most_attempts; }
     [[nodiscard]] bool is_given_up(Clock::time_point now) const {
-        return attempts_ >= most_attempts && now < again_;
+        return has_failed_for_good() && now < again_;
     }
 
 private:

@@ -157,7 +157,7 @@ bool TileStream::wait(const std::stop_token& stop) {
 bool TileStream::has_given_up(terrain::TreeTile tile) const {
     const std::lock_guard lock(mutex_);
     const auto failure = failures_.find(tile);
-    return failure != failures_.end() && failure->second.latest.attempts >= most_attempts &&
+    return failure != failures_.end() && failure->second.latest.has_failed_for_good() &&
            !tiles_.contains(tile);
 }
 
