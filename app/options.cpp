@@ -163,10 +163,11 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "polygons: no pixel farther from where it belongs, with as few triangles as that "
                "takes (every sample a vertex)",
                "PX");
-    add_parsed(command, "--detail", choice.detail, parse_detail,
-               "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
-               "heights S widths: brick, rock, cobble, fence, rings, copper, or a folder of pictures",
-               "NAME|FOLDER[:width=W,scale=S]");
+    add_parsed(
+        command, "--detail", choice.detail, parse_detail,
+        "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
+        "heights S widths: brick, rock, cobble, fence, rings, copper, or a folder of pictures",
+        "NAME|FOLDER[:width=W,scale=S]");
     add_parsed(
         command, "--detail-technique", choice.detail_technique,
         [](const std::string& text) { return parse_detail_technique(text); },
@@ -308,7 +309,9 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         ->required();
     command
         .add_option("--imagery", choice.imagery,
-                    "picture to drape over the terrain, or a folder of them; may be given again")
+                    "picture to drape over the terrain, or a folder of them; may be given again. "
+                    "Pictures finer than 4096 pixels along the terrain are read where the view "
+                    "needs them, unless an error is promised: far ground is of averages then")
         ->allow_extra_args(false)
         ->type_name("FILE");
     command
