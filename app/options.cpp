@@ -309,7 +309,9 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         ->required();
     command
         .add_option("--imagery", choice.imagery,
-                    "picture to drape over the terrain, or a folder of them; may be given again")
+                    "picture to drape over the terrain, or a folder of them; may be given again. "
+                    "Pictures finer than 4096 pixels along the terrain are read where the view "
+                    "needs them, unless an error is promised: far ground is of averages then")
         ->allow_extra_args(false)
         ->type_name("FILE");
     command

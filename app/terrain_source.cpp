@@ -1,7 +1,6 @@
 #include "app/terrain_source.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -9,13 +8,12 @@
 #include "app/message.h"
 #include "app/misuse.h"
 #include "app/progress_line.h"
-#include "engine/core/worker_pool.h"
+#include "app/stream_source.h"
 #include "engine/io/cone_cache.h"
 #include "engine/io/geoid_file.h"
 #include "engine/io/raster.h"
 #include "engine/io/tile_pyramid.h"
 #include "engine/io/tree_tile.h"
-#include "engine/scene/tile_stream.h"
 #include "terrains/built_in.h"
 #include "terrains/gallery.h"
 #include "terrains/generators.h"
@@ -128,176 +126,123 @@ io::TileTerrainOptions tile_options(const TerrainChoice& choice,
     return options;
 }
 
-// Shares of the memory where not all of a terrain fits: an eighth each for its overview, for GDAL's
-// blocks, and for what is being read or uploaded; the rest is for tiles.
-constexpr std::size_t overview_part = 8;
-constexpr std::size_t blocks_part = 8;
-constexpr std::size_t work_part = 8;
-
-// Files halve their samples again and again for their own overviews: of the next such reduction
-// there is least to be read before the first picture.
-std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
-    const auto reduction = std::bit_ceil(static_cast<unsigned>(plan.reduction));
-    const io::TileGrid grid = io::TileSet::reduced(plan.grid, static_cast<int>(reduction));
-    return io::bytes_per_sample * static_cast<std::size_t>(grid.cols) *
-           static_cast<std::size_t>(grid.rows);
-}
+// Files of heights as tiles, and the images over them.
+struct SetToRead {
+    io::TileSet tiles;
+    OpenImagery imagery;
+};
+struct SetOrImagery {
+    std::optional<SetToRead> set;
+    std::optional<double> imagery_white; // where it is known
+};
 
 // What the coarsest views of a terrain that is read part by part take, beside the libraries.
 constexpr int least_megabytes = 64;
-
-// What a thread takes to read a tile of heights, and one with a picture, bytes.
-constexpr std::size_t bytes_of_reader = std::size_t{4} << 20U;
-constexpr std::size_t bytes_of_picture_reader = std::size_t{8} << 20U;
-
-// No more threads than fit what is for reading.
-unsigned readers_within(std::size_t budget, unsigned threads, bool with_pictures) {
-    const std::size_t each = with_pictures ? bytes_of_picture_reader : bytes_of_reader;
-    const std::size_t most = std::max<std::size_t>(1, budget / work_part / each);
-    return static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), most));
-}
 
 // Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
 // side.
 constexpr int most_step_read = 4096 / terrain::tile_cells;
 
-// Whether images are finer than one picture over all of the terrain may be.
-bool has_finer_pictures(const io::TileSet& tiles, const TerrainChoice& choice,
-                        const io::TileTerrainOptions& options) {
-    const std::vector<fs::path>& images = options.raster.imagery;
-    const auto plan = tiles.plan(options);
-    if (!choice.pictures_streamed || images.empty() || !plan) {
-        return false;
+// Of which heights tiles are made of the overview, and what is to be told of all that.
+void set_heights_of_tiles(const io::TileSet& tiles, const TerrainChoice& choice,
+                          StreamSource& stream, std::vector<std::string>& notes) {
+    const bool is_whole = stream.plan.reduction == 1;
+    notes.emplace_back(is_whole ? "finer parts of the images are read where the view needs them"
+                                : "finer tiles are read where the view needs them");
+    if (const auto megabytes = stream.megabytes_for_all_heights; megabytes && !is_whole) {
+        notes.push_back(fmt::format("--memory {}: beside the images, which are finer than one "
+                                    "picture may be, shadows and far ground are of averages; {} "
+                                    "keeps all samples",
+                                    choice.memory_megabytes, *megabytes));
     }
-    const auto imagery = io::ImagerySet::open(images, tiles.crs());
-    const io::TileFile& finest = tiles.files().front();
-    const double side =
-        std::max(plan->grid.cols * finest.spacing.x, plan->grid.rows * finest.spacing.y);
-    return imagery && side > io::longest_image_side * imagery->finest_pixel();
-}
-
-// How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
-std::optional<StreamSource> stream_source(const io::TileSet& tiles, const TerrainChoice& choice,
-                                          io::TileTerrainOptions& options) {
-    const auto plan = tiles.plan(options);
-    const bool fits = plan && plan->reduction == 1;
-    if (!choice.streamed || (fits && !has_finer_pictures(tiles, choice, options)) ||
-        std::max(tiles.grid().cols, tiles.grid().rows) > terrain::most_tree_samples) {
-        return std::nullopt;
+    if (choice.memory_megabytes < least_megabytes) {
+        notes.push_back(fmt::format("--memory {}: the tiles of a view take up to {}",
+                                    choice.memory_megabytes, least_megabytes));
     }
-    const std::size_t budget = options.raster.memory_budget;
-    options.raster.memory_budget = budget / overview_part;
-    auto overview = tiles.plan(options);
-    if (overview) {
-        options.raster.memory_budget = budget_of_halves(*overview);
-        overview = tiles.plan(options);
+    if (is_whole) {
+        stream.step_of_overview = 1;
+    } else if (auto missing = io::missing_overviews(tiles)) {
+        notes.push_back(std::move(*missing));
+        stream.step_of_overview = std::min(2 * stream.plan.reduction, most_step_read + 1);
     }
-    if (!overview) {
-        options.raster.memory_budget = budget;
-        return std::nullopt;
-    }
-    io::limit_block_cache(budget / blocks_part);
-    options.threads = readers_within(budget, options.threads, !options.raster.imagery.empty());
-    return StreamSource{*overview,
-                        options.gaps,
-                        budget - budget / overview_part - budget / blocks_part - budget / work_part,
-                        options.threads,
-                        0,
-                        {}};
-}
-
-// So that a texel of the finest tiles is no larger than a pixel of the finest image.
-int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double spacing) {
-    constexpr int most_refinement = 64;
-    const int most =
-        std::min(most_refinement, terrain::most_tree_samples /
-                                      std::max(stream.plan.grid.cols, stream.plan.grid.rows));
-    const double texel = spacing / stream.imagery.most_texels;
-    int refinement = 1;
-    while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
-        refinement *= 2;
-    }
-    return refinement;
 }
 
 // The images of a streamed terrain, of which the overview has coarse colours already.
-void add_imagery(std::span<const fs::path> images, std::size_t reading_memory,
-                 TerrainSource& source) {
+void add_imagery(const OpenImagery& imagery, TerrainSource& source) {
     std::vector<std::string>& notes = source.terrain.notes;
-    auto imagery = io::ImagerySet::open(images, source.tiles->crs(), reading_memory);
-    if (!imagery) {
-        notes.push_back(
-            fmt::format("finer tiles show the imagery coarsely: {}", imagery.error().message));
+    if (imagery.set == nullptr) {
+        notes.push_back(fmt::format("finer tiles show the imagery coarsely: {}", imagery.fault));
         return;
     }
-    if (auto missing = imagery->missing_overviews()) {
+    if (auto missing = imagery.set->missing_overviews()) {
         notes.push_back(std::move(*missing));
     }
     const glm::dvec2 spacing = source.terrain.heightfield.spacing;
-    source.stream->imagery.most_texels =
-        scene::TileStream::texels_within(source.stream->memory_budget);
-    source.stream->imagery.finest_pixel = imagery->finest_pixel();
-    source.stream->imagery.refinement = refinement_for(
-        *imagery, *source.stream, std::max(spacing.x, spacing.y) / source.stream->plan.reduction);
-    source.imagery = std::make_shared<const io::ImagerySet>(std::move(*imagery));
+    source.stream->imagery =
+        imagery_detail(*imagery.set, *source.stream,
+                       std::max(spacing.x, spacing.y) / source.stream->plan.reduction);
+    source.imagery = imagery.set;
 }
 
-Result<TerrainSource> read_tiles(io::TileSet tiles, const TerrainChoice& choice,
+Result<TerrainSource> read_tiles(SetToRead set, const TerrainChoice& choice,
                                  io::SceneDescription description, const std::stop_token& stop) {
     ProgressLine line("reading " + description.name, choice.quiet);
     io::TileTerrainOptions options = tile_options(choice, description, stop);
     options.raster.progress = line.callback();
-    std::optional<StreamSource> stream = stream_source(tiles, choice, options);
-    auto terrain = tiles.terrain(options);
+    options.raster.imagery_white = set.imagery.white();
+    std::optional<StreamSource> stream = stream_source(set.tiles, choice, options, set.imagery);
+    if (stream) {
+        options.raster.memory_budget = stream->overview_budget;
+        options.threads = stream->threads;
+    }
+    auto terrain = set.tiles.terrain(options);
     if (!terrain) {
         return terrain.error();
     }
     if (stream) {
-        terrain->notes.emplace_back("finer tiles are read where the view needs them");
-        if (choice.memory_megabytes < least_megabytes) {
-            terrain->notes.push_back(fmt::format("--memory {}: the tiles of a view take up to {}",
-                                                 choice.memory_megabytes, least_megabytes));
-        }
-        if (auto missing = io::missing_overviews(tiles)) {
-            terrain->notes.push_back(std::move(*missing));
-            stream->step_of_overview = std::min(2 * stream->plan.reduction, most_step_read + 1);
-        }
+        set_heights_of_tiles(set.tiles, choice, *stream, terrain->notes);
     }
-    TerrainSource source{std::move(*terrain), std::move(description), std::move(tiles), stream, {}};
+    TerrainSource source{
+        std::move(*terrain), std::move(description), std::move(set.tiles), stream, {}};
     if (stream && !options.raster.imagery.empty()) {
-        const std::size_t budget = raster_options(choice, source.description, stop).memory_budget;
-        add_imagery(options.raster.imagery, budget / work_part / stream->threads, source);
+        add_imagery(set.imagery, source);
     }
     return source;
 }
 
 // A single file that does not fit the memory, or whose images do not, is read as a set of one, if
-// it can be.
-std::optional<io::TileSet> set_to_stream(const TerrainChoice& choice,
-                                         const io::SceneDescription& description,
-                                         const std::stop_token& stop) {
+// it can be; what is known of its images else.
+SetOrImagery set_to_stream(const TerrainChoice& choice, const io::SceneDescription& description,
+                           const std::stop_token& stop) {
     if (!choice.streamed || !description.generator.empty() || description.spacing) {
-        return std::nullopt;
+        return {};
     }
     const auto info = io::read_raster_info(description.heights);
     if (!info || info->crs_name.empty()) {
-        return std::nullopt;
+        return {};
     }
     const bool fits = static_cast<double>(info->cols) * info->rows * io::bytes_per_sample <=
                       static_cast<double>(choice.memory_megabytes) * (1U << 20U);
     const io::TileTerrainOptions options = tile_options(choice, description, stop);
-    if (fits && options.raster.imagery.empty()) {
-        return std::nullopt;
+    if (fits && (options.raster.imagery.empty() || !choice.pictures_streamed)) {
+        return {};
     }
     auto tiles = open_set(choice, description, stop);
-    const bool streams = tiles && (!fits || has_finer_pictures(*tiles, choice, options));
-    return streams ? std::optional(std::move(*tiles)) : std::nullopt;
+    if (!tiles) {
+        return {};
+    }
+    OpenImagery imagery = open_imagery(*tiles, choice, options);
+    if (fits && !has_finer_pictures(*tiles, options, imagery)) {
+        return {{}, imagery.white()};
+    }
+    return {SetToRead{std::move(*tiles), std::move(imagery)}, {}};
 }
 
 Result<terrain::Terrain> read(const TerrainChoice& choice, const io::SceneDescription& description,
-                              const std::stop_token& stop) {
+                              std::optional<double> imagery_white, const std::stop_token& stop) {
     ProgressLine line("reading " + description.name, choice.quiet);
     io::RasterOptions options = raster_options(choice, description, stop);
+    options.imagery_white = imagery_white;
     options.progress = line.callback();
     return io::read_terrain(description.heights, options);
 }
@@ -329,16 +274,20 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
         if (!tiles) {
             return tiles.error();
         }
-        return read_tiles(std::move(*tiles), choice, std::move(description), stop);
+        OpenImagery imagery = open_imagery(*tiles, choice, tile_options(choice, description, stop));
+        return read_tiles({std::move(*tiles), std::move(imagery)}, choice, std::move(description),
+                          stop);
     }
     if (auto fits = refuse_folder_options(choice, description); !fits) {
         return fits.error();
     }
-    if (auto tiles = set_to_stream(choice, description, stop)) {
-        return read_tiles(std::move(*tiles), choice, std::move(description), stop);
+    SetOrImagery found = set_to_stream(choice, description, stop);
+    if (found.set) {
+        return read_tiles(std::move(*found.set), choice, std::move(description), stop);
     }
-    auto terrain = description.generator.empty() ? read(choice, description, stop)
-                                                 : generate(choice, description, stop);
+    auto terrain = description.generator.empty()
+                       ? read(choice, description, found.imagery_white, stop)
+                       : generate(choice, description, stop);
     return terrain ? Result<TerrainSource>(
                          TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})
                    : terrain.error();

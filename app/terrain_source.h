@@ -18,7 +18,10 @@ namespace reljef::app {
 struct StreamSource {
     io::TileSet::TerrainPlan plan; ///< the terrain is its overview
     io::Gaps gaps = io::Gaps::holes;
-    std::size_t memory_budget = 0; ///< bytes
+    std::size_t memory_budget = 0;   ///< bytes, for tiles
+    std::size_t overview_budget = 0; ///< bytes
+    /// Where only the images do not fit: --memory with which the overview has all samples.
+    std::optional<std::size_t> megabytes_for_all_heights;
     unsigned threads = 0;
     /// Tiles of so many samples from vertex to vertex, or more, are made of the overview: of files
     /// without overviews reading them takes too long. 0: none are.

@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 #include <gdal_utils.h>
 
+#include "engine/io/sampled_windows.h"
+
 namespace reljef::io {
 namespace {
 
@@ -71,42 +73,13 @@ bool has_last_block(GDALDataset& image) {
     return block != nullptr;
 }
 
-/// A block of a band, pixels.
-struct StoredBlock {
-    int col = 0;
-    int row = 0;
-    int cols = 0;
-    int rows = 0;
-};
-
-/// All blocks of a band, or so many, evenly spread, that together have a few million pixels.
-std::vector<StoredBlock> spread_blocks(GDALRasterBand& band) {
-    constexpr double most_pixels = 1U << 22U;
-    int cols = 0;
-    int rows = 0;
-    band.GetBlockSize(&cols, &rows);
-    const std::int64_t across = (band.GetXSize() - 1) / cols + 1;
-    const std::int64_t count = across * ((band.GetYSize() - 1) / rows + 1);
-    const auto wanted =
-        static_cast<std::int64_t>(most_pixels / (static_cast<double>(cols) * rows)) + 1;
-    std::int64_t step = std::max<std::int64_t>(1, count / wanted);
-    step += step > 1 && step % across == 0 ? 1 : 0; // not always the same column
-    std::vector<StoredBlock> blocks;
-    for (std::int64_t i = 0; i < count; i += step) {
-        const int col = static_cast<int>(i % across) * cols;
-        const int row = static_cast<int>(i / across) * rows;
-        blocks.push_back({col, row, std::min(cols, band.GetXSize() - col),
-                          std::min(rows, band.GetYSize() - row)});
-    }
-    return blocks;
-}
-
 /// At least 0; 0 where it cannot be read.
-double highest_in(GDALRasterBand& band, const StoredBlock& block) {
-    std::vector<double> values(static_cast<std::size_t>(block.cols) *
-                               static_cast<std::size_t>(block.rows));
-    if (band.RasterIO(GF_Read, block.col, block.row, block.cols, block.rows, values.data(),
-                      block.cols, block.rows, GDT_Float64, 0, 0, nullptr) != CE_None) {
+double highest_in(GDALRasterBand& band, const PixelWindow& window) {
+    std::vector<double> values(static_cast<std::size_t>(window.size.x) *
+                               static_cast<std::size_t>(window.size.y));
+    if (band.RasterIO(GF_Read, window.first.x, window.first.y, window.size.x, window.size.y,
+                      values.data(), window.size.x, window.size.y, GDT_Float64, 0, 0,
+                      nullptr) != CE_None) {
         return 0.0;
     }
     int declares = 0;
@@ -120,11 +93,14 @@ double highest_in(GDALRasterBand& band, const StoredBlock& block) {
 }
 
 double highest_of(GDALRasterBand& band, const std::stop_token& stop) {
+    glm::ivec2 block(1);
+    band.GetBlockSize(&block.x, &block.y);
     double highest = 0.0;
-    for (const StoredBlock& block : spread_blocks(band)) {
-        if (!stop.stop_requested()) {
-            highest = std::max(highest, highest_in(band, block));
+    for (const PixelWindow& window : sampled_windows({band.GetXSize(), band.GetYSize()}, block)) {
+        if (stop.stop_requested()) {
+            break;
         }
+        highest = std::max(highest, highest_in(band, window));
     }
     return highest;
 }

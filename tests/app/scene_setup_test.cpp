@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
@@ -85,6 +86,40 @@ TEST_F(GeodeticCamera, OnAPlaneLooksAlongTheMapsNorth) {
     const auto scene = scene_of(view_of(view), terrain::PlacementKind::plane);
     const auto& camera = *scene.camera->get<scene::Camera>();
     EXPECT_LT(glm::distance(scene::view_axes(camera).forward, {0.0, 1.0, 0.0}), 1e-6);
+}
+
+const std::string utm_32_prj =
+    R"(PROJCS["UTM_32N",)" + wgs84_prj +
+    R"(,PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],)"
+    R"(PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",9.0],)"
+    R"(PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
+
+// Of UTM zone 32 away from its middle meridian; degrees by PROJ's proj_factors.
+TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
+    struct Place {
+        double longitude, easting, northing, convergence;
+    };
+    for (const Place& at : {Place{11.9, 661720.751, 6654956.720, 2.512012476527},
+                            Place{6.2, 343853.566, 6654716.392, -2.425356101970}}) {
+        folder_.write("utm.prj", utm_32_prj);
+        TerrainChoice choice;
+        choice.terrain = folder_
+                             .write("utm.asc", fmt::format("ncols 3\nnrows 3\nxllcenter {}\n"
+                                                           "yllcenter {}\ncellsize 1000\n"
+                                                           "5 5 5 5 5 5 5 5 5 ",
+                                                           at.easting - 1000, at.northing - 1000))
+                             .string();
+        choice.placement = terrain::PlacementKind::plane;
+        choice.quiet = true;
+        auto source = open_terrain(choice, {});
+        ASSERT_TRUE(source) << source.error().message;
+        const auto scene =
+            make_scene(std::move(*source), choice, view_of({60.0, at.longitude, 500.0, 0.0, 0.0}));
+        ASSERT_TRUE(scene) << scene.error().message;
+        const glm::dvec3 forward = scene::view_axes(*scene->camera->get<scene::Camera>()).forward;
+        // East of the middle meridian the grid's north is east of the true one.
+        EXPECT_NEAR(glm::degrees(std::atan2(-forward.x, forward.y)), at.convergence, 1e-4);
+    }
 }
 
 TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {

@@ -130,6 +130,35 @@ TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
     EXPECT_THAT(terrain.stream->take_faults(), ::testing::Contains(HasSubstr("N45E006.hgt")));
 }
 
+// What the overview stood in for is read once the file is back.
+TEST_F(Streaming, a_file_that_comes_back_is_shown_again) {
+    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+    app::TerrainChoice choice;
+    choice.terrain = path("tiles");
+    choice.memory_megabytes = 32;
+    choice.quiet = true;
+    choice.streamed = true;
+    auto source = app::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = app::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    const auto wait_until = [&](const auto& condition) {
+        for (int i = 0; i < 2000 && !condition(); ++i) {
+            stream.want(std::array{stream.tree().root()});
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    };
+    const auto root = [&] { return stream.find(stream.tree().root()); };
+    std::filesystem::rename(path("tiles/N45E006.hgt"), path("away.hgt"));
+    wait_until([&] { return root() != nullptr; });
+    ASSERT_NE(root(), nullptr);
+    EXPECT_TRUE(root()->of_overview);
+    std::filesystem::rename(path("away.hgt"), path("tiles/N45E006.hgt"));
+    wait_until([&] { return !root()->of_overview; });
+    EXPECT_FALSE(root()->of_overview);
+}
+
 TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
     folder_.write("wide.vrt",
                   R"(<VRTDataset rasterXSize="8300" rasterYSize="1200"><SRS>EPSG:4326</SRS>)"
@@ -231,9 +260,17 @@ TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
     EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
 }
 
-// A patch of pixels of which 8,400 would lie along the terrain, which fits the memory; but an error
-// that is promised is kept.
-TEST_F(StreamedImagery, that_is_finer_than_one_picture_is_streamed_over_what_fits_the_memory) {
+/// A patch of pixels of which 8,400 would lie along the terrain, which fits the memory.
+class FineImagery : public StreamedImagery {
+protected:
+    void SetUp() override {
+        StreamedImagery::SetUp();
+        write_fine();
+    }
+    void write_fine() const;
+};
+
+void FineImagery::write_fine() const {
     folder_.write("fine.ppm", "P6\n256 256\n255\n" + std::string(3 * 256 * 256, '\x60'));
     std::string bands;
     for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
@@ -247,6 +284,10 @@ TEST_F(StreamedImagery, that_is_finer_than_one_picture_is_streamed_over_what_fit
                   "<VRTDataset rasterXSize=\"256\" rasterYSize=\"256\"><SRS>EPSG:4326</SRS>"
                   "<GeoTransform>6.485, 0.000119, 0, 44.515, 0, -0.000119</GeoTransform>" +
                       bands + "</VRTDataset>");
+}
+
+// But an error that is promised is kept.
+TEST_F(FineImagery, is_streamed_over_what_fits_the_memory) {
     const auto render_with = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments{"render",    path("tiles/N44E006.hgt"),
                                            "--memory",  "64",
@@ -265,6 +306,29 @@ TEST_F(StreamedImagery, that_is_finer_than_one_picture_is_streamed_over_what_fit
     const auto promised = render_with({"--max-error", "1"});
     ASSERT_EQ(promised.exit_code, 0) << promised.err;
     EXPECT_THAT(promised.out, Not(HasSubstr("streamed: ")));
+}
+
+TEST_F(FineImagery, leaves_all_samples_to_shadows_and_far_ground_where_there_is_memory) {
+    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+    app::TerrainChoice choice;
+    choice.terrain = path("tiles/N44E006.hgt");
+    choice.imagery = {path("fine.vrt")};
+    choice.quiet = true;
+    choice.streamed = choice.pictures_streamed = true;
+    choice.memory_megabytes = 160; // of which the samples and their picture take a half at most
+    const auto whole = app::open_terrain(choice, {});
+    ASSERT_TRUE(whole) << whole.error().message;
+    ASSERT_TRUE(whole->stream);
+    EXPECT_EQ(whole->stream->plan.reduction, 1);
+    EXPECT_EQ(whole->terrain.heightfield.heights.cols(), 1201);
+    EXPECT_THAT(whole->terrain.notes, ::testing::Contains(HasSubstr("finer parts of the images")));
+    choice.memory_megabytes = 64;
+    const auto averages = app::open_terrain(choice, {});
+    ASSERT_TRUE(averages) << averages.error().message;
+    ASSERT_TRUE(averages->stream);
+    EXPECT_GT(averages->stream->plan.reduction, 1);
+    EXPECT_THAT(averages->terrain.notes,
+                ::testing::Contains(HasSubstr("shadows and far ground are of averages")));
 }
 
 TEST_F(StreamedImagery, that_is_missing_is_told_once_and_the_rest_is_shown) {

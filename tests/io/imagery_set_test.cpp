@@ -255,6 +255,25 @@ TEST_F(ImagerySets, AFileThatFailsAgainAndAgainIsPassedOverWithoutAFault) {
     EXPECT_EQ(window.texels(4, 4).r, 50);
 }
 
+TEST_F(ImagerySets, AreNotOpenedOnceAStopIsAskedFor) {
+    add("fine.tif", plain(480000.0, 5000000.0, 400, 20.0, 200.0));
+    std::stop_source source;
+    source.request_stop();
+    ImagerySetOptions options;
+    options.stop = source.get_token();
+    const auto set = ImagerySet::open(std::vector{folder_.path() / "fine.tif"}, utm_31, options);
+    ASSERT_FALSE(set);
+    EXPECT_THAT(set.error().message, HasSubstr("stopped"));
+}
+
+TEST_F(ImagerySets, KnowWhatIsWhite) {
+    MadeRaster deep = plain(480000.0, 5000000.0, 40, 20.0, 300.0);
+    deep.type = GDT_UInt16;
+    deep.values[77] = 900.0;
+    add("deep.tif", deep);
+    EXPECT_DOUBLE_EQ(open({"deep.tif"}, utm_31).white(), 900.0);
+}
+
 TEST_F(ImagerySets, HaveMoreOnlyWhereAnImageIsSeen) {
     add("a.tif", plain(480000.0, 5000000.0, 400, 20.0, 200.0));
     add("tiny.tif", plain(500010.0, 4999990.0, 3, 2.0, 200.0));
