@@ -21,8 +21,8 @@ namespace {
 constexpr double least_share_of_triangles = 0.5; // of the error
 
 // Errors of vertices and of triangles are seldom the most at the same place: they add up to less
-// than their sum (which 1 would be), if not as little as independent ones do (2, which over the Alps
-// from far above makes the error that 99 of 100 pixels keep a quarter larger). Measured.
+// than their sum (which 1 would be), if not as little as independent ones do (2, which over the
+// Alps from far above makes the error that 99 of 100 pixels keep a quarter larger). Measured.
 constexpr double addition_power = 1.25;
 
 // Of the error, what is left for triangles where vertices take a share.

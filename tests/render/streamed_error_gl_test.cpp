@@ -3,8 +3,10 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <vector>
 
+#include "engine/render/streamed_cut.h"
 #include "engine/render/tile_choice.h"
 #include "engine/scene/tile_stream.h"
 #include "tests/render/driver_fixture.h"
@@ -138,6 +140,34 @@ TEST_F(StreamedError, OfRoughGroundIsWhatWasAskedForOrLess) {
         ASSERT_GT(found.size(), 1000U);
         EXPECT_LE(*std::max_element(found.begin(), found.end()), 1.0) << round;
     }
+}
+
+TEST_F(StreamedError, OfTheVerticesBesideATileIsNotLeftToItsTriangles) {
+    bring();
+    DrawList list = select(scene_, size);
+    ASSERT_GT(list.streamed_tiles.size(), 2U);
+    std::set<TreeTile> ids;
+    for (StreamedDraw& draw : list.streamed_tiles) {
+        draw.error = 0.0;
+        ids.insert(draw.tile->id);
+    }
+    const auto& stream = *terrain_->get<scene::TerrainNode>()->stream;
+    const terrain::TileCover cover(stream.tree(), ids);
+    const TreeTile beside = cover.touching(list.streamed_tiles.front().tile->id).front();
+    const auto left_to_first = [&] {
+        std::vector<StreamedCut> cuts(list.streamed_tiles.size());
+        std::vector<TileToCut> tiles;
+        for (std::size_t i = 0; i < cuts.size(); ++i) {
+            tiles.push_back({&list.streamed_tiles[i], &cuts[i]});
+        }
+        cut_together(list, cover, true, tiles);
+        return tiles.front().view.most_error;
+    };
+    EXPECT_GT(left_to_first(), 0.95);
+    for (StreamedDraw& draw : list.streamed_tiles) {
+        draw.error = draw.tile->id == beside ? 0.5 : 0.0;
+    }
+    EXPECT_LT(left_to_first(), 0.75);
 }
 
 } // namespace
