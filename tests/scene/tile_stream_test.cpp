@@ -394,7 +394,7 @@ TEST(TileStreams, TakeOfALaterReadingTheHeightsThatTheOverviewStoodInFor) {
                           }
                           return reading;
                       },
-                      {.threads = 1, .first_pause = 3ms});
+                      {.threads = 1, .first_pause = 10ms});
     const TreeTile tile{0, 0, 0};
     stream.want(std::array{tile});
     while (stream.find(tile) == nullptr) {
