@@ -1,8 +1,11 @@
 #include "bench/lod_command.h"
 
+#include <array>
 #include <charconv>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -138,29 +141,46 @@ void add_methods_option(CLI::App& command, LodChoice& choice) {
                      "is drawn");
 }
 
-void check_poses_options(const LodChoice& choice, const CLI::App& command) {
-    const OutputChoice& outputs = choice.outputs;
-    const auto refuse = [](const char* message) { throw CLI::ValidationError(message); };
-    if ((choice.poses ? 1 : 0) + (choice.methods ? 1 : 0) + (choice.growth ? 1 : 0) +
-            (choice.selection ? 1 : 0) >
-        1) {
-        refuse("--poses, --methods, --growth, --selection: more than one found, one was expected");
+[[noreturn]] void refuse(const std::string& message) {
+    throw CLI::ValidationError(message);
+}
+
+// What is asked for instead of the tables; empty: the tables.
+std::string table_instead(const LodChoice& choice) {
+    const std::array asked{
+        std::pair{choice.poses.has_value(), "--poses"}, std::pair{choice.methods, "--methods"},
+        std::pair{choice.growth, "--growth"}, std::pair{choice.selection, "--selection"}};
+    std::string instead;
+    for (const auto& [is_asked, name] : asked) {
+        if (is_asked && !instead.empty()) {
+            refuse("--poses, --methods, --growth, --selection: more than one found, one was "
+                   "expected");
+        }
+        instead = is_asked ? name : instead;
     }
-    if (choice.selection && !choice.terrains.empty()) {
-        refuse("--selection: --terrain found, none was expected with it");
+    return instead;
+}
+
+void check_outputs_of(const std::string& instead, const OutputChoice& outputs) {
+    const bool has_markdown = instead == "--growth";
+    if (!outputs.csv.empty() || !outputs.html.empty() ||
+        (!has_markdown && !outputs.markdown.empty())) {
+        refuse(has_markdown
+                   ? "--growth: --csv or --html found, only --json and --markdown were expected "
+                     "with it"
+                   : fmt::format("{}: --csv, --markdown or --html found, only --json was expected "
+                                 "with it",
+                                 instead));
     }
-    if ((choice.poses || choice.methods || choice.selection) &&
-        !(outputs.csv.empty() && outputs.markdown.empty() && outputs.html.empty())) {
-        throw CLI::ValidationError(
-            fmt::format("{}: --csv, --markdown or --html found, only --json was expected with it",
-                        choice.poses     ? "--poses"
-                        : choice.methods ? "--methods"
-                                         : "--selection"));
+}
+
+void check_lod_options(const LodChoice& choice, const CLI::App& command) {
+    const std::string instead = table_instead(choice);
+    if (!instead.empty()) {
+        check_outputs_of(instead, choice.outputs);
     }
-    if (choice.growth &&
-        !(outputs.csv.empty() && outputs.html.empty() && choice.terrains.empty())) {
-        refuse("--growth: --csv, --html or --terrain found, only --json and --markdown were "
-               "expected with it");
+    if ((choice.growth || choice.selection) && !choice.terrains.empty()) {
+        refuse(instead + ": --terrain found, none was expected with it");
     }
     if (!choice.poses && !choice.growth && command.count("--max-error") > 0) {
         refuse("--max-error: no --poses and no --growth found, one was expected with it");
@@ -181,7 +201,7 @@ app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
     add_output_options(*arguments, choice->outputs);
     add_poses_options(*arguments, *choice);
     add_methods_option(*arguments, *choice);
-    arguments->callback([arguments, choice] { check_poses_options(*choice, *arguments); });
+    arguments->callback([arguments, choice] { check_lod_options(*choice, *arguments); });
     arguments->footer(
         "Each terrain is seen from the poses overview, oblique, low and grazing, with a still "
         "camera. With --quick pictures are 512x384 unless --size says otherwise.\n"

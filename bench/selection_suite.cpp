@@ -55,8 +55,8 @@ Result<void> fill(ManyTiles& made, int copies) {
     const scene::Node::Content content = (*first)->content();
     for (int i = 0; i < copies; ++i) {
         scene::Node& node = i == 0 ? **first : made.scene.root().add("copy", content);
-        node.set_position(
-            {(i % across + 0.5) * step - 0.5 * made.side, (i / across + 0.5) * step, 0.0});
+        const glm::ivec2 place(i % across, i / across);
+        node.set_position({(place.x + 0.5) * step - 0.5 * made.side, (place.y + 0.5) * step, 0.0});
     }
     made.camera = &made.scene.add_camera({});
     return {};
