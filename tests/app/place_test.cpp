@@ -8,6 +8,7 @@
 #include "app/frame_maker.h"
 #include "app/scene_setup.h"
 #include "engine/scene/tile_stream.h"
+#include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -76,11 +77,7 @@ private:
 
 class Place : public testing::Test {
 protected:
-    void SetUp() override {
-        RELJEF_RELEASE_ONLY("draws hundreds of tiles");
-        ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); // its folder would go with the test
-        ::setenv("XDG_CACHE_HOME", (folder_.path() / "cache").c_str(), 1);
-    }
+    void SetUp() override { RELJEF_RELEASE_ONLY("draws hundreds of tiles"); }
     [[nodiscard]] std::string path(const std::string& name) const {
         return (folder_.path() / name).string();
     }
@@ -130,6 +127,9 @@ protected:
     }
 
     test::TemporaryFolder folder_;
+    test::EnvironmentVariable cache_{"XDG_CACHE_HOME", path("cache")};
+    // Its folder would go with the test.
+    test::EnvironmentVariable no_shader_cache_{"MESA_SHADER_CACHE_DISABLE", "true"};
 };
 
 class AlpineBlock : public Place {

@@ -15,6 +15,7 @@
 #include "engine/io/image.h"
 #include "tests/app/command_line.h"
 #include "tests/support/http_server.h"
+#include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -102,7 +103,7 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
 
 // Cells that share no edge with the one that is gone are drawn as finely as without it.
 TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
-    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
     app::TerrainChoice choice;
     choice.terrain = path("tiles");
     choice.memory_megabytes = 32;
@@ -132,7 +133,7 @@ TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
 
 // What the overview stood in for is read once the file is back.
 TEST_F(Streaming, a_file_that_comes_back_is_shown_again) {
-    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
     app::TerrainChoice choice;
     choice.terrain = path("tiles");
     choice.memory_megabytes = 32;
@@ -309,7 +310,7 @@ TEST_F(FineImagery, is_streamed_over_what_fits_the_memory) {
 }
 
 TEST_F(FineImagery, leaves_all_samples_to_shadows_and_far_ground_where_there_is_memory) {
-    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
     app::TerrainChoice choice;
     choice.terrain = path("tiles/N44E006.hgt");
     choice.imagery = {path("fine.vrt")};

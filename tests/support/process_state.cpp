@@ -1,9 +1,11 @@
 #include "tests/support/process_state.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 namespace reljef::test {
 
@@ -22,6 +24,22 @@ std::size_t resident_bytes() {
 std::size_t open_files() {
     const std::filesystem::directory_iterator files("/proc/self/fd");
     return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+EnvironmentVariable::EnvironmentVariable(std::string name, const std::string& value)
+    : name_(std::move(name)) {
+    if (const char* before = std::getenv(name_.c_str())) {
+        before_ = before;
+    }
+    ::setenv(name_.c_str(), value.c_str(), 1);
+}
+
+EnvironmentVariable::~EnvironmentVariable() {
+    if (before_) {
+        ::setenv(name_.c_str(), before_->c_str(), 1);
+    } else {
+        ::unsetenv(name_.c_str());
+    }
 }
 
 } // namespace reljef::test

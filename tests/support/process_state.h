@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 
 namespace reljef::test {
 
@@ -8,6 +10,20 @@ namespace reljef::test {
 std::size_t resident_bytes();
 /// Files, sockets and the like that this process has open.
 std::size_t open_files();
+
+/// A variable of this process's environment for as long as this lives, then as it was: other tests
+/// run in the same process.
+class EnvironmentVariable {
+public:
+    EnvironmentVariable(std::string name, const std::string& value);
+    ~EnvironmentVariable();
+    EnvironmentVariable(const EnvironmentVariable&) = delete;
+    EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
+
+private:
+    std::string name_;
+    std::optional<std::string> before_;
+};
 
 /// Whether memory freed is given back as usual: sanitizers keep it for a while to catch its use.
 constexpr bool memory_is_plain() {
