@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "app/process_memory.h"
+#include "app/progress_line.h"
 #include "app/scene_setup.h"
 #include "app/streaming.h"
 #include "engine/scene/animators.h"
@@ -43,6 +44,7 @@ Result<void> fly(app::TerrainScene& scene, const scene::FlyPath& path, app::Devi
                  FlightClock::time_point start, FlightResults& results,
                  const std::stop_token& stop) {
     const int count = results.options.view.frames;
+    app::ProgressLine line("flying", results.options.terrain.quiet);
     for (int index = 0; index < count && !stop.stop_requested(); ++index) {
         app::fly_to(scene, path, index, count);
         ParallelOptions parallel;
@@ -55,6 +57,7 @@ Result<void> fly(app::TerrainScene& scene, const scene::FlyPath& path, app::Devi
         if (index == 0) {
             results.seconds_to_first_frame = flown_since(start);
         }
+        line.update(static_cast<double>(index + 1) / count);
     }
     if (stop.stop_requested()) {
         results.stopped = Error{"interrupted"};
