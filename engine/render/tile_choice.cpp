@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <set>
@@ -44,19 +45,27 @@ struct Candidate {
     double along = 0.0; // metres from the eye, along the ground
     terrain::TreeTile id;
     Box expected;         // local metres
-    double urgency = 0.0; // excess of the tile above
+    double urgency = 0.0; // the least excess of the tiles above
     terrain::TreeTile above;
-    bool is_hidden = false; // the tile above is
+    bool is_hidden = false;   // the tile above is
+    bool is_foreseen = false; // a tile above is not there: only what is known of this one counts
 
     friend bool operator<(const Candidate& a, const Candidate& b) {
         return a.along != b.along ? a.along > b.along : b.id < a.id;
     }
 };
 
-terrain::HeightRange range_below(const scene::StreamedTile& tile, double errors) {
+// Where the finer tiles below one are looked for.
+terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) {
     const double more = more_of_range * (tile.range.high - tile.range.low) + errors * tile.error;
     return {tile.range.low - more, tile.range.high + more};
 }
+
+// A tile that is there, or that was.
+struct KnownTile {
+    scene::TileSummary summary;
+    std::shared_ptr<const scene::StreamedTile> tile; // null: it went
+};
 
 // What a view shows of a stream, and how large.
 class StreamView {
@@ -84,8 +93,22 @@ public:
     /// Absent where nothing hides anything.
     [[nodiscard]] const std::optional<terrain::HorizonView>& horizon() const { return horizon_; }
 
+    [[nodiscard]] std::optional<KnownTile> known(terrain::TreeTile id) const {
+        if (auto tile = stream_.peek(id)) {
+            return KnownTile{*tile, std::move(tile)};
+        }
+        const auto summary = stream_.recall(id);
+        return summary ? std::optional(KnownTile{*summary, nullptr}) : std::nullopt;
+    }
+
     [[nodiscard]] bool may_see(const Box& local) const {
         return frustum_.may_see(transformed(world_from_local_, local));
+    }
+
+    /// Whether those below a tile of this summary may show something of `below`.
+    [[nodiscard]] bool may_see_below(const scene::TileSummary& tile,
+                                     terrain::TreeTile below) const {
+        return may_see(stream_.maker().bounds(below, range_below(tile, errors_seen)));
     }
 
     /// Metres, to the nearest point of a box along the local ground.
@@ -102,7 +125,7 @@ public:
     }
 
     /// Its error as it is seen, or what its picture lacks, over what may be.
-    [[nodiscard]] double excess_of(const scene::StreamedTile& tile) const {
+    [[nodiscard]] double excess_of(const scene::TileSummary& tile) const {
         if (tile.id.level == 0) {
             return 0.0;
         }
@@ -119,7 +142,7 @@ public:
     }
 
 private:
-    [[nodiscard]] double distance_to(const scene::StreamedTile& tile) const {
+    [[nodiscard]] double distance_to(const scene::TileSummary& tile) const {
         const Box bounds = transformed(world_from_local_, tile.bounds);
         return glm::distance(camera_.eye, glm::clamp(camera_.eye, bounds.low, bounds.high));
     }
@@ -165,19 +188,19 @@ public:
           nearer_(view.stream().maker(), limits.hides ? view.horizon() : std::nullopt) {}
     TreeWalk(const TreeWalk&) = delete;
 
-    void walk(const scene::StreamedTile& root) {
-        open_.push({view_.along(root.bounds), root.id, root.bounds, 0.0, root.id});
-        while (!open_.empty()) {
+    /// False, and not to its end, where memory does not hold what would be drawn.
+    [[nodiscard]] bool walk(const scene::StreamedTile& root) {
+        open_.push({view_.along(root.bounds), root.id, root.bounds,
+                    std::numeric_limits<double>::infinity(), root.id});
+        while (!open_.empty() && leaves_ <= view_.stream().most_drawn()) {
             const Candidate next = open_.top();
             open_.pop();
             visit(next);
         }
+        return leaves_ <= view_.stream().most_drawn();
     }
 
     [[nodiscard]] const std::vector<Candidate>& missing() const { return missing_; }
-    [[nodiscard]] std::size_t count() const { return choice_.drawn.size() + missing_.size(); }
-    /// Of the tiles that gave way.
-    [[nodiscard]] std::vector<double>& excesses() { return excesses_; }
     /// What would be drawn and what is over it stays in memory.
     void mark_seen() const {
         for (const terrain::TreeTile tile : seen_) {
@@ -191,15 +214,16 @@ private:
         // Whether it is there makes no difference: the choice is the same whatever came before.
         const bool is_hidden =
             candidate.is_hidden || nearer_.hides(candidate.expected, candidate.along);
-        auto tile = view_.stream().peek(candidate.id);
+        auto known = view_.known(candidate.id);
         if (is_hidden && !options_.keeps_hidden) {
-            leave_out(std::move(tile));
-        } else if (tile == nullptr) {
-            missing_.push_back(candidate);
-        } else if (tile->id.level == 0 && !view_.may_see(tile->bounds)) {
-            note_outside(tile, candidate.along);
+            leave_out(known ? std::move(known->tile) : nullptr);
+        } else if (!known) {
+            miss(candidate);
+            ++leaves_;
+        } else if (candidate.id.level == 0 && !view_.may_see(known->summary.bounds)) {
+            pass_by(candidate, std::move(known->tile));
         } else {
-            add(std::move(tile), candidate.along, is_hidden);
+            add(candidate, std::move(*known), is_hidden);
         }
     }
 
@@ -211,48 +235,80 @@ private:
         }
     }
 
-    void add(std::shared_ptr<const scene::StreamedTile> tile, double along, bool is_above_hidden) {
-        const double excess = view_.excess_of(*tile);
-        const bool gives_way = excess > limits_.most_excess && !limits_.whole.contains(tile->id);
-        const Box box =
-            gives_way ? view_.stream().maker().bounds(tile->id, range_below(*tile, errors_hidden))
-                      : tile->bounds;
-        const bool is_hidden = is_above_hidden || nearer_.hides(box, along);
-        if (is_hidden && !options_.keeps_hidden) {
-            leave_out(std::move(tile));
-            return;
-        }
-        seen_.push_back(tile->id);
-        if (gives_way) {
-            excesses_.push_back(excess);
-            push_below(tile, excess, is_hidden);
-        } else if (is_hidden) {
-            choice_.hidden.push_back(view_.drawn(std::move(tile)));
-        } else {
-            nearer_.add(tile);
-            choice_.drawn.push_back(view_.drawn(std::move(tile)));
+    void miss(const Candidate& candidate) {
+        if (!candidate.is_foreseen) {
+            missing_.push_back(candidate);
         }
     }
 
-    void push_below(const std::shared_ptr<const scene::StreamedTile>& tile, double excess,
+    // A tile of the finest level that the view does not show. The one under the eye is needed to
+    // know what nearer ground hides.
+    void pass_by(const Candidate& candidate, std::shared_ptr<const scene::StreamedTile> tile) {
+        ++choice_.outside_frustum;
+        if (candidate.along > 0.0) {
+            return;
+        }
+        if (tile == nullptr) {
+            miss(candidate);
+        } else {
+            seen_.push_back(tile->id);
+            nearer_.add_under_eye(std::move(tile));
+        }
+    }
+
+    void add(const Candidate& candidate, KnownTile known, bool is_above_hidden) {
+        const scene::TileSummary& summary = known.summary;
+        const double excess = view_.excess_of(summary);
+        const bool gives_way = excess > limits_.most_excess && !limits_.whole.contains(summary.id);
+        const Box box =
+            gives_way
+                ? view_.stream().maker().bounds(summary.id, range_below(summary, errors_hidden))
+                : summary.bounds;
+        const bool is_hidden = is_above_hidden || nearer_.hides(box, candidate.along);
+        if (is_hidden && !options_.keeps_hidden) {
+            leave_out(std::move(known.tile));
+            return;
+        }
+        if (known.tile == nullptr) {
+            miss(candidate);
+        } else {
+            seen_.push_back(summary.id);
+        }
+        if (gives_way) {
+            push_below(candidate, known, std::min(candidate.urgency, excess), is_hidden);
+        } else {
+            add_leaf(candidate, std::move(known.tile), is_hidden);
+        }
+    }
+
+    void push_below(const Candidate& candidate, const KnownTile& known, double urgency,
                     bool is_hidden) {
         const scene::TileMaker& maker = view_.stream().maker();
-        for (const terrain::TreeTile below : view_.stream().tree().children(tile->id)) {
-            const Box expected = maker.bounds(below, range_below(*tile, errors_hidden));
+        const bool is_foreseen = candidate.is_foreseen || known.tile == nullptr;
+        for (const terrain::TreeTile below : view_.stream().tree().children(candidate.id)) {
+            const Box expected = maker.bounds(below, range_below(known.summary, errors_hidden));
             const double along = view_.along(expected);
-            if (view_.may_see(maker.bounds(below, range_below(*tile, errors_seen)))) {
-                open_.push({along, below, expected, excess, tile->id, is_hidden});
-            } else {
-                note_outside(tile, along);
+            if (view_.may_see_below(known.summary, below)) {
+                open_.push({along, below, expected, urgency, candidate.id, is_hidden, is_foreseen});
+                continue;
+            }
+            ++choice_.outside_frustum;
+            if (along == 0.0 && !is_foreseen) {
+                nearer_.add_under_eye(known.tile);
             }
         }
     }
 
-    // What is not seen, of the tile or of one below it.
-    void note_outside(const std::shared_ptr<const scene::StreamedTile>& tile, double along) {
-        ++choice_.outside_frustum;
-        if (along == 0.0) {
-            nearer_.add_under_eye(tile);
+    void add_leaf(const Candidate& candidate, std::shared_ptr<const scene::StreamedTile> tile,
+                  bool is_hidden) {
+        if (is_hidden && tile != nullptr) {
+            choice_.hidden.push_back(view_.drawn(std::move(tile)));
+            return;
+        }
+        ++leaves_;
+        if (tile != nullptr && !candidate.is_foreseen) {
+            nearer_.add(tile);
+            choice_.drawn.push_back(view_.drawn(std::move(tile)));
         }
     }
 
@@ -262,18 +318,46 @@ private:
     NearerGround nearer_;
     std::priority_queue<Candidate> open_;
     std::vector<Candidate> missing_;
-    std::vector<double> excesses_;
+    std::size_t leaves_ = 0; // that would be drawn if all of them were there
     std::vector<terrain::TreeTile> seen_;
     TileChoice choice_;
 };
 
-// The limit that so many fewer tiles are drawn with, or somewhat more: of one that stays whole
-// there are at most three fewer.
-double raised_limit(std::vector<double>& excesses, std::size_t fewer) {
-    const std::size_t stay = std::min((fewer + 2) / 3, excesses.size());
-    const auto last = excesses.begin() + static_cast<std::ptrdiff_t>(stay) - 1;
-    std::nth_element(excesses.begin(), last, excesses.end());
-    return *last;
+// The excess above which tiles may give way so that no more are drawn than memory holds: the
+// largest excesses first, as far as tiles are known. The same whatever else is known.
+double excess_within_memory(const StreamView& view, const scene::StreamedTile& root) {
+    struct Open {
+        double excess;
+        scene::TileSummary tile;
+
+        bool operator<(const Open& other) const {
+            return excess != other.excess ? excess < other.excess : other.tile.id < tile.id;
+        }
+    };
+    const std::size_t most = view.stream().most_drawn();
+    std::size_t leaves = 1;
+    std::priority_queue<Open> open;
+    open.push({view.excess_of(root), root});
+    while (!open.empty() && open.top().excess > 1.0) {
+        const Open next = open.top();
+        open.pop();
+        std::size_t seen = 0;
+        for (const terrain::TreeTile below : view.stream().tree().children(next.tile.id)) {
+            if (!view.may_see_below(next.tile, below)) {
+                continue;
+            }
+            ++seen;
+            if (const auto known = view.known(below)) {
+                const double excess = view.excess_of(known->summary);
+                open.push({std::min(next.excess, excess), known->summary});
+            }
+        }
+        leaves += std::max<std::size_t>(seen, 1) - 1; // never fewer: the limit is safe
+        if (leaves > most) {
+            return next.excess;
+        }
+    }
+    return 1.0;
 }
 
 std::vector<terrain::TreeTile> most_urgent(std::vector<Candidate> missing) {
@@ -297,7 +381,7 @@ bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>&
 }
 
 // Walks until one finds all that it needs. An end there is: each walk but the last raises the limit
-// to the excess of a tile that gave way, or keeps one whole that did, or is the last that hides.
+// so far that memory holds all, or keeps a tile whole that gave way, or is the last that hides.
 TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
                   const TileChoiceOptions& options) {
     const scene::TileStream& stream = view.stream();
@@ -305,9 +389,8 @@ TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
     std::optional<std::vector<terrain::TreeTile>> wanted;
     while (true) {
         TreeWalk walk(view, limits, options);
-        walk.walk(root);
-        if (walk.count() > stream.most_drawn()) {
-            limits.raise(raised_limit(walk.excesses(), walk.count() - stream.most_drawn()));
+        if (!walk.walk(root)) {
+            limits.raise(excess_within_memory(view, root));
             continue;
         }
         walk.mark_seen();

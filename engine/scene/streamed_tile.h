@@ -28,9 +28,21 @@ struct TilePicture {
 /// Cells along a side of the blocks that a streamed tile knows the range of.
 inline constexpr int cells_per_block = 8;
 
-/// A tile of a terrain that is read part by part, ready to be drawn.
-struct StreamedTile {
+/// What tiles are chosen by.
+struct TileSummary {
     terrain::TreeTile id;
+    Box bounds; ///< local metres
+    terrain::HeightRange range;
+    /// Metres that the next finer level is about to move the surface: as far as every second vertex
+    /// of this one is from the middle between its neighbours. An estimate: finer detail is smaller
+    /// than coarser on natural ground.
+    double error = 0.0;
+    /// Metres between texels where finer ones are to be had, else 0.
+    double coarse_texel = 0.0;
+};
+
+/// A tile of a terrain that is read part by part, ready to be drawn.
+struct StreamedTile : TileSummary {
     glm::ivec2 cells{0};
     glm::dvec3 origin{0.0};     ///< local metres
     double unit = 1.0;          ///< metres: at most 2^-30 of the bounds' longest side
@@ -38,17 +50,9 @@ struct StreamedTile {
     Grid<float> heights;        ///< true metres
     Grid<glm::vec3> normals;    ///< unit, local frame
     glm::vec3 up{0.0F, 0.0F, 1.0F};
-    Image albedo; ///< edge to edge over the vertices, at least a texel each, sRGB
-    Box bounds;   ///< local metres
-    /// Metres between texels where finer ones are to be had, else 0.
-    double coarse_texel = 0.0;
-    terrain::HeightRange range;
+    Image albedo;                 ///< edge to edge over the vertices, at least a texel each, sRGB
     Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; the last ones may be cut
-    /// Metres that the next finer level is about to move the surface: as far as every second vertex
-    /// of this one is from the middle between its neighbours. An estimate: finer detail is smaller
-    /// than coarser on natural ground.
-    double error = 0.0;
-    bool of_overview = false; ///< the heights are TileMaker::overview_heights
+    bool of_overview = false;     ///< the heights are TileMaker::overview_heights
 
     /// Of a vertex, local metres, to half a unit: 4 µm where the tile is 12 km wide.
     [[nodiscard]] glm::dvec3 place(glm::ivec2 vertex) const {

@@ -20,6 +20,14 @@ std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) 
                                     static_cast<double>(bytes_per_tile));
 }
 
+// Tiles that went, within a 64th of the budget.
+std::size_t most_remembered(std::size_t memory_budget) {
+    constexpr std::size_t bytes_of_node = 48; // about what a map adds
+    constexpr std::size_t bytes =
+        sizeof(TileSummary) + 2 * sizeof(terrain::TreeTile) + bytes_of_node;
+    return memory_budget / 64 / bytes;
+}
+
 std::size_t texels_shown(const Image& texels) {
     const auto samples = texels.samples();
     return static_cast<std::size_t>(
@@ -68,6 +76,15 @@ std::shared_ptr<const StreamedTile> TileStream::peek(terrain::TreeTile tile) con
     const std::lock_guard lock(mutex_);
     const auto found = tiles_.find(tile);
     return found != tiles_.end() ? found->second.made.tile : nullptr;
+}
+
+std::optional<TileSummary> TileStream::recall(terrain::TreeTile tile) const {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = tiles_.find(tile); found != tiles_.end()) {
+        return *found->second.made.tile;
+    }
+    const auto found = remembered_.find(tile);
+    return found != remembered_.end() ? std::optional(found->second) : std::nullopt;
 }
 
 std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
@@ -364,10 +381,21 @@ void TileStream::evict() {
         if (oldest->second.used + 1 >= view_) {
             return;
         }
+        remember(*oldest->second.made.tile);
         stats_.bytes -= oldest->second.made.tile->bytes();
         ++stats_.evicted;
         ++revision_;
         tiles_.erase(oldest);
+    }
+}
+
+void TileStream::remember(const TileSummary& tile) {
+    if (remembered_.insert_or_assign(tile.id, tile).second) {
+        remembered_order_.push_back(tile.id);
+    }
+    while (remembered_.size() > most_remembered(options_.memory_budget)) {
+        remembered_.erase(remembered_order_.front());
+        remembered_order_.pop_front();
     }
 }
 

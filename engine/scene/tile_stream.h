@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -41,8 +42,9 @@ struct TileReading {
 using TileReader = std::function<TileReading(terrain::TreeTile, std::stop_token)>;
 
 struct TileStreamOptions {
-    std::size_t memory_budget = std::size_t{256} << 20; ///< bytes, for tiles here and when drawn
-    unsigned threads = 0;                               ///< 0: as many as the machine has
+    /// Bytes, for tiles here and when drawn; a 64th of it more for what is remembered of others.
+    std::size_t memory_budget = std::size_t{256} << 20;
+    unsigned threads = 0; ///< 0: as many as the machine has
     /// After the first failure of a file its tiles are read again so much later, then four times
     /// that, …
     std::chrono::milliseconds first_pause = BackOff::usual_first_pause;
@@ -76,6 +78,9 @@ public:
     [[nodiscard]] std::shared_ptr<const StreamedTile> find(terrain::TreeTile tile) const;
     /// The same, but it counts as seen no more than before.
     [[nodiscard]] std::shared_ptr<const StreamedTile> peek(terrain::TreeTile tile) const;
+    /// What tiles are chosen by, of one that is there or went: that it was not worth its memory
+    /// need not be found out by reading it again. Of those that went first nothing is left.
+    [[nodiscard]] std::optional<TileSummary> recall(terrain::TreeTile tile) const;
     /// The finest tile that is there over a sample of the overview, and the place on its vertices.
     struct Found {
         std::shared_ptr<const StreamedTile> tile;
@@ -143,6 +148,7 @@ private:
     asked_for(std::span<const terrain::TreeTile> tiles) const;
     [[nodiscard]] bool is_wanting(terrain::TreeTile tile) const;
     void evict();
+    void remember(const TileSummary& tile);
     [[nodiscard]] bool is_settled(Clock::time_point now) const;
 
     const TileMaker maker_;
@@ -152,7 +158,9 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     std::map<terrain::TreeTile, Entry> tiles_;
-    std::vector<terrain::TreeTile> wanted_; // most urgent first
+    std::map<terrain::TreeTile, TileSummary> remembered_; // of those that went
+    std::deque<terrain::TreeTile> remembered_order_;      // these, the first first
+    std::vector<terrain::TreeTile> wanted_;               // most urgent first
     std::map<terrain::TreeTile, std::stop_source> in_flight_;
     std::map<terrain::TreeTile, TileFailure> failures_;
     std::map<std::string, BackOff> file_failures_; // they fail for all their tiles alike

@@ -123,6 +123,49 @@ TEST(TileChoices, DrawNoMoreThanMemoryHolds) {
     }
 }
 
+// Tiles that turned out to be too many go, and are not read again to find that out.
+TEST(TileChoices, WhereMemoryLimitsAStillViewReadsNothingMore) {
+    for (const std::size_t tiles : {1U, 12U, 24U, 40U}) {
+        StreamedWorld world(tiles);
+        world.look({0.0, -200.0, 120.0}, {0.0, 0.0, 0.0});
+        const auto look_on = [&](int frames) {
+            for (int i = 0; i < frames; ++i) {
+                world.stream->want(world.choice().wanted);
+                world.stream->wait({});
+            }
+            return world.stream->stats().read;
+        };
+        const int read = look_on(30);
+        EXPECT_EQ(look_on(10), read) << tiles;
+        EXPECT_TRUE(world.choice().wanted.empty()) << tiles;
+        EXPECT_LE(read, 100) << tiles;
+    }
+}
+
+TEST(TileChoices, WhereMemoryLimitsTheChoiceIsTheSameWhateverCameBefore) {
+    test::Chance chance(5);
+    StreamedWorld flown(24);
+    for (int round = 0; round < 8; ++round) {
+        const StreamedWorld fresh(24);
+        const glm::dvec3 eye(chance.between(-700, 700), chance.between(-700, 700), 60.0);
+        flown.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
+        *fresh.camera->get<Camera>() = *flown.camera->get<Camera>();
+        flown.bring();
+        fresh.bring();
+        std::vector<TreeTile> expected;
+        for (const TileChoice::Drawn& drawn : fresh.choice().drawn) {
+            expected.push_back(drawn.tile->id);
+        }
+        std::vector<TreeTile> found;
+        for (const TileChoice::Drawn& drawn : flown.choice().drawn) {
+            found.push_back(drawn.tile->id);
+        }
+        ASSERT_EQ(found, expected) << round;
+        ASSERT_GT(expected.size(), 4U);
+    }
+    EXPECT_GT(flown.stream->stats().evicted, 0);
+}
+
 class StreamedTilesGlTest : public DriverGlTest {};
 
 int sky_pixels(const HitBuffer& hits) {
