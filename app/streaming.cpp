@@ -1,7 +1,6 @@
 #include "app/streaming.h"
 
 #include <functional>
-#include <set>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -134,14 +133,9 @@ void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_tok
     for_each_stream(scene, [&](scene::TileStream& stream) {
         const auto readings = [&] { return stream.stats().read + stream.stats().failed; };
         int before = -1;
-        std::set<std::vector<terrain::TreeTile>> asked_for;
         while (!stop.stop_requested() && readings() != before) {
             before = readings();
             const auto wanted = render::wanted_tiles(scene, stream, views, size);
-            // What is wanted once more had to go for others: memory does not hold all.
-            if (!asked_for.insert(wanted).second) {
-                return;
-            }
             stream.want(wanted);
             if (wanted.empty() || !stream.wait(stop)) {
                 return;

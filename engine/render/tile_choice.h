@@ -38,15 +38,15 @@ struct TileChoiceOptions {
 };
 
 /// A tile gives way to those below it where its estimated error is seen larger than half of the
-/// technique's error; where more would be drawn than memory holds, only where it is seen larger
-/// than a limit that leaves no more. Where one below is not there yet, it is wanted, and the
-/// coarser one drawn meanwhile. What lies behind nearer ground (terrain/horizon.h, of polygons on a
-/// plane) is not drawn where all that is drawn is as fine as it should be, as nothing is hidden by
-/// what only stands in for finer tiles; and is not wanted, but where that cannot be. How high the
-/// ground of tiles rises that are not read is an estimate out of the coarser ones' range and error:
-/// what sticks out of these by more, as a tower of a few samples may, is missed behind nearer
-/// ground as beyond the picture's border. The same view of the same tiles gives the same choice.
-/// Nothing at all while the root is not there.
+/// technique's error; where more would be drawn than memory holds, those of the largest errors do,
+/// tiles that went being judged by what is remembered of them. Where one below is not there yet, it
+/// is wanted, and the coarser one drawn meanwhile. What lies behind nearer ground
+/// (terrain/horizon.h, of polygons on a plane) is not drawn where all that is drawn is as fine as
+/// it should be, as nothing is hidden by what only stands in for finer tiles; and is not wanted,
+/// but where that cannot be. How high the ground of tiles rises that are not read is an estimate
+/// out of the coarser ones' range and error: what sticks out of these by more, as a tower of a few
+/// samples may, is missed behind nearer ground as beyond the picture's border. The same view of the
+/// same tiles gives the same choice. Nothing at all while the root is not there.
 TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, const glm::dmat4& world_from_local,
                         const TileChoiceOptions& options = {});

@@ -20,12 +20,12 @@ std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) 
                                     static_cast<double>(bytes_per_tile));
 }
 
-// Tiles that went, within a 64th of the budget.
+// Tiles that went: within a 64th of the budget, or all that a view of the least tiles asks for.
 std::size_t most_remembered(std::size_t memory_budget) {
     constexpr std::size_t bytes_of_node = 48; // about what a map adds
     constexpr std::size_t bytes =
         sizeof(TileSummary) + 2 * sizeof(terrain::TreeTile) + bytes_of_node;
-    return memory_budget / 64 / bytes;
+    return std::max(64 * TileStream::least_drawn, memory_budget / 64 / bytes);
 }
 
 std::size_t texels_shown(const Image& texels) {
