@@ -1,13 +1,13 @@
 #include "engine/scene/tile_stream.h"
 
+#include <array>
 #include <atomic>
-#include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/core/worker_pool.h"
-#include "tests/terrain/made_tiles.h"
+#include "tests/scene/made_plane_tiles.h"
 
 namespace reljef::scene {
 namespace {
@@ -15,123 +15,7 @@ namespace {
 using terrain::TileTree;
 using terrain::TreeTile;
 using namespace std::chrono_literals;
-
-constexpr int side = 1025; // samples of the raster
-constexpr int reduction = 8;
-
-double height_of(glm::dvec2 sample) {
-    return 0.25 * sample.x - 0.5 * sample.y + 3.0;
-}
-
-std::shared_ptr<const TerrainSurface> overview() {
-    auto heightfield = test::plane_heightfield(test::overview_heights(side, reduction, height_of));
-    heightfield.spacing = glm::dvec2(10.0 * reduction);
-    auto surface = TerrainSurface::create(std::make_shared<const terrain::Terrain>(
-        terrain::Terrain{"made", std::move(heightfield), {}, {}}));
-    EXPECT_TRUE(surface);
-    return std::make_shared<const TerrainSurface>(std::move(*surface));
-}
-
-TileReading read_plane(TreeTile tile, const std::stop_token& /*stop*/) {
-    const TileTree tree(side, side);
-    TileReading reading;
-    reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
-        return height_of(glm::dvec2(tree.sample(tile, vertex)));
-    });
-    return reading;
-}
-
-TileMaker maker() {
-    return {overview(), TileTree(side, side), reduction};
-}
-
-std::vector<TreeTile> level_0() {
-    std::vector<TreeTile> tiles;
-    for (int i = 0; i < 64; ++i) {
-        tiles.push_back({0, i % 8, i / 8});
-    }
-    return tiles;
-}
-
-TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
-    const TileMaker make = maker();
-    const auto& placement = make.overview().placement();
-    for (const TreeTile tile : {TreeTile{3, 0, 0}, {2, 1, 0}, {1, 3, 2}, {0, 7, 7}, {0, 0, 5}}) {
-        const StreamedTile made = make.make(tile, read_plane(tile, {}).heights);
-        for (int row = 0; row <= made.cells.y; row += 16) {
-            for (int col = 0; col <= made.cells.x; col += 16) {
-                const glm::dvec2 sample(make.tree().sample(tile, {col, row}));
-                const glm::dvec3 expected =
-                    placement.world_from_sample({make.on_overview(sample), height_of(sample)});
-                const glm::dvec3 found = made.place({col, row});
-                ASSERT_NEAR(found.x, expected.x, 1e-3);
-                ASSERT_NEAR(found.y, expected.y, 1e-3);
-                ASSERT_NEAR(found.z, expected.z, 1e-3);
-                // Of the plane z = 0.025 x + 0.05 y.
-                const glm::vec3 normal = made.normals(col, row);
-                ASSERT_NEAR(normal.x / normal.z, -0.025, 1e-4);
-                ASSERT_NEAR(normal.y / normal.z, -0.05, 1e-4);
-            }
-        }
-        EXPECT_NEAR(made.error, 0.0, 1e-3); // a plane: nothing is gained by more
-    }
-}
-
-TEST(TileMakers, FillVoidsWithTheOverview) {
-    auto heights = read_plane({0, 3, 3}, {}).heights;
-    heights(60, 60) = std::numeric_limits<float>::quiet_NaN();
-    const StreamedTile made = maker().make({0, 3, 3}, std::move(heights));
-    EXPECT_NEAR(made.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
-    EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::of_void());
-}
-
-TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
-    const TileMaker make(overview(), TileTree(side, side), reduction,
-                         {.finest_pixel = 2.0, .refinement = 1});
-    const TreeTile tile{0, 3, 3};
-    EXPECT_EQ(make.picture_size(tile), glm::ivec2(513)); // 10 m a cell: at most four texels
-    EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(513));
-    TilePicture picture{Image(513, 513, Rgba8{0, 0, 0, 0}), true, true};
-    picture.texels(512, 0) = {1, 2, 3, 255};
-    const StreamedTile made = make.make(tile, read_plane(tile, {}).heights, picture);
-    EXPECT_EQ(made.albedo(512, 0), (Rgba8{1, 2, 3, 255}));
-    EXPECT_EQ(made.albedo(511, 1), make.make(tile, read_plane(tile, {}).heights).albedo(128, 0));
-    EXPECT_DOUBLE_EQ(made.coarse_texel, 2.5);
-    EXPECT_GT(made.bytes(), 2 * bytes_per_tile);
-    EXPECT_LE(made.bytes(), make.bytes_per_tile());
-}
-
-TEST(TileMakers, MakeTheCoarsestTilesOfTheOverview) {
-    const TileMaker make = maker();
-    for (const int level : {3, 2, 0}) {
-        const TreeTile tile{level, 0, 0};
-        const Grid<float> found = make.overview_heights(tile);
-        const Grid<float> expected = read_plane(tile, {}).heights;
-        ASSERT_EQ(found.cols(), expected.cols());
-        // Away from the border, where the overview ends half of its samples earlier.
-        const int margin = 2 * reduction;
-        for (int row = margin; row < found.rows() - margin; ++row) {
-            for (int col = margin; col < found.cols() - margin; ++col) {
-                ASSERT_NEAR(found(col, row), expected(col, row), 1e-3) << level;
-            }
-        }
-    }
-}
-
-TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
-    auto terrain = std::make_shared<terrain::Terrain>(overview()->terrain());
-    Grid<float>& heights = terrain->heightfield.heights;
-    std::fill(heights.samples().begin(), heights.samples().end(), 0.0F);
-    heights(40, 40) = 16.0F; // over samples 320 to 327
-    const auto surface = TerrainSurface::create(terrain);
-    ASSERT_TRUE(surface);
-    // Levels whose steps are 2 and 4 of the overview's samples: vertices at 320 and 320 ± 32.
-    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(9217, 9217),
-                         reduction);
-    EXPECT_FLOAT_EQ(make.overview_heights({4, 0, 0})(21, 21), 16.0F / 4.0F);
-    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(11, 11), 16.0F / 16.0F);
-    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(12, 12), 0.0F);
-}
+using namespace test::plane_tiles;
 
 // Between samples of the overview nothing of what is missing is seen.
 TEST(TileStreams, TilesMadeOfACoarserOverviewHaveItsError) {
@@ -166,19 +50,6 @@ TEST(TileStreams, HavePicturesOfFewerTexelsWhereMemoryIsSmall) {
         EXPECT_EQ(make.bytes_per_tile(), bytes_of_tile(texels));
         EXPECT_TRUE(texels == 1 || 2 * TileStream::least_drawn * make.bytes_per_tile() <= budget);
     }
-}
-
-TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
-    const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
-                         {.finest_pixel = 0.5, .refinement = 4});
-    EXPECT_EQ(make.first({0, 4, 8}), glm::dvec2(128.0, 256.0));
-    EXPECT_EQ(make.sample({0, 4, 8}, {2, 4}), glm::dvec2(128.5, 257.0));
-    EXPECT_DOUBLE_EQ(make.spacing(0), 2.5);
-    EXPECT_DOUBLE_EQ(make.spacing(2), 10.0);
-    EXPECT_TRUE(make.has_all_samples({2, 0, 0}));
-    EXPECT_FALSE(make.has_all_samples({3, 0, 0}));
-    const glm::dvec3 expected = maker().place({0, 1, 2}, {0, 0}, 5.0);
-    EXPECT_EQ(make.place({0, 4, 8}, {0, 0}, 5.0), expected);
 }
 
 TEST(TileStreams, BringWhatIsWantedOnce) {
@@ -221,6 +92,31 @@ TEST(TileStreams, DropWhatOneViewHadTooMuchWhenOthersBegin) {
     stream.want({});
     stream.want({});
     EXPECT_LE(stream.stats().bytes, 8 * bytes_per_tile);
+}
+
+// 1301 tiles of 85 kB: more than are remembered of those that go.
+TEST(TileStreams, RememberWhatWentThoughNotWithoutEnd) {
+    constexpr int tiles = 1301;
+    const TileMaker narrow(overview(), TileTree(tiles * terrain::tile_cells + 1, 3), reduction);
+    TileStream stream(narrow,
+                      [&](TreeTile tile, const std::stop_token& /*stop*/) {
+                          TileReading reading;
+                          reading.heights =
+                              test::tile_heights(narrow.tree().cells(tile),
+                                                 [](glm::ivec2 vertex) { return 1.0 * vertex.x; });
+                          return reading;
+                      },
+                      {.memory_budget = bytes_per_tile, .threads = 1});
+    for (int col = 0; col < tiles; ++col) {
+        stream.want(std::array{TreeTile{0, col, 0}});
+        ASSERT_TRUE(stream.wait({}));
+    }
+    EXPECT_EQ(stream.peek({0, 1000, 0}), nullptr);
+    ASSERT_TRUE(stream.recall({0, 1000, 0}));
+    EXPECT_EQ(stream.recall({0, 1000, 0})->id, (TreeTile{0, 1000, 0}));
+    EXPECT_EQ(stream.recall({0, 1000, 0})->range.high, 128.0);
+    EXPECT_TRUE(stream.recall({0, tiles - 1, 0}));
+    EXPECT_FALSE(stream.recall({0, 0, 0}));
 }
 
 TEST(TileStreams, CancelWhatIsPassedBy) {
@@ -330,88 +226,92 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
     EXPECT_EQ(stream.find(tile)->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
 }
 
-TEST(TileStreams, TakeOfALaterReadingOnlyAPictureThatShowsMore) {
-    std::atomic<int> readings{0};
-    TileStream stream(maker(),
-                      [&](TreeTile tile, const std::stop_token& stop) {
-                          const int reading_now = ++readings;
-                          TileReading reading = read_plane(tile, stop);
-                          if (reading_now > 1) { // the file has changed meanwhile
-                              for (float& height : reading.heights.samples()) {
-                                  height += 100.0F;
-                              }
-                          }
-                          reading.picture.texels = Image(129, 129, Rgba8{0, 0, 0, 0});
-                          const int shown = reading_now == 1 ? 4 : reading_now == 2 ? 1 : 9;
-                          for (int col = 0; col < shown; ++col) {
-                              reading.picture.texels(col, 0) = {9, 8, 7, 255};
-                          }
-                          if (reading_now < 3) {
-                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
-                          }
-                          return reading;
-                      },
-                      {.threads = 1, .first_pause = 30ms});
-    const TreeTile tile{0, 0, 0};
-    stream.want(std::array{tile});
-    while (stream.find(tile) == nullptr) {
-        std::this_thread::sleep_for(1ms);
+// Readings of one tile, one after the other.
+class RecoveringTile : public ::testing::Test {
+protected:
+    struct Attempt {
+        float heights_above = 0.0F; // the plane
+        bool of_overview = false;
+        int texels_shown = 0;
+        bool fails = false;
+    };
+    static constexpr TreeTile tile{0, 0, 0};
+    static constexpr Rgba8 shown{9, 8, 7, 255};
+
+    std::shared_ptr<const StreamedTile> first_of(std::vector<Attempt> attempts) {
+        attempts_ = std::move(attempts);
+        stream_ = std::make_unique<TileStream>(
+            maker(),
+            [this](TreeTile wanted, const std::stop_token& stop) {
+                return read(attempts_.at(static_cast<std::size_t>(readings_++)), wanted, stop);
+            },
+            TileStreamOptions{.threads = 1, .first_pause = 10ms});
+        stream_->want(std::array{tile});
+        while (stream_->find(tile) == nullptr) {
+            std::this_thread::sleep_for(1ms);
+        }
+        return stream_->find(tile);
     }
-    const auto first = stream.find(tile);
-    stream.want({});
-    while (stream.stats().failed < 2) {
-        std::this_thread::sleep_for(1ms);
+    std::shared_ptr<const StreamedTile> after_failures(int count) {
+        while (stream_->stats().failed < count) {
+            std::this_thread::sleep_for(1ms);
+        }
+        return stream_->find(tile);
     }
-    EXPECT_EQ(stream.find(tile), first);
-    EXPECT_TRUE(stream.wait({}));
-    const auto last = stream.find(tile);
-    EXPECT_EQ(last->albedo(8, 0), (Rgba8{9, 8, 7, 255}));
-    EXPECT_EQ(last->heights, first->heights);
-    EXPECT_EQ(last->positions, first->positions);
+    std::shared_ptr<const StreamedTile> last() {
+        EXPECT_TRUE(stream_->wait({}));
+        EXPECT_EQ(static_cast<std::size_t>(readings_), attempts_.size());
+        return stream_->find(tile);
+    }
+
+private:
+    static TileReading read(const Attempt& attempt, TreeTile wanted, const std::stop_token& stop) {
+        TileReading reading = read_plane(wanted, stop);
+        reading.of_overview = attempt.of_overview;
+        for (float& height : reading.heights.samples()) {
+            height += attempt.heights_above;
+        }
+        reading.picture.texels = Image(129, 129, Rgba8{0, 0, 0, 0});
+        for (int col = 0; col < attempt.texels_shown; ++col) {
+            reading.picture.texels(col, 0) = shown;
+        }
+        if (attempt.fails) {
+            reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+        }
+        return reading;
+    }
+
+    std::vector<Attempt> attempts_;
+    std::atomic<int> readings_{0};
+    std::unique_ptr<TileStream> stream_;
+};
+
+TEST_F(RecoveringTile, TakesOfALaterReadingOnlyAPictureThatShowsMore) {
+    const auto first = first_of({{.texels_shown = 4, .fails = true},
+                                 {.heights_above = 100.0F, .texels_shown = 1, .fails = true},
+                                 {.heights_above = 100.0F, .texels_shown = 9}});
+    EXPECT_EQ(after_failures(2), first);
+    const auto recovered = last();
+    EXPECT_EQ(recovered->albedo(8, 0), shown);
+    EXPECT_EQ(recovered->heights, first->heights);
+    EXPECT_EQ(recovered->positions, first->positions);
 }
 
 // What the overview stands in for is replaced once it can be read; its picture stays where it shows
 // more.
-TEST(TileStreams, TakeOfALaterReadingTheHeightsThatTheOverviewStoodInFor) {
-    std::atomic<int> readings{0};
-    TileStream stream(maker(),
-                      [&](TreeTile tile, const std::stop_token& stop) {
-                          const int reading_now = ++readings;
-                          TileReading reading = read_plane(tile, stop);
-                          reading.of_overview = reading_now == 1 || reading_now == 3;
-                          if (reading.of_overview) {
-                              for (float& height : reading.heights.samples()) {
-                                  height += 100.0F;
-                              }
-                          }
-                          reading.picture.texels = Image(129, 129, Rgba8{0, 0, 0, 0});
-                          const int shown = reading_now == 1 ? 4 : 1;
-                          for (int col = 0; col < shown; ++col) {
-                              reading.picture.texels(col, 0) = {9, 8, 7, 255};
-                          }
-                          if (reading_now < 4) {
-                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
-                          }
-                          return reading;
-                      },
-                      {.threads = 1, .first_pause = 10ms});
-    const TreeTile tile{0, 0, 0};
-    stream.want(std::array{tile});
-    while (stream.find(tile) == nullptr) {
-        std::this_thread::sleep_for(1ms);
-    }
-    while (stream.stats().failed < 2) {
-        std::this_thread::sleep_for(1ms);
-    }
-    const auto recovered = stream.find(tile);
+TEST_F(RecoveringTile, TakesOfALaterReadingTheHeightsThatTheOverviewStoodInFor) {
+    const Attempt of_overview{.heights_above = 100.0F, .of_overview = true, .fails = true};
+    Attempt more_shown = of_overview;
+    more_shown.texels_shown = 4;
+    static_cast<void>(first_of(
+        {more_shown, {.texels_shown = 1, .fails = true}, of_overview, {.texels_shown = 1}}));
+    const auto recovered = after_failures(2);
     EXPECT_FALSE(recovered->of_overview);
     EXPECT_NEAR(recovered->heights(5, 5), height_of({5.0, 5.0}), 1e-3);
-    EXPECT_EQ(recovered->albedo(3, 0), (Rgba8{9, 8, 7, 255}));
-    EXPECT_TRUE(stream.wait({}));
-    const auto last = stream.find(tile);
-    EXPECT_EQ(readings, 4);
-    EXPECT_EQ(last->heights, recovered->heights);
-    EXPECT_NE(last->albedo(3, 0), (Rgba8{9, 8, 7, 255}));
+    EXPECT_EQ(recovered->albedo(3, 0), shown);
+    const auto whole = last();
+    EXPECT_EQ(whole->heights, recovered->heights);
+    EXPECT_NE(whole->albedo(3, 0), shown);
 }
 
 TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {

@@ -1,0 +1,110 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "engine/scene/streamed_tile.h"
+#include "tests/scene/made_plane_tiles.h"
+
+namespace reljef::scene {
+namespace {
+
+using terrain::TileTree;
+using terrain::TreeTile;
+using namespace test::plane_tiles;
+
+TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
+    const TileMaker make = maker();
+    const auto& placement = make.overview().placement();
+    for (const TreeTile tile : {TreeTile{3, 0, 0}, {2, 1, 0}, {1, 3, 2}, {0, 7, 7}, {0, 0, 5}}) {
+        const StreamedTile made = make.make(tile, read_plane(tile, {}).heights);
+        for (int row = 0; row <= made.cells.y; row += 16) {
+            for (int col = 0; col <= made.cells.x; col += 16) {
+                const glm::dvec2 sample(make.tree().sample(tile, {col, row}));
+                const glm::dvec3 expected =
+                    placement.world_from_sample({make.on_overview(sample), height_of(sample)});
+                const glm::dvec3 found = made.place({col, row});
+                ASSERT_NEAR(found.x, expected.x, 1e-3);
+                ASSERT_NEAR(found.y, expected.y, 1e-3);
+                ASSERT_NEAR(found.z, expected.z, 1e-3);
+                // Of the plane z = 0.025 x + 0.05 y.
+                const glm::vec3 normal = made.normals(col, row);
+                ASSERT_NEAR(normal.x / normal.z, -0.025, 1e-4);
+                ASSERT_NEAR(normal.y / normal.z, -0.05, 1e-4);
+            }
+        }
+        EXPECT_NEAR(made.error, 0.0, 1e-3); // a plane: nothing is gained by more
+    }
+}
+
+TEST(TileMakers, FillVoidsWithTheOverview) {
+    auto heights = read_plane({0, 3, 3}, {}).heights;
+    heights(60, 60) = std::numeric_limits<float>::quiet_NaN();
+    const StreamedTile made = maker().make({0, 3, 3}, std::move(heights));
+    EXPECT_NEAR(made.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
+    EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::of_void());
+}
+
+TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
+    const TileMaker make(overview(), TileTree(side, side), reduction,
+                         {.finest_pixel = 2.0, .refinement = 1});
+    const TreeTile tile{0, 3, 3};
+    EXPECT_EQ(make.picture_size(tile), glm::ivec2(513)); // 10 m a cell: at most four texels
+    EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(513));
+    TilePicture picture{Image(513, 513, Rgba8{0, 0, 0, 0}), true, true};
+    picture.texels(512, 0) = {1, 2, 3, 255};
+    const StreamedTile made = make.make(tile, read_plane(tile, {}).heights, picture);
+    EXPECT_EQ(made.albedo(512, 0), (Rgba8{1, 2, 3, 255}));
+    EXPECT_EQ(made.albedo(511, 1), make.make(tile, read_plane(tile, {}).heights).albedo(128, 0));
+    EXPECT_DOUBLE_EQ(made.coarse_texel, 2.5);
+    EXPECT_GT(made.bytes(), 2 * bytes_per_tile);
+    EXPECT_LE(made.bytes(), make.bytes_per_tile());
+}
+
+TEST(TileMakers, MakeTheCoarsestTilesOfTheOverview) {
+    const TileMaker make = maker();
+    for (const int level : {3, 2, 0}) {
+        const TreeTile tile{level, 0, 0};
+        const Grid<float> found = make.overview_heights(tile);
+        const Grid<float> expected = read_plane(tile, {}).heights;
+        ASSERT_EQ(found.cols(), expected.cols());
+        // Away from the border, where the overview ends half of its samples earlier.
+        const int margin = 2 * reduction;
+        for (int row = margin; row < found.rows() - margin; ++row) {
+            for (int col = margin; col < found.cols() - margin; ++col) {
+                ASSERT_NEAR(found(col, row), expected(col, row), 1e-3) << level;
+            }
+        }
+    }
+}
+
+TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
+    auto terrain = std::make_shared<terrain::Terrain>(overview()->terrain());
+    Grid<float>& heights = terrain->heightfield.heights;
+    std::fill(heights.samples().begin(), heights.samples().end(), 0.0F);
+    heights(40, 40) = 16.0F; // over samples 320 to 327
+    const auto surface = TerrainSurface::create(terrain);
+    ASSERT_TRUE(surface);
+    // Levels whose steps are 2 and 4 of the overview's samples: vertices at 320 and 320 ± 32.
+    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(9217, 9217),
+                         reduction);
+    EXPECT_FLOAT_EQ(make.overview_heights({4, 0, 0})(21, 21), 16.0F / 4.0F);
+    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(11, 11), 16.0F / 16.0F);
+    EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(12, 12), 0.0F);
+}
+
+TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
+    const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
+                         {.finest_pixel = 0.5, .refinement = 4});
+    EXPECT_EQ(make.first({0, 4, 8}), glm::dvec2(128.0, 256.0));
+    EXPECT_EQ(make.sample({0, 4, 8}, {2, 4}), glm::dvec2(128.5, 257.0));
+    EXPECT_DOUBLE_EQ(make.spacing(0), 2.5);
+    EXPECT_DOUBLE_EQ(make.spacing(2), 10.0);
+    EXPECT_TRUE(make.has_all_samples({2, 0, 0}));
+    EXPECT_FALSE(make.has_all_samples({3, 0, 0}));
+    const glm::dvec3 expected = maker().place({0, 1, 2}, {0, 0}, 5.0);
+    EXPECT_EQ(make.place({0, 4, 8}, {0, 0}, 5.0), expected);
+}
+
+} // namespace
+} // namespace reljef::scene
