@@ -54,6 +54,15 @@ protected:
         }
         folder_.write("tiles/" + name, bytes);
     }
+    /// For the application's own calls, whose caches XDG_CACHE_HOME keeps here.
+    [[nodiscard]] app::TerrainChoice streamed_choice() const {
+        app::TerrainChoice choice;
+        choice.terrain = path("tiles");
+        choice.memory_megabytes = 32;
+        choice.quiet = true;
+        choice.streamed = true;
+        return choice;
+    }
     [[nodiscard]] test::ProgramResult
     render(const std::string& picture, std::vector<std::string> more,
            const std::string& camera = "44.6,6.6,2600,60,-12") const {
@@ -104,11 +113,7 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
 // Cells that share no edge with the one that is gone are drawn as finely as without it.
 TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    app::TerrainChoice choice;
-    choice.terrain = path("tiles");
-    choice.memory_megabytes = 32;
-    choice.quiet = true;
-    choice.streamed = true;
+    const app::TerrainChoice choice = streamed_choice();
     app::ViewChoice view;
     view.geodetic = {44.3, 7.7, 3000.0, 90.0, -60.0};
     auto source = app::open_terrain(choice, {});
@@ -134,11 +139,7 @@ TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
 // What the overview stood in for is read once the file is back.
 TEST_F(Streaming, a_file_that_comes_back_is_shown_again) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    app::TerrainChoice choice;
-    choice.terrain = path("tiles");
-    choice.memory_megabytes = 32;
-    choice.quiet = true;
-    choice.streamed = true;
+    const app::TerrainChoice choice = streamed_choice();
     auto source = app::open_terrain(choice, {});
     ASSERT_TRUE(source) << source.error().message;
     const auto scene = app::make_scene(std::move(*source), choice, {});
