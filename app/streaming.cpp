@@ -1,5 +1,7 @@
 #include "app/streaming.h"
 
+#include <array>
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -86,6 +88,24 @@ void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
     }
 }
 
+void tell_faults(scene::TileStream& stream, bool quiet) {
+    for (const std::string& fault : stream.take_faults()) {
+        if (!quiet) {
+            tell(fmt::format("reljef: shown coarser: {}\n", fault));
+        }
+    }
+}
+
+bool wait_and_tell(scene::TileStream& stream, const std::stop_token& stop, bool quiet) {
+    constexpr std::chrono::milliseconds before_telling{500};
+    bool is_there = false;
+    while (!is_there && !stop.stop_requested()) {
+        is_there = stream.wait_for(stop, before_telling);
+        tell_faults(stream, quiet);
+    }
+    return is_there;
+}
+
 // The same ground with so many samples from sample to sample.
 io::TileGrid refined(const io::TileGrid& grid, int refinement) {
     return {grid.first, grid.step / static_cast<double>(refinement),
@@ -128,7 +148,8 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
-void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop) {
+void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop,
+                 bool quiet) {
     const std::array views{scene.camera()};
     for_each_stream(scene, [&](scene::TileStream& stream) {
         const auto readings = [&] { return stream.stats().read + stream.stats().failed; };
@@ -137,7 +158,7 @@ void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_tok
             before = readings();
             const auto wanted = render::wanted_tiles(scene, stream, views, size);
             stream.want(wanted);
-            if (wanted.empty() || !stream.wait(stop)) {
+            if (wanted.empty() || !wait_and_tell(stream, stop, quiet)) {
                 return;
             }
         }
@@ -175,13 +196,7 @@ bool awaits_tiles(const scene::Scene& scene) {
 }
 
 void tell_stream_faults(const scene::Scene& scene, bool quiet) {
-    for_each_stream(scene, [&](scene::TileStream& stream) {
-        for (const std::string& fault : stream.take_faults()) {
-            if (!quiet) {
-                tell(fmt::format("reljef: shown coarser: {}\n", fault));
-            }
-        }
-    });
+    for_each_stream(scene, [&](scene::TileStream& stream) { tell_faults(stream, quiet); });
 }
 
 std::size_t faulty_files(const scene::Scene& scene) {

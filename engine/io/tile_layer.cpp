@@ -161,14 +161,12 @@ private:
 /// Nobody waits for a server that does not answer again and again.
 Result<DatasetPool::Loan> borrow(const std::filesystem::path& path, const TileReading& reading,
                                  const GdalMessages& messages) {
-    if (auto wrong = reading.unopened->given_up(path)) {
+    if (auto wrong = reading.failing->given_up(path)) {
         return Error{std::move(*wrong)};
     }
     auto dataset = reading.pool->borrow(path, messages);
-    if (dataset) {
-        reading.unopened->forget(path);
-    } else if (is_remote(path)) {
-        reading.unopened->note(path, dataset.error().message);
+    if (!dataset && is_remote(path)) {
+        reading.failing->note(path, dataset.error().message);
     }
     return dataset;
 }
@@ -206,9 +204,13 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     if (!values) {
         if (!reading.options.stop.stop_requested() && !is_tile_pyramid(path)) {
             dataset->spoil();
+            if (is_remote(path)) {
+                reading.failing->note(path, values.error().message);
+            }
         }
         return values.error();
     }
+    reading.failing->forget(path);
     result.values = std::move(*values);
     // Blocks come whole, however few of their samples are of use.
     const auto passed_over = static_cast<std::size_t>(result.plan.reduction);

@@ -87,7 +87,7 @@ struct TileReading {
     RasterOptions options;                          ///< scale, offset, stop
     std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
     DatasetPool* pool = nullptr;                    ///< where the files are open
-    FailingFiles* unopened = nullptr;               ///< on servers
+    FailingFiles* failing = nullptr;                ///< on servers
 };
 
 /// The averages of a layer's samples over cells, of the newest tile where there are several; NaN

@@ -173,7 +173,7 @@ void keep_each_once(std::vector<TileFault>& faults) {
 }
 
 TileReading TileSet::State::reading(const std::stop_token& stop) const {
-    TileReading reading{indexed, folder, {}, &bytes_read, &pool, &unopened};
+    TileReading reading{indexed, folder, {}, &bytes_read, &pool, &failing};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
     reading.options.stop = stop;

@@ -30,7 +30,7 @@ struct TileSet::State {
     DegreeBox box{}; ///< around all tiles
     mutable std::atomic<std::size_t> bytes_read{0};
     mutable DatasetPool pool;
-    mutable FailingFiles unopened; ///< what cannot be opened is not asked for by every tile
+    mutable FailingFiles failing; ///< what a server does not give is not asked for by every tile
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };

@@ -157,18 +157,23 @@ bool TileStream::is_wanting(terrain::TreeTile tile) const {
     return !tiles_.contains(tile) || failures_.contains(tile);
 }
 
-bool TileStream::is_settled(Clock::time_point now) const {
-    const auto given_up = [&](terrain::TreeTile tile) {
+bool TileStream::is_settled() const {
+    const auto has_failed = [&](terrain::TreeTile tile) {
         const auto failure = failures_.find(tile);
-        return failure != failures_.end() && failure->second.latest.is_given_up(now);
+        return failure != failures_.end() && failure->second.latest.has_failed_for_good();
     };
-    return std::all_of(wanted_.begin(), wanted_.end(), given_up);
+    return std::all_of(wanted_.begin(), wanted_.end(), has_failed);
 }
 
 bool TileStream::wait(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, stop, [&] { return is_settled(Clock::now()); });
+    changed_.wait(lock, stop, [&] { return is_settled(); });
     return !stop.stop_requested();
+}
+
+bool TileStream::wait_for(const std::stop_token& stop, std::chrono::milliseconds longest) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, stop, longest, [&] { return is_settled(); });
 }
 
 bool TileStream::has_given_up(terrain::TreeTile tile) const {
@@ -190,7 +195,7 @@ bool TileStream::take_news() {
 
 bool TileStream::is_busy() const {
     const std::lock_guard lock(mutex_);
-    return !is_settled(Clock::now());
+    return !is_settled();
 }
 
 std::vector<std::string> TileStream::take_faults() {

@@ -100,8 +100,10 @@ public:
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
     /// was stopped. Only while nobody else wants.
     bool wait(const std::stop_token& stop);
+    /// The same, but no longer than that: false.
+    bool wait_for(const std::stop_token& stop, std::chrono::milliseconds longest);
     /// The tiles that need a file which fails so often are left alone for half a minute, then read
-    /// once more, and so on.
+    /// once more, and so on; nobody waits for them any more.
     static constexpr int most_attempts = BackOff::most_attempts;
 
     /// Whether a tile is not there as it failed so often, for half a minute at least.
@@ -149,7 +151,7 @@ private:
     [[nodiscard]] bool is_wanting(terrain::TreeTile tile) const;
     void evict();
     void remember(const TileSummary& tile);
-    [[nodiscard]] bool is_settled(Clock::time_point now) const;
+    [[nodiscard]] bool is_settled() const;
 
     const TileMaker maker_;
     const TileReader read_;

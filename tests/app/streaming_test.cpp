@@ -360,6 +360,7 @@ protected:
                                path("tiles/N44E006.hgt"), path("dem.tif")});
         ASSERT_EQ(made.exit_code, 0) << made.err;
         options_.environment["GDAL_HTTP_MAX_RETRY"] = "0";
+        options_.environment["GDAL_HTTP_LOW_SPEED_TIME"] = "1";
     }
     /// So little memory that only coarse overviews are read at the beginning.
     [[nodiscard]] test::ProgramResult render_from(const test::HttpServer& server,
@@ -386,7 +387,7 @@ TEST_F(BadServer, is_drawn_coarser_tried_again_and_told_once) {
     const std::size_t overviews = std::filesystem::file_size(path("dem.tif")) - 100 * 128 * 128 * 2;
     std::vector<std::future<void>> runs;
     for (const Fault fault :
-         {Fault::not_found, Fault::server_error, Fault::cut, Fault::lying_length}) {
+         {Fault::not_found, Fault::server_error, Fault::cut, Fault::lying_length, Fault::stalled}) {
         runs.push_back(std::async(std::launch::async, [this, fault, overviews] {
             test::HttpServer server(folder_.path());
             server.set_fault(fault, overviews);

@@ -99,6 +99,9 @@ HttpServer::HttpServer(std::filesystem::path folder)
 HttpServer::~HttpServer() {
     thread_.request_stop();
     thread_.join();
+    for (const int connection : stalled_) {
+        ::close(connection);
+    }
     ::close(socket_);
 }
 
@@ -116,13 +119,16 @@ void HttpServer::serve(const std::stop_token& stop) {
         if (connection >= 0) {
             ++requests_;
             std::this_thread::sleep_for(std::chrono::milliseconds(delay_));
-            answer(connection);
-            ::close(connection);
+            if (answer(connection)) {
+                ::close(connection);
+            } else {
+                stalled_.push_back(connection);
+            }
         }
     }
 }
 
-void HttpServer::answer(int connection) {
+bool HttpServer::answer(int connection) {
     const std::string request = request_from(connection);
     const auto begin = request.find('/') + 1;
     const std::string name = request.substr(begin, request.find(' ', begin) - begin);
@@ -133,11 +139,14 @@ void HttpServer::answer(int connection) {
     const Fault fault = range.first >= first_byte_ ? fault_.load() : Fault::none;
     if (bytes.empty() || fault == Fault::not_found) {
         send_all(connection, not_found_answer);
-        return;
+        return true;
+    }
+    if (fault == Fault::stalled) {
+        return false;
     }
     if (fault == Fault::server_error) {
         send_all(connection, error_answer);
-        return;
+        return true;
     }
     const std::size_t length = range.last - range.first + 1;
     send_all(connection,
@@ -146,6 +155,7 @@ void HttpServer::answer(int connection) {
         const std::size_t sent = fault == Fault::cut ? length / 2 : length;
         send_all(connection, std::string_view(bytes).substr(range.first, sent));
     }
+    return true;
 }
 
 } // namespace reljef::test

@@ -13,7 +13,7 @@ namespace reljef::test {
 /// badly as it is told to.
 class HttpServer {
 public:
-    enum class Fault { none, not_found, server_error, cut, lying_length };
+    enum class Fault { none, not_found, server_error, cut, lying_length, stalled };
 
     /// Aborts where there is no port to listen on.
     explicit HttpServer(std::filesystem::path folder);
@@ -33,7 +33,8 @@ public:
 
 private:
     void serve(const std::stop_token& stop);
-    void answer(int connection);
+    /// False: the connection stays open without an answer.
+    bool answer(int connection);
 
     std::filesystem::path folder_;
     int socket_ = -1;
@@ -42,6 +43,7 @@ private:
     std::atomic<std::size_t> first_byte_{0};
     std::atomic<int> delay_{0};
     std::atomic<int> requests_{0};
+    std::vector<int> stalled_; // connections
     std::jthread thread_;
 };
 
