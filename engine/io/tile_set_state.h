@@ -3,6 +3,7 @@
 #include <atomic>
 #include <map>
 
+#include "engine/io/ascii_grid.h"
 #include "engine/io/dataset_pool.h"
 #include "engine/io/failing_files.h"
 #include "engine/io/tile_layer.h"
@@ -29,7 +30,7 @@ struct TileSet::State {
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
     mutable std::atomic<std::size_t> bytes_read{0};
-    mutable DatasetPool pool;
+    mutable DatasetPool pool{open_whole_raster};
     mutable FailingFiles failing; ///< what a server does not give is not asked for by every tile
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
