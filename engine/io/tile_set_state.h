@@ -19,7 +19,8 @@ struct TileSet::State {
     std::filesystem::path folder; ///< the files' paths begin here; empty for a single raster
     TileSetOptions options;
     std::vector<IndexedFile> indexed;
-    std::vector<TileLayer> layers; ///< finest first
+    std::vector<std::string> indexed_crs; ///< WKT, by IndexedFile::crs
+    std::vector<TileLayer> layers;        ///< finest first
     std::vector<TileFile> files;
     std::vector<TileFault> faults;
     std::vector<std::string> notes;
@@ -31,6 +32,7 @@ struct TileSet::State {
     mutable std::atomic<std::size_t> bytes_read{0};
     mutable DatasetPool pool;
     mutable FailingFiles unopened; ///< what cannot be opened is not asked for by every tile
+    mutable NewNotes new_notes;
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };

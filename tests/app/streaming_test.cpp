@@ -160,6 +160,59 @@ TEST_F(Streaming, a_file_that_comes_back_is_shown_again) {
     EXPECT_FALSE(root()->of_overview);
 }
 
+/// In place of a cell: 61 samples a side, from a longitude on, over the same latitudes.
+std::string coarse_cell(double west, double south) {
+    std::string text = fmt::format("ncols 61\nnrows 61\nxllcenter {}\nyllcenter {}\n"
+                                   "cellsize 0.0166666666666667\n",
+                                   west, south);
+    for (int i = 0; i < 61 * 61; ++i) {
+        text += i % 61 == 60 ? "1500\n" : "1500 ";
+    }
+    return text;
+}
+
+TEST_F(Streaming, a_file_that_is_replaced_by_one_of_another_size_is_shown_and_told) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    app::TerrainChoice choice;
+    choice.terrain = path("tiles");
+    choice.memory_megabytes = 32;
+    choice.quiet = true;
+    choice.streamed = true;
+    auto source = app::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = app::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    folder_.write("tiles/N45E006.hgt", coarse_cell(6.0, 45.0));
+    stream.want(std::array{stream.tree().root()});
+    ASSERT_TRUE(stream.wait({}));
+    ASSERT_NE(stream.find(stream.tree().root()), nullptr);
+    EXPECT_FALSE(stream.find(stream.tree().root())->of_overview);
+    EXPECT_THAT(stream.take_faults(), ::testing::IsEmpty());
+    EXPECT_THAT(stream.take_notes(), ::testing::ElementsAre(HasSubstr("61×61")));
+}
+
+TEST_F(Streaming, whether_a_replaced_file_can_be_shown_is_told_and_in_the_exit_status) {
+    RELJEF_RELEASE_ONLY("two pictures of whole cells");
+    ASSERT_EQ(test::reljef({"info", path("tiles")}, options_).exit_code, 0); // indexes them
+    const auto file = folder_.path() / "tiles/N44E006.hgt";
+    const auto time = std::filesystem::last_write_time(file);
+    const auto size = std::filesystem::file_size(file);
+    const auto render_with = [&](std::string text) { // of the size and the time that it knows
+        text.resize(size, ' ');
+        folder_.write("tiles/N44E006.hgt", text);
+        std::filesystem::last_write_time(file, time);
+        return render("b.png", {"--size", "64x48"});
+    };
+    const std::string told = "N44E006.hgt: was replaced while it was open, by 61×61 samples";
+    const auto shown = render_with(coarse_cell(6.0, 44.0));
+    EXPECT_EQ(shown.exit_code, 0) << shown.err;
+    EXPECT_THAT(shown.err, HasSubstr(told + ": they are read at the places of the 1201×1201"));
+    const auto elsewhere = render_with(coarse_cell(60.0, 44.0));
+    EXPECT_EQ(elsewhere.exit_code, 1) << elsewhere.err;
+    EXPECT_THAT(elsewhere.err, HasSubstr(told + " that are no heights over all the ground"));
+}
+
 TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
     folder_.write("wide.vrt",
                   R"(<VRTDataset rasterXSize="8300" rasterYSize="1200"><SRS>EPSG:4326</SRS>)"
