@@ -1,8 +1,10 @@
 // Tiles from a server on the loopback that is slow, fails, lies, and recovers.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <optional>
 
+#include <cpl_vsi.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@
 #include "engine/io/tree_tile.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/nginx.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::io {
@@ -82,11 +85,23 @@ TEST_F(RemoteTiles, AreFaultsWhileTheServerFailsAndThereOnceItHasRecovered) {
         const std::string name = "dem" + std::to_string(number++) + ".tif"; // nothing is cached
         std::filesystem::copy_file(folder_.path() / "dem.tif", folder_.path() / name);
         const TileSet tiles = open(server_->url(name));
+        VSICurlClearCache(); // as if it had not been asked for yet
         server_->serve_by(fault);
         expect_fault(tiles, name);
         server_->serve_by("");
         expect_good(tiles);
     }
+}
+
+TEST_F(RemoteTiles, AreFaultsWhereTheServerHangs) {
+    RELJEF_RELEASE_ONLY("waits for seconds");
+    CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "1"); // seconds
+    const TileSet tiles = open(server_->url("dem.tif"));
+    server_->serve_by("limit_rate 1;"); // byte a second
+    const auto begin = std::chrono::steady_clock::now();
+    expect_fault(tiles, "dem.tif");
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "10");
 }
 
 TEST_F(RemoteTiles, AreFaultsWhileTheServerLiesAboutTheLength) {

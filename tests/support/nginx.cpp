@@ -41,6 +41,9 @@ std::string configuration(const fs::path& root, int port, const std::string& rul
 
 [[noreturn]] void become_nginx(const char* const* arguments) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL); // it does not outlive a test that crashes
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr); // the program's interrupts are blocked for all
     ::execv(program, const_cast<char* const*>(arguments));
     ::_exit(127);
 }
