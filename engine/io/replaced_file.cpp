@@ -118,9 +118,9 @@ CPLStringList warp_words(GDALRasterBand& band, const RasterPlace& before) {
 Dataset at_indexed_samples(Dataset now, const RasterPlace& before) {
     GDALRasterBand& band = *now->GetRasterBand(1);
     const double metres = height_unit_of(*now, band).metres;
-    const CPLStringList words = warp_words(band, before);
+    CPLStringList words = warp_words(band, before);
     const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> options(
-        GDALWarpAppOptionsNew(const_cast<char**>(words.List()), nullptr), &GDALWarpAppOptionsFree);
+        GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
     if (options == nullptr) {
         return nullptr;
     }

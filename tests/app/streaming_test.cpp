@@ -202,7 +202,7 @@ TEST_F(Streaming, whether_a_replaced_file_can_be_shown_is_told_and_in_the_exit_s
         text.resize(size, ' ');
         folder_.write("tiles/N44E006.hgt", text);
         std::filesystem::last_write_time(file, time);
-        return render("b.png", {"--size", "64x48"});
+        return render("b.png", {});
     };
     const std::string told = "N44E006.hgt: was replaced while it was open, by 61×61 samples";
     const auto shown = render_with(coarse_cell(6.0, 44.0));
