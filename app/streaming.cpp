@@ -71,6 +71,7 @@ scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduct
     }
     scene::TileReading coarse = overview_reading(maker, tile);
     coarse.bytes_read = reading.bytes_read;
+    coarse.notes = std::move(reading.notes);
     coarse.picture_faults = std::move(reading.faults);
     return coarse;
 }
@@ -89,11 +90,15 @@ void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
 }
 
 void tell_faults(scene::TileStream& stream, bool quiet) {
-    for (const std::string& fault : stream.take_faults()) {
-        if (!quiet) {
-            tell(fmt::format("reljef: shown coarser: {}\n", fault));
+    const auto tell_each = [&](const char* what, const std::vector<std::string>& sentences) {
+        for (const std::string& sentence : sentences) {
+            if (!quiet) {
+                tell(fmt::format("reljef: {}: {}\n", what, sentence));
+            }
         }
-    }
+    };
+    tell_each("shown coarser", stream.take_faults());
+    tell_each("note", stream.take_notes());
 }
 
 bool wait_and_tell(scene::TileStream& stream, const std::stop_token& stop, bool quiet) {
@@ -133,6 +138,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
             step_of_overview > 0 && maker.step(tile) >= step_of_overview
                 ? overview_reading(maker, tile)
                 : reading_of(io::read_tree_tile(tiles, grid, maker.tree(), tile, gaps, stop));
+        reading.notes = tiles.take_new_notes();
         if (stop.stop_requested()) {
             return reading;
         }

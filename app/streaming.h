@@ -37,7 +37,7 @@ bool take_new_tiles(const scene::Scene& scene);
 /// Whether some are still to come.
 bool awaits_tiles(const scene::Scene& scene);
 
-/// Tells the faults of streams on stderr, each file's once.
+/// Tells the faults of streams on stderr, each file's once, and their notes.
 void tell_stream_faults(const scene::Scene& scene, bool quiet);
 /// Files that had faults.
 std::size_t faulty_files(const scene::Scene& scene);

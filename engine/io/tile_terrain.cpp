@@ -188,6 +188,9 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
         return read.error();
     }
     note_faults(*this, read->faults, result);
+    for (std::string& note : take_new_notes()) {
+        result.notes.push_back(std::move(note));
+    }
     if (read->samples.void_count == read->samples.heights.size()) {
         return Error{fmt::format("{}: all {}×{} samples are voids, at least one height was "
                                  "expected{}{}",

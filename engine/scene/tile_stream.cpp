@@ -203,6 +203,11 @@ std::vector<std::string> TileStream::take_faults() {
     return std::exchange(new_faults_, {});
 }
 
+std::vector<std::string> TileStream::take_notes() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(new_notes_, {});
+}
+
 std::size_t TileStream::faulty_files() const {
     const std::lock_guard lock(mutex_);
     return faults_.size();
@@ -301,6 +306,7 @@ void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made
                         bool stopped) {
     in_flight_.erase(tile);
     stats_.bytes_read += reading.bytes_read;
+    new_notes_.insert(new_notes_.end(), reading.notes.begin(), reading.notes.end());
     if (stopped) {
         ++stats_.cancelled;
         tell(reading.picture_faults);
