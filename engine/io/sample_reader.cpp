@@ -153,7 +153,7 @@ Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time
         if (options.stop.stop_requested()) {
             return Error{fmt::format("{}: reading was stopped", name)};
         }
-        if (!reader.read(tiles[i]) || messages.errors() > errors) {
+        if (!reader.read(tiles[i]) || messages.errors() > errors || messages.has_lost_blocks()) {
             return reading_failed(name, tiles[i], plan, messages);
         }
         if (!decoder.fits(reader.first(), reader.others())) {
