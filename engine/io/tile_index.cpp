@@ -13,6 +13,7 @@
 #include "engine/io/georeferencing.h"
 #include "engine/io/sample_decoder.h"
 #include "engine/io/side_files.h"
+#include "engine/terrain/tile_tree.h"
 
 namespace reljef::io {
 namespace {
@@ -83,6 +84,10 @@ std::string set_place(GDALDataset& dataset, const std::string& name, Described& 
     if (file.cols < 2 || file.rows < 2) {
         return fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name, file.cols,
                            file.rows);
+    }
+    if (std::max(file.cols, file.rows) > terrain::most_tree_samples) {
+        return fmt::format("{}: has {}×{} samples, at most {} a side were expected", name,
+                           file.cols, file.rows, terrain::most_tree_samples);
     }
     if (auto good = check_affine(dataset, name); !good) {
         return good.error().message;

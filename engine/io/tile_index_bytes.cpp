@@ -6,6 +6,7 @@
 
 #include "engine/io/fnv_hash.h"
 #include "engine/io/tile_index.h"
+#include "engine/terrain/tile_tree.h"
 
 namespace reljef::io {
 namespace {
@@ -88,7 +89,8 @@ bool is_consistent(const TileIndex& index) {
     const int systems = static_cast<int>(index.crs.size());
     return std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
         return file.use != TileUse::heights ||
-               (file.crs >= 0 && file.crs < systems && std::min(file.cols, file.rows) >= 2);
+               (file.crs >= 0 && file.crs < systems && std::min(file.cols, file.rows) >= 2 &&
+                std::max(file.cols, file.rows) <= terrain::most_tree_samples);
     });
 }
 
