@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <list>
@@ -22,11 +23,19 @@ public:
         std::function<Result<Dataset>(const std::filesystem::path&, const GdalMessages&)>;
     explicit DatasetPool(Opener open = open_raster) : open_(std::move(open)) {}
 
+    /// What tells whether a file is still the one that was opened; the same for all on servers.
+    struct FileState {
+        std::filesystem::file_time_type changed;
+        std::uintmax_t bytes = 0;
+        friend bool operator==(const FileState&, const FileState&) = default;
+    };
+
     /// An open raster, for the scope.
     class Loan {
     public:
-        Loan(DatasetPool& pool, std::filesystem::path path, Dataset dataset)
-            : pool_(&pool), path_(std::move(path)), dataset_(std::move(dataset)) {}
+        /// `opened` is what the file was before it was opened.
+        Loan(DatasetPool& pool, std::filesystem::path path, FileState opened, Dataset dataset)
+            : pool_(&pool), path_(std::move(path)), opened_(opened), dataset_(std::move(dataset)) {}
         ~Loan();
         Loan(Loan&&) = default;
         Loan& operator=(Loan&&) = delete;
@@ -39,20 +48,21 @@ public:
     private:
         DatasetPool* pool_;
         std::filesystem::path path_;
+        FileState opened_;
         Dataset dataset_;
     };
 
-    /// Opens the file where none of it is idle, or where it has changed meanwhile. Fails as the
-    /// opener.
+    /// Opens the file where none of it is idle, or where it has changed since that was opened.
+    /// Fails as the opener.
     Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages);
 
 private:
     struct Idle {
         std::filesystem::path path;
-        std::filesystem::file_time_type changed;
+        FileState opened;
         Dataset dataset;
     };
-    void give_back(std::filesystem::path path, Dataset dataset);
+    void give_back(Idle idle);
 
     const Opener open_;
     std::mutex mutex_;
