@@ -35,8 +35,7 @@ constexpr const char* no_place = "no way back in PROJ, or none from there";
 constexpr const char* ambiguous = "where the way back is ambiguous, or from numbers of few digits";
 
 /// Whether one of some words is in an operation.
-template <std::size_t Count>
-bool has_one(const GiePoint& point, const std::array<const char*, Count>& words) {
+bool has_one(const GiePoint& point, std::span<const char* const> words) {
     return std::any_of(words.begin(), words.end(), [&](const char* word) {
         return point.operation.find(word) != std::string::npos;
     });

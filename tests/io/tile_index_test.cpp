@@ -22,7 +22,7 @@ std::string utm31_text() {
     crs.importFromEPSG(32631);
     char* text = nullptr;
     crs.exportToWkt(&text);
-    const std::string wkt = text;
+    std::string wkt = text;
     CPLFree(text);
     return wkt;
 }
