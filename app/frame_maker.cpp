@@ -60,8 +60,9 @@ std::string memory_text(std::size_t before) {
 
 } // namespace
 
-DeviceFrames::DeviceFrames(Device device, bool timed) : device_(std::move(device)), timed_(timed) {
-    if (timed_) {
+DeviceFrames::DeviceFrames(Device device, const DeviceFramesOptions& options)
+    : device_(std::move(device)), options_(options) {
+    if (options_.timed) {
         static_cast<void>(device_.driver().draw(busy_scene(), true));
         static_cast<void>(device_.driver().draw(scene::Scene(), true)); // the other's mesh is gone
         times_.memory_before = process_memory().most;
@@ -70,10 +71,10 @@ DeviceFrames::DeviceFrames(Device device, bool timed) : device_(std::move(device
 
 Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
     const Stopwatch waiting;
-    bring_tiles(scene, device_.driver().size(), parallel.stop);
+    bring_tiles(scene, device_.driver().size(), parallel.stop, options_.quiet);
     times_.waiting_ms.push_back(waiting.ms());
     stream_stats_ = stream_stats(scene);
-    const auto stats = device_.driver().draw(scene, timed_);
+    const auto stats = device_.driver().draw(scene, options_.timed);
     if (!stats) {
         return stats.error();
     }
@@ -84,7 +85,7 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
 
 Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
                                           const ParallelOptions& parallel) {
-    bring_tiles(scene, device_.driver().size(), parallel.stop);
+    bring_tiles(scene, device_.driver().size(), parallel.stop, options_.quiet);
     return device_.driver().draw_hits(scene);
 }
 

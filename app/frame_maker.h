@@ -35,10 +35,15 @@ struct FrameTimes {
     std::size_t memory_before = 0;  ///< that the process had at most before the terrain was read
 };
 
-/// Draws with OpenGL; `timed` also waits for each frame's end.
+struct DeviceFramesOptions {
+    bool timed = false; ///< waits for each frame's end, too
+    bool quiet = false; ///< faults of what is read meanwhile are not told
+};
+
+/// Draws with OpenGL.
 class DeviceFrames : public FrameMaker {
 public:
-    DeviceFrames(Device device, bool timed);
+    DeviceFrames(Device device, const DeviceFramesOptions& options);
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
@@ -48,7 +53,7 @@ public:
 
 private:
     Device device_;
-    bool timed_;
+    DeviceFramesOptions options_;
     FrameTimes times_;
     render::FrameStats stats_;
     std::string stream_stats_; // after the last frame

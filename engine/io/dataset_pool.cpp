@@ -39,7 +39,7 @@ DatasetPool::Loan::~Loan() {
 }
 
 Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
-                                              const GdalMessages& messages) {
+                                              const GdalMessages& messages, const Check& check) {
     const FileState now = state_of(path); // before it is opened: what it may become then is newer
     {
         const std::lock_guard lock(mutex_);
@@ -53,6 +53,9 @@ Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
         }
     }
     auto opened = open_(path, messages);
+    if (opened && check) {
+        opened = check(std::move(*opened));
+    }
     if (!opened) {
         forget(path);
     }

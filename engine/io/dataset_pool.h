@@ -52,9 +52,13 @@ public:
         Dataset dataset_;
     };
 
+    /// What is to be made of a file that was opened just now.
+    using Check = std::function<Result<Dataset>(Dataset)>;
+
     /// Opens the file where none of it is idle, or where it has changed since that was opened.
-    /// Fails as the opener.
-    Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages);
+    /// Fails as the opener, or `check`.
+    Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages,
+                        const Check& check = {});
 
 private:
     struct Idle {
