@@ -175,6 +175,9 @@ void GdalMessages::handle(CPLErr kind, CPLErrorNum /*number*/, const char* text)
     std::string message = one_line(text);
     if (kind != CE_Warning) {
         self->last_error_ = message;
+        ++self->errors_;
+        self->has_lost_blocks_ =
+            self->has_lost_blocks_ || message.find("_TIFFPartialReadStrip") != std::string::npos;
     }
     std::vector<std::string>& all = self->all_;
     if (all.size() < most_messages && std::find(all.begin(), all.end(), message) == all.end()) {
@@ -189,6 +192,8 @@ std::string GdalMessages::reason() const {
 void GdalMessages::clear() {
     all_.clear();
     last_error_.clear();
+    errors_ = 0;
+    has_lost_blocks_ = false;
 }
 
 std::string size_text(double bytes) {

@@ -24,6 +24,11 @@ public:
     /// GDAL's last error in one line of at most 200 characters, ready to follow a sentence:
     /// " (GDAL: …)"; empty when there was none.
     [[nodiscard]] std::string reason() const;
+    /// How many errors there were: what GDAL returns as read need not be.
+    [[nodiscard]] std::size_t errors() const { return errors_; }
+    /// Whether GDAL took blocks of a TIFF whose place it could not read for blocks without values:
+    /// nothing else tells.
+    [[nodiscard]] bool has_lost_blocks() const { return has_lost_blocks_; }
     /// Each different warning and error once, in order, at most ten.
     [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
     void clear();
@@ -34,6 +39,8 @@ private:
     CPLConfigOptionSetter strict_jpeg_;
     std::vector<std::string> all_;
     std::string last_error_;
+    std::size_t errors_ = 0;
+    bool has_lost_blocks_ = false;
 };
 
 struct DatasetCloser {

@@ -233,7 +233,7 @@ public:
                 options_.progress((static_cast<double>(index) + done) / static_cast<double>(count));
             };
         }
-        if (target == nullptr || !warp(**colors, *target, warping)) {
+        if (target == nullptr || !warp(**colors, *target, warping) || messages.has_lost_blocks()) {
             return unreadable(picture.path.string(), messages);
         }
         lay_under(image_, drawn);

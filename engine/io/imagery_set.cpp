@@ -195,7 +195,7 @@ struct ImagerySet::State {
         // Its own: these objects are not for several threads at a time.
         const OGRSpatialReference reference = crs_from_text(crs);
         if (raster == nullptr || !place_raster(*raster, grid, reference) ||
-            !warp(**rgb, *raster, options)) {
+            !warp(**rgb, *raster, options) || messages.has_lost_blocks()) {
             if (!stop.stop_requested()) {
                 rgb->spoil();
             }

@@ -148,11 +148,12 @@ Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time
                        const Store& store) {
     TileReader reader(source_of(dataset, plan, decoder.bands()), plan);
     const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), at_a_time);
+    const std::size_t errors = messages.errors();
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (options.stop.stop_requested()) {
             return Error{fmt::format("{}: reading was stopped", name)};
         }
-        if (!reader.read(tiles[i])) {
+        if (!reader.read(tiles[i]) || messages.errors() > errors) {
             return reading_failed(name, tiles[i], plan, messages);
         }
         if (!decoder.fits(reader.first(), reader.others())) {
