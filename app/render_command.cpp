@@ -221,7 +221,7 @@ Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scen
 
 Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, FrameMaker& maker,
                           const Interrupt& interrupt) {
-    const auto path = open_path(scene, choice.view);
+    const auto path = open_path(scene, choice.view, choice.terrain);
     if (!path) {
         return path.error();
     }

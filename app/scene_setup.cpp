@@ -151,11 +151,11 @@ Result<std::vector<scene::FlyKey>> fly_keys_on_earth(const TerrainScene& scene,
 
 Result<std::vector<scene::FlyKey>> fly_keys_of(const TerrainScene& scene, const io::Flight& flight,
                                                const std::string& name) {
-    if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight)) {
+    if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight.keys)) {
         return fly_keys_on_earth(scene, *on_earth, name);
     }
     std::vector<scene::FlyKey> fly_keys;
-    for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight)) {
+    for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight.keys)) {
         fly_keys.push_back({key.time, key.eye, key.look});
     }
     return fly_keys;
@@ -306,7 +306,8 @@ Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain
     return {};
 }
 
-Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view) {
+Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view,
+                                                const TerrainChoice& terrain) {
     using Path = std::optional<scene::FlyPath>;
     if (view.path.empty()) {
         return Path();
@@ -326,6 +327,11 @@ Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const
     const auto flight = io::read_flight(view.path);
     if (!flight) {
         return flight.error();
+    }
+    for (const std::string& note : flight->notes) {
+        if (!terrain.quiet) {
+            tell(fmt::format("reljef: note: {}\n", note));
+        }
     }
     auto fly_keys = fly_keys_of(scene, *flight, view.path);
     if (!fly_keys) {

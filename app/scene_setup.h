@@ -40,8 +40,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
 Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain,
                                const std::stop_token& stop);
 
-/// The path that --path names; nothing without one.
-Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view);
+/// The path that --path names, with notes on stderr; nothing without one.
+Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view,
+                                                const TerrainChoice& terrain);
 
 /// Puts the camera where frame `index` of so many evenly spread along a path sees from.
 void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);

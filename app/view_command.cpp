@@ -175,11 +175,12 @@ private:
 };
 
 // The path that was named, or the flight over the terrain.
-Result<scene::FlyPath> path_or_flyover(const TerrainScene& scene, ViewChoice view) {
+Result<scene::FlyPath> path_or_flyover(const TerrainScene& scene, ViewChoice view,
+                                       const TerrainChoice& terrain) {
     if (view.path.empty()) {
         view.path = "flyover";
     }
-    auto path = open_path(scene, view);
+    auto path = open_path(scene, view, terrain);
     if (!path) {
         return path.error();
     }
@@ -218,7 +219,7 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     if (auto ready = prepare_bisection(*scene, choice.terrain, interrupt.token()); !ready) {
         return ready;
     }
-    auto path = path_or_flyover(*scene, choice.view);
+    auto path = path_or_flyover(*scene, choice.view, choice.terrain);
     if (!path) {
         return path.error();
     }

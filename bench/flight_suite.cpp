@@ -78,7 +78,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     if (!scene) {
         return scene.error();
     }
-    const auto path = app::open_path(*scene, options.view);
+    const auto path = app::open_path(*scene, options.view, options.terrain);
     if (!path) {
         return path.error();
     }

@@ -8,10 +8,13 @@
 namespace reljef::io {
 namespace {
 
-std::filesystem::file_time_type time_of(const std::filesystem::path& path) {
+DatasetPool::FileState state_of(const std::filesystem::path& path) {
+    if (is_remote(path)) {
+        return {};
+    }
     std::error_code ignored;
-    return is_remote(path) ? std::filesystem::file_time_type()
-                           : std::filesystem::last_write_time(path, ignored);
+    return {std::filesystem::last_write_time(path, ignored),
+            std::filesystem::file_size(path, ignored)};
 }
 
 // What GDAL keeps of a file on a server, that it is not there for one.
@@ -31,23 +34,22 @@ void DatasetPool::Loan::spoil() {
 
 DatasetPool::Loan::~Loan() {
     if (dataset_ != nullptr) {
-        pool_->give_back({std::move(path_), changed_, std::move(dataset_)});
+        pool_->give_back({std::move(path_), opened_, std::move(dataset_)});
     }
 }
 
 Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
                                               const GdalMessages& messages, const Check& check) {
-    const auto changed = time_of(path);
+    const FileState now = state_of(path); // before it is opened: what it may become then is newer
     {
         const std::lock_guard lock(mutex_);
-        idle_.remove_if(
-            [&](const Idle& idle) { return idle.path == path && idle.changed != changed; });
+        idle_.remove_if([&](const Idle& idle) { return idle.path == path && idle.opened != now; });
         const auto found = std::find_if(idle_.begin(), idle_.end(),
                                         [&](const Idle& idle) { return idle.path == path; });
         if (found != idle_.end()) {
             Dataset dataset = std::move(found->dataset);
             idle_.erase(found);
-            return Loan(*this, path, changed, std::move(dataset));
+            return Loan(*this, path, now, std::move(dataset));
         }
     }
     auto opened = open_(path, messages);
@@ -57,7 +59,7 @@ Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
     if (!opened) {
         forget(path);
     }
-    return opened ? Result<Loan>(Loan(*this, path, changed, std::move(*opened))) : opened.error();
+    return opened ? Result<Loan>(Loan(*this, path, now, std::move(*opened))) : opened.error();
 }
 
 void DatasetPool::give_back(Idle idle) {

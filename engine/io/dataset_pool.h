@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <list>
@@ -22,13 +23,19 @@ public:
         std::function<Result<Dataset>(const std::filesystem::path&, const GdalMessages&)>;
     explicit DatasetPool(Opener open = open_raster) : open_(std::move(open)) {}
 
+    /// What tells whether a file is still the one that was opened; the same for all on servers.
+    struct FileState {
+        std::filesystem::file_time_type changed;
+        std::uintmax_t bytes = 0;
+        friend bool operator==(const FileState&, const FileState&) = default;
+    };
+
     /// An open raster, for the scope.
     class Loan {
     public:
-        Loan(DatasetPool& pool, std::filesystem::path path, std::filesystem::file_time_type changed,
-             Dataset dataset)
-            : pool_(&pool), path_(std::move(path)), changed_(changed),
-              dataset_(std::move(dataset)) {}
+        /// `opened` is what the file was before it was opened.
+        Loan(DatasetPool& pool, std::filesystem::path path, FileState opened, Dataset dataset)
+            : pool_(&pool), path_(std::move(path)), opened_(opened), dataset_(std::move(dataset)) {}
         ~Loan();
         Loan(Loan&&) = default;
         Loan& operator=(Loan&&) = delete;
@@ -41,22 +48,22 @@ public:
     private:
         DatasetPool* pool_;
         std::filesystem::path path_;
-        std::filesystem::file_time_type changed_; // before it was opened
+        FileState opened_;
         Dataset dataset_;
     };
 
     /// What is to be made of a file that was opened just now.
     using Check = std::function<Result<Dataset>(Dataset)>;
 
-    /// Opens the file where none of it is idle, or where it has changed meanwhile. Fails as the
-    /// opener, or `check`.
+    /// Opens the file where none of it is idle, or where it has changed since that was opened.
+    /// Fails as the opener, or `check`.
     Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages,
                         const Check& check = {});
 
 private:
     struct Idle {
         std::filesystem::path path;
-        std::filesystem::file_time_type changed;
+        FileState opened;
         Dataset dataset;
     };
     void give_back(Idle idle);

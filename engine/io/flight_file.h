@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -20,16 +21,20 @@ struct GeodeticKey {
     std::optional<double> pitch;   ///< above the horizon, [-90, 90]; given with a heading only
 };
 
-using Flight = std::variant<std::vector<PathKey>, std::vector<GeodeticKey>>;
+/// A flight through a scene, or one over the Earth.
+struct Flight {
+    std::variant<std::vector<PathKey>, std::vector<GeodeticKey>> keys;
+    std::vector<std::string> notes; ///< what of the file is not flown: a sentence each
+};
 
 /// A flight: a path file (TOML, see read_path_file; or `[[key]]` tables with time, latitude,
-/// longitude, height and perhaps heading and pitch), or the first line of a GPX, KML, GeoJSON or
-/// any other file of lines that GDAL opens, in any coordinate system, flown at `metres_a_second`.
-/// At least one key, at most 100,000. Errors as everywhere.
+/// longitude, height and perhaps heading and pitch), or the first track, route or line of a GPX,
+/// KML, GeoJSON or any other file of lines that GDAL opens, in any coordinate system, flown at
+/// `metres_a_second`, the segments of a track one after the other. At least one key, at most
+/// 100,000. Errors as everywhere.
 Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_second = 100.0);
 
-/// The line of a file that GDAL opens, as keys of a flight: see read_flight.
-Result<std::vector<GeodeticKey>> read_track(const std::filesystem::path& path,
-                                            double metres_a_second);
+/// The first line of a file that GDAL opens, as keys on Earth: see read_flight.
+Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second);
 
 } // namespace reljef::io

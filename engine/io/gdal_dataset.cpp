@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <mutex>
 #include <string_view>
 #include <system_error>
@@ -73,6 +76,8 @@ Result<std::string> name_for_gdal(const fs::path& path) {
     return extension == ".gz" ? "/vsigzip/" + fs::absolute(path).string() : path.string();
 }
 
+/// Drivers of GDAL 3.6 for formats that files are named by (SRTMHGT) crash where one cannot be
+/// read.
 Result<void> check_file(const fs::path& path) {
     const std::string name = path.string();
     std::error_code code;
@@ -85,6 +90,10 @@ Result<void> check_file(const fs::path& path) {
     }
     if (!fs::is_regular_file(status)) {
         return Error{fmt::format("{}: is no regular file, a raster file was expected", name)};
+    }
+    if (const std::ifstream stream(path); !stream) {
+        return Error{fmt::format("{}: cannot be read: {}, a raster file was expected", name,
+                                 std::strerror(errno))};
     }
     if (fs::file_size(path, code) == 0) {
         return Error{fmt::format("{}: is empty, a raster file was expected", name)};

@@ -61,7 +61,7 @@ void note_rotation(const Steps& steps, std::vector<std::string>& notes) {
     }
 }
 
-double metres_between(glm::dvec2 a, glm::dvec2 b) {
+double straight_metres(glm::dvec2 a, glm::dvec2 b) {
     return glm::distance(geo::geocentric_from_geodetic({a.x, a.y, 0.0}),
                          geo::geocentric_from_geodetic({b.x, b.y, 0.0}));
 }
@@ -76,8 +76,8 @@ std::optional<Steps> ground_steps(const ExactTransform& exact, const SampleGrid&
         return std::nullopt;
     }
     if (std::abs(points[0].x) > near_pole) {
-        return Steps{{metres_between(points[0], points[1]), 0.0},
-                     {0.0, metres_between(points[2], points[3])}};
+        return Steps{{straight_metres(points[0], points[1]), 0.0},
+                     {0.0, straight_metres(points[2], points[3])}};
     }
     const glm::dvec2 metres = geo::metres_per_degree(points[0].x);
     const auto step = [&](glm::dvec2 from, glm::dvec2 to) {

@@ -114,7 +114,7 @@ Result<std::unique_ptr<PathDocument>> open_path_file(const std::filesystem::path
 }
 
 template <class Key> Result<Flight> flight_of(Result<std::vector<Key>> keys) {
-    return keys ? Result<Flight>(Flight(std::move(*keys))) : keys.error();
+    return keys ? Result<Flight>(Flight{std::move(*keys), {}}) : keys.error();
 }
 
 } // namespace
@@ -126,7 +126,7 @@ Result<std::vector<PathKey>> read_path_file(const std::filesystem::path& path) {
 
 Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_second) {
     if (path.extension() != ".toml") {
-        return flight_of(read_track(path, metres_a_second));
+        return read_track(path, metres_a_second);
     }
     auto file = open_path_file(path);
     if (!file) {

@@ -1,7 +1,6 @@
 #include "engine/io/tile_index.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <system_error>
 
@@ -9,9 +8,12 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/worker_pool.h"
+#include "engine/io/fnv_hash.h"
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/georeferencing.h"
 #include "engine/io/sample_decoder.h"
+#include "engine/io/side_files.h"
+#include "engine/terrain/tile_tree.h"
 
 namespace reljef::io {
 namespace {
@@ -20,34 +22,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_tiles = 1'000'000;
 constexpr std::size_t largest_index = std::size_t{1} << 30; // bytes
-// What lies beside rasters and is none, or belongs to one.
-constexpr std::array<std::string_view, 18> side_files{
-    ".xml", ".prj", ".hdr",  ".ovr", ".msk", ".tfw", ".wld", ".txt",     ".toml",
-    ".md",  ".csv", ".json", ".gpx", ".kml", ".log", ".pdf", ".geojson", ".html"};
-// Rasters by their name, also where their content is cut or empty.
-constexpr std::array<std::string_view, 18> raster_files{
-    ".tif", ".tiff", ".vrt", ".hgt", ".dem", ".asc", ".dt0", ".dt1", ".dt2",
-    ".img", ".bil",  ".ter", ".hf2", ".flt", ".adf", ".xyz", ".zip", ".gz"};
-
-template <class List> bool holds(const List& list, std::string_view word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-std::string lower_extension(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return extension;
-}
 
 bool may_be_raster(const fs::path& path) {
-    const std::string extension = lower_extension(path);
-    if (holds(side_files, extension) || path.filename().string().starts_with('.')) {
+    if (is_named_side_file(path) || path.filename().string().starts_with('.')) {
         return false;
     }
-    return holds(raster_files, extension) ||
-           GDALIdentifyDriver(path.string().c_str(), nullptr) != nullptr;
+    return is_named_raster(path) || GDALIdentifyDriver(path.string().c_str(), nullptr) != nullptr;
 }
 
 /// A file as it is now; nothing else of it is known yet.
@@ -81,6 +61,7 @@ Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::s
     }
     std::sort(files.begin(), files.end(),
               [](const IndexedFile& a, const IndexedFile& b) { return a.path < b.path; });
+    set_beside(files);
     return files;
 }
 
@@ -104,6 +85,10 @@ std::string set_place(GDALDataset& dataset, const std::string& name, Described& 
         return fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name, file.cols,
                            file.rows);
     }
+    if (std::max(file.cols, file.rows) > terrain::most_tree_samples) {
+        return fmt::format("{}: has {}×{} samples, at most {} a side were expected", name,
+                           file.cols, file.rows, terrain::most_tree_samples);
+    }
     if (auto good = check_affine(dataset, name); !good) {
         return good.error().message;
     }
@@ -121,6 +106,7 @@ std::string set_place(GDALDataset& dataset, const std::string& name, Described& 
 
 Described describe_dataset(GDALDataset& dataset, const std::string& name, Described described) {
     IndexedFile& file = described.file;
+    file.opened = true;
     GDALRasterBand& band = *dataset.GetRasterBand(1);
     file.cols = dataset.GetRasterXSize();
     file.rows = dataset.GetRasterYSize();
@@ -178,11 +164,7 @@ TileIndex numbered(std::vector<Described> all) {
 fs::path cache_file(const fs::path& folder, const TileSetOptions& options) {
     std::error_code ignored;
     const std::string whole = fs::weakly_canonical(folder, ignored).string();
-    std::uint64_t hash = 14695981039346656037ULL; // FNV-1a
-    for (const char byte : whole) {
-        hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-    }
-    return options.cache_folder / fmt::format("tiles-{:016x}.index", hash);
+    return options.cache_folder / fmt::format("tiles-{:016x}.index", fnv_hash(whole));
 }
 
 TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
@@ -218,8 +200,7 @@ public:
     }
     [[nodiscard]] std::optional<Described> find(const IndexedFile& now) const {
         const auto entry = files_.find(now.path);
-        if (entry == files_.end() || entry->second->bytes != now.bytes ||
-            entry->second->modified != now.modified) {
+        if (entry == files_.end() || !entry->second->opened || !is_same(*entry->second, now)) {
             return std::nullopt;
         }
         const IndexedFile& file = *entry->second;
@@ -228,6 +209,10 @@ public:
     }
 
 private:
+    static bool is_same(const IndexedFile& a, const IndexedFile& b) {
+        return a.bytes == b.bytes && a.modified == b.modified && a.beside == b.beside;
+    }
+
     const TileIndex& index_;
     std::map<std::string_view, const IndexedFile*> files_;
 };

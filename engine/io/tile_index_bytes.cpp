@@ -1,24 +1,18 @@
+#include <algorithm>
 #include <array>
 #include <cstring>
 
 #include <fmt/format.h>
 
+#include "engine/io/fnv_hash.h"
 #include "engine/io/tile_index.h"
+#include "engine/terrain/tile_tree.h"
 
 namespace reljef::io {
 namespace {
 
-constexpr std::string_view index_magic = "reljef tile index 1\n";
+constexpr std::string_view index_magic = "reljef tile index 2\n";
 constexpr std::size_t checksum_bytes = 8;
-
-/// FNV-1a, 64 bits (Fowler, Noll, Vo).
-std::uint64_t checksum_of(std::string_view bytes) {
-    std::uint64_t hash = 14695981039346656037ULL;
-    for (const char byte : bytes) {
-        hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-    }
-    return hash;
-}
 
 class IndexWriter {
 public:
@@ -77,6 +71,8 @@ template <class File, class Visit> void visit_fields(File& file, const Visit& vi
     visit(file.path);
     visit(file.bytes);
     visit(file.modified);
+    visit(file.beside);
+    visit(file.opened);
     visit(file.use);
     visit(file.fault);
     visit(file.cols);
@@ -93,7 +89,8 @@ bool is_consistent(const TileIndex& index) {
     const int systems = static_cast<int>(index.crs.size());
     return std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
         return file.use != TileUse::heights ||
-               (file.crs >= 0 && file.crs < systems && file.cols >= 2 && file.rows >= 2);
+               (file.crs >= 0 && file.crs < systems && std::min(file.cols, file.rows) >= 2 &&
+                std::max(file.cols, file.rows) <= terrain::most_tree_samples);
     });
 }
 
@@ -111,7 +108,7 @@ std::string bytes_of(const TileIndex& index) {
     }
     const std::string content = std::move(writer).bytes();
     IndexWriter head;
-    head.put(checksum_of(content));
+    head.put(fnv_hash(content));
     return std::string(index_magic) + std::move(head).bytes() + content;
 }
 
@@ -123,7 +120,7 @@ Result<TileIndex> index_from_bytes(std::string_view bytes) {
     std::uint64_t checksum = 0;
     IndexReader(bytes).get(checksum);
     bytes.remove_prefix(std::min(checksum_bytes, bytes.size()));
-    if (checksum_of(bytes) != checksum) {
+    if (fnv_hash(bytes) != checksum) {
         return Error{"is cut or was changed"};
     }
     IndexReader reader(bytes);

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/replaced_file.h"
 #include "engine/io/sample_decoder.h"
 #include "engine/io/sample_reader.h"
+#include "engine/terrain/tile_tree.h"
 
 namespace reljef::io {
 namespace {
@@ -27,6 +28,23 @@ glm::dmat2 steps_matrix(const geo::PixelAffine& affine) {
     return {affine.x_col, affine.y_col, affine.x_row, affine.y_row};
 }
 
+/// Lattice points, in whole numbers that may be too large for an int.
+struct LatticeBounds {
+    glm::dvec2 low{0.0};
+    glm::dvec2 high{0.0}; ///< past the last
+};
+
+/// A layer to which tiles are added; its lattice begins at the first one's first sample.
+struct GrowingLayer {
+    TileLayer layer;
+    LatticeBounds bounds;
+};
+
+/// Where a file's first sample lies in a layer's lattice.
+glm::dvec2 origin_in(const TileLayer& layer, const PlacedFile& file) {
+    return layer.lattice_from_crs(file.crs_from_sample.crs_from_pixel(glm::dvec2(0.0)));
+}
+
 bool on_lattice(const TileLayer& layer, const PlacedFile& file, const IndexedFile& indexed) {
     if (layer.crs != file.crs) {
         return false;
@@ -34,19 +52,36 @@ bool on_lattice(const TileLayer& layer, const PlacedFile& file, const IndexedFil
     const glm::dmat2 in_steps = layer.lattice_steps * steps_matrix(file.crs_from_sample);
     const double side = std::max(indexed.cols, indexed.rows);
     const glm::dmat2 drift = (in_steps - glm::dmat2(1.0)) * side;
-    const glm::dvec2 origin =
-        layer.lattice_from_crs(file.crs_from_sample.crs_from_pixel(glm::dvec2(0.0)));
+    const glm::dvec2 origin = origin_in(layer, file);
     const glm::dvec2 phase = origin - glm::round(origin);
     const double most_drift = std::max(
         {std::abs(drift[0].x), std::abs(drift[0].y), std::abs(drift[1].x), std::abs(drift[1].y)});
     return most_drift <= same_step && std::abs(phase.x) <= same_phase &&
-           std::abs(phase.y) <= same_phase && glm::length(origin) < 1e9;
+           std::abs(phase.y) <= same_phase;
 }
 
-void add_to(TileLayer& layer, const PlacedFile& file, const IndexedFile& indexed) {
-    const glm::dvec2 origin =
-        layer.lattice_from_crs(file.crs_from_sample.crs_from_pixel(glm::dvec2(0.0)));
+LatticeBounds bounds_with(const GrowingLayer& growing, const PlacedFile& file,
+                          const IndexedFile& indexed) {
+    const glm::dvec2 first = glm::round(origin_in(growing.layer, file));
+    return {glm::min(growing.bounds.low, first),
+            glm::max(growing.bounds.high, first + glm::dvec2(indexed.cols, indexed.rows))};
+}
+
+/// What lies farther away than a tree of tiles reaches is a layer of its own.
+bool belongs_to(const GrowingLayer& growing, const PlacedFile& file, const IndexedFile& indexed) {
+    if (!on_lattice(growing.layer, file, indexed)) {
+        return false;
+    }
+    const LatticeBounds bounds = bounds_with(growing, file, indexed);
+    const glm::dvec2 size = bounds.high - bounds.low;
+    return std::max(size.x, size.y) <= terrain::most_tree_samples;
+}
+
+void add_to(GrowingLayer& growing, const PlacedFile& file, const IndexedFile& indexed) {
+    TileLayer& layer = growing.layer;
+    const glm::dvec2 origin = origin_in(layer, file);
     const glm::ivec2 first(glm::round(origin));
+    growing.bounds = bounds_with(growing, file, indexed);
     layer.tiles.push_back(
         {file.file, first.x, first.y, indexed.cols, indexed.rows, origin - glm::dvec2(first)});
     layer.modified = std::max(layer.modified, indexed.modified);
@@ -54,31 +89,29 @@ void add_to(TileLayer& layer, const PlacedFile& file, const IndexedFile& indexed
                  std::max(layer.box[2], file.box[2]), std::max(layer.box[3], file.box[3])};
 }
 
-TileLayer layer_from(const PlacedFile& file, const IndexedFile& indexed) {
-    TileLayer layer;
+GrowingLayer layer_from(const PlacedFile& file, const IndexedFile& indexed) {
+    GrowingLayer growing;
+    TileLayer& layer = growing.layer;
     layer.crs = file.crs;
     layer.crs_from_lattice = file.crs_from_sample;
     layer.lattice_steps = glm::inverse(steps_matrix(file.crs_from_sample));
     layer.spacing = file.spacing;
     layer.box = file.box;
     layer.period = file.period;
-    add_to(layer, file, indexed);
-    return layer;
+    add_to(growing, file, indexed);
+    return growing;
 }
 
 /// Moves the lattice's origin to the first sample of all.
-void finish(TileLayer& layer, std::span<const IndexedFile> files) {
-    glm::ivec2 low(layer.tiles.front().col, layer.tiles.front().row);
-    glm::ivec2 high = low;
-    for (const LayerTile& tile : layer.tiles) {
-        low = glm::min(low, glm::ivec2(tile.col, tile.row));
-        high = glm::max(high, glm::ivec2(tile.col + tile.cols, tile.row + tile.rows));
-    }
-    const glm::dvec2 origin = layer.crs_from_lattice.crs_from_pixel(glm::dvec2(low));
+TileLayer finished(GrowingLayer growing, std::span<const IndexedFile> files) {
+    TileLayer& layer = growing.layer;
+    const glm::ivec2 low(growing.bounds.low);
+    const glm::ivec2 size(growing.bounds.high - growing.bounds.low);
+    const glm::dvec2 origin = layer.crs_from_lattice.crs_from_pixel(growing.bounds.low);
     layer.crs_from_lattice.x0 = origin.x;
     layer.crs_from_lattice.y0 = origin.y;
-    layer.cols = high.x - low.x;
-    layer.rows = high.y - low.y;
+    layer.cols = size.x;
+    layer.rows = size.y;
     for (LayerTile& tile : layer.tiles) {
         tile.col -= low.x;
         tile.row -= low.y;
@@ -88,6 +121,7 @@ void finish(TileLayer& layer, std::span<const IndexedFile> files) {
                          return files[static_cast<std::size_t>(a.file)].modified >
                                 files[static_cast<std::size_t>(b.file)].modified;
                      });
+    return std::move(growing.layer);
 }
 
 /// A half-open rectangle of lattice points.
@@ -290,19 +324,23 @@ glm::dvec2 TileLayer::lattice_from_turned(glm::dvec2 point) const {
 
 std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
                                  std::span<const IndexedFile> files) {
-    std::vector<TileLayer> layers;
+    std::vector<GrowingLayer> growing;
     for (const PlacedFile& file : placed) {
         const IndexedFile& indexed = files[static_cast<std::size_t>(file.file)];
-        const auto fits = [&](const TileLayer& layer) { return on_lattice(layer, file, indexed); };
-        const auto layer = std::find_if(layers.begin(), layers.end(), fits);
-        if (layer == layers.end()) {
-            layers.push_back(layer_from(file, indexed));
+        const auto found =
+            std::find_if(growing.begin(), growing.end(), [&](const GrowingLayer& layer) {
+                return belongs_to(layer, file, indexed);
+            });
+        if (found == growing.end()) {
+            growing.push_back(layer_from(file, indexed));
         } else {
-            add_to(*layer, file, indexed);
+            add_to(*found, file, indexed);
         }
     }
-    for (TileLayer& layer : layers) {
-        finish(layer, files);
+    std::vector<TileLayer> layers;
+    layers.reserve(growing.size());
+    for (GrowingLayer& layer : growing) {
+        layers.push_back(finished(std::move(layer), files));
     }
     std::stable_sort(layers.begin(), layers.end(), [](const TileLayer& a, const TileLayer& b) {
         const double fine_a = fineness(a.spacing);

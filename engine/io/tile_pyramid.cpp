@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -39,7 +40,7 @@ std::optional<int> whole_number(const std::string& text) {
     return whole ? std::optional<int>(number) : std::nullopt;
 }
 
-/// The least and greatest numbers among the names of a folder's entries, without their extensions.
+/// The least and greatest numbers of tiles.
 struct TileNumbers {
     int low = std::numeric_limits<int>::max();
     int high = -1;
@@ -50,13 +51,30 @@ struct TileNumbers {
     }
 };
 
-TileNumbers numbers_in(const fs::path& folder) {
-    TileNumbers range;
+/// An entry of a folder whose name, without its extension, is a number.
+struct NumberedEntry {
+    int number = 0;
+    fs::path path;
+};
+
+/// Those with numbers under `end`, in any order; none where there is no such folder.
+std::vector<NumberedEntry> numbered_entries(const fs::path& folder, int end) {
+    std::vector<NumberedEntry> entries;
     std::error_code code;
-    for (const auto& entry : fs::directory_iterator(folder, code)) {
-        if (const auto number = whole_number(entry.path().stem().string())) {
-            range.add(*number);
+    for (fs::directory_iterator entry(folder, code); !code && entry != fs::directory_iterator();
+         entry.increment(code)) {
+        const auto number = whole_number(entry->path().stem().string());
+        if (number && *number < end) {
+            entries.push_back({*number, entry->path()});
         }
+    }
+    return entries;
+}
+
+TileNumbers numbers_in(const fs::path& folder, int end) {
+    TileNumbers range;
+    for (const NumberedEntry& entry : numbered_entries(folder, end)) {
+        range.add(entry.number);
     }
     return range;
 }
@@ -70,17 +88,17 @@ struct FolderLevel {
 
 FolderLevel finest_level(const fs::path& folder) {
     FolderLevel found;
-    found.level = std::min(numbers_in(folder).high, most_levels);
-    const fs::path columns = folder / std::to_string(found.level);
-    found.x = numbers_in(columns);
-    for (int x = found.x.low; x <= found.x.high; ++x) {
-        const TileNumbers rows = numbers_in(columns / std::to_string(x));
+    const int level = numbers_in(folder, most_levels + 1).high;
+    const int count = level < 0 ? 0 : 1 << level; // tiles a side
+    for (const NumberedEntry& column : numbered_entries(folder / std::to_string(level), count)) {
+        const TileNumbers rows = numbers_in(column.path, count);
         if (rows.high >= 0) {
+            found.level = level;
+            found.x.add(column.number);
             found.y.add(rows.low);
             found.y.add(rows.high);
         }
     }
-    found.level = found.y.high < 0 ? -1 : found.level;
     return found;
 }
 

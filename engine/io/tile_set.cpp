@@ -13,6 +13,7 @@
 #include "engine/io/georeferencing.h"
 #include "engine/io/tile_placing.h"
 #include "engine/io/tile_set_state.h"
+#include "engine/terrain/tile_tree.h"
 
 namespace reljef::io {
 namespace {
@@ -40,34 +41,50 @@ CrsBox box_of_layers(std::span<const TileLayer> layers) {
     return box;
 }
 
+/// Of at most terrain::most_tree_samples: see grid_step.
 int count_of(double low, double high, double step) {
-    const double steps = std::floor((high - low) / step + near_sample);
-    return static_cast<int>(std::min(steps, 2e9)) + 1;
+    return static_cast<int>(std::floor((high - low) / step + near_sample)) + 1;
+}
+
+/// The finest step, or so many of them that no more samples lie along `extent` than a tree of tiles
+/// reaches.
+glm::dvec2 grid_step(glm::dvec2 extent, glm::dvec2 finest, std::vector<std::string>& notes) {
+    constexpr double most = terrain::most_tree_samples - 2; // whatever is rounded
+    const glm::dvec2 samples = extent / finest;
+    const double steps = std::ceil(std::max(samples.x, samples.y) / most);
+    if (steps > 1.0) {
+        notes.push_back(fmt::format("{:.0f}×{:.0f} samples of the finest tile lie along the whole: "
+                                    "it is seen in steps of {:.0f}",
+                                    samples.x, samples.y, steps));
+    }
+    return finest * std::max(1.0, steps);
 }
 
 /// On the samples of the finest layer where it is not turned, else with its step.
-TileGrid grid_in_shared_crs(std::span<const TileLayer> layers) {
+TileGrid grid_in_shared_crs(std::span<const TileLayer> layers, std::vector<std::string>& notes) {
     const geo::PixelAffine& finest = layers.front().crs_from_lattice;
     const CrsBox box = box_of_layers(layers);
     TileGrid grid;
-    const double step_x = std::hypot(finest.x_col, finest.y_col);
-    const double step_y = std::hypot(finest.x_row, finest.y_row);
-    grid.step = {step_x, -step_y};
-    const glm::dvec2 steps(std::floor((finest.x0 - box.low.x) / step_x + near_sample),
-                           std::floor((box.high.y - finest.y0) / step_y + near_sample));
-    grid.first = {finest.x0 - steps.x * step_x, finest.y0 + steps.y * step_y};
-    grid.cols = count_of(grid.first.x, box.high.x, step_x);
-    grid.rows = count_of(box.low.y, grid.first.y, step_y);
+    const glm::dvec2 step = grid_step(
+        box.high - box.low,
+        {std::hypot(finest.x_col, finest.y_col), std::hypot(finest.x_row, finest.y_row)}, notes);
+    grid.step = {step.x, -step.y};
+    const glm::dvec2 steps(std::floor((finest.x0 - box.low.x) / step.x + near_sample),
+                           std::floor((box.high.y - finest.y0) / step.y + near_sample));
+    grid.first = {finest.x0 - steps.x * step.x, finest.y0 + steps.y * step.y};
+    grid.cols = count_of(grid.first.x, box.high.x, step.x);
+    grid.rows = count_of(box.low.y, grid.first.y, step.y);
     return grid;
 }
 
 /// Degrees, in steps of the finest spacing at the middle.
-TileGrid grid_in_degrees(std::span<const TileLayer> layers, const DegreeBox& box) {
+TileGrid grid_in_degrees(std::span<const TileLayer> layers, const DegreeBox& box,
+                         std::vector<std::string>& notes) {
     const auto& [west, south, east, north] = box;
     const double middle = std::clamp(0.5 * (south + north), -89.0, 89.0);
     const glm::dvec2 metres = geo::metres_per_degree(middle);
     const double spacing = std::min(layers.front().spacing.x, layers.front().spacing.y);
-    const glm::dvec2 step = spacing / metres;
+    const glm::dvec2 step = grid_step({east - west, north - south}, spacing / metres, notes);
     return {{west, north},
             {step.x, -step.y},
             count_of(west, east, step.x),
@@ -207,8 +224,8 @@ Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOp
                     [&](const TileLayer& layer) { return layer.crs == state->layers.front().crs; });
     state->crs = shared ? state->layers.front().crs : wgs84_degrees;
     state->crs_name = words_of(crs_from_text(state->crs)).name;
-    state->grid =
-        shared ? grid_in_shared_crs(state->layers) : grid_in_degrees(state->layers, state->box);
+    state->grid = shared ? grid_in_shared_crs(state->layers, state->notes)
+                         : grid_in_degrees(state->layers, state->box, state->notes);
     return TileSet(std::move(state));
 }
 

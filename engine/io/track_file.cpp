@@ -12,28 +12,37 @@
 namespace reljef::io {
 namespace {
 
-constexpr int most_track_points = 100'000;
+constexpr std::size_t most_track_points = 100'000;
 constexpr double least_way = 1.0; // metres; nearer points are the same place to a camera
 
-/// The first line of two points or more in a geometry; null where it has none.
-const OGRLineString* line_in(const OGRGeometry* geometry) {
+using Segments = std::vector<const OGRLineString*>;
+
+/// All lines in a geometry, in order.
+Segments segments_in(const OGRGeometry* geometry) {
     if (geometry == nullptr) {
-        return nullptr;
+        return {};
     }
     const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
     if (type == wkbLineString) {
-        const OGRLineString* line = geometry->toLineString();
-        return line->getNumPoints() >= 2 ? line : nullptr;
+        return {geometry->toLineString()};
     }
     if (type != wkbMultiLineString && type != wkbGeometryCollection) {
-        return nullptr;
+        return {};
     }
+    Segments segments;
     for (const OGRGeometry* part : *geometry->toGeometryCollection()) {
-        if (const OGRLineString* line = line_in(part)) {
-            return line;
-        }
+        const Segments more = segments_in(part);
+        segments.insert(segments.end(), more.begin(), more.end());
     }
-    return nullptr;
+    return segments;
+}
+
+std::size_t points_in(const Segments& segments) {
+    std::size_t count = 0;
+    for (const OGRLineString* segment : segments) {
+        count += static_cast<std::size_t>(segment->getNumPoints());
+    }
+    return count;
 }
 
 /// A point of a line in degrees; the height where the line has heights.
@@ -42,28 +51,34 @@ struct TrackPoint {
     std::optional<double> height;
 };
 
-std::optional<std::vector<TrackPoint>> points_of(const OGRLineString& line) {
+std::optional<CrsTransform> to_degrees(const OGRSpatialReference& crs) {
+    char* text = nullptr;
+    crs.exportToWkt(&text);
+    const std::string wkt = text != nullptr ? text : "";
+    CPLFree(text);
+    return CrsTransform::create(wkt, wgs84_degrees);
+}
+
+/// Nothing where their coordinate system, which they share, does not lead to WGS 84.
+std::optional<std::vector<TrackPoint>> points_of(const Segments& segments) {
+    std::vector<TrackPoint> points;
     std::vector<glm::dvec2> places;
-    places.reserve(static_cast<std::size_t>(line.getNumPoints()));
-    for (int i = 0; i < line.getNumPoints(); ++i) {
-        places.emplace_back(line.getX(i), line.getY(i));
+    for (const OGRLineString* line : segments) {
+        for (int i = 0; i < line->getNumPoints(); ++i) {
+            const bool has_height = line->Is3D() != 0 && std::isfinite(line->getZ(i));
+            points.push_back({{}, has_height ? std::optional(line->getZ(i)) : std::nullopt});
+            places.emplace_back(line->getX(i), line->getY(i));
+        }
     }
-    if (const OGRSpatialReference* crs = line.getSpatialReference()) {
-        char* text = nullptr;
-        crs->exportToWkt(&text);
-        const std::string wkt = text != nullptr ? text : "";
-        CPLFree(text);
-        const auto transform = CrsTransform::create(wkt, wgs84_degrees);
+    if (const OGRSpatialReference* crs = segments.front()->getSpatialReference()) {
+        const auto transform = to_degrees(*crs);
         if (!transform) {
             return std::nullopt;
         }
         transform->apply(places);
     }
-    std::vector<TrackPoint> points;
-    for (int i = 0; i < line.getNumPoints(); ++i) {
-        const bool has_height = line.Is3D() != 0 && std::isfinite(line.getZ(i));
-        points.push_back({places[static_cast<std::size_t>(i)],
-                          has_height ? std::optional(line.getZ(i)) : std::nullopt});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].place = places[i];
     }
     return points;
 }
@@ -95,22 +110,30 @@ Result<std::vector<GeodeticKey>> keys_along(const std::vector<TrackPoint>& point
     return keys;
 }
 
-const OGRLineString* first_line(GDALDataset& dataset, OGRFeatureUniquePtr& holder) {
+/// The first feature of a file with a line of two points or more.
+struct FoundTrack {
+    OGRFeatureUniquePtr feature; ///< the segments are parts of it
+    Segments segments;
+    int tracks = 0; ///< so many such features are in the file
+};
+
+FoundTrack find_track(GDALDataset& dataset) {
+    FoundTrack found;
     for (OGRLayer* layer : dataset.GetLayers()) {
-        while (OGRFeature* feature = layer->GetNextFeature()) {
-            holder.reset(feature);
-            if (const OGRLineString* line = line_in(feature->GetGeometryRef())) {
-                return line;
+        while (OGRFeatureUniquePtr feature{layer->GetNextFeature()}) {
+            Segments segments = segments_in(feature->GetGeometryRef());
+            if (points_in(segments) >= 2 && found.tracks++ == 0) {
+                found.feature = std::move(feature);
+                found.segments = std::move(segments);
             }
         }
     }
-    return nullptr;
+    return found;
 }
 
 } // namespace
 
-Result<std::vector<GeodeticKey>> read_track(const std::filesystem::path& path,
-                                            double metres_a_second) {
+Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second) {
     check(metres_a_second > 0.0, "read_track needs a speed");
     const std::string name = path.string();
     register_drivers();
@@ -123,23 +146,31 @@ Result<std::vector<GeodeticKey>> read_track(const std::filesystem::path& path,
                                  "with a line (GPX, KML, GeoJSON) was expected",
                                  name, messages.reason())};
     }
-    OGRFeatureUniquePtr holder;
-    const OGRLineString* line = first_line(*dataset, holder);
-    if (line == nullptr) {
+    const FoundTrack track = find_track(*dataset);
+    if (track.tracks == 0) {
         return Error{fmt::format("{}: holds no line of two points or more{}, one was expected",
                                  name, messages.reason())};
     }
-    if (line->getNumPoints() > most_track_points) {
+    if (const std::size_t count = points_in(track.segments); count > most_track_points) {
         return Error{fmt::format("{}: its line has {} points, at most {} were expected", name,
-                                 line->getNumPoints(), most_track_points)};
+                                 count, most_track_points)};
     }
-    const auto points = points_of(*line);
+    const auto points = points_of(track.segments);
     if (!points) {
         return Error{fmt::format("{}: its coordinate system does not lead to WGS 84, one that does "
                                  "was expected",
                                  name)};
     }
-    return keys_along(*points, metres_a_second, name);
+    auto keys = keys_along(*points, metres_a_second, name);
+    if (!keys) {
+        return keys.error();
+    }
+    Flight flight{std::move(*keys), {}};
+    if (track.tracks > 1) {
+        flight.notes.push_back(
+            fmt::format("{}: holds {} lines, the first is flown", name, track.tracks));
+    }
+    return flight;
 }
 
 } // namespace reljef::io

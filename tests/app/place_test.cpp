@@ -103,7 +103,7 @@ protected:
         view.path =
             folder_.write("line.geojson", R"({"type":"LineString","coordinates":[)" + line + "]}")
                 .string();
-        const auto flight = open_path(place.scene(), view);
+        const auto flight = open_path(place.scene(), view, {});
         ASSERT_TRUE(flight) << flight.error().message;
         constexpr int frames = 17;
         const auto& camera = *place.scene().camera->get<scene::Camera>();

@@ -131,7 +131,7 @@ TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
                                         "height = 5000\nheading = 40\npitch = -10\n")
                     .string();
     auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
-    const auto path = open_path(scene, view);
+    const auto path = open_path(scene, view, {});
     ASSERT_TRUE(path) << path.error().message;
     fly_to(scene, **path, 0, 2);
     const auto& camera = *scene.camera->get<scene::Camera>();

@@ -139,12 +139,21 @@ TEST_F(TileFolder, a_track_is_flown_over_it) {
     const std::string track =
         folder_
             .write("track.geojson",
-                   "{\"type\":\"LineString\",\"coordinates\":[[10.02,40.02],[10.12,40.06]]}")
+                   "{\"type\":\"FeatureCollection\",\"features\":["
+                   "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
+                   "\"coordinates\":[[10.02,40.02],[10.12,40.06]]}},"
+                   "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
+                   "\"coordinates\":[[10.12,40.02],[10.02,40.06]]}}]}")
             .string();
     const auto result = run({"render", path("tiles"), "--path", track, "--frames", "2", "-o",
                              path("f%d.png"), "--size", "64x48", "--context", "osmesa"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(test::read_bytes(path("f0.png")), test::read_bytes(path("f1.png")));
+    EXPECT_EQ(result.err, "");
+    const auto told = test::reljef({"render", path("tiles"), "--path", track, "-o", path("f.png"),
+                                    "--size", "64x48", "--context", "osmesa"},
+                                   options_);
+    EXPECT_THAT(told.err, HasSubstr("track.geojson: holds 2 lines, the first is flown"));
     const std::string empty = folder_.write("empty.gpx", "<gpx></gpx>").string();
     test::expect_refusal(
         run({"render", path("tiles"), "--path", empty, "-o", path("x.png"), "--context", "osmesa"}),

@@ -8,6 +8,7 @@
 
 #include "engine/io/raster.h"
 #include "tests/io/made_raster.h"
+#include "tests/support/plain_permissions.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -99,6 +100,17 @@ TEST_F(BadRaster, AFolder) {
 
 TEST_F(BadRaster, ADevice) {
     EXPECT_THAT(refused("/dev/null"), HasSubstr("no regular file"));
+}
+
+TEST_F(BadRaster, Unreadable) {
+    // GDAL 3.6.2's driver for .hgt reads what it could not open.
+    const auto cell = write("N45E006.hgt", std::string(std::size_t{2} * 1201 * 1201, '\0'));
+    const auto image = made(made_raster(4, 4, [](int, int) { return 1; }), "a.tif");
+    const test::PlainPermissions plain;
+    for (const auto& file : {cell, image}) {
+        std::filesystem::permissions(file, std::filesystem::perms::none);
+        EXPECT_THAT(refused(file), HasSubstr("cannot be read: Permission denied"));
+    }
 }
 
 TEST_F(BadRaster, NotARaster) {

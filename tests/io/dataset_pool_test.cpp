@@ -1,5 +1,7 @@
 #include "engine/io/dataset_pool.h"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 #include "tests/io/made_raster.h"
@@ -8,41 +10,64 @@
 namespace reljef::io {
 namespace {
 
-class DatasetPools : public ::testing::Test {
+class Datasets : public ::testing::Test {
 protected:
-    void write(int side) {
-        std::filesystem::remove(file_);
-        ASSERT_TRUE(test::write(test::made_raster(side, side, [](int, int) { return 1; }), file_));
-        std::filesystem::last_write_time(file_, std::filesystem::last_write_time(file_) +
-                                                    std::chrono::seconds(++written_));
+    Datasets() { put(1.0, std::chrono::seconds(0)); }
+
+    /// A raster of one height takes the place of what is there, as another file of the same size.
+    void put(double height, std::chrono::seconds later) {
+        const auto raster = test::made_raster(4, 4, [&](int, int) { return height; });
+        const auto beside = folder_.path() / "beside.tif";
+        ASSERT_TRUE(test::write(raster, beside));
+        std::filesystem::last_write_time(beside, start_ + later);
+        std::filesystem::rename(beside, file_);
     }
-    [[nodiscard]] DatasetPool::Loan borrow() {
-        auto loan = pool_.borrow(file_, messages_);
+    DatasetPool::Loan borrowed() {
+        const GdalMessages messages;
+        auto loan = pool_.borrow(file_, messages);
         EXPECT_TRUE(loan) << (loan ? "" : loan.error().message);
         return std::move(*loan);
     }
+    static double height_in(const DatasetPool::Loan& loan) {
+        double height = 0.0;
+        EXPECT_EQ(loan->GetRasterBand(1)->RasterIO(GF_Read, 1, 1, 1, 1, &height, 1, 1, GDT_Float64,
+                                                   0, 0, nullptr),
+                  CE_None);
+        return height;
+    }
 
-    test::TemporaryFolder folder_;
-    std::filesystem::path file_ = folder_.path() / "a.tif";
-    int written_ = 0;
-    GdalMessages messages_;
-    DatasetPool pool_;
+    const std::filesystem::file_time_type start_ = std::filesystem::file_time_type::clock::now();
+    const test::TemporaryFolder folder_;
+    const std::filesystem::path file_ = folder_.path() / "a.tif";
+    int opened_ = 0;
+    DatasetPool pool_{[&](const std::filesystem::path& path, const GdalMessages& messages) {
+        ++opened_;
+        return open_raster(path, messages);
+    }};
 };
 
-TEST_F(DatasetPools, KeepAFileOpen) {
-    write(3);
-    const GDALDataset* first = &*borrow();
-    EXPECT_EQ(&*borrow(), first);
+TEST_F(Datasets, StayOpenBetweenReadings) {
+    EXPECT_EQ(height_in(borrowed()), 1.0);
+    EXPECT_EQ(height_in(borrowed()), 1.0);
+    EXPECT_EQ(opened_, 1);
 }
 
-TEST_F(DatasetPools, OpenAnewWhatWasReplacedWhileItWasLent) {
-    write(3);
+TEST_F(Datasets, AreOpenedAnewWhereTheFileWasReplacedBetweenReadings) {
+    EXPECT_EQ(height_in(borrowed()), 1.0);
+    put(2.0, std::chrono::seconds(1));
+    EXPECT_EQ(height_in(borrowed()), 2.0);
+    EXPECT_EQ(opened_, 2);
+}
+
+TEST_F(Datasets, AreOpenedAnewWhereTheFileWasReplacedDuringAReading) {
     {
-        const auto lent = borrow();
-        write(4);
-        EXPECT_EQ(lent->GetRasterXSize(), 3);
+        const auto loan = borrowed();
+        put(2.0, std::chrono::seconds(1));
+        EXPECT_EQ(height_in(loan), 1.0);
     }
-    EXPECT_EQ(borrow()->GetRasterXSize(), 4);
+    EXPECT_EQ(height_in(borrowed()), 2.0);
+    EXPECT_EQ(height_in(borrowed()), 2.0);
+    EXPECT_EQ(opened_, 2);
 }
 
 } // namespace

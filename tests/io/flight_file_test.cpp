@@ -21,7 +21,7 @@ protected:
     std::vector<GeodeticKey> keys(const std::string& name, const std::string& text) {
         const auto flight = read(name, text);
         EXPECT_TRUE(flight) << (flight ? "" : flight.error().message);
-        const auto* found = flight ? std::get_if<std::vector<GeodeticKey>>(&*flight) : nullptr;
+        const auto* found = flight ? std::get_if<std::vector<GeodeticKey>>(&flight->keys) : nullptr;
         EXPECT_NE(found, nullptr);
         return found != nullptr ? *found : std::vector<GeodeticKey>{};
     }
@@ -62,6 +62,43 @@ TEST_F(FlightFile, LinesOfGpxKmlAndGeoJsonAreTheSameFlight) {
     }
 }
 
+TEST_F(FlightFile, TheSegmentsOfATrackAreFlownOneAfterTheOther) {
+    constexpr const char* segments =
+        "<gpx version=\"1.1\" creator=\"t\" xmlns=\"http://www.topografix.com/GPX/1/1\"><trk>"
+        "<trkseg><trkpt lat=\"45.8\" lon=\"6.8\"/><trkpt lat=\"45.9\" lon=\"6.8\"/></trkseg>"
+        "<trkseg><trkpt lat=\"46\" lon=\"6.8\"/></trkseg><trkseg/>"
+        "<trkseg><trkpt lat=\"46\" lon=\"6.9\"/><trkpt lat=\"46.1\" lon=\"6.9\"/></trkseg></trk>"
+        "</gpx>";
+    const auto found = keys("a.gpx", segments);
+    ASSERT_EQ(found.size(), 5U);
+    EXPECT_NEAR(found[1].latitude, 45.9, 1e-12);
+    EXPECT_NEAR(found[2].latitude, 46.0, 1e-12);
+    EXPECT_NEAR(found[3].longitude, 6.9, 1e-12);
+    EXPECT_NEAR(found[4].time - found[3].time,
+                geo::geodesic_distance({46.0, 6.9, 0.0}, {46.1, 6.9, 0.0}) / 50.0, 1e-6);
+    for (std::size_t i = 1; i < found.size(); ++i) {
+        EXPECT_GT(found[i].time, found[i - 1].time);
+    }
+    EXPECT_TRUE(read("a.gpx", segments)->notes.empty());
+}
+
+TEST_F(FlightFile, OfSeveralTracksTheFirstIsFlownAndThatIsTold) {
+    const auto flight = read(
+        "a.gpx",
+        "<gpx version=\"1.1\" creator=\"t\" "
+        "xmlns=\"http://www.topografix.com/GPX/1/1\"><trk><trkseg>"
+        "<trkpt lat=\"45.8\" lon=\"6.8\"/></trkseg></trk><trk><trkseg><trkpt lat=\"45.9\" "
+        "lon=\"6.9\"/>"
+        "<trkpt lat=\"46\" lon=\"6.9\"/></trkseg></trk><trk><trkseg><trkpt lat=\"45\" lon=\"6\"/>"
+        "<trkpt lat=\"46\" lon=\"6\"/></trkseg></trk></gpx>");
+    ASSERT_TRUE(flight) << flight.error().message;
+    const auto& found = std::get<std::vector<GeodeticKey>>(flight->keys);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_NEAR(found[0].longitude, 6.9, 1e-12);
+    ASSERT_EQ(flight->notes.size(), 1U);
+    EXPECT_THAT(flight->notes[0], HasSubstr("a.gpx: holds 2 lines, the first is flown"));
+}
+
 TEST_F(FlightFile, ALineWithoutHeightsHasNone) {
     const auto found = keys(
         "flat.json", "{\"type\":\"LineString\",\"coordinates\":[[6.8,45.8],[6.9,45.9],[7,46]]}");
@@ -86,7 +123,7 @@ TEST_F(FlightFile, KeysOnEarthAreReadFromToml) {
 TEST_F(FlightFile, KeysInSceneMetresStayThat) {
     const auto flight = read("path.toml", "[[key]]\ntime = 0\neye = [1, 2, 3]\nlook = [0, 0, 0]\n");
     ASSERT_TRUE(flight);
-    ASSERT_TRUE(std::holds_alternative<std::vector<PathKey>>(*flight));
+    ASSERT_TRUE(std::holds_alternative<std::vector<PathKey>>(flight->keys));
 }
 
 TEST_F(FlightFile, WhatIsWrongIsOneSentenceThatNamesTheFile) {

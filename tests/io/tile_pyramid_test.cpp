@@ -194,6 +194,21 @@ TEST_P(TilePyramids, OneInGreyIsNoHeights) {
     EXPECT_THAT(terrain->faults.front(), HasSubstr("its tile 6/33/23 "));
 }
 
+TEST_P(TilePyramids, TakeNoNameOfAFolderForATileThatCannotBe) {
+    for (const char* name : {"6/0", "6/64", "6/2147483647", "6/33/64", "2026", "2147483647/0"}) {
+        std::filesystem::create_directories(folder_.path() / name);
+    }
+    folder_.write("6/40.png", "no column of tiles");
+    const auto area = tile_pyramid_area(name());
+    ASSERT_TRUE(area);
+    EXPECT_NEAR(area->west, place_of_pixel(33 * 256, 0.0, 6).y, 1e-12);
+    EXPECT_NEAR(area->east, place_of_pixel(35 * 256 - 1, 0.0, 6).y, 1e-12);
+    EXPECT_NEAR(area->south, place_of_pixel(0.0, 24 * 256 - 1, 6).x, 1e-12);
+    const auto tiles = TileSet::open(name());
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    expect_heights(*tiles);
+}
+
 TEST_P(TilePyramids, ThatAreNoneAreRefused) {
     const test::TemporaryFolder empty;
     const auto nothing = TileSet::open(GetParam() + empty.path().string());

@@ -269,6 +269,42 @@ TEST_F(TileSets, ATileInASystemWithoutDefinitionIsAFault) {
     EXPECT_THAT(tiles.faults()[0].message, HasSubstr("local.tif: names no place"));
 }
 
+TEST_F(TileSets, AFileOfMoreSamplesThanATreeReachesIsAFault) {
+    tile("small.tif", utm31, 4, 4, {500000.0, 5000000.0, 10.0}, plane, GDT_Byte);
+    for (const char* east : {"500000", "550000"}) { // 500,000,000 samples apart
+        folder_.write(std::string(east) + ".vrt",
+                      "<VRTDataset rasterXSize=\"2000000000\" rasterYSize=\"4\"><SRS>EPSG:32631"
+                      "</SRS><GeoTransform>" +
+                          std::string(east) +
+                          ",1e-4,0,5000000,0,-1e-4</GeoTransform><VRTRasterBand dataType=\"Byte\" "
+                          "band=\"1\"/></VRTDataset>");
+    }
+    const TileSet tiles = open();
+    EXPECT_EQ(tiles.files().size(), 1U);
+    ASSERT_EQ(tiles.faults().size(), 2U);
+    EXPECT_THAT(tiles.faults()[1].message,
+                HasSubstr("550000.vrt: has 2000000000×4 samples, at most 1073741824 a side"));
+}
+
+TEST_F(TileSets, TilesMayLieFartherApartThanATreeReaches) {
+    const std::array<double, 4> begins{500000.0, 350000.0, 650000.0, 499999.9995};
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+        tile(std::to_string(i) + ".tif", utm31, 4, 4, {begins[i], 5000000.0, 1e-4},
+             [&](double, double) { return 10.0 * static_cast<double>(i); });
+    }
+    const TileSet tiles = open(); // 3,000,000,000 samples apart
+    EXPECT_EQ(tiles.files().size(), 4U);
+    EXPECT_TRUE(tiles.faults().empty());
+    ASSERT_EQ(tiles.notes().size(), 1U);
+    EXPECT_THAT(tiles.notes()[0], HasSubstr("it is seen in steps of 3"));
+    EXPECT_NEAR(tiles.grid().cols, 1e9, 3.0);
+    EXPECT_NEAR(tiles.grid().first.x, 350000.0, 3e-4);
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+        const TileGrid at{{begins[i] + 1.5e-4, 5000000.0 - 1.5e-4}, {1e-4, -1e-4}, 2, 2};
+        EXPECT_EQ(tiles.read(at, Gaps::holes).heights(1, 1), 10.0 * static_cast<double>(i));
+    }
+}
+
 TEST_F(TileSets, PicturesBesideTilesAreNoHeights) {
     tile("good.tif", utm31, 20, 20, {500000.0, 5000000.0, 10.0}, plane);
     auto picture = made_raster(20, 20, [](int col, int) { return col; });

@@ -12,12 +12,13 @@ struct GiePoint {
     std::string operation;      ///< "+proj=utm +ellps=GRS80 +zone=30"
     std::vector<double> input;  ///< longitude, latitude[, height]
     std::vector<double> output; ///< x, y[, z]
+    double tolerance = 0.0;     ///< of the output, metres
     bool inverse = false;       ///< it was written as an inverse test
     int line = 0;
 };
 
-/// The points of a file whose operation is one projection or conversion and whose numbers are
-/// plain; what expects a failure and pipelines are left out. Empty where it cannot be read.
+/// The points of a file, pipelines' too; what expects a failure is none. Empty where it cannot be
+/// read.
 std::vector<GiePoint> read_gie(const std::filesystem::path& path);
 
 } // namespace reljef::test

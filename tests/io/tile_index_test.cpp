@@ -1,0 +1,136 @@
+#include "engine/io/tile_index.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/core/atomic_file.h"
+#include "tests/io/made_raster.h"
+#include "tests/support/plain_permissions.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::io {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* grid_text = "ncols 3\nnrows 3\nxllcorner 500000\nyllcorner 5000000\n"
+                                  "cellsize 10\n1 2 3\n4 5 6\n7 8 9\n";
+
+/// The WKT of UTM 31, as files beside rasters have it.
+std::string utm31_text() {
+    OGRSpatialReference crs;
+    crs.importFromEPSG(32631);
+    char* text = nullptr;
+    crs.exportToWkt(&text);
+    std::string wkt = text;
+    CPLFree(text);
+    return wkt;
+}
+
+class TileIndices : public ::testing::Test {
+protected:
+    void raster(const std::string& name, bool placed) const {
+        auto made = test::made_raster(4, 4, [](int col, int) { return col; });
+        made.crs = "EPSG:32631";
+        if (placed) {
+            made.geotransform = {500000.0, 10.0, 0.0, 5000000.0, 0.0, -10.0};
+        }
+        ASSERT_TRUE(test::write(made, folder_.path() / name));
+    }
+    [[nodiscard]] TileIndex index() const {
+        std::vector<std::string> notes;
+        auto found = index_tiles(folder_.path(), options_, notes);
+        EXPECT_TRUE(found) << (found ? "" : found.error().message);
+        EXPECT_EQ(test::joined(notes), "");
+        return found ? std::move(*found) : TileIndex{};
+    }
+    /// Of the only file; empty where it is usable.
+    [[nodiscard]] std::string fault() const {
+        const TileIndex found = index();
+        EXPECT_EQ(found.files.size(), 1U);
+        return found.files.empty() ? "no file" : found.files.front().fault;
+    }
+    /// The index that is kept says of every file that its format is "kept".
+    void mark_what_is_kept() const {
+        TileIndex marked = index();
+        for (IndexedFile& file : marked.files) {
+            file.format = "kept";
+        }
+        const std::filesystem::path kept = *std::filesystem::directory_iterator(cache_.path());
+        ASSERT_TRUE(write_text_file(kept, bytes_of(marked)));
+    }
+    void remove(const std::string& name) const { std::filesystem::remove(folder_.path() / name); }
+
+    const test::TemporaryFolder folder_;
+    const test::TemporaryFolder cache_;
+    const TileSetOptions options_{cache_.path(), 0, 1.0, 0.0, {}};
+};
+
+TEST_F(TileIndices, SeeASystemThatIsAddedBesideAFileAndTakenAway) {
+    folder_.write("a.asc", grid_text);
+    EXPECT_THAT(fault(), HasSubstr("names no place on Earth"));
+    folder_.write("a.prj", utm31_text());
+    EXPECT_EQ(fault(), "");
+    remove("a.prj");
+    EXPECT_THAT(fault(), HasSubstr("names no place on Earth"));
+}
+
+TEST_F(TileIndices, SeeAPlaceThatIsAddedBesideAFileAndChanged) {
+    raster("a.tif", false);
+    EXPECT_THAT(fault(), HasSubstr("names no place on Earth"));
+    folder_.write("a.tfw", "10\n0\n0\n-10\n500005\n4999995\n");
+    EXPECT_EQ(index().files.front().crs_from_pixel.x0, 500000.0);
+    folder_.write("a.tfw", "10\n0\n0\n-10\n1500005\n4999995\n");
+    EXPECT_EQ(index().files.front().crs_from_pixel.x0, 1500000.0);
+}
+
+TEST_F(TileIndices, TakeWhatLiesBesideOneFileForNoReasonToReadAnother) {
+    for (const char* name : {"a.tif", "b.tif", "sub/a.tif"}) {
+        std::filesystem::create_directories((folder_.path() / name).parent_path());
+        raster(name, true);
+    }
+    for (const char* beside : {"b.prj", "b.TFW", "b.tif.aux.xml", "b.tif.ovr", "b.tif.msk", "b.hdr",
+                               "b.wld", "B.tifw"}) {
+        mark_what_is_kept();
+        folder_.write(beside, "");
+        const TileIndex found = index();
+        ASSERT_EQ(found.files.size(), 3U);
+        EXPECT_EQ(found.files[0].format, "kept") << beside;
+        EXPECT_EQ(found.files[1].format, "GTiff") << beside;
+        EXPECT_EQ(found.files[2].format, "kept") << beside;
+    }
+}
+
+TEST_F(TileIndices, ReadAGridOfManyFilesAgainWhereOneOfThemChanges) {
+    for (const char* name : {"grid/w001001.adf", "grid/hdr.adf"}) {
+        folder_.write(name, "x");
+    }
+    const TileIndex before = index();
+    folder_.write("grid/prj.adf", "Projection UTM");
+    const TileIndex after = index();
+    EXPECT_NE(before.files.back().beside, after.files.back().beside);
+}
+
+TEST_F(TileIndices, KeepNoFaultOfOpening) {
+    raster("a.tif", true);
+    const auto file = folder_.path() / "a.tif";
+    const test::PlainPermissions plain;
+    std::filesystem::permissions(file, std::filesystem::perms::none);
+    EXPECT_THAT(fault(), HasSubstr("Permission denied"));
+    std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+    EXPECT_EQ(fault(), "");
+}
+
+TEST_F(TileIndices, PassOverWhatCannotBeReadAndMayBeNoRaster) {
+    raster("a.tif", true);
+    folder_.write("N45E006.raw", std::string(2048, 'x'));
+    folder_.write("letter", "To whom it may concern");
+    const test::PlainPermissions plain;
+    for (const char* name : {"N45E006.raw", "letter"}) {
+        std::filesystem::permissions(folder_.path() / name, std::filesystem::perms::none);
+    }
+    EXPECT_EQ(fault(), "");
+}
+
+} // namespace
+} // namespace reljef::io
