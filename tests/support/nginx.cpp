@@ -107,7 +107,7 @@ void Nginx::start(const std::string& rules) {
 }
 
 void Nginx::stop() {
-    ::kill(process_, SIGTERM);
+    ::kill(process_, SIGKILL); // a gentler signal may come just before it waits, and is not seen
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
     std::error_code ignored;
