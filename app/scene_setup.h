@@ -43,7 +43,9 @@ Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain
 /// The path that --path names; nothing without one.
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view);
 
-/// Puts the camera where frame `index` of so many evenly spread along a path sees from.
-void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
+/// Puts the camera where frame `index` of so many evenly spread along a path sees from, above the
+/// ground that is there (see keep_above_ground in ground.h). Returns by how many metres it was
+/// raised.
+double fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
 
 } // namespace reljef::app

@@ -145,10 +145,28 @@ TEST_F(TileFolder, a_track_is_flown_over_it) {
                              path("f%d.png"), "--size", "64x48", "--context", "osmesa"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(test::read_bytes(path("f0.png")), test::read_bytes(path("f1.png")));
+    EXPECT_EQ(result.err, "") << "nothing was raised";
     const std::string empty = folder_.write("empty.gpx", "<gpx></gpx>").string();
     test::expect_refusal(
         run({"render", path("tiles"), "--path", empty, "-o", path("x.png"), "--context", "osmesa"}),
         1, {"empty.gpx"});
+}
+
+TEST_F(TileFolder, frames_that_are_raised_over_the_ground_are_told_once) {
+    const std::string track =
+        folder_
+            .write("track.geojson", "{\"type\":\"LineString\",\"coordinates\":[[10.02,40.02,-50],"
+                                    "[10.06,40.06,-50],[10.12,40.06,500]]}")
+            .string();
+    const auto result =
+        test::reljef({"render", path("tiles"), "--path", track, "--frames", "5", "-o",
+                      path("f%d.png"), "--size", "64x48", "--context", "osmesa"},
+                     options_);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto first = result.err.find("of 5 frames would be under the ground");
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("of 5 frames", first + 1), std::string::npos);
+    EXPECT_THAT(result.err, HasSubstr("raised by up to 5"));
 }
 
 } // namespace
