@@ -28,14 +28,18 @@ constexpr double least_duration = 1e-9;
 constexpr double heading_length = 100.0;
 
 /// Degrees clockwise from true north, [0, 360), of what is up in the picture where that is farther
-/// along than what is straight ahead. Precondition: the placement is on the Earth.
-double heading_at(const terrain::Placement& placement, const scene::Camera& camera) {
+/// along than what is straight ahead; nothing where that leads off the Earth's map.
+std::optional<double> heading_at(const terrain::Placement& placement, const scene::Camera& camera) {
     const scene::ViewAxes axes = scene::view_axes(camera);
     const glm::dvec3 up = placement.up(camera.eye);
     const bool steep = std::abs(glm::dot(axes.forward, up)) > std::abs(glm::dot(axes.up, up));
     const glm::dvec3 ahead = camera.eye + heading_length * (steep ? axes.up : axes.forward);
-    const geo::Geodesic way = geo::geodesic_between(*placement.geodetic_from_world(camera.eye),
-                                                    *placement.geodetic_from_world(ahead));
+    const auto from = placement.geodetic_from_world(camera.eye);
+    const auto to = placement.geodetic_from_world(ahead);
+    if (!from || !to) {
+        return std::nullopt;
+    }
+    const geo::Geodesic way = geo::geodesic_between(*from, *to);
     return std::fmod(std::round(way.azimuth_start) + 360.0, 360.0);
 }
 
@@ -85,9 +89,24 @@ std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
 }
 
 std::string length_text(double metres) {
-    return metres < 10.0      ? fmt::format("{:.2f} m", metres)
+    return metres < 0.1       ? fmt::format("{:.2g} mm", 1000.0 * metres)
+           : metres < 10.0    ? fmt::format("{:.2f} m", metres)
            : metres < 10000.0 ? fmt::format("{:.0f} m", metres)
                               : fmt::format("{:.1f} km", metres / 1000.0);
+}
+
+std::string place_on_earth(const scene::TerrainSurface& surface, const scene::Camera& camera) {
+    if (!surface.heightfield().georeference) {
+        return {};
+    }
+    const auto place = surface.placement().geodetic_from_world(camera.eye);
+    if (!place) {
+        return " - beside the map of the Earth";
+    }
+    const auto heading = heading_at(surface.placement(), camera);
+    return fmt::format(" - {} above sea - {:.5f}, {:.5f} - {}{}", length_text(place->height),
+                       place->latitude, place->longitude, geo::mgrs_text(*place),
+                       heading ? fmt::format(" - heading {:.0f}\u00b0", *heading) : "");
 }
 
 } // namespace
@@ -352,11 +371,7 @@ std::string Viewer::place() const {
     } else {
         text = "beside the terrain";
     }
-    if (const auto place = surface.placement().geodetic_from_world(eye)) {
-        text += fmt::format(" - {} above sea - {:.5f}, {:.5f} - {} - heading {:.0f}\u00b0",
-                            length_text(place->height), place->latitude, place->longitude,
-                            geo::mgrs_text(*place), heading_at(surface.placement(), camera()));
-    }
+    text += place_on_earth(surface, camera());
     return text + fmt::format(" - speed {}/s", length_text(flight_.speed()));
 }
 

@@ -462,6 +462,26 @@ TEST(ViewerOnEarth, TitleTellsHeightsAlongThePlacesOwnVertical) {
     EXPECT_THAT(title, HasSubstr("heading 250\u00b0"));
 }
 
+// As relief techniques draw a DEM of the whole Earth: the first view is from beside it.
+TEST(ViewerOnEarth, TitleSaysThatTheEyeIsBesideAMapOfTheWholeEarth) {
+    TerrainSource source;
+    source.terrain.name = "globe";
+    source.terrain.heightfield =
+        test::geographic_heightfield(Grid<float>(37, 19, 1000.0F), 90.0, -180.0, 10.0);
+    TerrainChoice choice;
+    choice.placement = terrain::PlacementKind::plane;
+    TerrainScene globe = make_scene(std::move(source), choice, {}).value();
+    Viewer viewer(globe, scene::orbit_path(globe.bounds), {400, 300});
+    EXPECT_THAT(viewer.title({}, {}), HasSubstr("beside the map of the Earth"));
+    // Just south of the north pole, with what is ahead beyond it.
+    auto& camera = *globe.camera->get<scene::Camera>();
+    const auto& placement = globe.terrain->get<scene::TerrainNode>()->surface->placement();
+    camera.eye = *placement.world_from_geodetic({89.9999, 0.0, 5000.0});
+    camera.look = camera.eye + glm::dvec3(0.0, 1.0, 0.0);
+    EXPECT_THAT(viewer.title({}, {}), HasSubstr("89.99990, 0.00000"));
+    EXPECT_THAT(viewer.title({}, {}), Not(HasSubstr("heading")));
+}
+
 TEST(Viewer, HelpNamesEveryKeyOnce) {
     const std::string keys = Viewer::keys();
     for (const char* name :
