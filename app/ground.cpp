@@ -1,8 +1,10 @@
 #include "app/ground.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "engine/scene/tile_stream.h"
 
@@ -59,6 +61,40 @@ double highest_at(const scene::TerrainNode& terrain, glm::dvec2 sample) {
     return highest_of(there.heights, there.place);
 }
 
+constexpr double largest_share = 0.25; // of the height above the ground, for a step along a ray
+constexpr double least_share = 1e-3;   // of the way so far
+constexpr int most_steps_of_ray = 4096;
+constexpr int halvings = 30;
+
+// Along a ray of unit length, to a thousandth: where the terrain is read part by part, by what is
+// there of it.
+std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const Ray& ray) {
+    double before = 0.0;
+    double distance = 0.0;
+    for (int i = 0; i < most_steps_of_ray; ++i) {
+        const auto height = height_above_ground(terrain, ray.at(distance));
+        if (height && *height <= 0.0) {
+            for (int j = 0; j < halvings; ++j) {
+                const double middle = 0.5 * (before + distance);
+                const auto at = height_above_ground(terrain, ray.at(middle));
+                (at && *at <= 0.0 ? distance : before) = middle;
+            }
+            return distance;
+        }
+        before = distance;
+        distance += std::max({largest_share * height.value_or(0.0), least_share * distance, 1e-3});
+    }
+    return std::nullopt;
+}
+
+std::optional<double> distance_to_ground(const scene::TerrainNode& terrain, const Ray& ray) {
+    if (terrain.stream != nullptr) {
+        return distance_to_tiles(terrain, ray);
+    }
+    const auto hit = terrain.surface->pick(ray);
+    return hit ? std::optional(hit->t) : std::nullopt;
+}
+
 } // namespace
 
 std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye) {
@@ -80,6 +116,18 @@ std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, doub
     const double highest = highest_at(terrain, glm::dvec2(*sample));
     const double z = placement.world_from_sample({sample->x, sample->y, highest}).z;
     return scene::GroundAt{*height, std::max(*height, z)};
+}
+
+std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
+                                       const scene::Camera& camera, int pixels_high) {
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        return camera.view_height / pixels_high;
+    }
+    const auto distance =
+        distance_to_ground(terrain, {camera.eye, scene::view_axes(camera).forward});
+    return distance ? std::optional(2.0 * *distance *
+                                    std::tan(0.5 * glm::radians(camera.vertical_fov)) / pixels_high)
+                    : std::nullopt;
 }
 
 double least_clearance(const TerrainScene& scene) {

@@ -15,6 +15,11 @@ std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm
 /// What is straight below or above x, y, with the highest that any triangulation has there.
 std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y);
 
+/// Of the picture's middle, metres from pixel to pixel across the view; nothing where it shows no
+/// ground.
+std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
+                                       const scene::Camera& camera, int pixels_high);
+
 /// How far an eye stays above all that may be drawn below it, metres: less on small terrains.
 double least_clearance(const TerrainScene& scene);
 

@@ -372,6 +372,9 @@ std::string Viewer::place() const {
         text = "beside the terrain";
     }
     text += place_on_earth(surface, camera());
+    if (const auto scale = metres_per_pixel(terrain, camera(), size_.y)) {
+        text += fmt::format(" - {} a pixel", length_text(*scale));
+    }
     return text + fmt::format(" - speed {}/s", length_text(flight_.speed()));
 }
 

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <random>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -480,6 +481,30 @@ TEST(ViewerOnEarth, TitleSaysThatTheEyeIsBesideAMapOfTheWholeEarth) {
     camera.look = camera.eye + glm::dvec3(0.0, 1.0, 0.0);
     EXPECT_THAT(viewer.title({}, {}), HasSubstr("89.99990, 0.00000"));
     EXPECT_THAT(viewer.title({}, {}), Not(HasSubstr("heading")));
+}
+
+TEST(Viewer, TitleTellsTheScaleAtTheMiddleOfThePicture) {
+    ViewChoice down;
+    down.eye = glm::dvec3(0.0, -80.0, 160.0);
+    down.look = glm::dvec3(0.0, -79.999, 10.0);
+    down.vertical_fov = 90.0;
+    TerrainScene over = hill_scene(down);
+    // 150 m over the ground a picture of 90 degrees is 300 m high.
+    EXPECT_THAT(Viewer(over, scene::orbit_path(over.bounds), {400, 300}).title({}, {}),
+                HasSubstr("1.00 m a pixel"));
+    EXPECT_THAT(Viewer(over, scene::orbit_path(over.bounds), {400, 600}).title({}, {}),
+                HasSubstr("0.50 m a pixel"));
+    ViewChoice up = down;
+    up.look = glm::dvec3(0.0, 0.0, 1000.0);
+    TerrainScene sky = hill_scene(up);
+    EXPECT_THAT(Viewer(sky, scene::orbit_path(sky.bounds), {400, 300}).title({}, {}),
+                Not(HasSubstr("a pixel")));
+    ViewChoice map;
+    map.projection = scene::ProjectionKind::orthographic;
+    TerrainScene flat = hill_scene(map);
+    const double high = flat.camera->get<scene::Camera>()->view_height;
+    EXPECT_THAT(Viewer(flat, scene::orbit_path(flat.bounds), {400, 300}).title({}, {}),
+                HasSubstr(fmt::format("{:.2f} m a pixel", high / 300.0)));
 }
 
 TEST(Viewer, HelpNamesEveryKeyOnce) {
