@@ -1,6 +1,7 @@
 // A folder of tiles in the program: info, height, render, and what it does about broken ones.
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -101,6 +102,63 @@ TEST_F(TileFolder, a_broken_tile_is_left_out_told_and_shows_in_the_exit_status) 
     const auto whole = run({"render", path("tiles"), "-o", path("out.png"), "--size", "64x48",
                             "--context", "osmesa", "--camera", "40.0,10.08,5000,0,-20"});
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
+}
+
+// Of a file that could be the one that has the place.
+TEST_F(TileFolder, height_and_info_tell_files_that_cannot_be_used) {
+    folder_.write("tiles/N45E006.hgt", "");
+    const auto told = [&](std::vector<std::string> arguments, const std::string& out) {
+        const auto result = test::reljef(arguments, options_);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_THAT(result.out, HasSubstr(out));
+        EXPECT_THAT(result.err, HasSubstr("1 of the files asked for could not be read"));
+        return result.err;
+    };
+    const std::string points = folder_.write("points.csv", "45.5,6.5\n40.08,10.01\n").string();
+    EXPECT_THAT(
+        told({"height", path("tiles"), "--points", points}, "45.5,6.5,nan\n40.08,10.01,1.000000\n"),
+        HasSubstr("left out: "));
+    EXPECT_THAT(told({"height", path("tiles"), "--at", "40.08,10.01"}, "1.000000"),
+                HasSubstr("N45E006.hgt: is empty"));
+    told({"info", path("tiles"), "--json"}, "N45E006.hgt: is empty");
+    test::expect_refusal(run({"height", path("tiles"), "--at", "45.5,6.5"}), 1,
+                         {"45.5,6.5", "1 of its files could not be read", "N45E006.hgt"});
+}
+
+TEST_F(TileFolder, height_keeps_to_the_area_and_takes_no_options_of_pictures) {
+    const auto height = [&](const std::string& option, const std::string& value) {
+        return run({"height", path("tiles"), "--at", "40.08,10.01", option, value});
+    };
+    EXPECT_EQ(height("--area", "40.07,-350,40.08,-349.98").out, "40.08,10.01,1.000000\n");
+    test::expect_refusal(height("--area", "40,10,40.05,10.02"), 1,
+                         {"40.08,10.01 found", "in its area"});
+    test::expect_refusal(height("--geoid", "none"), 2, {"--geoid"});
+}
+
+// 201 samples a side, of which 1 MB holds every second.
+TEST_F(TileFolder, info_tells_the_whole_where_memory_holds_averages) {
+    std::string text = "ncols 201\nnrows 201\nxllcenter 10\nyllcenter 40\ncellsize 0.001\n";
+    for (int i = 0; i < 201 * 201; ++i) {
+        text += "5 ";
+    }
+    const std::string projection = test::read_bytes(path("tiles/west.prj"));
+    for (const char* name : {"one/dem.asc", "one"}) {
+        folder_.write("one/dem.asc", text);
+        folder_.write("one/dem.prj", projection);
+        const auto result = run({"info", path(name), "--memory", "1", "--json"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const auto info = nlohmann::json::parse(result.out);
+        EXPECT_EQ(info["cols"], 201) << name;
+        EXPECT_EQ(info["rows"], 201);
+        EXPECT_EQ(info["read"]["cols"], 100);
+        EXPECT_EQ(info["read"]["reduction"], 2);
+        EXPECT_NEAR(info["extent"]["south"], 40.0, 1e-9);
+        EXPECT_NEAR(info["extent"]["north"], 40.2, 1e-9);
+        EXPECT_NEAR(info["extent"]["west"], 10.0, 1e-9);
+        EXPECT_NEAR(info["extent"]["east"], 10.2, 1e-9);
+        EXPECT_NEAR(info["extent"]["height_m"].get<double>() / 200,
+                    info["spacing"]["y_m"].get<double>(), 1e-6);
+    }
 }
 
 TEST_F(TileFolder, area_and_gaps_are_for_folders) {
