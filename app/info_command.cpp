@@ -202,17 +202,23 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     return info;
 }
 
+std::string geoid_text(const Json& crs) {
+    if (!crs["geoid"].is_null()) {
+        return fmt::format("geoid {} applied on the ellipsoid", crs["geoid"].get<std::string>());
+    }
+    return geo::is_ellipsoidal(crs["vertical_datum"].get<std::string>())
+               ? "no geoid needed on the ellipsoid"
+               : "geoid not applied: none given or installed for it";
+}
+
 // What heights count from, and whether the geoid is applied.
 void print_vertical(const Json& crs) {
     if (crs.is_null()) {
         return;
     }
     const auto datum = crs["vertical_datum"].get<std::string>();
-    const std::string geoid =
-        crs["geoid"].is_null()
-            ? "geoid not applied: none given or installed for it"
-            : fmt::format("geoid {} applied on the ellipsoid", crs["geoid"].get<std::string>());
-    fmt::print("  zero     {}; {}\n", datum.empty() ? std::string("unnamed") : datum, geoid);
+    fmt::print("  zero     {}; {}\n", datum.empty() ? std::string("unnamed") : datum,
+               geoid_text(crs));
 }
 
 void print_text(const Json& info) {

@@ -291,6 +291,9 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!scene) {
         return scene.error();
     }
+    if (const auto note = missing_geoid(*scene, choice.terrain); note && !choice.terrain.quiet) {
+        tell(fmt::format("reljef: note: {}\n", *note));
+    }
     if (auto ready = choice.truth ? Result<void>()
                                   : prepare_bisection(*scene, choice.terrain, interrupt.token());
         !ready) {

@@ -213,6 +213,21 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     return result;
 }
 
+std::optional<std::string> missing_geoid(const TerrainScene& scene, const TerrainChoice& terrain) {
+    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const auto& georeference = surface.heightfield().georeference;
+    const bool on_ellipsoid = surface.placement().kind() == terrain::PlacementKind::ellipsoid;
+    if (terrain.geoid == "none" || !on_ellipsoid || !georeference || georeference->geoid ||
+        geo::is_ellipsoidal(georeference->vertical_datum)) {
+        return std::nullopt;
+    }
+    const std::string& datum = georeference->vertical_datum;
+    return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
+                       "from the ellipsoid on; --geoid FILE names one",
+                       surface.terrain().name,
+                       datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
+}
+
 Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain,
                                const std::stop_token& stop) {
     auto& shown = *scene.terrain->get<scene::TerrainNode>();

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "app/options.h"
@@ -33,6 +34,10 @@ struct TerrainScene {
 /// (misuse.h) options that do not fit what is drawn.
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
                                 const ViewChoice& view, const std::stop_token& stop = {});
+
+/// A note where heights are drawn from the ellipsoid on although they may count from another zero:
+/// no geoid is applied, and the user did not ask for that.
+std::optional<std::string> missing_geoid(const TerrainScene& scene, const TerrainChoice& terrain);
 
 /// Reads what the technique's error needs of the terrain from the cache, or makes and keeps it,
 /// with progress and a note on stderr: its bisection. Nothing to do for other techniques and for

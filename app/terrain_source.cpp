@@ -295,26 +295,47 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
                    : terrain.error();
 }
 
-// Heights above sea level become heights above the ellipsoid by the geoid that the user names, or
-// by the installed one where it is the terrain's own.
+bool is_egm96(const std::string& datum) {
+    return datum.find("EGM96") != std::string::npos;
+}
+
+// The geoid that the user names, or the installed one where it is the terrain's own.
+std::optional<fs::path> geoid_file(const TerrainChoice& choice, const std::string& datum) {
+    if (choice.geoid == "none") {
+        return std::nullopt;
+    }
+    if (!choice.geoid.empty()) {
+        return fs::path(choice.geoid);
+    }
+    return is_egm96(datum) ? io::installed_geoid() : std::nullopt;
+}
+
+// Heights above sea level become heights above the ellipsoid.
 Result<void> set_geoid(const TerrainChoice& choice, terrain::Terrain& terrain) {
     auto& georeference = terrain.heightfield.georeference;
-    const bool is_egm96 =
-        georeference && georeference->vertical_datum.find("EGM96") != std::string::npos;
-    std::optional<fs::path> file;
-    if (choice.geoid.empty() && is_egm96) {
-        file = io::installed_geoid();
-    } else if (!choice.geoid.empty() && choice.geoid != "none") {
-        file = choice.geoid;
-    }
-    if (!file || !georeference) {
+    if (!georeference) {
         return {};
+    }
+    const std::string& datum = georeference->vertical_datum;
+    const auto file = geoid_file(choice, datum);
+    if (!file) {
+        return {};
+    }
+    if (geo::is_ellipsoidal(datum)) {
+        refuse(fmt::format("--geoid: {} found, but the heights of {} count from the ellipsoid "
+                           "({}): none was expected",
+                           choice.geoid, terrain.name, datum));
     }
     auto geoid = io::read_geoid(*file);
     if (!geoid) {
         return geoid.error();
     }
     georeference->geoid = std::move(*geoid);
+    if (!datum.empty() && !is_egm96(datum)) {
+        terrain.notes.push_back(fmt::format("its heights count from \"{}\": taken as from the "
+                                            "geoid {}, whatever lies between",
+                                            datum, georeference->geoid->name()));
+    }
     return {};
 }
 

@@ -225,6 +225,9 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     if (!scene) {
         return scene.error();
     }
+    if (const auto note = missing_geoid(*scene, choice.terrain); note && !choice.terrain.quiet) {
+        tell(fmt::format("reljef: note: {}\n", *note));
+    }
     if (auto ready = prepare_bisection(*scene, choice.terrain, interrupt.token()); !ready) {
         return ready;
     }
