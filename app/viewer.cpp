@@ -23,6 +23,8 @@ constexpr double seconds_across = 20.0;
 constexpr double first_step = 1.0 / 60.0;
 // Of a path, seconds.
 constexpr double least_duration = 1e-9;
+// Metres: less is no more than rounding.
+constexpr double least_raise = 1e-3;
 
 // Metres on the way ahead over which a heading is told: the compass's own points are farther apart.
 constexpr double heading_length = 100.0;
@@ -244,7 +246,9 @@ void Viewer::advance_path(double seconds) {
     const scene::Camera asked_for = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
     flight_.set_camera(asked_for);
     const scene::Camera next = flight_.camera();
-    path_raised_ = std::max(path_raised_, glm::distance(asked_for.eye, next.eye));
+    if (const double raised = glm::distance(asked_for.eye, next.eye); raised > least_raise) {
+        path_raised_ = std::max(path_raised_, raised);
+    }
     if (next.eye != camera().eye || next.look != camera().look) {
         show_camera(next);
     }

@@ -203,6 +203,24 @@ TEST_F(ViewerTest, PathBeginsAgainAtItsEnd) {
     EXPECT_LT(glm::distance(camera().eye, before), 1e-6);
 }
 
+TEST_F(ViewerTest, PathUnderTheGroundIsRaisedAndThatIsKnown) {
+    press(Key::p);
+    for (int i = 0; i < 50; ++i) {
+        viewer.advance(0.2);
+    }
+    EXPECT_EQ(viewer.path_raised(), 0.0) << "around the terrain, and above it";
+    TerrainScene fresh = hill_scene();
+    auto below = scene::FlyPath::create(
+        {{0.0, {-100, -90, 40}, {0, 0, 0}}, {1.0, {100, -90, -20}, {0, 0, 0}}});
+    Viewer raised{fresh, std::move(*below), {400, 300}};
+    raised.toggle_path();
+    for (int i = 0; i < 9; ++i) {
+        raised.advance(0.1);
+        EXPECT_GT(fresh.camera->get<scene::Camera>()->eye.z, 10.0);
+    }
+    EXPECT_GT(raised.path_raised(), 10.0);
+}
+
 TEST_F(ViewerTest, SteeringTakesOverFromThePath) {
     for (const bool by_mouse : {false, true}) {
         press(Key::p);
