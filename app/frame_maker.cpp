@@ -62,8 +62,9 @@ std::string memory_text(std::size_t before) {
 
 } // namespace
 
-DeviceFrames::DeviceFrames(Device device, bool timed) : device_(std::move(device)), timed_(timed) {
-    if (timed_) {
+DeviceFrames::DeviceFrames(Device device, const DeviceFramesOptions& options)
+    : device_(std::move(device)), options_(options) {
+    if (options_.timed) {
         static_cast<void>(device_.driver().draw(busy_scene(), true));
         static_cast<void>(device_.driver().draw(scene::Scene(), true)); // the other's mesh is gone
         times_.memory_before = process_memory().most;
@@ -75,7 +76,7 @@ void DeviceFrames::bring(const scene::Scene& scene, const std::stop_token& stop)
         return;
     }
     const Stopwatch waiting;
-    bring_tiles(scene, device_.driver().size(), stop);
+    bring_tiles(scene, device_.driver().size(), stop, options_.quiet);
     waited_ms_ += waiting.ms();
     brought_for_ = scene.camera();
 }
@@ -85,7 +86,7 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
     times_.waiting_ms.push_back(std::exchange(waited_ms_, 0.0));
     brought_for_.reset();
     stream_stats_ = stream_stats(scene);
-    const auto stats = device_.driver().draw(scene, timed_);
+    const auto stats = device_.driver().draw(scene, options_.timed);
     if (!stats) {
         return stats.error();
     }
@@ -96,7 +97,7 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
 
 Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
                                           const ParallelOptions& parallel) {
-    bring_tiles(scene, device_.driver().size(), parallel.stop);
+    bring_tiles(scene, device_.driver().size(), parallel.stop, options_.quiet);
     return device_.driver().draw_hits(scene);
 }
 

@@ -38,10 +38,15 @@ struct FrameTimes {
     std::size_t memory_before = 0;  ///< that the process had at most before the terrain was read
 };
 
-/// Draws with OpenGL; `timed` also waits for each frame's end.
+struct DeviceFramesOptions {
+    bool timed = false; ///< waits for each frame's end, too
+    bool quiet = false; ///< faults of what is read meanwhile are not told
+};
+
+/// Draws with OpenGL.
 class DeviceFrames : public FrameMaker {
 public:
-    DeviceFrames(Device device, bool timed);
+    DeviceFrames(Device device, const DeviceFramesOptions& options);
     void bring(const scene::Scene& scene, const std::stop_token& stop) override;
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
@@ -52,7 +57,7 @@ public:
 
 private:
     Device device_;
-    bool timed_;
+    DeviceFramesOptions options_;
     FrameTimes times_;
     std::optional<scene::Camera> brought_for_; // since the last frame
     double waited_ms_ = 0.0;                   // the same

@@ -47,7 +47,8 @@ Result<std::unique_ptr<FrameMaker>> make_frame_maker(const RenderChoice& choice)
     options.driver.size = choice.view.size;
     options.driver.shader_dir = choice.view.shader_dir;
     auto device = Device::create(options);
-    return device ? Result<Maker>(Maker(new DeviceFrames(std::move(*device), choice.stats)))
+    return device ? Result<Maker>(Maker(
+                        new DeviceFrames(std::move(*device), {choice.stats, choice.terrain.quiet})))
                   : device.error();
 }
 

@@ -1,5 +1,7 @@
 #include "app/streaming.h"
 
+#include <array>
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -69,6 +71,7 @@ scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduct
     }
     scene::TileReading coarse = overview_reading(maker, tile);
     coarse.bytes_read = reading.bytes_read;
+    coarse.notes = std::move(reading.notes);
     coarse.picture_faults = std::move(reading.faults);
     return coarse;
 }
@@ -84,6 +87,28 @@ void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
     for (const io::TileFault& fault : window.faults) {
         reading.picture_faults.push_back({fault.file.string(), fault.message});
     }
+}
+
+void tell_faults(scene::TileStream& stream, bool quiet) {
+    const auto tell_each = [&](const char* what, const std::vector<std::string>& sentences) {
+        for (const std::string& sentence : sentences) {
+            if (!quiet) {
+                tell(fmt::format("reljef: {}: {}\n", what, sentence));
+            }
+        }
+    };
+    tell_each("shown coarser", stream.take_faults());
+    tell_each("note", stream.take_notes());
+}
+
+bool wait_and_tell(scene::TileStream& stream, const std::stop_token& stop, bool quiet) {
+    constexpr std::chrono::milliseconds before_telling{500};
+    bool is_there = false;
+    while (!is_there && !stop.stop_requested()) {
+        is_there = stream.wait_for(stop, before_telling);
+        tell_faults(stream, quiet);
+    }
+    return is_there;
 }
 
 // The same ground with so many samples from sample to sample.
@@ -113,6 +138,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
             step_of_overview > 0 && maker.step(tile) >= step_of_overview
                 ? overview_reading(maker, tile)
                 : reading_of(io::read_tree_tile(tiles, grid, maker.tree(), tile, gaps, stop));
+        reading.notes = tiles.take_new_notes();
         if (stop.stop_requested()) {
             return reading;
         }
@@ -128,7 +154,8 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
-void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop) {
+void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop,
+                 bool quiet) {
     const std::array views{scene.camera()};
     for_each_stream(scene, [&](scene::TileStream& stream) {
         const auto readings = [&] { return stream.stats().read + stream.stats().failed; };
@@ -137,7 +164,7 @@ void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_tok
             before = readings();
             const auto wanted = render::wanted_tiles(scene, stream, views, size);
             stream.want(wanted);
-            if (wanted.empty() || !stream.wait(stop)) {
+            if (wanted.empty() || !wait_and_tell(stream, stop, quiet)) {
                 return;
             }
         }
@@ -175,13 +202,7 @@ bool awaits_tiles(const scene::Scene& scene) {
 }
 
 void tell_stream_faults(const scene::Scene& scene, bool quiet) {
-    for_each_stream(scene, [&](scene::TileStream& stream) {
-        for (const std::string& fault : stream.take_faults()) {
-            if (!quiet) {
-                tell(fmt::format("reljef: shown coarser: {}\n", fault));
-            }
-        }
-    });
+    for_each_stream(scene, [&](scene::TileStream& stream) { tell_faults(stream, quiet); });
 }
 
 std::size_t faulty_files(const scene::Scene& scene) {

@@ -19,7 +19,9 @@ std::shared_ptr<scene::TileStream>
 make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSurface> overview);
 
 /// Waits until all tiles are there that a picture of the scene needs, or have failed for good.
-void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop);
+/// Meanwhile tells faults, as tell_stream_faults.
+void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop,
+                 bool quiet);
 
 /// Asks for the tiles that views need, the first view's first, and returns at once.
 void ask_for_tiles(const scene::Scene& scene, std::span<const scene::Camera> views,
@@ -35,7 +37,7 @@ bool take_new_tiles(const scene::Scene& scene);
 /// Whether some are still to come.
 bool awaits_tiles(const scene::Scene& scene);
 
-/// Tells the faults of streams on stderr, each file's once.
+/// Tells the faults of streams on stderr, each file's once, and their notes.
 void tell_stream_faults(const scene::Scene& scene, bool quiet);
 /// Files that had faults.
 std::size_t faulty_files(const scene::Scene& scene);

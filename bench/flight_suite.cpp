@@ -27,7 +27,8 @@ Result<app::DeviceFrames> flight_device(const FlightOptions& options) {
     device.driver.size = options.view.size;
     device.driver.shader_dir = options.view.shader_dir;
     auto made = app::Device::create(device);
-    return made ? Result<app::DeviceFrames>(app::DeviceFrames(std::move(*made), true))
+    return made ? Result<app::DeviceFrames>(
+                      app::DeviceFrames(std::move(*made), {true, options.terrain.quiet}))
                 : made.error();
 }
 

@@ -238,7 +238,7 @@ private:
             return drawn.error();
         }
         row.first_picture = watch.seconds();
-        app::bring_tiles(scene, options_.suite.size, stop_);
+        app::bring_tiles(scene, options_.suite.size, stop_, options_.suite.quiet);
         if (auto drawn = driver.draw(scene, true); !drawn) {
             return drawn.error();
         }

@@ -113,6 +113,8 @@ void Framebuffer::clear_depth(float depth) const {
 
 void Framebuffer::blit_to_window(glm::ivec2 window_size, std::size_t index) const {
     check(index < colors_.size(), "framebuffer has no such colour");
+    // Mesa looks at a window's size where it is bound.
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     // With the conversion off both sides are plain bytes, whatever the window's encoding.
     glDisable(GL_FRAMEBUFFER_SRGB);
     glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index));

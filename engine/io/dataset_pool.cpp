@@ -31,12 +31,12 @@ void DatasetPool::Loan::spoil() {
 
 DatasetPool::Loan::~Loan() {
     if (dataset_ != nullptr) {
-        pool_->give_back(std::move(path_), std::move(dataset_));
+        pool_->give_back({std::move(path_), changed_, std::move(dataset_)});
     }
 }
 
 Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
-                                              const GdalMessages& messages) {
+                                              const GdalMessages& messages, const Check& check) {
     const auto changed = time_of(path);
     {
         const std::lock_guard lock(mutex_);
@@ -47,20 +47,22 @@ Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
         if (found != idle_.end()) {
             Dataset dataset = std::move(found->dataset);
             idle_.erase(found);
-            return Loan(*this, path, std::move(dataset));
+            return Loan(*this, path, changed, std::move(dataset));
         }
     }
     auto opened = open_(path, messages);
+    if (opened && check) {
+        opened = check(std::move(*opened));
+    }
     if (!opened) {
         forget(path);
     }
-    return opened ? Result<Loan>(Loan(*this, path, std::move(*opened))) : opened.error();
+    return opened ? Result<Loan>(Loan(*this, path, changed, std::move(*opened))) : opened.error();
 }
 
-void DatasetPool::give_back(std::filesystem::path path, Dataset dataset) {
-    const auto changed = time_of(path);
+void DatasetPool::give_back(Idle idle) {
     const std::lock_guard lock(mutex_);
-    idle_.push_front({std::move(path), changed, std::move(dataset)});
+    idle_.push_front(std::move(idle));
     if (idle_.size() > most_idle) {
         idle_.pop_back();
     }

@@ -25,8 +25,10 @@ public:
     /// An open raster, for the scope.
     class Loan {
     public:
-        Loan(DatasetPool& pool, std::filesystem::path path, Dataset dataset)
-            : pool_(&pool), path_(std::move(path)), dataset_(std::move(dataset)) {}
+        Loan(DatasetPool& pool, std::filesystem::path path, std::filesystem::file_time_type changed,
+             Dataset dataset)
+            : pool_(&pool), path_(std::move(path)), changed_(changed),
+              dataset_(std::move(dataset)) {}
         ~Loan();
         Loan(Loan&&) = default;
         Loan& operator=(Loan&&) = delete;
@@ -39,12 +41,17 @@ public:
     private:
         DatasetPool* pool_;
         std::filesystem::path path_;
+        std::filesystem::file_time_type changed_; // before it was opened
         Dataset dataset_;
     };
 
+    /// What is to be made of a file that was opened just now.
+    using Check = std::function<Result<Dataset>(Dataset)>;
+
     /// Opens the file where none of it is idle, or where it has changed meanwhile. Fails as the
-    /// opener.
-    Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages);
+    /// opener, or `check`.
+    Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages,
+                        const Check& check = {});
 
 private:
     struct Idle {
@@ -52,7 +59,7 @@ private:
         std::filesystem::file_time_type changed;
         Dataset dataset;
     };
-    void give_back(std::filesystem::path path, Dataset dataset);
+    void give_back(Idle idle);
 
     const Opener open_;
     std::mutex mutex_;

@@ -136,6 +136,9 @@ void register_drivers() {
         set_default("GDAL_READDIR_LIMIT_ON_OPEN", "50");
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds
         set_default("GDAL_HTTP_TIMEOUT", "60");
+        // What hangs holds up a thread, and the program's end, no longer than this.
+        set_default("GDAL_HTTP_LOW_SPEED_TIME", "10");
+        set_default("GDAL_HTTP_LOW_SPEED_LIMIT", "100"); // bytes a second
         set_default("GDAL_HTTP_MAX_RETRY", "2");
         set_default("GDAL_HTTP_RETRY_DELAY", "1");
         GDALSetCacheMax64(std::min(GDALGetCacheMax64(), most_cached_bytes));

@@ -1,6 +1,9 @@
 #include "engine/io/geoid_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -17,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_geoid_side = 1 << 15; // samples: EGM2008 at 1′ has 21,600
+constexpr float most_undulation = 150.0F; // metres: the Earth's is -107 to 86
+constexpr int most_geoid_side = 1 << 15;  // samples: EGM2008 at 1′ has 21,600
 
 Result<geo::Geoid> unfit(const std::string& name, const std::string& found) {
     return Error{
@@ -29,7 +33,25 @@ std::optional<Grid<float>> undulation_of(GDALRasterBand& band) {
     const CPLErr read =
         band.RasterIO(GF_Read, 0, 0, heights.cols(), heights.rows(), heights.samples().data(),
                       heights.cols(), heights.rows(), GDT_Float32, 0, 0, nullptr);
-    return read == CE_None ? std::optional(std::move(heights)) : std::nullopt;
+    if (read != CE_None) {
+        return std::nullopt;
+    }
+    int has_void = 0;
+    const auto void_height = static_cast<float>(band.GetNoDataValue(&has_void));
+    if (has_void != 0) {
+        std::replace(heights.samples().begin(), heights.samples().end(), void_height,
+                     std::numeric_limits<float>::quiet_NaN());
+    }
+    return heights;
+}
+
+/// The farthest from the ellipsoid.
+float most_of(const Grid<float>& undulation) {
+    float most = 0.0F;
+    for (const float height : undulation.samples()) {
+        most = std::abs(height) > std::abs(most) ? height : most;
+    }
+    return most;
 }
 
 } // namespace
@@ -59,6 +81,9 @@ Result<geo::Geoid> read_geoid(const fs::path& path) {
     auto undulation = undulation_of(band);
     if (!undulation) {
         return unfit(name, "cannot be read" + messages.reason());
+    }
+    if (const float most = most_of(*undulation); std::abs(most) > most_undulation) {
+        return unfit(name, fmt::format("{:.0f} m from the ellipsoid found", most));
     }
     const glm::dvec2 first = affine->crs_from_pixel(glm::dvec2(0.5));
     return geo::Geoid(path.filename().string(), std::move(*undulation), {first.y, first.x},

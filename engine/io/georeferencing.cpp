@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/geo/place.h"
 #include "engine/io/exact_transform.h"
 #include "engine/io/geodetic_fit.h"
 
@@ -60,13 +61,23 @@ void note_rotation(const Steps& steps, std::vector<std::string>& notes) {
     }
 }
 
-/// Steps on the ground at the middle of the grid, metres east and north.
+double metres_between(glm::dvec2 a, glm::dvec2 b) {
+    return glm::distance(geo::geocentric_from_geodetic({a.x, a.y, 0.0}),
+                         geo::geocentric_from_geodetic({b.x, b.y, 0.0}));
+}
+
+/// Steps on the ground at the middle of the grid, metres east and north; near a pole, where east
+/// turns within a step, only as long as they are.
 std::optional<Steps> ground_steps(const ExactTransform& exact, const SampleGrid& grid) {
     const glm::dvec2 middle = middle_of(grid);
     std::array<glm::dvec2, 4> points{middle - glm::dvec2(0.5, 0.0), middle + glm::dvec2(0.5, 0.0),
                                      middle - glm::dvec2(0.0, 0.5), middle + glm::dvec2(0.0, 0.5)};
     if (!exact.positions(grid, points)) {
         return std::nullopt;
+    }
+    if (std::abs(points[0].x) > near_pole) {
+        return Steps{{metres_between(points[0], points[1]), 0.0},
+                     {0.0, metres_between(points[2], points[3])}};
     }
     const glm::dvec2 metres = geo::metres_per_degree(points[0].x);
     const auto step = [&](glm::dvec2 from, glm::dvec2 to) {

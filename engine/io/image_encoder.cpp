@@ -7,6 +7,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/memory_file.h"
+#include "engine/io/gdal_dataset.h"
 
 namespace reljef::io {
 namespace {
@@ -28,6 +29,7 @@ Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output
     if (!file) {
         return file.error();
     }
+    const GdalMessages unprinted; // the TIFF library tells GDAL of tags that it does not know
     try {
         if (!encode(*output, spec, pixels, stride, *file)) {
             return Error{output->geterror()};

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/io/ascii_grid.h"
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/georeferencing.h"
 #include "engine/io/height_unit.h"
@@ -87,7 +88,7 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
         return good.error();
     }
     GdalMessages messages;
-    auto dataset = open_raster(path, messages);
+    auto dataset = open_whole_raster(path, messages);
     if (!dataset) {
         return dataset.error();
     }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/io/gdal_dataset.h"
+#include "engine/io/replaced_file.h"
 #include "engine/io/sample_decoder.h"
 #include "engine/io/sample_reader.h"
 
@@ -158,17 +158,38 @@ private:
     Grid<std::uint8_t> closed_;
 };
 
+std::filesystem::path path_of(const LayerTile& tile, const TileReading& reading) {
+    return reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path;
+}
+
+/// As the index knows it, also where it was replaced.
+Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileReading& reading,
+                                            const GdalMessages& messages) {
+    const std::filesystem::path path = path_of(tile, reading);
+    const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
+    return reading.pool->borrow(path, messages, [&](Dataset opened) -> Result<Dataset> {
+        const std::string& crs = reading.crs[static_cast<std::size_t>(file.crs)];
+        auto now = as_indexed(std::move(opened), file, crs, path.string());
+        if (!now) {
+            return now.error();
+        }
+        if (now->note) {
+            reading.new_notes->add(*now->note);
+        }
+        return std::move(now->dataset);
+    });
+}
+
 /// Nobody waits for a server that does not answer again and again.
-Result<DatasetPool::Loan> borrow(const std::filesystem::path& path, const TileReading& reading,
+Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileReading& reading,
                                  const GdalMessages& messages) {
-    if (auto wrong = reading.unopened->given_up(path)) {
+    const std::filesystem::path path = path_of(tile, reading);
+    if (auto wrong = reading.failing->given_up(path)) {
         return Error{std::move(*wrong)};
     }
-    auto dataset = reading.pool->borrow(path, messages);
-    if (dataset) {
-        reading.unopened->forget(path);
-    } else if (is_remote(path)) {
-        reading.unopened->note(path, dataset.error().message);
+    auto dataset = borrow_as_indexed(tile, reading, messages);
+    if (!dataset && is_remote(path)) {
+        reading.failing->note(path, dataset.error().message);
     }
     return dataset;
 }
@@ -178,25 +199,14 @@ struct TileValues {
     Grid<double> values;
 };
 
-std::filesystem::path path_of(const LayerTile& tile, const TileReading& reading) {
-    return reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path;
-}
-
 /// The part of a tile that lies in `part`, lattice points.
 Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int reduction,
                              const TileReading& reading) {
-    const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
     const std::filesystem::path path = path_of(tile, reading);
     GdalMessages messages;
-    auto dataset = borrow(path, reading, messages);
+    auto dataset = borrow(tile, reading, messages);
     if (!dataset) {
         return dataset.error();
-    }
-    if ((*dataset)->GetRasterXSize() != file.cols || (*dataset)->GetRasterYSize() != file.rows) {
-        dataset->spoil();
-        return Error{fmt::format("{}: was replaced while it was read, the same {}×{} samples were "
-                                 "expected",
-                                 path.string(), file.cols, file.rows)};
     }
     const RasterOptions::Window window{part.low.x - tile.col, part.low.y - tile.row,
                                        part.high.x - part.low.x, part.high.y - part.low.y};
@@ -206,9 +216,13 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     if (!values) {
         if (!reading.options.stop.stop_requested() && !is_tile_pyramid(path)) {
             dataset->spoil();
+            if (is_remote(path)) {
+                reading.failing->note(path, values.error().message);
+            }
         }
         return values.error();
     }
+    reading.failing->forget(path);
     result.values = std::move(*values);
     // Blocks come whole, however few of their samples are of use.
     const auto passed_over = static_cast<std::size_t>(result.plan.reduction);

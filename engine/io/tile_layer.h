@@ -14,6 +14,7 @@
 #include "engine/io/crs_transform.h"
 #include "engine/io/dataset_pool.h"
 #include "engine/io/failing_files.h"
+#include "engine/io/new_notes.h"
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {
@@ -83,11 +84,13 @@ struct CellWindow {
 /// Where and how files are read.
 struct TileReading {
     std::span<const IndexedFile> files;
+    std::span<const std::string> crs;               ///< WKT, by IndexedFile::crs
     std::filesystem::path folder;                   ///< the files' paths begin here
     RasterOptions options;                          ///< scale, offset, stop
     std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
     DatasetPool* pool = nullptr;                    ///< where the files are open
-    FailingFiles* unopened = nullptr;               ///< on servers
+    FailingFiles* failing = nullptr;                ///< on servers
+    NewNotes* new_notes = nullptr;                  ///< on files that were replaced
 };
 
 /// The averages of a layer's samples over cells, of the newest tile where there are several; NaN

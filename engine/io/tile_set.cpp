@@ -173,7 +173,7 @@ void keep_each_once(std::vector<TileFault>& faults) {
 }
 
 TileReading TileSet::State::reading(const std::stop_token& stop) const {
-    TileReading reading{indexed, folder, {}, &bytes_read, &pool, &unopened};
+    TileReading reading{indexed, indexed_crs, folder, {}, &bytes_read, &pool, &failing, &new_notes};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
     reading.options.stop = stop;
@@ -197,6 +197,7 @@ Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOp
     }
     note_pictures(*index, state->notes);
     state->indexed = std::move(index->files);
+    state->indexed_crs = std::move(index->crs);
     state->layers = layers_of(placed, state->indexed);
     state->files = files_of(state->layers, placed, state->indexed, state->folder);
     state->vertical_datum = shared_vertical_datum(state->layers, state->indexed, state->notes);
@@ -222,6 +223,9 @@ std::span<const TileFault> TileSet::faults() const {
 }
 std::span<const std::string> TileSet::notes() const {
     return state_->notes;
+}
+std::vector<std::string> TileSet::take_new_notes() const {
+    return state_->new_notes.take();
 }
 const std::string& TileSet::crs_name() const {
     return state_->crs_name;

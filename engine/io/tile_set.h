@@ -106,6 +106,8 @@ public:
     [[nodiscard]] std::span<const TileFile> files() const; ///< finest first
     [[nodiscard]] std::span<const TileFault> faults() const;
     [[nodiscard]] std::span<const std::string> notes() const;
+    /// Notes since the last call, each once: on files that were replaced by others.
+    [[nodiscard]] std::vector<std::string> take_new_notes() const;
     /// That of all tiles where they share one, else WGS 84 in degrees.
     [[nodiscard]] const std::string& crs_name() const;
     /// The same as WKT.

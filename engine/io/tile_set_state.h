@@ -3,6 +3,7 @@
 #include <atomic>
 #include <map>
 
+#include "engine/io/ascii_grid.h"
 #include "engine/io/dataset_pool.h"
 #include "engine/io/failing_files.h"
 #include "engine/io/tile_layer.h"
@@ -19,7 +20,8 @@ struct TileSet::State {
     std::filesystem::path folder; ///< the files' paths begin here; empty for a single raster
     TileSetOptions options;
     std::vector<IndexedFile> indexed;
-    std::vector<TileLayer> layers; ///< finest first
+    std::vector<std::string> indexed_crs; ///< WKT, by IndexedFile::crs
+    std::vector<TileLayer> layers;        ///< finest first
     std::vector<TileFile> files;
     std::vector<TileFault> faults;
     std::vector<std::string> notes;
@@ -29,8 +31,9 @@ struct TileSet::State {
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
     mutable std::atomic<std::size_t> bytes_read{0};
-    mutable DatasetPool pool;
-    mutable FailingFiles unopened; ///< what cannot be opened is not asked for by every tile
+    mutable DatasetPool pool{open_whole_raster};
+    mutable FailingFiles failing; ///< what a server does not give is not asked for by every tile
+    mutable NewNotes new_notes;
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };

@@ -8,6 +8,7 @@
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/imagery.h"
 #include "engine/io/placed_heightfield.h"
+#include "engine/io/tile_pyramid.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {
@@ -187,10 +188,14 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
         return read.error();
     }
     note_faults(*this, read->faults, result);
+    for (std::string& note : take_new_notes()) {
+        result.notes.push_back(std::move(note));
+    }
     if (read->samples.void_count == read->samples.heights.size()) {
         return Error{fmt::format("{}: all {}×{} samples are voids, at least one height was "
-                                 "expected{}",
+                                 "expected{}{}",
                                  name(), samples_grid.cols, samples_grid.rows,
+                                 is_tile_pyramid(name()) ? "; no tile was found at its level" : "",
                                  result.faults.empty() ? "" : "; " + result.faults.front())};
     }
     note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);

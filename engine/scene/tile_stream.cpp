@@ -157,18 +157,23 @@ bool TileStream::is_wanting(terrain::TreeTile tile) const {
     return !tiles_.contains(tile) || failures_.contains(tile);
 }
 
-bool TileStream::is_settled(Clock::time_point now) const {
-    const auto given_up = [&](terrain::TreeTile tile) {
+bool TileStream::is_settled() const {
+    const auto has_failed = [&](terrain::TreeTile tile) {
         const auto failure = failures_.find(tile);
-        return failure != failures_.end() && failure->second.latest.is_given_up(now);
+        return failure != failures_.end() && failure->second.latest.has_failed_for_good();
     };
-    return std::all_of(wanted_.begin(), wanted_.end(), given_up);
+    return std::all_of(wanted_.begin(), wanted_.end(), has_failed);
 }
 
 bool TileStream::wait(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, stop, [&] { return is_settled(Clock::now()); });
+    changed_.wait(lock, stop, [&] { return is_settled(); });
     return !stop.stop_requested();
+}
+
+bool TileStream::wait_for(const std::stop_token& stop, std::chrono::milliseconds longest) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, stop, longest, [&] { return is_settled(); });
 }
 
 bool TileStream::has_given_up(terrain::TreeTile tile) const {
@@ -190,12 +195,17 @@ bool TileStream::take_news() {
 
 bool TileStream::is_busy() const {
     const std::lock_guard lock(mutex_);
-    return !is_settled(Clock::now());
+    return !is_settled();
 }
 
 std::vector<std::string> TileStream::take_faults() {
     const std::lock_guard lock(mutex_);
     return std::exchange(new_faults_, {});
+}
+
+std::vector<std::string> TileStream::take_notes() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(new_notes_, {});
 }
 
 std::size_t TileStream::faulty_files() const {
@@ -296,6 +306,7 @@ void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made
                         bool stopped) {
     in_flight_.erase(tile);
     stats_.bytes_read += reading.bytes_read;
+    new_notes_.insert(new_notes_.end(), reading.notes.begin(), reading.notes.end());
     if (stopped) {
         ++stats_.cancelled;
         tell(reading.picture_faults);

@@ -36,6 +36,7 @@ struct TileReading {
     std::vector<Fault> picture_faults; ///< and of heights that the overview stands in for
     bool of_overview = false;          ///< the heights are TileMaker::overview_heights
     std::size_t bytes_read = 0;        ///< that it took from its files
+    std::vector<std::string> notes;    ///< that came up, each once in the stream's life
 };
 
 /// Reads a tile; called from several threads at a time. May give up where a stop is asked for.
@@ -100,8 +101,10 @@ public:
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
     /// was stopped. Only while nobody else wants.
     bool wait(const std::stop_token& stop);
+    /// The same, but no longer than that: false.
+    bool wait_for(const std::stop_token& stop, std::chrono::milliseconds longest);
     /// The tiles that need a file which fails so often are left alone for half a minute, then read
-    /// once more, and so on.
+    /// once more, and so on; nobody waits for them any more.
     static constexpr int most_attempts = BackOff::most_attempts;
 
     /// Whether a tile is not there as it failed so often, for half a minute at least.
@@ -115,6 +118,8 @@ public:
     [[nodiscard]] bool is_busy() const;
     /// Faults since the last call, of each file once in the stream's life.
     std::vector<std::string> take_faults();
+    /// Notes of its readings since the last call.
+    std::vector<std::string> take_notes();
     /// Files that had faults, all in all.
     [[nodiscard]] std::size_t faulty_files() const;
     [[nodiscard]] TileStreamStats stats() const;
@@ -149,7 +154,7 @@ private:
     [[nodiscard]] bool is_wanting(terrain::TreeTile tile) const;
     void evict();
     void remember(const TileSummary& tile);
-    [[nodiscard]] bool is_settled(Clock::time_point now) const;
+    [[nodiscard]] bool is_settled() const;
 
     const TileMaker maker_;
     const TileReader read_;
@@ -166,6 +171,7 @@ private:
     std::map<std::string, BackOff> file_failures_; // they fail for all their tiles alike
     std::map<std::string, std::string> faults_;    // by file
     std::vector<std::string> new_faults_;
+    std::vector<std::string> new_notes_;
     std::uint64_t view_ = 0;
     std::uint64_t revision_ = 0;
     bool news_ = false;

@@ -42,7 +42,7 @@ public:
         options.context = platform::ContextKind::osmesa;
         options.context_options.size = picture_size;
         options.driver.size = picture_size;
-        frames_.emplace(std::move(*Device::create(options)), false);
+        frames_.emplace(std::move(*Device::create(options)), DeviceFramesOptions{});
     }
 
     [[nodiscard]] TerrainScene& scene() { return *scene_; }

@@ -95,7 +95,7 @@ TEST_P(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
     const GeodeticView& from = GetParam();
     const TerrainScene scene = scene_from(from);
     ASSERT_NE(scene.terrain->get<scene::TerrainNode>()->stream, nullptr);
-    bring_tiles(scene.scene, picture, {});
+    bring_tiles(scene.scene, picture, {}, true);
     const auto hits = device->driver().draw_hits(scene.scene);
     ASSERT_TRUE(hits) << hits.error().message;
     const std::vector<double> errors = errors_of(scene, *hits, heights);

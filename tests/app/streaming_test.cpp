@@ -14,7 +14,7 @@
 #include "app/streaming.h"
 #include "engine/io/image.h"
 #include "tests/app/command_line.h"
-#include "tests/support/http_server.h"
+#include "tests/support/nginx.h"
 #include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
@@ -159,6 +159,59 @@ TEST_F(Streaming, a_file_that_comes_back_is_shown_again) {
     std::filesystem::rename(path("away.hgt"), path("tiles/N45E006.hgt"));
     wait_until([&] { return !root()->of_overview; });
     EXPECT_FALSE(root()->of_overview);
+}
+
+/// In place of a cell: 61 samples a side, from a longitude on, over the same latitudes.
+std::string coarse_cell(double west, double south) {
+    std::string text = fmt::format("ncols 61\nnrows 61\nxllcenter {}\nyllcenter {}\n"
+                                   "cellsize 0.0166666666666667\n",
+                                   west, south);
+    for (int i = 0; i < 61 * 61; ++i) {
+        text += i % 61 == 60 ? "1500\n" : "1500 ";
+    }
+    return text;
+}
+
+TEST_F(Streaming, a_file_that_is_replaced_by_one_of_another_size_is_shown_and_told) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    app::TerrainChoice choice;
+    choice.terrain = path("tiles");
+    choice.memory_megabytes = 32;
+    choice.quiet = true;
+    choice.streamed = true;
+    auto source = app::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = app::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    folder_.write("tiles/N45E006.hgt", coarse_cell(6.0, 45.0));
+    stream.want(std::array{stream.tree().root()});
+    ASSERT_TRUE(stream.wait({}));
+    ASSERT_NE(stream.find(stream.tree().root()), nullptr);
+    EXPECT_FALSE(stream.find(stream.tree().root())->of_overview);
+    EXPECT_THAT(stream.take_faults(), ::testing::IsEmpty());
+    EXPECT_THAT(stream.take_notes(), ::testing::ElementsAre(HasSubstr("61×61")));
+}
+
+TEST_F(Streaming, whether_a_replaced_file_can_be_shown_is_told_and_in_the_exit_status) {
+    RELJEF_RELEASE_ONLY("two pictures of whole cells");
+    ASSERT_EQ(test::reljef({"info", path("tiles")}, options_).exit_code, 0); // indexes them
+    const auto file = folder_.path() / "tiles/N44E006.hgt";
+    const auto time = std::filesystem::last_write_time(file);
+    const auto size = std::filesystem::file_size(file);
+    const auto render_with = [&](std::string text) { // of the size and the time that it knows
+        text.resize(size, ' ');
+        folder_.write("tiles/N44E006.hgt", text);
+        std::filesystem::last_write_time(file, time);
+        return render("b.png", {});
+    };
+    const std::string told = "N44E006.hgt: was replaced while it was open, by 61×61 samples";
+    const auto shown = render_with(coarse_cell(6.0, 44.0));
+    EXPECT_EQ(shown.exit_code, 0) << shown.err;
+    EXPECT_THAT(shown.err, HasSubstr(told + ": they are read at the places of the 1201×1201"));
+    const auto elsewhere = render_with(coarse_cell(60.0, 44.0));
+    EXPECT_EQ(elsewhere.exit_code, 1) << elsewhere.err;
+    EXPECT_THAT(elsewhere.err, HasSubstr(told + " that are no heights over all the ground"));
 }
 
 TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
@@ -346,10 +399,12 @@ TEST_F(StreamedImagery, that_is_missing_is_told_once_and_the_rest_is_shown) {
     EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
 }
 
+/// A cloud-optimized file of a cell: it begins with its overviews, 1,300,000 bytes, and then has
+/// the samples in blocks of 128 x 128.
 class BadServer : public Streaming {
 protected:
     void SetUp() override {
-        RELJEF_RELEASE_ONLY("waits for what is tried again");
+        RELJEF_NEED_NGINX();
         if (!std::filesystem::exists("/usr/bin/gdal_translate")) {
             GTEST_SKIP() << "gdal_translate of gdal-bin is not here";
         }
@@ -360,46 +415,78 @@ protected:
                                path("tiles/N44E006.hgt"), path("dem.tif")});
         ASSERT_EQ(made.exit_code, 0) << made.err;
         options_.environment["GDAL_HTTP_MAX_RETRY"] = "0";
+        options_.environment["GDAL_HTTP_LOW_SPEED_TIME"] = "1";
+    }
+    /// Rules of nginx for the samples alone.
+    [[nodiscard]] static std::string for_samples(const std::string& directive) {
+        return "location / { if ($http_range ~ \"^bytes=(1[3-9]|[2-9][0-9])[0-9]{5}-\") { " +
+               directive + " } }";
     }
     /// So little memory that only coarse overviews are read at the beginning.
-    [[nodiscard]] test::ProgramResult render_from(const test::HttpServer& server,
+    [[nodiscard]] test::ProgramResult render_from(const std::string& address,
                                                   const std::string& picture) const {
-        return test::reljef({"render", server.url("dem.tif"), "-o", path(picture), "--size",
-                             "160x120", "--context", "osmesa", "--memory", "1", "--camera",
+        return test::reljef({"render", address, "-o", path(picture), "--size", "160x120",
+                             "--context", "osmesa", "--memory", "1", "--camera",
                              "44.6,6.6,2600,60,-12"},
                             options_);
     }
 };
 
-TEST_F(BadServer, that_is_slow_gives_the_same_picture) {
-    test::HttpServer server(folder_.path());
-    ASSERT_EQ(render_from(server, "a.png").exit_code, 0);
-    server.set_delay(20);
-    EXPECT_EQ(render_from(server, "b.png").exit_code, 0);
-    EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
+TEST_F(BadServer, gives_the_picture_of_the_local_file_even_where_it_is_slow) {
+    RELJEF_RELEASE_ONLY("waits for a slow server");
+    ASSERT_EQ(render_from(path("dem.tif"), "local.png").exit_code, 0);
+    const test::Nginx server(folder_.path(), "limit_rate 2m;");
+    ASSERT_EQ(render_from(server.url("dem.tif"), "slow.png").exit_code, 0);
+    EXPECT_EQ(test::read_bytes(path("slow.png")), test::read_bytes(path("local.png")));
+}
+
+TEST_F(BadServer, that_hangs_holds_up_no_picture_and_finer_tiles_come_once_it_has_recovered) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    test::Nginx server(folder_.path());
+    app::TerrainChoice choice;
+    choice.terrain = server.url("dem.tif");
+    choice.memory_megabytes = 1;
+    choice.quiet = true;
+    choice.streamed = true;
+    auto source = app::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = app::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    const auto ask_for = [&](terrain::TreeTile tile, std::chrono::milliseconds time) {
+        const auto end = std::chrono::steady_clock::now() + time;
+        while (stream.find(tile) == nullptr && std::chrono::steady_clock::now() < end) {
+            stream.want(std::array{tile});
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        return stream.find(tile);
+    };
+    constexpr std::chrono::seconds long_enough{10};
+    const terrain::TreeTile finest{0, 3, 3};
+    EXPECT_NE(ask_for(stream.tree().root(), long_enough), nullptr);
+    server.serve_by(for_samples("limit_rate 1;")); // a byte a second
+    EXPECT_EQ(ask_for(finest, std::chrono::milliseconds(200)), nullptr);
+    server.serve_by(for_samples("return 404;"));
+    EXPECT_EQ(ask_for(finest, std::chrono::milliseconds(100)), nullptr);
+    server.serve_by("");
+    EXPECT_NE(ask_for(finest, long_enough), nullptr);
+    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre(HasSubstr("dem.tif")));
 }
 
 // All at the same time: they wait more than they work.
 TEST_F(BadServer, is_drawn_coarser_tried_again_and_told_once) {
-    using Fault = test::HttpServer::Fault;
-    // A cloud-optimized file begins with its overviews: the samples are the last 128 x 128 blocks.
-    const std::size_t overviews = std::filesystem::file_size(path("dem.tif")) - 100 * 128 * 128 * 2;
+    RELJEF_RELEASE_ONLY("waits for what is tried again");
     std::vector<std::future<void>> runs;
-    for (const Fault fault :
-         {Fault::not_found, Fault::server_error, Fault::cut, Fault::lying_length}) {
-        runs.push_back(std::async(std::launch::async, [this, fault, overviews] {
-            test::HttpServer server(folder_.path());
-            server.set_fault(fault, overviews);
-            const std::string picture = std::to_string(static_cast<int>(fault)) + ".png";
-            const auto result = render_from(server, picture);
+    for (const std::string fault : {"return 404;", "return 500;", "return 444;"}) {
+        runs.push_back(std::async(std::launch::async, [this, fault] {
+            const test::Nginx server(folder_.path(), for_samples(fault));
+            const std::string picture = fault + ".png";
+            const auto result = render_from(server.url("dem.tif"), picture);
             EXPECT_GT(test::read_bytes(path(picture)).size(), 100U);
-            if (fault == Fault::lying_length && result.exit_code == 0) {
-                return; // all of it came, and no more
-            }
-            EXPECT_EQ(result.exit_code, 1) << picture << result.err;
+            EXPECT_EQ(result.exit_code, 1) << fault << result.err;
             const std::string told = "shown coarser: ";
             const auto first = result.err.find(told);
-            ASSERT_NE(first, std::string::npos) << picture << result.err;
+            ASSERT_NE(first, std::string::npos) << fault << result.err;
             EXPECT_EQ(result.err.find(told, first + 1), std::string::npos) << result.err;
             EXPECT_THAT(result.err, HasSubstr("dem.tif"));
         }));

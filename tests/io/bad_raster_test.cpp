@@ -161,6 +161,11 @@ TEST_F(BadRaster, HeadersThatClaimAHundredThousandSquared) {
     EXPECT_THAT(refused(write("a.asc", "ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\n"
                                        "cellsize 30\nNODATA_value -9999\n1 2 3 4\n")),
                 HasSubstr("cannot be"));
+    std::string cut = "ncols 50\nnrows 50\nxllcorner 0\nyllcorner 0\ncellsize 30\n";
+    for (int i = 0; i < 2000; ++i) {
+        cut += "7 ";
+    }
+    EXPECT_THAT(refused(write("cut.asc", cut)), HasSubstr("2000 values found, 50×50 were"));
     EXPECT_THAT(
         refused(write("b.asc", "ncols 0\nnrows 0\nxllcorner 0\nyllcorner 0\ncellsize 30\n1")),
         HasSubstr("cannot be"));

@@ -56,6 +56,14 @@ TEST(GeoidFile, WhatIsNoGeoidIsAnErrorThatNamesTheFile) {
     const auto metres = read_geoid(folder.path() / "metres.tif");
     ASSERT_FALSE(metres);
     EXPECT_NE(metres.error().message.find("metres.tif: is no grid of degrees"), std::string::npos);
+    auto hills = test::made_raster(8, 8, [](int col, int row) { return 300.0 + col + row; });
+    hills.crs = "EPSG:4326";
+    hills.geotransform = {6.0, 0.01, 0.0, 46.0, 0.0, -0.01};
+    ASSERT_TRUE(test::write(hills, folder.path() / "hills.tif"));
+    const auto terrain = read_geoid(folder.path() / "hills.tif");
+    ASSERT_FALSE(terrain);
+    EXPECT_NE(terrain.error().message.find("hills.tif: 314 m from the ellipsoid found"),
+              std::string::npos);
     EXPECT_FALSE(read_geoid(folder.path() / "absent.gtx"));
     EXPECT_FALSE(read_geoid(folder.write("text.gtx", "nothing")));
 }

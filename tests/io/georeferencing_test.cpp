@@ -131,6 +131,18 @@ TEST_F(Georeferencing, AWholeGlobeOfDegreesIsExact) {
     EXPECT_NEAR(found.y, -180.0 + 2.5 + 10.25 * 5.0, 1e-12);
 }
 
+TEST_F(Georeferencing, StepsOverAPoleAreMeasuredStraight) {
+    const auto spacing = [this](double shift) {
+        return read(ramp(50, 50), "EPSG:3413", {-5000.0 + shift, 200.0, 0.0, 5000.0, 0.0, -200.0})
+            .heightfield.spacing;
+    };
+    // True scale is at 70 degrees north; at the pole the projection shrinks by 0.97.
+    for (const double shift : {0.0, 100.0, 5000.0, 50000.0}) {
+        EXPECT_NEAR(spacing(shift).x, 200.0 / 0.96985, 0.1) << shift;
+        EXPECT_NEAR(spacing(shift).y, 200.0 / 0.96985, 0.1) << shift;
+    }
+}
+
 TEST_F(Georeferencing, DegreesGiveMetresAtTheMiddle) {
     const auto heightfield =
         read(ramp(), "EPSG:4326", {6.0, 0.001, 0.0, 46.0, 0.0, -0.002}).heightfield;

@@ -1,89 +1,133 @@
-// Tiles from a server on the loopback that is slow, fails, and recovers.
+// Tiles from a server on the loopback that is slow, fails, lies, and recovers.
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <optional>
 
+#include <cpl_vsi.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/core/worker_pool.h"
+#include "engine/io/gdal_dataset.h"
 #include "engine/io/tree_tile.h"
 #include "tests/io/made_raster.h"
-#include "tests/support/http_server.h"
+#include "tests/support/nginx.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::io {
 namespace {
 
 using ::testing::HasSubstr;
-using Fault = test::HttpServer::Fault;
 
 class RemoteTiles : public ::testing::Test {
 protected:
-    RemoteTiles() : server_(folder_.path()), tree_(side, side) {
+    RemoteTiles() : tree_(side, side) {
+        register_drivers();
+        CPLSetConfigOption("GDAL_HTTP_RETRY_DELAY", "0.01"); // seconds
+    }
+    ~RemoteTiles() override { CPLSetConfigOption("GDAL_HTTP_RETRY_DELAY", "1"); }
+    void SetUp() override {
+        RELJEF_NEED_NGINX();
+        write("dem.tif");
+        server_.emplace(folder_.path());
+    }
+    void write(const std::string& name) const {
         auto raster = test::made_raster(side, side, [](int col, int row) { return col + 2 * row; });
         raster.crs = "EPSG:32631";
         raster.geotransform = {300000.0, 10.0, 0.0, 5600000.0, 0.0, -10.0};
         raster.options = {"TILED=YES", "BLOCKXSIZE=128", "BLOCKYSIZE=128"};
         raster.overviews = {2, 4};
-        EXPECT_TRUE(test::write(raster, folder_.path() / "dem.tif"));
+        ASSERT_TRUE(test::write(raster, folder_.path() / name));
+    }
+    [[nodiscard]] static TileSet open(const std::filesystem::path& name) {
+        auto tiles = TileSet::open(name);
+        EXPECT_TRUE(tiles) << (tiles ? "" : tiles.error().message);
+        return std::move(*tiles);
     }
     [[nodiscard]] TileWindow read(const TileSet& tiles, terrain::TreeTile tile) const {
         return read_tree_tile(tiles, tiles.grid(), tree_, tile, Gaps::holes);
     }
+    void expect_good(const TileSet& tiles) const {
+        const auto window = read(tiles, {0, 5, 5});
+        ASSERT_TRUE(window.faults.empty()) << window.faults.front().message;
+        EXPECT_EQ(window.heights(1, 1), 5 * 128 + 2 * 5 * 128);
+    }
+    void expect_fault(const TileSet& tiles, const std::string& name) const {
+        const auto window = read(tiles, {0, 5, 5});
+        ASSERT_EQ(window.faults.size(), 1U);
+        EXPECT_THAT(window.faults.front().message, HasSubstr(name));
+    }
 
     static constexpr int side = 1000;
     test::TemporaryFolder folder_;
-    test::HttpServer server_;
+    std::optional<test::Nginx> server_;
     terrain::TileTree tree_;
 };
 
-TEST_F(RemoteTiles, ComeInPartsFromASlowServer) {
-    server_.set_delay(20);
-    const auto tiles = TileSet::open(server_.url("dem.tif"));
-    ASSERT_TRUE(tiles) << tiles.error().message;
-    const auto window = read(*tiles, {0, 6, 6});
-    ASSERT_TRUE(window.faults.empty()) << window.faults.front().message;
-    EXPECT_EQ(window.heights(11, 21), (6 * 128 + 10) + 2 * (6 * 128 + 20));
+TEST_F(RemoteTiles, AreThoseOfTheLocalFileToTheBitAndOnlyTheirPartsAreFetched) {
+    const TileSet local = open(folder_.path() / "dem.tif");
+    const TileSet remote = open(server_->url("dem.tif"));
+    for (const terrain::TreeTile tile : {terrain::TreeTile{0, 6, 6}, {1, 2, 3}, {2, 0, 0}}) {
+        const auto there = read(local, tile);
+        const auto come = read(remote, tile);
+        ASSERT_TRUE(come.faults.empty()) << come.faults.front().message;
+        EXPECT_TRUE(std::ranges::equal(come.heights.samples(), there.heights.samples()));
+    }
+    EXPECT_GT(server_->bytes_sent(), 128U * 128U * 4U);
+    EXPECT_LT(server_->bytes_sent(), std::filesystem::file_size(folder_.path() / "dem.tif") / 2);
 }
 
 TEST_F(RemoteTiles, AreFaultsWhileTheServerFailsAndThereOnceItHasRecovered) {
     int number = 0;
-    for (const Fault fault :
-         {Fault::not_found, Fault::server_error, Fault::cut, Fault::lying_length}) {
+    for (const std::string fault : {"return 404;", "return 500;", "return 444;"}) {
         const std::string name = "dem" + std::to_string(number++) + ".tif"; // nothing is cached
         std::filesystem::copy_file(folder_.path() / "dem.tif", folder_.path() / name);
-        const auto tiles = TileSet::open(server_.url(name));
-        ASSERT_TRUE(tiles) << tiles.error().message;
-        server_.set_fault(fault);
-        const auto failed = read(*tiles, {0, 5, 5});
-        if (fault == Fault::lying_length && failed.faults.empty()) {
-            EXPECT_EQ(failed.heights(1, 1), 5 * 128 + 2 * 5 * 128); // all of it came, and no more
-        } else {
-            ASSERT_EQ(failed.faults.size(), 1U) << "fault " << number;
-            EXPECT_THAT(failed.faults.front().message, HasSubstr(name));
-        }
-        server_.set_fault(Fault::none);
-        const auto good = read(*tiles, {0, 5, 5});
-        ASSERT_TRUE(good.faults.empty()) << good.faults.front().message;
-        EXPECT_EQ(good.heights(1, 1), 5 * 128 + 2 * 5 * 128);
+        const TileSet tiles = open(server_->url(name));
+        VSICurlClearCache(); // as if it had not been asked for yet
+        server_->serve_by(fault);
+        expect_fault(tiles, name);
+        server_->serve_by("");
+        expect_good(tiles);
     }
+}
+
+TEST_F(RemoteTiles, AreFaultsWhereTheServerHangs) {
+    RELJEF_RELEASE_ONLY("waits for seconds");
+    CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "1"); // seconds
+    const TileSet tiles = open(server_->url("dem.tif"));
+    server_->serve_by("limit_rate 1;"); // byte a second
+    const auto begin = std::chrono::steady_clock::now();
+    expect_fault(tiles, "dem.tif");
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "10");
+}
+
+TEST_F(RemoteTiles, AreFaultsWhileTheServerLiesAboutTheLength) {
+    server_->serve_by(test::remembered_lengths);
+    const TileSet tiles = open(server_->url("dem.tif"));
+    const auto file = folder_.path() / "dem.tif";
+    const std::string whole = test::read_bytes(file);
+    std::filesystem::resize_file(file, whole.size() / 3);
+    expect_fault(tiles, "dem.tif");
+    folder_.write("dem.tif", whole);
+    expect_good(tiles);
 }
 
 // One short outage that many threads meet at once is one failure, not as many as they are.
 TEST_F(RemoteTiles, AreThereAtOnceAfterAShortOutageThatManyThreadsMet) {
-    const auto tiles = TileSet::open(server_.url("dem.tif"));
-    ASSERT_TRUE(tiles) << tiles.error().message;
-    server_.set_fault(Fault::not_found);
+    const TileSet tiles = open(server_->url("dem.tif"));
+    server_->serve_by("return 404;");
     std::atomic<int> failed{0};
     parallel_for(16,
                  [&](int i) {
-                     failed += read(*tiles, {0, i % 4, i / 4}).faults.empty() ? 0 : 1;
+                     failed += read(tiles, {0, i % 4, i / 4}).faults.empty() ? 0 : 1;
                  },
                  {.threads = 4, .stop = {}, .progress = {}});
     EXPECT_GE(failed, 8); // of some tiles all that is needed has come before
-    server_.set_fault(Fault::none);
-    const auto good = read(*tiles, {0, 5, 5});
-    ASSERT_TRUE(good.faults.empty()) << good.faults.front().message;
-    EXPECT_EQ(good.heights(1, 1), 5 * 128 + 2 * 5 * 128);
+    server_->serve_by("");
+    expect_good(tiles);
 }
 
 } // namespace

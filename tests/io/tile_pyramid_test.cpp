@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/io/made_raster.h"
-#include "tests/support/http_server.h"
+#include "tests/support/nginx.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -115,10 +115,28 @@ TEST_P(TilePyramids, GiveTheHeightsOfTheirColours) {
 }
 
 TEST_P(TilePyramids, ComeFromAnAddressToo) {
-    const test::HttpServer server(folder_.path());
-    const std::string address = server.url("{z:6}/{x}/{y}.png");
-    const auto tiles = TileSet::open(GetParam() + address);
+    RELJEF_NEED_NGINX();
+    const test::Nginx server(folder_.path());
+    const auto tiles = TileSet::open(GetParam() + server.url("{z:6}/{x}/{y}.png"));
     ASSERT_TRUE(tiles) << tiles.error().message;
+    expect_heights(*tiles);
+}
+
+// Not there is nothing there; a failure is told, and over once the server has recovered.
+TEST_P(TilePyramids, OneThatAServerFailsToGiveTakesNoOtherWithIt) {
+    RELJEF_NEED_NGINX();
+    test::Nginx server(folder_.path(), "location /6/33/23.png { return 404; }"
+                                       "location /6/34/22.png { return 500; }");
+    const auto tiles = TileSet::open(GetParam() + server.url("{z:6}/{x}/{y}.png"));
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    TileTerrainOptions options;
+    options.area = tile_pyramid_area(name());
+    const auto terrain = tiles->terrain(options);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    EXPECT_EQ(terrain->heightfield.void_count, 3U * 256U * 256U);
+    ASSERT_EQ(terrain->faults.size(), 1U);
+    EXPECT_THAT(terrain->faults.front(), HasSubstr("its tile 6/34/22 cannot be read"));
+    server.serve_by("");
     expect_heights(*tiles);
 }
 

@@ -1,10 +1,13 @@
 #include "engine/io/tree_tile.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/io/crs_transform.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
@@ -154,6 +157,133 @@ TEST(TreeTiles, AFileReplacedWhileItIsOpenIsReadAnew) {
     const auto cut = read_tree_tile(tiles, tiles.grid(), tree, {0, 0, 0}, Gaps::holes);
     ASSERT_EQ(cut.faults.size(), 1U);
     EXPECT_THAT(cut.faults.front().message, ::testing::HasSubstr("a.tif"));
+}
+
+/// A plane over the same square kilometre, in samples of 10 m where it is first read.
+class ReplacedTile : public ::testing::Test {
+protected:
+    ReplacedTile() : tiles_(open_set(write(plane(10.0)))) {}
+
+    static constexpr double west = 300000.0;
+    static constexpr double north = 5600000.0;
+    static double height_at(double x, double y) {
+        return 100.0 + 0.03 * (x - west) + 0.02 * (north - y);
+    }
+    static test::MadeRaster plane(double step) {
+        const int side = static_cast<int>(std::lround(1000.0 / step));
+        return placed(test::made_raster(side, side,
+                                        [&](int col, int row) {
+                                            return height_at(west + (col + 0.5) * step,
+                                                             north - (row + 0.5) * step);
+                                        }),
+                      step);
+    }
+    std::filesystem::path write(const test::MadeRaster& raster) {
+        const auto file = folder_.path() / "a.tif";
+        std::filesystem::remove(file);
+        EXPECT_TRUE(test::write(raster, file));
+        std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) +
+                                                   std::chrono::seconds(++written_));
+        return file;
+    }
+    [[nodiscard]] TileWindow read() const {
+        return read_tree_tile(tiles_, tiles_.grid(), TileTree(100, 100), {0, 0, 0}, Gaps::holes);
+    }
+    /// Without those along the border, where samples beyond are missing.
+    void expect_plane(double most) const {
+        const TileWindow window = read();
+        ASSERT_TRUE(window.faults.empty()) << window.faults.front().message;
+        EXPECT_FALSE(std::ranges::any_of(window.heights.samples(),
+                                         [](double height) { return std::isnan(height); }));
+        for (int row = 6; row < 94; ++row) {
+            for (int col = 6; col < 94; ++col) {
+                const double x = west + (col - 1 + 0.5) * 10.0;
+                const double y = north - (row - 1 + 0.5) * 10.0;
+                ASSERT_NEAR(window.heights(col, row), height_at(x, y), most) << col << " " << row;
+            }
+        }
+    }
+    void expect_fault(const std::string& words) const {
+        const auto window = read();
+        ASSERT_EQ(window.faults.size(), 1U);
+        EXPECT_THAT(window.faults.front().message,
+                    ::testing::AllOf(::testing::HasSubstr("a.tif: was replaced while it was open"),
+                                     ::testing::HasSubstr(words)));
+    }
+
+    test::TemporaryFolder folder_;
+    int written_ = 0;
+    TileSet tiles_;
+};
+
+constexpr double rounding = 1e-4; // of heights as float
+
+TEST_F(ReplacedTile, ByOneOfAnotherSpacingIsReadAtTheSamplesItHadAndTold) {
+    expect_plane(rounding);
+    EXPECT_THAT(tiles_.take_new_notes(), ::testing::IsEmpty());
+    write(plane(25.0));
+    expect_plane(rounding);
+    expect_plane(rounding);
+    EXPECT_THAT(tiles_.take_new_notes(),
+                ::testing::ElementsAre(::testing::EndsWith(
+                    "a.tif: was replaced while it was open, by 40×40 samples: they are read at the "
+                    "places of the 100×100 before until the next start")));
+    write(plane(2.0));
+    expect_plane(rounding);
+    EXPECT_THAT(tiles_.take_new_notes(), ::testing::ElementsAre(::testing::HasSubstr("500×500")));
+    write(plane(10.0));
+    EXPECT_EQ(read().heights(51, 51), static_cast<float>(height_at(west + 505.0, north - 505.0)));
+    EXPECT_THAT(tiles_.take_new_notes(), ::testing::IsEmpty());
+}
+
+TEST_F(ReplacedTile, ByOneOfAnotherSystemUnitAndTypeIsReadAsHeightsInMetres) {
+    const auto transform = CrsTransform::create("EPSG:4326", "EPSG:32631");
+    auto raster = test::made_raster(400, 400, [&](int col, int row) {
+        std::array point{glm::dvec2(0.17 + (col + 0.5) * 1e-4, 50.52 - (row + 0.5) * 1e-4)};
+        transform->apply(point);
+        return std::lround(height_at(point[0].x, point[0].y) / 0.3048 * 100.0);
+    });
+    raster.type = GDT_Int32;
+    raster.crs = "EPSG:4326";
+    raster.geotransform = {0.17, 1e-4, 0.0, 50.52, 0.0, -1e-4};
+    raster.unit = "ft";
+    raster.scale = 0.01;
+    write(raster);
+    expect_plane(0.01);
+}
+
+TEST_F(ReplacedTile, KeepsVoidsApartFromHeights) {
+    auto raster = plane(20.0);
+    raster.type = GDT_Int16;
+    raster.values[25 * 50 + 25] = -32768; // declared or not
+    for (const auto& nodata : {std::optional<double>(-32768.0), std::optional<double>()}) {
+        raster.nodata = nodata;
+        write(raster);
+        const auto window = read();
+        ASSERT_TRUE(window.faults.empty()) << window.faults.front().message;
+        int voids = 0;
+        for (const double height : window.heights.samples()) {
+            voids += std::isnan(height) ? 1 : 0;
+            EXPECT_FALSE(height < 99.0) << height;
+        }
+        EXPECT_GT(voids, 0);
+        EXPECT_LE(voids, 16);
+    }
+}
+
+TEST_F(ReplacedTile, ByOneOfOtherGroundIsAFaultUntilTheFirstIsBack) {
+    auto moved = plane(10.0);
+    moved.geotransform->at(0) += 500.0; // of the same size
+    write(moved);
+    expect_fault(
+        "by 100×100 samples that are no heights over all the ground of the 100×100 before");
+    auto nowhere = plane(20.0);
+    nowhere.crs = "";
+    nowhere.geotransform = std::nullopt;
+    write(nowhere);
+    expect_fault("by 50×50 samples");
+    write(plane(10.0));
+    expect_plane(rounding);
 }
 
 TEST(TreeTiles, AFileThatIsGoneIsAFaultAndBackAgainWhenItIs) {

@@ -95,6 +95,23 @@ TEST_F(WindowGlTest, poll_does_not_wait_and_wait_keeps_its_time) {
     EXPECT_LT(steady_clock::now() - start, std::chrono::seconds(5));
 }
 
+TEST_F(WindowGlTest, a_framebuffer_fills_it_once_it_is_larger) {
+    const auto framebuffer = gl::Framebuffer::create({.size = {400, 300}});
+    ASSERT_TRUE(framebuffer) << framebuffer.error().message;
+    framebuffer->clear_color(glm::vec4(1.0F));
+    framebuffer->blit_to_window(window().framebuffer_size());
+    window().swap_buffers();
+    glfwSetWindowSize(glfwGetCurrentContext(), 400, 300);
+    ASSERT_TRUE(next<ResizeEvent>());
+    framebuffer->bind();
+    framebuffer->blit_to_window(window().framebuffer_size());
+    gl::bind_window_framebuffer(window().framebuffer_size());
+    std::array<unsigned char, 4> pixel{};
+    glReadPixels(395, 295, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+    EXPECT_EQ(pixel[0], 255);
+    window().swap_buffers();
+}
+
 TEST_F(WindowGlTest, a_framebuffer_blitted_to_it_keeps_its_bytes) {
     window().set_vsync(false);
     window().set_title("blit");
