@@ -1,9 +1,11 @@
 #include "app/frame_maker.h"
 
 #include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "app/ground.h"
 #include "app/process_memory.h"
 #include "app/streaming.h"
 #include "engine/core/statistics.h"
@@ -69,10 +71,20 @@ DeviceFrames::DeviceFrames(Device device, const DeviceFramesOptions& options)
     }
 }
 
-Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
+void DeviceFrames::bring(const scene::Scene& scene, const std::stop_token& stop) {
+    if (brought_for_ == scene.camera()) {
+        return;
+    }
     const Stopwatch waiting;
-    bring_tiles(scene, device_.driver().size(), parallel.stop, options_.quiet);
-    times_.waiting_ms.push_back(waiting.ms());
+    bring_tiles(scene, device_.driver().size(), stop, options_.quiet);
+    waited_ms_ += waiting.ms();
+    brought_for_ = scene.camera();
+}
+
+Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
+    bring(scene, parallel.stop);
+    times_.waiting_ms.push_back(std::exchange(waited_ms_, 0.0));
+    brought_for_.reset();
     stream_stats_ = stream_stats(scene);
     const auto stats = device_.driver().draw(scene, options_.timed);
     if (!stats) {
@@ -154,6 +166,13 @@ std::string TruthFrames::stats() const {
                        "once: {:.2f} ms, frame: {:.2f} ms\n",
                        static_cast<long long>(size_.x) * size_.y * rays_per_side_ * rays_per_side_,
                        prepare_ms_, draw_ms_);
+}
+
+double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+                        FrameMaker& maker, const std::stop_token& stop) {
+    const double raised = fly_to(scene, path, index, frames);
+    maker.bring(scene.scene, stop);
+    return raised + keep_above_ground(scene);
 }
 
 } // namespace reljef::app

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/device.h"
+#include "app/scene_setup.h"
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/worker_pool.h"
@@ -20,6 +21,8 @@ namespace reljef::app {
 class FrameMaker {
 public:
     virtual ~FrameMaker() = default;
+    /// Waits for what is read part by part of what the next frame shows; drawing it does so too.
+    virtual void bring(const scene::Scene& scene, const std::stop_token& stop) = 0;
     /// Progress is that of this frame.
     virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
     virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
@@ -44,6 +47,7 @@ struct DeviceFramesOptions {
 class DeviceFrames : public FrameMaker {
 public:
     DeviceFrames(Device device, const DeviceFramesOptions& options);
+    void bring(const scene::Scene& scene, const std::stop_token& stop) override;
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
@@ -55,6 +59,8 @@ private:
     Device device_;
     DeviceFramesOptions options_;
     FrameTimes times_;
+    std::optional<scene::Camera> brought_for_; // since the last frame
+    double waited_ms_ = 0.0;                   // the same
     render::FrameStats stats_;
     std::string stream_stats_; // after the last frame
 };
@@ -63,6 +69,7 @@ private:
 class TruthFrames : public FrameMaker {
 public:
     TruthFrames(glm::ivec2 size, int rays_per_side) : size_(size), rays_per_side_(rays_per_side) {}
+    void bring(const scene::Scene& /*scene*/, const std::stop_token& /*stop*/) override {}
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
@@ -78,5 +85,9 @@ private:
     double prepare_ms_ = 0.0;
     double draw_ms_ = 0.0;
 };
+
+/// As fly_to, above the ground that the frame shows: waits for it.
+double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+                        FrameMaker& maker, const std::stop_token& stop);
 
 } // namespace reljef::app

@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "app/message.h"
 #include "app/options.h"
+#include "app/place_file.h"
 #include "app/terrain_source.h"
 #include "engine/core/worker_pool.h"
 
@@ -23,16 +24,12 @@ struct HeightChoice {
     std::string points;             // a file of them, "-": standard input; empty: none
 };
 
-// What is read of a file at a time; places of so much text are answered together.
-constexpr std::size_t chunk_bytes = std::size_t{64} << 20U;
-
-Result<glm::dvec2> checked_place(std::string_view option, glm::dvec2 place) {
-    if (std::abs(place.x) <= 90.0 && std::abs(place.y) <= 1e6) {
-        return place;
-    }
-    return Error{fmt::format("{}: {},{} found, a latitude from -90 to 90 and a longitude in "
-                             "degrees were expected",
-                             option, place.x, place.y)};
+// What is read of a file at a time: places of so much text are answered together, which takes five
+// times as much.
+std::size_t bytes_of_piece(const TerrainChoice& choice) {
+    constexpr std::size_t part = 16; // of the memory
+    constexpr std::size_t most = std::size_t{64} << 20U;
+    return std::min((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / part, most);
 }
 
 std::vector<glm::dvec2> places_of(const std::vector<std::string>& texts) {
@@ -49,100 +46,6 @@ std::vector<glm::dvec2> places_of(const std::vector<std::string>& texts) {
         places.push_back(*place);
     }
     return places;
-}
-
-// A file that is read piece by piece; standard input for "-".
-class TextInput {
-public:
-    static Result<TextInput> open(const std::string& name) {
-        std::FILE* file = name == "-" ? stdin : std::fopen(name.c_str(), "rb");
-        if (file == nullptr) {
-            return Error{
-                fmt::format("--points: '{}' found, a file of lines LAT,LON was expected", name)};
-        }
-        return TextInput(file);
-    }
-
-    // Whole lines of at most chunk_bytes; empty at the end.
-    std::string next_lines() {
-        std::string text = std::move(rest_);
-        const std::size_t kept = text.size();
-        text.resize(kept + chunk_bytes);
-        text.resize(kept + std::fread(text.data() + kept, 1, chunk_bytes, file_.get()));
-        const bool at_end = text.size() < kept + chunk_bytes;
-        const auto last = text.rfind('\n');
-        const std::size_t whole = at_end || last == std::string::npos ? text.size() : last + 1;
-        rest_ = text.substr(whole);
-        text.resize(whole);
-        return text;
-    }
-
-private:
-    struct Closer {
-        void operator()(std::FILE* file) const {
-            if (file != stdin) {
-                static_cast<void>(std::fclose(file));
-            }
-        }
-    };
-    explicit TextInput(std::FILE* file) : file_(file) {}
-
-    std::unique_ptr<std::FILE, Closer> file_;
-    std::string rest_;
-};
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    const auto last = text.find_last_not_of(" \t\r");
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, last - first + 1);
-}
-
-// A line's place and its own text of it.
-struct Line {
-    glm::dvec2 place{0.0};
-    std::string_view text;
-};
-
-// LAT,LON at the beginning of a line; what follows another comma is not looked at.
-std::optional<Line> line_of(std::string_view text) {
-    Line line;
-    const char* const end = text.data() + text.size();
-    const auto latitude = std::from_chars(text.data(), end, line.place.x);
-    if (latitude.ec != std::errc{} || latitude.ptr == end || *latitude.ptr != ',') {
-        return std::nullopt;
-    }
-    const char* begin = latitude.ptr + 1;
-    while (begin != end && *begin == ' ') {
-        ++begin;
-    }
-    const auto longitude = std::from_chars(begin, end, line.place.y);
-    if (longitude.ec != std::errc{} || (longitude.ptr != end && *longitude.ptr != ',')) {
-        return std::nullopt;
-    }
-    line.text = text.substr(0, static_cast<std::size_t>(longitude.ptr - text.data()));
-    return line;
-}
-
-// The lines of a text, empty ones left out; `first_number` is its first line's in the file, whose
-// very first line may be a heading.
-Result<std::vector<Line>> lines_of(std::string_view text, std::size_t& number) {
-    std::vector<Line> lines;
-    while (!text.empty()) {
-        const std::string_view raw = text.substr(0, text.find('\n'));
-        text.remove_prefix(std::min(raw.size() + 1, text.size()));
-        ++number;
-        const std::string_view whole = trimmed(raw);
-        const auto line = line_of(whole);
-        if (line && checked_place("", line->place)) {
-            lines.push_back(*line);
-        } else if (!whole.empty() && number > 1) {
-            return Error{fmt::format("--points: line {}: '{}' found, LAT,LON in degrees was "
-                                     "expected",
-                                     number, whole.substr(0, 80))};
-        }
-    }
-    return lines;
 }
 
 constexpr int digits_of_heights = 6; // after the point: micrometres
@@ -166,15 +69,15 @@ void print(const std::string& out) {
 }
 
 // The answers as text, by several threads; in order.
-void print_answers(std::span<const Line> lines, std::span<const io::HeightAnswer> answers,
-                   unsigned threads) {
+void print_answers(std::span<const std::string_view> texts,
+                   std::span<const io::HeightAnswer> answers, unsigned threads) {
     constexpr std::size_t lines_a_part = 1U << 14U;
-    std::vector<std::string> parts((lines.size() + lines_a_part - 1) / lines_a_part);
+    std::vector<std::string> parts((texts.size() + lines_a_part - 1) / lines_a_part);
     const auto append_part = [&](int number) {
         const auto part = static_cast<std::size_t>(number);
-        const std::size_t end = std::min(lines.size(), (part + 1) * lines_a_part);
+        const std::size_t end = std::min(texts.size(), (part + 1) * lines_a_part);
         for (std::size_t i = part * lines_a_part; i < end; ++i) {
-            append_answer(lines[i].text, answers[i], parts[part]);
+            append_answer(texts[i], answers[i], parts[part]);
         }
     };
     parallel_for(static_cast<int>(parts.size()), append_part,
@@ -196,60 +99,84 @@ void keep_faults(std::vector<io::TileFault> found, const TerrainChoice& choice,
     }
 }
 
-Result<void> print_places(const HeightChoice& choice, const io::TileSet& tiles,
+// Where the files that have a place may be those that are left out.
+std::string left_out_text(std::span<const io::TileFault> faults) {
+    return faults.empty() ? std::string()
+                          : fmt::format("; {} of its files could not be read: {}", faults.size(),
+                                        faults.front().message);
+}
+
+bool is_inside(glm::dvec2 place, const io::GeodeticArea& area) {
+    const double east_of_west = place.y - area.west;
+    const double turned = east_of_west - 360.0 * std::floor(east_of_west / 360.0);
+    return place.x >= area.south && place.x <= area.north && turned <= area.east - area.west;
+}
+
+// Places outside the area have no answer, whatever the tiles hold there.
+io::TileSet::Heights heights_within(const HeightSource& source,
+                                    std::span<const glm::dvec2> places) {
+    auto found = source.tiles.heights(places);
+    for (std::size_t i = 0; source.area && i < places.size(); ++i) {
+        if (!is_inside(places[i], *source.area)) {
+            found.answers[i] = {};
+        }
+    }
+    return found;
+}
+
+Result<void> print_places(const HeightChoice& choice, const HeightSource& source,
                           std::vector<io::TileFault>& faults) {
-    auto found = tiles.heights(choice.places);
+    auto found = heights_within(source, choice.places);
+    keep_faults(std::move(found.faults), choice.terrain, faults);
     std::string out;
     for (std::size_t i = 0; i < choice.places.size(); ++i) {
         const glm::dvec2 place = choice.places[i];
         if (found.answers[i].kind == io::HeightAnswer::Kind::outside) {
             print(out);
-            return Error{fmt::format("--at: {},{} found, a place on {} was expected", place.x,
-                                     place.y, choice.terrain.terrain)};
+            return Error{fmt::format("--at: {},{} found, a place on {}{} was expected{}", place.x,
+                                     place.y, choice.terrain.terrain,
+                                     source.area ? " in its area" : "", left_out_text(faults))};
         }
         append_answer(fmt::format("{},{}", place.x, place.y), found.answers[i], out);
     }
     print(out);
-    keep_faults(std::move(found.faults), choice.terrain, faults);
     return {};
 }
 
-Result<void> print_points(const HeightChoice& choice, const io::TileSet& tiles,
+Result<void> print_points(const HeightChoice& choice, const HeightSource& source,
                           const Interrupt& interrupt, std::vector<io::TileFault>& faults) {
-    auto input = TextInput::open(choice.points);
-    if (!input) {
-        return input.error();
+    auto file = PlaceFile::open(choice.points, bytes_of_piece(choice.terrain));
+    if (!file) {
+        return file.error();
     }
-    std::size_t number = 0;
-    for (std::string text = input->next_lines(); !text.empty(); text = input->next_lines()) {
-        const auto lines = lines_of(text, number);
-        if (!lines) {
-            return lines.error();
+    while (!file->at_end()) {
+        const auto read = file->next();
+        if (!read) {
+            return read.error();
         }
         if (interrupt.requested()) {
             return Error{"interrupted"};
         }
-        std::vector<glm::dvec2> places(lines->size());
-        std::transform(lines->begin(), lines->end(), places.begin(),
-                       [](const Line& line) { return line.place; });
-        auto found = tiles.heights(places);
-        print_answers(*lines, found.answers, static_cast<unsigned>(choice.terrain.threads));
-        keep_faults(std::move(found.faults), choice.terrain, faults);
+        auto heights = heights_within(source, read->places);
+        print_answers(read->texts, heights.answers, static_cast<unsigned>(choice.terrain.threads));
+        keep_faults(std::move(heights.faults), choice.terrain, faults);
     }
     return {};
 }
 
 Result<void> print_heights(const HeightChoice& choice, const Interrupt& interrupt) {
-    const auto tiles = open_tiles(choice.terrain, interrupt.token());
-    if (!tiles) {
-        return tiles.error();
+    const auto source = open_heights(choice.terrain, interrupt.token());
+    if (!source) {
+        return source.error();
     }
     std::vector<io::TileFault> faults;
-    if (auto printed = print_places(choice, *tiles, faults); !printed) {
+    keep_faults({source->tiles.faults().begin(), source->tiles.faults().end()}, choice.terrain,
+                faults);
+    if (auto printed = print_places(choice, *source, faults); !printed) {
         return printed;
     }
     if (!choice.points.empty()) {
-        if (auto printed = print_points(choice, *tiles, interrupt, faults); !printed) {
+        if (auto printed = print_points(choice, *source, interrupt, faults); !printed) {
             return printed;
         }
     }
@@ -261,7 +188,7 @@ Result<void> print_heights(const HeightChoice& choice, const Interrupt& interrup
 Command add_height_command(CLI::App& program, Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("height", "print heights at places on Earth");
     auto choice = std::make_shared<HeightChoice>();
-    add_terrain_options(*arguments, choice->terrain);
+    add_source_options(*arguments, choice->terrain);
     auto* at = arguments->add_option_function<std::vector<std::string>>(
         "--at",
         [choice](const std::vector<std::string>& texts) { choice->places = places_of(texts); },
@@ -272,10 +199,6 @@ Command add_height_command(CLI::App& program, Interrupt& interrupt) {
                      "many places: a file of lines LAT,LON, or - for standard input")
         ->type_name("FILE");
     arguments->callback([choice] {
-        if (!choice->terrain.imagery.empty()) {
-            throw CLI::ValidationError("height: --imagery found, but pictures have no heights: "
-                                       "none was expected");
-        }
         if (choice->places.empty() && choice->points.empty()) {
             throw CLI::ValidationError("height: no place found, --at LAT,LON or --points FILE was "
                                        "expected");

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
@@ -24,34 +25,52 @@ struct InfoChoice {
     bool json = false;
 };
 
-Json extent_of(const terrain::Heightfield& heightfield) {
-    const double cols = heightfield.heights.cols() - 1;
-    const double rows = heightfield.heights.rows() - 1;
-    Json extent{{"width_m", cols * heightfield.spacing.x},
-                {"height_m", rows * heightfield.spacing.y}};
-    if (!heightfield.georeference) {
-        return extent;
-    }
+// All samples that there are, of which those that were read may be averages.
+struct FullGrid {
+    int cols = 0;
+    int rows = 0;
+    int reduction = 1; // samples a side in one that was read
+    // Where the first and the last of them lie, in samples that were read.
+    glm::dvec2 first{0.0};
+    glm::dvec2 last{0.0};
+};
+
+struct DegreeBox {
     double south = 90.0;
     double north = -90.0;
     double west = 1e9;
     double east = -1e9;
+};
+
+DegreeBox box_of(const geo::GeodeticMap& map, const FullGrid& grid) {
+    DegreeBox box;
     constexpr int steps = 32;
     for (int i = 0; i <= steps; ++i) {
-        const double t = static_cast<double>(i) / steps;
-        for (const glm::dvec2 sample : {glm::dvec2(t * cols, 0.0), glm::dvec2(t * cols, rows),
-                                        glm::dvec2(0.0, t * rows), glm::dvec2(cols, t * rows)}) {
-            const auto place = heightfield.georeference->geodetic.latitude_longitude(sample);
-            south = std::min(south, place.x);
-            north = std::max(north, place.x);
-            west = std::min(west, place.y);
-            east = std::max(east, place.y);
+        const glm::dvec2 at = glm::mix(grid.first, grid.last, static_cast<double>(i) / steps);
+        for (const glm::dvec2 sample :
+             {glm::dvec2(at.x, grid.first.y), glm::dvec2(at.x, grid.last.y),
+              glm::dvec2(grid.first.x, at.y), glm::dvec2(grid.last.x, at.y)}) {
+            const auto place = map.latitude_longitude(sample);
+            box.south = std::min(box.south, place.x);
+            box.north = std::max(box.north, place.x);
+            box.west = std::min(box.west, place.y);
+            box.east = std::max(box.east, place.y);
         }
     }
-    extent["south"] = south;
-    extent["north"] = north;
-    extent["west"] = west;
-    extent["east"] = east;
+    return box;
+}
+
+Json extent_of(const terrain::Heightfield& heightfield, const FullGrid& grid) {
+    const glm::dvec2 spacing = heightfield.spacing / static_cast<double>(grid.reduction);
+    Json extent{{"width_m", (grid.cols - 1) * spacing.x},
+                {"height_m", (grid.rows - 1) * spacing.y}};
+    if (heightfield.georeference) {
+        const DegreeBox box = box_of(heightfield.georeference->geodetic, grid);
+        extent["south"] = box.south;
+        extent["north"] = box.north;
+        extent["west"] = box.west;
+        extent["east"] = box.east;
+    }
     return extent;
 }
 
@@ -79,17 +98,9 @@ Json models_of(const TerrainSource& source, const TerrainChoice& choice) {
     return models;
 }
 
-// Samples of the finest tiles in one that was read.
-int reduction_of(const io::TileSet& tiles, const terrain::Heightfield& heightfield) {
-    const auto& georeference = heightfield.georeference;
-    const double steps =
-        georeference ? std::abs(georeference->crs_from_pixel.x_col / tiles.grid().step.x) : 1.0;
-    return static_cast<int>(std::lround(steps));
-}
-
-// A folder: how many files of which format, and the samples of its part at the finest spacing.
+// A folder: how many files of which format.
 Json tiles_info(const io::TileSet& tiles, const std::optional<io::GeodeticArea>& area,
-                const terrain::Heightfield& heightfield) {
+                const FullGrid& grid) {
     Json formats = Json::object();
     std::set<std::string> types;
     int count = 0;
@@ -102,34 +113,62 @@ Json tiles_info(const io::TileSet& tiles, const std::optional<io::GeodeticArea>&
             ++count;
         }
     }
-    const int reduction = reduction_of(tiles, heightfield);
     return {{"format", "tiles"},
             {"type", fmt::format("{}", fmt::join(types, ", "))},
-            {"cols", heightfield.heights.cols() * reduction},
-            {"rows", heightfield.heights.rows() * reduction},
+            {"cols", grid.cols},
+            {"rows", grid.rows},
             {"files", count},
             {"formats", std::move(formats)},
             {"finest_spacing_m", finest}};
+}
+
+// Of the finest tiles, in the area.
+std::optional<FullGrid> grid_of_tiles(const io::TileSet& tiles,
+                                      const std::optional<io::GeodeticArea>& area,
+                                      const terrain::Heightfield& heightfield) {
+    const auto grid = area ? tiles.part(tiles.grid(), *area) : Result<io::TileGrid>(tiles.grid());
+    if (!grid || !heightfield.georeference) {
+        return std::nullopt;
+    }
+    const geo::PixelAffine& affine = heightfield.georeference->crs_from_pixel;
+    const glm::dvec2 step(affine.x_col, affine.y_row);
+    FullGrid full{grid->cols, grid->rows, 1, {}, {}};
+    full.reduction = static_cast<int>(std::lround(std::abs(step.x / grid->step.x)));
+    full.first = (grid->first - glm::dvec2(affine.x0, affine.y0)) / step;
+    full.last = full.first + grid->step / step * glm::dvec2(grid->cols - 1, grid->rows - 1);
+    return full;
+}
+
+// Of a file, which is read from its first column and row on.
+FullGrid grid_of_file(int cols, int rows, const terrain::Heightfield& heightfield) {
+    const int reduction = std::max(1, cols / heightfield.heights.cols());
+    const double half = 0.5 * (reduction - 1);
+    return {cols, rows, reduction, glm::dvec2(-half / reduction),
+            (glm::dvec2(cols - 1, rows - 1) - half) / static_cast<double>(reduction)};
 }
 
 Json geoid_info(const geo::Georeference& georeference) {
     return georeference.geoid ? Json(georeference.geoid->name()) : Json(nullptr);
 }
 
-int reduction_of(const terrain::Heightfield& heightfield, const Json& cols) {
-    return std::max(1, cols.get<int>() / heightfield.heights.cols());
-}
-
 Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     const terrain::Heightfield& heightfield = source.terrain.heightfield;
-    const auto& area = choice.area ? choice.area : source.description.area;
-    const Json file = source.tiles ? tiles_info(*source.tiles, area, heightfield)
-                      : source.description.generator.empty() ? file_info(source.description)
-                                                             : Json();
+    const auto area = area_of(choice, source.description);
+    const Json own_file = source.tiles || !source.description.generator.empty()
+                              ? Json()
+                              : file_info(source.description);
+    const auto& heights = heightfield.heights;
+    const FullGrid read_grid = grid_of_file(heights.cols(), heights.rows(), heightfield);
+    const FullGrid grid =
+        source.tiles ? grid_of_tiles(*source.tiles, area, heightfield).value_or(read_grid)
+        : own_file.is_null()
+            ? read_grid
+            : grid_of_file(own_file["cols"].get<int>(), own_file["rows"].get<int>(), heightfield);
+    const Json file = source.tiles ? tiles_info(*source.tiles, area, grid) : own_file;
     Json info;
     info["name"] = source.terrain.name;
-    info["cols"] = file.is_null() ? Json(heightfield.heights.cols()) : file["cols"];
-    info["rows"] = file.is_null() ? Json(heightfield.heights.rows()) : file["rows"];
+    info["cols"] = grid.cols;
+    info["rows"] = grid.rows;
     info["type"] = file.is_null() ? Json("Float32") : file["type"];
     info["format"] = file.is_null() ? Json("generated") : file["format"];
     if (const auto& georeference = heightfield.georeference) {
@@ -146,13 +185,12 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
                          {"formats", file["formats"]},
                          {"finest_spacing_m", file["finest_spacing_m"]}};
     }
-    // What was read within the memory is all or a whole-number part of the file.
-    info["read"] = {{"cols", heightfield.heights.cols()},
-                    {"rows", heightfield.heights.rows()},
-                    {"reduction", reduction_of(heightfield, info["cols"])}};
-    const glm::dvec2 spacing = heightfield.spacing / info["read"]["reduction"].get<double>();
+    // What was read within the memory is all or a whole-number part of it.
+    info["read"] = {
+        {"cols", heights.cols()}, {"rows", heights.rows()}, {"reduction", grid.reduction}};
+    const glm::dvec2 spacing = heightfield.spacing / static_cast<double>(grid.reduction);
     info["spacing"] = {{"x_m", spacing.x}, {"y_m", spacing.y}};
-    info["extent"] = extent_of(heightfield);
+    info["extent"] = extent_of(heightfield, grid);
     info["height_range"] = {{"low_m", heightfield.range.low}, {"high_m", heightfield.range.high}};
     info["voids"] = heightfield.void_count;
     info["memory_bytes"] = heightfield.heights.size() * io::bytes_per_sample;
@@ -164,17 +202,23 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     return info;
 }
 
+std::string geoid_text(const Json& crs) {
+    if (!crs["geoid"].is_null()) {
+        return fmt::format("geoid {} applied on the ellipsoid", crs["geoid"].get<std::string>());
+    }
+    return geo::is_ellipsoidal(crs["vertical_datum"].get<std::string>())
+               ? "no geoid needed on the ellipsoid"
+               : "geoid not applied: none given or installed for it";
+}
+
 // What heights count from, and whether the geoid is applied.
 void print_vertical(const Json& crs) {
     if (crs.is_null()) {
         return;
     }
     const auto datum = crs["vertical_datum"].get<std::string>();
-    const std::string geoid =
-        crs["geoid"].is_null()
-            ? "geoid not applied: none given or installed for it"
-            : fmt::format("geoid {} applied on the ellipsoid", crs["geoid"].get<std::string>());
-    fmt::print("  zero     {}; {}\n", datum.empty() ? std::string("unnamed") : datum, geoid);
+    fmt::print("  zero     {}; {}\n", datum.empty() ? std::string("unnamed") : datum,
+               geoid_text(crs));
 }
 
 void print_text(const Json& info) {
@@ -207,7 +251,7 @@ void print_text(const Json& info) {
     }
     if (info["read"]["reduction"] != 1) {
         fmt::print("  read     {} x {} samples, each the average of {} x {}: so are the heights "
-                   "below\n",
+                   "and voids below\n",
                    info["read"]["cols"].get<int>(), info["read"]["rows"].get<int>(),
                    info["read"]["reduction"].get<int>(), info["read"]["reduction"].get<int>());
     }
@@ -238,7 +282,7 @@ Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
     } else {
         print_text(info);
     }
-    return {};
+    return report_faults(choice.terrain.terrain, source->terrain.faults.size());
 }
 
 } // namespace

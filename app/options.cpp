@@ -299,7 +299,7 @@ template Result<std::array<double, 4>> parse_numbers<4>(std::string_view, std::s
 template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::string_view,
                                                         std::string_view);
 
-void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
+void add_source_options(CLI::App& command, TerrainChoice& choice) {
     command
         .add_option(
             "TERRAIN", choice.terrain,
@@ -307,6 +307,20 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
             "reads, a folder of them, the https:// address of one, or tiles z/x/y.png of "
             "heights in colours: terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
         ->required();
+    add_parsed(command, "--area", choice.area, parse_area,
+               "only this part of a folder of tiles, degrees", "SOUTH,WEST,NORTH,EAST");
+    add_parsed(command, "--memory", choice.memory_megabytes,
+               whole_number_in("--memory", 1, 1'000'000),
+               "for the terrain, megabytes; of what is larger, parts are read as the view needs "
+               "them (512)",
+               "MB");
+    add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
+               "0: as many as the machine has (0)", "N");
+    command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
+}
+
+void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
+    add_source_options(command, choice);
     command
         .add_option("--imagery", choice.imagery,
                     "picture to drape over the terrain, or a folder of them; may be given again. "
@@ -328,8 +342,6 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                                                {{"plane", terrain::PlacementKind::plane},
                                                 {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
                "plane, or ellipsoid: on the curved Earth (georeferenced terrains)", "KIND");
-    add_parsed(command, "--area", choice.area, parse_area,
-               "only this part of a folder of tiles, degrees", "SOUTH,WEST,NORTH,EAST");
     add_parsed(command, "--gaps", choice.gaps,
                word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
                "what lies between the tiles of a folder: holes, or sea at 0 m (holes)", "KIND");
@@ -339,14 +351,6 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
             "how far sea level lies above the ellipsoid: a file (.gtx, .tif, .pgm), or none "
             "(the installed EGM96, for heights above EGM96)")
         ->type_name("FILE");
-    add_parsed(command, "--memory", choice.memory_megabytes,
-               whole_number_in("--memory", 1, 1'000'000),
-               "for the terrain, megabytes; of what is larger, parts are read as the view needs "
-               "them (512)",
-               "MB");
-    add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
-               "0: as many as the machine has (0)", "N");
-    command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
 }
 
 scene::Technique technique_of(const ViewChoice& choice) {

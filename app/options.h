@@ -103,6 +103,8 @@ Result<std::array<double, N>> parse_numbers(std::string_view option, std::string
 
 /// Adds the options of a group to a command; they are checked as they are parsed (CLI::ParseError).
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);
+/// Of these, what says which heights there are and how they are read, not how they are drawn.
+void add_source_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
 /// The technique with --max-error.
 scene::Technique technique_of(const ViewChoice& choice);

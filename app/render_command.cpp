@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "app/frame_maker.h"
 #include "app/frame_sink.h"
+#include "app/message.h"
 #include "app/misuse.h"
 #include "app/options.h"
 #include "app/output_files.h"
@@ -73,6 +74,26 @@ private:
     std::vector<Image> pictures_;
 };
 
+// Frames that were asked for lower than the ground lets them be.
+class RaisedFrames {
+public:
+    void add(double metres) {
+        count_ += metres > 0.0 ? 1 : 0;
+        most_ = std::max(most_, metres);
+    }
+    void tell_of(const RenderChoice& choice) const {
+        if (count_ > 0 && !choice.terrain.quiet) {
+            tell(fmt::format("reljef: note: --path {}: {} of {} frames would be under the ground "
+                             "or too close to it; raised by up to {:.1f} m\n",
+                             choice.view.path, count_, choice.view.frames, most_));
+        }
+    }
+
+private:
+    int count_ = 0;
+    double most_ = 0.0; // metres
+};
+
 // How a frame is drawn: stopped by Ctrl-C, told as a part of all frames.
 ParallelOptions frame_options(const RenderChoice& choice, const Interrupt& interrupt,
                               Progress progress = {}) {
@@ -96,10 +117,11 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameM
         return sink.error();
     }
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
+    RaisedFrames raised;
     ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (path) {
-            fly_to(scene, *path, index, frames);
+            raised.add(fly_above_ground(scene, *path, index, frames, maker, interrupt.token()));
         }
         auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
                                       line.update((index + part) / frames);
@@ -119,6 +141,7 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameM
     if (auto finished = (*sink)->finish(); !finished) {
         return finished;
     }
+    raised.tell_of(choice);
     if (choice.stats) {
         fmt::print("{}", maker.stats());
     }
@@ -226,7 +249,7 @@ Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, Frame
         return path.error();
     }
     if (*path) {
-        fly_to(scene, **path, 0, 1);
+        static_cast<void>(fly_above_ground(scene, **path, 0, 1, maker, interrupt.token()));
     }
     if (!choice.hits.empty()) {
         if (auto written = write_hit_file(choice, scene, maker, interrupt); !written) {
@@ -268,6 +291,9 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     auto scene = make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
     if (!scene) {
         return scene.error();
+    }
+    if (const auto note = missing_geoid(*scene, choice.terrain); note && !choice.terrain.quiet) {
+        tell(fmt::format("reljef: note: {}\n", *note));
     }
     if (auto ready = choice.truth ? Result<void>()
                                   : prepare_bisection(*scene, choice.terrain, interrupt.token());

@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/flight_keys.h"
 #include "app/gallery.h"
+#include "app/ground.h"
 #include "app/ground_detail.h"
 #include "app/message.h"
 #include "app/misuse.h"
@@ -78,81 +80,10 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
                               scene.bounds, ground);
 }
 
-// A flight whose file tells no heights keeps so far above the ground, and no flight goes lower than
-// the second; metres.
-constexpr double height_over_ground = 300.0;
-constexpr double least_over_ground = 2.0;
-constexpr double look_ahead = 1000.0; // metres
-
-// True metres; nothing outside the terrain.
-std::optional<double> ground_height(const terrain::Heightfield& heightfield,
-                                    const io::GeodeticKey& key) {
-    if (!heightfield.georeference) {
-        return std::nullopt;
-    }
-    const auto sample = heightfield.georeference->geodetic.sample(key.latitude, key.longitude);
-    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
-    const bool inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
-                        sample->y <= last.y;
-    return inside ? std::optional(terrain::bilinear_height(heightfield.heights.view(), *sample))
-                  : std::nullopt;
-}
-
-// Where a key lies in the scene, its height kept above the ground that is drawn.
-Result<glm::dvec3> eye_of(const scene::TerrainSurface& surface, const io::GeodeticKey& key,
-                          const std::string& name) {
-    const double ground = ground_height(surface.heightfield(), key).value_or(0.0);
-    const double height = key.height ? std::max(*key.height, ground + least_over_ground)
-                                     : ground + height_over_ground;
-    const auto eye = surface.placement().world_from_geodetic({key.latitude, key.longitude, height});
-    return eye ? Result<glm::dvec3>(*eye)
-               : Error{fmt::format("{}: a key at {},{} found, places near {} and a terrain with a "
-                                   "place on Earth were expected",
-                                   name, key.latitude, key.longitude, surface.terrain().name)};
-}
-
-// Where the camera looks from key `index`: by its angles, else to the next key, else as before.
-glm::dvec3 look_of(const TerrainScene& scene, std::span<const io::GeodeticKey> keys,
-                   std::span<const glm::dvec3> eyes, std::size_t index) {
-    const glm::dvec3 eye = eyes[index];
-    if (keys[index].heading) {
-        const auto& placement = scene.terrain->get<scene::TerrainNode>()->surface->placement();
-        const auto camera = scene::camera_from_angles(
-            eye, *keys[index].heading, keys[index].pitch.value_or(0.0), compass_at(placement, eye));
-        return eye + look_ahead * glm::normalize(camera.look - camera.eye);
-    }
-    const std::size_t from =
-        index + 1 < eyes.size() ? index : index - std::min<std::size_t>(index, 1);
-    const std::size_t to = std::min(from + 1, eyes.size() - 1);
-    const glm::dvec3 way = eyes[to] - eyes[from];
-    const double length = glm::length(way);
-    return length > 0.0 ? eye + way * (look_ahead / length)
-                        : eye + glm::dvec3(0.0, look_ahead, 0.0);
-}
-
-Result<std::vector<scene::FlyKey>> fly_keys_on_earth(const TerrainScene& scene,
-                                                     std::span<const io::GeodeticKey> keys,
-                                                     const std::string& name) {
-    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
-    std::vector<glm::dvec3> eyes;
-    for (const io::GeodeticKey& key : keys) {
-        auto eye = eye_of(surface, key, name);
-        if (!eye) {
-            return eye.error();
-        }
-        eyes.push_back(*eye);
-    }
-    std::vector<scene::FlyKey> fly_keys;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        fly_keys.push_back({keys[i].time, eyes[i], look_of(scene, keys, eyes, i)});
-    }
-    return fly_keys;
-}
-
 Result<std::vector<scene::FlyKey>> fly_keys_of(const TerrainScene& scene, const io::Flight& flight,
                                                const std::string& name) {
     if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight.keys)) {
-        return fly_keys_on_earth(scene, *on_earth, name);
+        return flight_keys(*scene.terrain->get<scene::TerrainNode>()->surface, *on_earth, name);
     }
     std::vector<scene::FlyKey> fly_keys;
     for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight.keys)) {
@@ -282,6 +213,21 @@ Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terra
     return result;
 }
 
+std::optional<std::string> missing_geoid(const TerrainScene& scene, const TerrainChoice& terrain) {
+    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const auto& georeference = surface.heightfield().georeference;
+    const bool on_ellipsoid = surface.placement().kind() == terrain::PlacementKind::ellipsoid;
+    if (terrain.geoid == "none" || !on_ellipsoid || !georeference || georeference->geoid ||
+        geo::is_ellipsoidal(georeference->vertical_datum)) {
+        return std::nullopt;
+    }
+    const std::string& datum = georeference->vertical_datum;
+    return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
+                       "from the ellipsoid on; --geoid FILE names one",
+                       surface.terrain().name,
+                       datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
+}
+
 Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain,
                                const std::stop_token& stop) {
     auto& shown = *scene.terrain->get<scene::TerrainNode>();
@@ -344,11 +290,12 @@ Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const
     return Path(std::move(*path));
 }
 
-void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
+double fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
     const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
     auto& camera = *scene.camera->get<scene::Camera>();
     camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
     camera.up = scene.terrain->get<scene::TerrainNode>()->surface->placement().up(camera.eye);
+    return keep_above_ground(scene);
 }
 
 } // namespace reljef::app

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "app/options.h"
@@ -34,6 +35,10 @@ struct TerrainScene {
 Result<TerrainScene> make_scene(TerrainSource source, const TerrainChoice& terrain,
                                 const ViewChoice& view, const std::stop_token& stop = {});
 
+/// A note where heights are drawn from the ellipsoid on although they may count from another zero:
+/// no geoid is applied, and the user did not ask for that.
+std::optional<std::string> missing_geoid(const TerrainScene& scene, const TerrainChoice& terrain);
+
 /// Reads what the technique's error needs of the terrain from the cache, or makes and keeps it,
 /// with progress and a note on stderr: its bisection. Nothing to do for other techniques and for
 /// streams of tiles. Fails when it was stopped.
@@ -44,7 +49,9 @@ Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view,
                                                 const TerrainChoice& terrain);
 
-/// Puts the camera where frame `index` of so many evenly spread along a path sees from.
-void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
+/// Puts the camera where frame `index` of so many evenly spread along a path sees from, above the
+/// ground that is there (see keep_above_ground in ground.h). Returns by how many metres it was
+/// raised.
+double fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
 
 } // namespace reljef::app

@@ -116,10 +116,7 @@ io::TileTerrainOptions tile_options(const TerrainChoice& choice,
                                     const std::stop_token& stop) {
     io::TileTerrainOptions options;
     options.raster = raster_options(choice, description, stop);
-    options.area = choice.area ? choice.area : description.area;
-    if (!options.area && io::is_tile_pyramid(description.heights)) {
-        options.area = io::tile_pyramid_area(description.heights);
-    }
+    options.area = area_of(choice, description);
     options.gaps =
         choice.gaps.value_or(description.gaps == "sea" ? io::Gaps::sea : io::Gaps::holes);
     options.threads = static_cast<unsigned>(choice.threads);
@@ -252,6 +249,11 @@ bool is_folder(const fs::path& path) {
     return fs::is_directory(path, ignored);
 }
 
+// Whether its heights are many files.
+bool is_set(const io::SceneDescription& description) {
+    return is_folder(description.heights) || io::is_tile_pyramid(description.heights);
+}
+
 Result<void> refuse_folder_options(const TerrainChoice& choice,
                                    const io::SceneDescription& description) {
     const char* option = choice.area ? "--area" : choice.gaps ? "--gaps" : nullptr;
@@ -269,7 +271,7 @@ Result<void> refuse_folder_options(const TerrainChoice& choice,
 
 Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescription description,
                                   const std::stop_token& stop) {
-    if (is_folder(description.heights) || io::is_tile_pyramid(description.heights)) {
+    if (is_set(description)) {
         auto tiles = open_set(choice, description, stop);
         if (!tiles) {
             return tiles.error();
@@ -293,26 +295,47 @@ Result<TerrainSource> read_source(const TerrainChoice& choice, io::SceneDescript
                    : terrain.error();
 }
 
-// Heights above sea level become heights above the ellipsoid by the geoid that the user names, or
-// by the installed one where it is the terrain's own.
+bool is_egm96(const std::string& datum) {
+    return datum.find("EGM96") != std::string::npos;
+}
+
+// The geoid that the user names, or the installed one where it is the terrain's own.
+std::optional<fs::path> geoid_file(const TerrainChoice& choice, const std::string& datum) {
+    if (choice.geoid == "none") {
+        return std::nullopt;
+    }
+    if (!choice.geoid.empty()) {
+        return fs::path(choice.geoid);
+    }
+    return is_egm96(datum) ? io::installed_geoid() : std::nullopt;
+}
+
+// Heights above sea level become heights above the ellipsoid.
 Result<void> set_geoid(const TerrainChoice& choice, terrain::Terrain& terrain) {
     auto& georeference = terrain.heightfield.georeference;
-    const bool is_egm96 =
-        georeference && georeference->vertical_datum.find("EGM96") != std::string::npos;
-    std::optional<fs::path> file;
-    if (choice.geoid.empty() && is_egm96) {
-        file = io::installed_geoid();
-    } else if (!choice.geoid.empty() && choice.geoid != "none") {
-        file = choice.geoid;
-    }
-    if (!file || !georeference) {
+    if (!georeference) {
         return {};
+    }
+    const std::string& datum = georeference->vertical_datum;
+    const auto file = geoid_file(choice, datum);
+    if (!file) {
+        return {};
+    }
+    if (geo::is_ellipsoidal(datum)) {
+        refuse(fmt::format("--geoid: {} found, but the heights of {} count from the ellipsoid "
+                           "({}): none was expected",
+                           choice.geoid, terrain.name, datum));
     }
     auto geoid = io::read_geoid(*file);
     if (!geoid) {
         return geoid.error();
     }
     georeference->geoid = std::move(*geoid);
+    if (!datum.empty() && !is_egm96(datum)) {
+        terrain.notes.push_back(fmt::format("its heights count from \"{}\": taken as from the "
+                                            "geoid {}, whatever lies between",
+                                            datum, georeference->geoid->name()));
+    }
     return {};
 }
 
@@ -326,6 +349,15 @@ void tell_notes(const TerrainSource& source) {
 }
 
 } // namespace
+
+std::optional<io::GeodeticArea> area_of(const TerrainChoice& choice,
+                                        const io::SceneDescription& description) {
+    if (choice.area || description.area) {
+        return choice.area ? choice.area : description.area;
+    }
+    return io::is_tile_pyramid(description.heights) ? io::tile_pyramid_area(description.heights)
+                                                    : std::nullopt;
+}
 
 Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop,
                                    Notes notes) {
@@ -356,7 +388,7 @@ Result<TerrainSource> open_terrain(io::SceneDescription description, const Terra
     return source;
 }
 
-Result<io::TileSet> open_tiles(const TerrainChoice& choice, const std::stop_token& stop) {
+Result<HeightSource> open_heights(const TerrainChoice& choice, const std::stop_token& stop) {
     const auto description = describe(choice.terrain);
     if (!description) {
         return description.error();
@@ -366,7 +398,17 @@ Result<io::TileSet> open_tiles(const TerrainChoice& choice, const std::stop_toke
                                  "Earth",
                                  description->name)};
     }
-    return open_set(choice, *description, stop);
+    if (!is_set(*description)) {
+        if (auto fits = refuse_folder_options(choice, *description); !fits) {
+            return fits.error();
+        }
+    }
+    io::limit_block_cache((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / 2);
+    auto tiles = open_set(choice, *description, stop);
+    if (!tiles) {
+        return tiles.error();
+    }
+    return HeightSource{std::move(*tiles), choice.area ? choice.area : description->area};
 }
 
 Result<void> report_faults(const std::string& terrain, std::size_t faults) {

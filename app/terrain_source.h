@@ -41,6 +41,10 @@ struct TerrainSource {
 /// What becomes of a terrain's notes: told on stderr, or only kept in terrain::Terrain::notes.
 enum class Notes { told, kept };
 
+/// The part of a folder or a tile pyramid that is of use; absent: all.
+std::optional<io::GeodeticArea> area_of(const TerrainChoice& choice,
+                                        const io::SceneDescription& description);
+
 /// Opens what TERRAIN names, with progress on stderr. Errors name the terrain, what was found and
 /// what was expected; options that such a terrain has no use for are refused (misuse.h).
 Result<TerrainSource> open_terrain(const TerrainChoice& choice, const std::stop_token& stop,
@@ -55,8 +59,15 @@ Result<TerrainSource> open_terrain(io::SceneDescription description, const Terra
 Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
                                const TerrainChoice& choice, const std::stop_token& stop);
 
-/// The files of heights that TERRAIN names, indexed but not read; fails for generated terrains.
-Result<io::TileSet> open_tiles(const TerrainChoice& choice, const std::stop_token& stop);
+/// The files of heights that TERRAIN names, and the part of them that is of use.
+struct HeightSource {
+    io::TileSet tiles;
+    std::optional<io::GeodeticArea> area; ///< absent: all
+};
+
+/// Indexes them and reads none. Fails for generated terrains, and as open_terrain does; what is
+/// read of them later is kept within half of the memory.
+Result<HeightSource> open_heights(const TerrainChoice& choice, const std::stop_token& stop);
 
 /// What is told in the end, with exit status 1, where files of the terrain could not be read.
 Result<void> report_faults(const std::string& terrain, std::size_t faults);

@@ -57,6 +57,7 @@ public:
                 }
             }
             tell_stream_faults(scene_.scene, quiet_);
+            tell_raised_path();
             serve_requests();
             show_title();
         }
@@ -93,6 +94,14 @@ private:
         if (viewer_.wants_mouse() != mouse_captured_) {
             mouse_captured_ = viewer_.wants_mouse();
             window_.capture_mouse(mouse_captured_);
+        }
+    }
+
+    // Once, when it happens first.
+    void tell_raised_path() {
+        if (viewer_.path_raised() > 0.0 && !std::exchange(raise_told_, true) && !quiet_) {
+            tell("reljef: note: the path leads under the ground or too close to it: it is raised "
+                 "there\n");
         }
     }
 
@@ -172,6 +181,7 @@ private:
     int drawn_since_title_ = 0;
     bool has_drawn_ = false; // in this turn of the loop
     bool mouse_captured_ = false;
+    bool raise_told_ = false;
 };
 
 // The path that was named, or the flight over the terrain.
@@ -215,6 +225,9 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     auto scene = make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
     if (!scene) {
         return scene.error();
+    }
+    if (const auto note = missing_geoid(*scene, choice.terrain); note && !choice.terrain.quiet) {
+        tell(fmt::format("reljef: note: {}\n", *note));
     }
     if (auto ready = prepare_bisection(*scene, choice.terrain, interrupt.token()); !ready) {
         return ready;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/ground.h"
 #include "app/streaming.h"
 #include "engine/geo/place.h"
 #include "engine/scene/animators.h"
@@ -18,26 +19,29 @@ namespace {
 
 // Flying once across the terrain takes this long.
 constexpr double seconds_across = 20.0;
-// How far the eye stays above what is drawn: at most as high as a person's, metres.
-constexpr double clearance_in_widths = 1e-3;
-constexpr double highest_clearance = 2.0;
 // How long a first step lasts at most, seconds.
 constexpr double first_step = 1.0 / 60.0;
 // Of a path, seconds.
 constexpr double least_duration = 1e-9;
+// Metres: less is no more than rounding.
+constexpr double least_raise = 1e-3;
 
 // Metres on the way ahead over which a heading is told: the compass's own points are farther apart.
 constexpr double heading_length = 100.0;
 
 /// Degrees clockwise from true north, [0, 360), of what is up in the picture where that is farther
-/// along than what is straight ahead. Precondition: the placement is on the Earth.
-double heading_at(const terrain::Placement& placement, const scene::Camera& camera) {
+/// along than what is straight ahead; nothing where that leads off the Earth's map.
+std::optional<double> heading_at(const terrain::Placement& placement, const scene::Camera& camera) {
     const scene::ViewAxes axes = scene::view_axes(camera);
     const glm::dvec3 up = placement.up(camera.eye);
     const bool steep = std::abs(glm::dot(axes.forward, up)) > std::abs(glm::dot(axes.up, up));
     const glm::dvec3 ahead = camera.eye + heading_length * (steep ? axes.up : axes.forward);
-    const geo::Geodesic way = geo::geodesic_between(*placement.geodetic_from_world(camera.eye),
-                                                    *placement.geodetic_from_world(ahead));
+    const auto from = placement.geodetic_from_world(camera.eye);
+    const auto to = placement.geodetic_from_world(ahead);
+    if (!from || !to) {
+        return std::nullopt;
+    }
+    const geo::Geodesic way = geo::geodesic_between(*from, *to);
     return std::fmod(std::round(way.azimuth_start) + 360.0, 360.0);
 }
 
@@ -45,60 +49,12 @@ double width_of(const TerrainScene& scene) {
     return std::max(scene.bounds.size().x, scene.bounds.size().y);
 }
 
-// The highest that any triangulation of a cell and the bilinear surface have at a sample.
-double highest_at(GridView<const float> heights, glm::dvec2 sample) {
-    const int col = std::clamp(static_cast<int>(sample.x), 0, heights.cols() - 2);
-    const int row = std::clamp(static_cast<int>(sample.y), 0, heights.rows() - 2);
-    const double u = std::clamp(sample.x - col, 0.0, 1.0);
-    const double v = std::clamp(sample.y - row, 0.0, 1.0);
-    const double h00 = heights(col, row);
-    const double h10 = heights(col + 1, row);
-    const double h01 = heights(col, row + 1);
-    const double h11 = heights(col + 1, row + 1);
-    const double falling =
-        u > v ? h00 + u * (h10 - h00) + v * (h11 - h10) : h00 + v * (h01 - h00) + u * (h11 - h01);
-    const double rising = u + v < 1.0 ? h00 + u * (h10 - h00) + v * (h01 - h00)
-                                      : h11 + (1.0 - u) * (h01 - h11) + (1.0 - v) * (h10 - h11);
-    return std::max({falling, rising, terrain::bilinear_height(heights, sample)});
-}
-
-/// True metres along the place's own vertical; nothing beside the terrain.
-std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye) {
-    const Grid<float>& heights = terrain.surface->heightfield().heights;
-    const auto sample = terrain.surface->placement().sample_from_world(eye);
-    if (!sample || sample->x < 0.0 || sample->y < 0.0 || sample->x > heights.cols() - 1 ||
-        sample->y > heights.rows() - 1) {
-        return std::nullopt;
-    }
-    const auto tile =
-        terrain.stream != nullptr ? terrain.stream->finest_at(glm::dvec2(*sample)) : std::nullopt;
-    return sample->z - (tile ? terrain::bilinear_height(tile->tile->heights.view(), tile->place)
-                             : terrain::bilinear_height(heights.view(), glm::dvec2(*sample)));
-}
-
-std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y) {
-    const scene::TerrainSurface& surface = *terrain.surface;
-    const auto height = scene::height_at(terrain, x, y);
-    const auto sample =
-        height ? surface.placement().sample_from_world({x, y, *height}) : std::nullopt;
-    if (!sample) {
-        return std::nullopt;
-    }
-    const auto tile =
-        terrain.stream != nullptr ? terrain.stream->finest_at(glm::dvec2(*sample)) : std::nullopt;
-    const double highest =
-        tile ? highest_at(tile->tile->heights.view(), tile->place)
-             : highest_at(surface.heightfield().heights.view(), glm::dvec2(*sample));
-    const double z = surface.placement().world_from_sample({sample->x, sample->y, highest}).z;
-    return scene::GroundAt{*height, std::max(*height, z)};
-}
-
 scene::FreeFlight make_flight(const TerrainScene& scene, const scene::Camera& start) {
     const scene::TerrainNode& terrain = *scene.terrain->get<scene::TerrainNode>();
     const auto surface = terrain.surface;
     scene::FreeFlightOptions options;
     options.speed = width_of(scene) / seconds_across;
-    options.clearance = std::min(highest_clearance, clearance_in_widths * width_of(scene));
+    options.clearance = least_clearance(scene);
     options.ground = [terrain](double x, double y) { return ground_at(terrain, x, y); };
     options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
     options.north = [surface](glm::dvec3 world) { return surface->placement().north(world); };
@@ -135,9 +91,24 @@ std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
 }
 
 std::string length_text(double metres) {
-    return metres < 10.0      ? fmt::format("{:.2f} m", metres)
+    return metres < 0.1       ? fmt::format("{:.2g} mm", 1000.0 * metres)
+           : metres < 10.0    ? fmt::format("{:.2f} m", metres)
            : metres < 10000.0 ? fmt::format("{:.0f} m", metres)
                               : fmt::format("{:.1f} km", metres / 1000.0);
+}
+
+std::string place_on_earth(const scene::TerrainSurface& surface, const scene::Camera& camera) {
+    if (!surface.heightfield().georeference) {
+        return {};
+    }
+    const auto place = surface.placement().geodetic_from_world(camera.eye);
+    if (!place) {
+        return " - beside the map of the Earth";
+    }
+    const auto heading = heading_at(surface.placement(), camera);
+    return fmt::format(" - {} above sea - {:.5f}, {:.5f} - {}{}", length_text(place->height),
+                       place->latitude, place->longitude, geo::mgrs_text(*place),
+                       heading ? fmt::format(" - heading {:.0f}\u00b0", *heading) : "");
 }
 
 } // namespace
@@ -272,8 +243,12 @@ void Viewer::advance(double seconds) {
 
 void Viewer::advance_path(double seconds) {
     path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), least_duration));
-    flight_.set_camera(scene::at_key(camera(), path_.at(path_.begin() + path_time_)));
+    const scene::Camera asked_for = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
+    flight_.set_camera(asked_for);
     const scene::Camera next = flight_.camera();
+    if (const double raised = glm::distance(asked_for.eye, next.eye); raised > least_raise) {
+        path_raised_ = std::max(path_raised_, raised);
+    }
     if (next.eye != camera().eye || next.look != camera().look) {
         show_camera(next);
     }
@@ -400,10 +375,9 @@ std::string Viewer::place() const {
     } else {
         text = "beside the terrain";
     }
-    if (const auto place = surface.placement().geodetic_from_world(eye)) {
-        text += fmt::format(" - {} above sea - {:.5f}, {:.5f} - {} - heading {:.0f}\u00b0",
-                            length_text(place->height), place->latitude, place->longitude,
-                            geo::mgrs_text(*place), heading_at(surface.placement(), camera()));
+    text += place_on_earth(surface, camera());
+    if (const auto scale = metres_per_pixel(terrain, camera(), size_.y)) {
+        text += fmt::format(" - {} a pixel", length_text(*scale));
     }
     return text + fmt::format(" - speed {}/s", length_text(flight_.speed()));
 }

@@ -57,6 +57,8 @@ public:
     [[nodiscard]] bool wants_to_close() const { return close_; }
     [[nodiscard]] bool wants_mouse() const { return mouse_look_; }
     [[nodiscard]] bool is_playing() const { return playing_; }
+    /// By how many metres the path was kept above the ground at most, so far.
+    [[nodiscard]] double path_raised() const { return path_raised_; }
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
 
     /// Name, technique, frame rate, triangles and where the eye is, for the window's title.
@@ -95,6 +97,7 @@ private:
     scene::FreeFlight flight_;
     std::optional<ViewerMap> map_; // while it is shown
     double path_time_ = 0.0;
+    double path_raised_ = 0.0;
     scene::Camera before_;   // the last step
     double last_step_ = 0.0; // seconds
     bool playing_ = false;

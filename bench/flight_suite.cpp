@@ -47,7 +47,7 @@ Result<void> fly(app::TerrainScene& scene, const scene::FlyPath& path, app::Devi
     const int count = results.options.view.frames;
     app::ProgressLine line("flying", results.options.terrain.quiet);
     for (int index = 0; index < count && !stop.stop_requested(); ++index) {
-        app::fly_to(scene, path, index, count);
+        static_cast<void>(app::fly_above_ground(scene, path, index, count, frames, stop));
         ParallelOptions parallel;
         parallel.stop = stop;
         if (const auto drawn = frames.draw(scene.scene, parallel); !drawn) {

@@ -12,6 +12,10 @@
 
 namespace reljef::geo {
 
+bool is_ellipsoidal(std::string_view vertical_datum) {
+    return vertical_datum.find("llipsoid") != std::string_view::npos;
+}
+
 LocalFrame::LocalFrame(Geodetic origin)
     : origin_(origin), center_(geocentric_from_geodetic(origin)) {
     std::vector<double> rotation(9); // row by row; its columns are east, north and up

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -93,10 +94,14 @@ struct Georeference {
     std::string wkt;             ///< the whole definition
     PixelAffine crs_from_pixel;  ///< in the CRS's own horizontal units
     std::string horizontal_unit; ///< "metre", "degree", "US survey foot", …
-    std::string vertical_datum;  ///< "EGM96 height", …, or empty where unknown
+    std::string vertical_datum;  ///< "EGM96 height", "ellipsoidal height", …; empty: unknown
     GeodeticMap geodetic;        ///< WGS 84
     std::optional<Geoid> geoid;  ///< from which heights count; absent: they are taken as they are
 };
+
+/// Whether heights that count from a vertical datum of this name are heights above the ellipsoid:
+/// no geoid lies between.
+bool is_ellipsoidal(std::string_view vertical_datum);
 
 /// A local east-north-up frame tangent to WGS 84. There and back again is within 1e-8 m near the
 /// origin (what degrees in double can tell).

@@ -259,6 +259,9 @@ std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset) {
 
 std::string vertical_datum_of(GDALDataset& dataset) {
     const OGRSpatialReference* crs = dataset.GetSpatialRef();
+    if (crs != nullptr && crs->GetAxesCount() == 3 && crs->IsCompound() == 0) {
+        return "ellipsoidal height"; // as EPSG:4979 has it
+    }
     if (crs != nullptr && crs->IsVertical() != 0) {
         const char* name = crs->GetAttrValue("VERT_CS");
         return name != nullptr ? name : "";

@@ -42,7 +42,8 @@ public:
     /// Without a georeference y.
     [[nodiscard]] glm::dvec3 north(glm::dvec3 world) const;
 
-    /// WGS 84, with the height in true metres; nothing without a georeference.
+    /// WGS 84, with the height in true metres; nothing without a georeference, and on a plane
+    /// beside the map, where a latitude would be beyond the poles or no number.
     [[nodiscard]] std::optional<geo::Geodetic> geodetic_from_world(glm::dvec3 world) const;
     [[nodiscard]] std::optional<glm::dvec3> world_from_geodetic(geo::Geodetic position) const;
 

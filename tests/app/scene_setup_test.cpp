@@ -2,6 +2,7 @@
 // and up.
 #include "app/scene_setup.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/geo/place.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::app {
@@ -20,12 +22,12 @@ const std::string wgs84_prj =
 
 class GeodeticCamera : public testing::Test {
 protected:
-    /// Level ground, 20° around (50, 10).
-    [[nodiscard]] TerrainScene scene_of(const ViewChoice& view,
-                                        terrain::PlacementKind placement) const {
+    /// Ground 20° around (50, 10), level but for a peak in the middle.
+    [[nodiscard]] TerrainScene scene_of(const ViewChoice& view, terrain::PlacementKind placement,
+                                        int ground = 100, int peak = 100) const {
         std::string text = "ncols 41\nnrows 41\nxllcenter -10\nyllcenter 30\ncellsize 1\n";
         for (int i = 0; i < 41 * 41; ++i) {
-            text += "100 ";
+            text += fmt::format("{} ", i == 20 * 41 + 20 ? peak : ground);
         }
         folder_.write("ground.prj", wgs84_prj);
         TerrainChoice choice;
@@ -140,6 +142,92 @@ TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
     const scene::ViewAxes axes = scene::view_axes(camera);
     EXPECT_LT(glm::distance(axes.forward, glm::normalize(target - camera.eye)), right_angle);
     EXPECT_LT(std::abs(glm::dot(axes.right, placement_of(scene).up(camera.eye))), right_angle);
+}
+
+class Flight : public GeodeticCamera {
+protected:
+    /// Where the frames of a path file see from.
+    std::vector<geo::Geodetic> eyes_of(const std::string& name, const std::string& text, int frames,
+                                       int ground, int peak) {
+        ViewChoice view;
+        view.path = folder_.write(name, text).string();
+        auto scene = scene_of(view, terrain::PlacementKind::ellipsoid, ground, peak);
+        const auto path = open_path(scene, view);
+        EXPECT_TRUE(path) << (path ? "" : path.error().message);
+        std::vector<geo::Geodetic> eyes;
+        for (int i = 0; i < frames; ++i) {
+            raised_.push_back(fly_to(scene, **path, i, frames));
+            const glm::dvec3 eye = scene.camera->get<scene::Camera>()->eye;
+            eyes.push_back(*placement_of(scene).geodetic_from_world(eye));
+        }
+        return eyes;
+    }
+    std::vector<double> raised_;
+};
+
+// A chord of 1,400 km is 39 km lower than its arc.
+TEST_F(Flight, GoesAlongTheGeodesicBetweenKeysAtTheirHeights) {
+    const geo::Geodetic west{48.0, 0.0, 1500.0};
+    const geo::Geodetic east{52.0, 20.0, 1500.0};
+    const geo::Geodesic whole = geo::geodesic_between(west, east);
+    for (const geo::Geodetic& eye : eyes_of(
+             "line.geojson", R"({"type":"LineString","coordinates":[[0,48,1500],[20,52,1500]]})",
+             98, 100, 100)) {
+        EXPECT_NEAR(eye.height, 1500.0, 1.0) << eye.longitude;
+        const geo::Geodesic done = geo::geodesic_between(west, eye);
+        const geo::Geodetic wanted = geo::geodesic_end(west, whole.azimuth_start, done.distance);
+        EXPECT_LT(geo::geodesic_between(wanted, eye).distance, 1.0) << eye.longitude;
+    }
+    EXPECT_EQ(std::count(raised_.begin(), raised_.end(), 0.0), 98);
+}
+
+TEST_F(Flight, LooksAlongItsWayAllTheTime) {
+    ViewChoice view;
+    view.path = folder_
+                    .write("line.geojson",
+                           R"({"type":"LineString","coordinates":[[0,48,1500],[20,52,1500]]})")
+                    .string();
+    auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
+    const auto path = open_path(scene, view);
+    ASSERT_TRUE(path) << path.error().message;
+    for (int i = 0; i < 30; ++i) {
+        fly_to(scene, **path, i, 30);
+        const auto& camera = *scene.camera->get<scene::Camera>();
+        const glm::dvec3 forward = scene::view_axes(camera).forward;
+        EXPECT_NEAR(glm::dot(forward, placement_of(scene).up(camera.eye)), 0.0, 1e-3) << i;
+        if (i < 29) {
+            const scene::FlyKey next = (*path)->at((i + 1) / 29.0 * (*path)->duration());
+            EXPECT_GT(glm::dot(forward, glm::normalize(next.eye - camera.eye)), 0.999) << i;
+        }
+    }
+}
+
+// The line leads through the mountain between its two keys.
+TEST_F(Flight, IsRaisedOverTheGroundWhereItWouldGoThroughIt) {
+    const auto eyes =
+        eyes_of("line.geojson", R"({"type":"LineString","coordinates":[[5,50,1500],[15,50,1500]]})",
+                51, 100, 8000);
+    int raised = 0;
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        EXPECT_GT(eyes[i].height, 1499.0);
+        raised += raised_[i] > 0.0 ? 1 : 0;
+        EXPECT_NEAR(eyes[i].height - raised_[i], 1500.0, 1.0) << i;
+    }
+    EXPECT_GT(raised, 4);
+    EXPECT_LT(raised, 30) << "what was above the ground stays";
+}
+
+TEST_F(Flight, MayGoAMetreAboveTheGround) {
+    const auto path_at = [](double height) {
+        return fmt::format("[[key]]\ntime = 0\nlatitude = 55\nlongitude = 12\nheight = {}\n",
+                           height);
+    };
+    EXPECT_NEAR(eyes_of("a.toml", path_at(514.0), 1, 512, 512)[0].height, 514.0, 1e-6);
+    EXPECT_NEAR(eyes_of("b.toml", path_at(513.0), 1, 512, 512)[0].height, 513.0, 1e-6);
+    EXPECT_NEAR(eyes_of("c.toml", path_at(400.0), 1, 512, 512)[0].height, 512.5, 1e-6);
+    EXPECT_EQ(raised_[0], 0.0);
+    EXPECT_EQ(raised_[1], 0.0);
+    EXPECT_NEAR(raised_[2], 112.5, 1e-6);
 }
 
 } // namespace

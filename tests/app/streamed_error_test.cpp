@@ -82,9 +82,10 @@ std::vector<double> errors_of(const TerrainScene& scene, const HitBuffer& hits,
 // the rest is the tile's, whose vertices are averages, and an estimate. So the limit that holds of
 // all pixels is that of the mean and of 99 of 100, and the most is only told.
 TEST_P(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
-    const auto tiles = open_tiles(choice_, {});
-    ASSERT_TRUE(tiles) << tiles.error().message;
-    const Grid<double> heights = tiles->read(tiles->grid(), io::Gaps::holes).heights;
+    const auto source = open_heights(choice_, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const io::TileSet& tiles = source->tiles;
+    const Grid<double> heights = tiles.read(tiles.grid(), io::Gaps::holes).heights;
     DeviceOptions options;
     options.context = platform::ContextKind::osmesa;
     options.context_options = {.size = picture, .visible = false};

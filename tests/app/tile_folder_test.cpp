@@ -1,6 +1,7 @@
 // A folder of tiles in the program: info, height, render, and what it does about broken ones.
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -103,6 +104,63 @@ TEST_F(TileFolder, a_broken_tile_is_left_out_told_and_shows_in_the_exit_status) 
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
 }
 
+// Of a file that could be the one that has the place.
+TEST_F(TileFolder, height_and_info_tell_files_that_cannot_be_used) {
+    folder_.write("tiles/N45E006.hgt", "");
+    const auto told = [&](std::vector<std::string> arguments, const std::string& out) {
+        const auto result = test::reljef(arguments, options_);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_THAT(result.out, HasSubstr(out));
+        EXPECT_THAT(result.err, HasSubstr("1 of the files asked for could not be read"));
+        return result.err;
+    };
+    const std::string points = folder_.write("points.csv", "45.5,6.5\n40.08,10.01\n").string();
+    EXPECT_THAT(
+        told({"height", path("tiles"), "--points", points}, "45.5,6.5,nan\n40.08,10.01,1.000000\n"),
+        HasSubstr("left out: "));
+    EXPECT_THAT(told({"height", path("tiles"), "--at", "40.08,10.01"}, "1.000000"),
+                HasSubstr("N45E006.hgt: is empty"));
+    told({"info", path("tiles"), "--json"}, "N45E006.hgt: is empty");
+    test::expect_refusal(run({"height", path("tiles"), "--at", "45.5,6.5"}), 1,
+                         {"45.5,6.5", "1 of its files could not be read", "N45E006.hgt"});
+}
+
+TEST_F(TileFolder, height_keeps_to_the_area_and_takes_no_options_of_pictures) {
+    const auto height = [&](const std::string& option, const std::string& value) {
+        return run({"height", path("tiles"), "--at", "40.08,10.01", option, value});
+    };
+    EXPECT_EQ(height("--area", "40.07,-350,40.08,-349.98").out, "40.08,10.01,1.000000\n");
+    test::expect_refusal(height("--area", "40,10,40.05,10.02"), 1,
+                         {"40.08,10.01 found", "in its area"});
+    test::expect_refusal(height("--geoid", "none"), 2, {"--geoid"});
+}
+
+// 201 samples a side, of which 1 MB holds every second.
+TEST_F(TileFolder, info_tells_the_whole_where_memory_holds_averages) {
+    std::string text = "ncols 201\nnrows 201\nxllcenter 10\nyllcenter 40\ncellsize 0.001\n";
+    for (int i = 0; i < 201 * 201; ++i) {
+        text += "5 ";
+    }
+    const std::string projection = test::read_bytes(path("tiles/west.prj"));
+    for (const char* name : {"one/dem.asc", "one"}) {
+        folder_.write("one/dem.asc", text);
+        folder_.write("one/dem.prj", projection);
+        const auto result = run({"info", path(name), "--memory", "1", "--json"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const auto info = nlohmann::json::parse(result.out);
+        EXPECT_EQ(info["cols"], 201) << name;
+        EXPECT_EQ(info["rows"], 201);
+        EXPECT_EQ(info["read"]["cols"], 100);
+        EXPECT_EQ(info["read"]["reduction"], 2);
+        EXPECT_NEAR(info["extent"]["south"], 40.0, 1e-9);
+        EXPECT_NEAR(info["extent"]["north"], 40.2, 1e-9);
+        EXPECT_NEAR(info["extent"]["west"], 10.0, 1e-9);
+        EXPECT_NEAR(info["extent"]["east"], 10.2, 1e-9);
+        EXPECT_NEAR(info["extent"]["height_m"].get<double>() / 200,
+                    info["spacing"]["y_m"].get<double>(), 1e-6);
+    }
+}
+
 TEST_F(TileFolder, area_and_gaps_are_for_folders) {
     const auto part = run({"info", path("tiles"), "--json", "--area", "40.02,10.03,40.05,10.06"});
     ASSERT_EQ(part.exit_code, 0) << part.err;
@@ -149,7 +207,7 @@ TEST_F(TileFolder, a_track_is_flown_over_it) {
                              path("f%d.png"), "--size", "64x48", "--context", "osmesa"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(test::read_bytes(path("f0.png")), test::read_bytes(path("f1.png")));
-    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.err, "") << "nothing was raised";
     const auto told = test::reljef({"render", path("tiles"), "--path", track, "-o", path("f.png"),
                                     "--size", "64x48", "--context", "osmesa"},
                                    options_);
@@ -158,6 +216,23 @@ TEST_F(TileFolder, a_track_is_flown_over_it) {
     test::expect_refusal(
         run({"render", path("tiles"), "--path", empty, "-o", path("x.png"), "--context", "osmesa"}),
         1, {"empty.gpx"});
+}
+
+TEST_F(TileFolder, frames_that_are_raised_over_the_ground_are_told_once) {
+    const std::string track =
+        folder_
+            .write("track.geojson", "{\"type\":\"LineString\",\"coordinates\":[[10.02,40.02,-50],"
+                                    "[10.06,40.06,-50],[10.12,40.06,500]]}")
+            .string();
+    const auto result =
+        test::reljef({"render", path("tiles"), "--path", track, "--frames", "5", "-o",
+                      path("f%d.png"), "--size", "64x48", "--context", "osmesa"},
+                     options_);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto first = result.err.find("of 5 frames would be under the ground");
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("of 5 frames", first + 1), std::string::npos);
+    EXPECT_THAT(result.err, HasSubstr("raised by up to 5"));
 }
 
 } // namespace

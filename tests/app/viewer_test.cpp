@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <random>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -200,6 +201,24 @@ TEST_F(ViewerTest, PathBeginsAgainAtItsEnd) {
     const glm::dvec3 before = camera().eye;
     viewer.advance(10.0);
     EXPECT_LT(glm::distance(camera().eye, before), 1e-6);
+}
+
+TEST_F(ViewerTest, PathUnderTheGroundIsRaisedAndThatIsKnown) {
+    press(Key::p);
+    for (int i = 0; i < 50; ++i) {
+        viewer.advance(0.2);
+    }
+    EXPECT_EQ(viewer.path_raised(), 0.0) << "around the terrain, and above it";
+    TerrainScene fresh = hill_scene();
+    auto below = scene::FlyPath::create(
+        {{0.0, {-100, -90, 40}, {0, 0, 0}}, {1.0, {100, -90, -20}, {0, 0, 0}}});
+    Viewer raised{fresh, std::move(*below), {400, 300}};
+    raised.toggle_path();
+    for (int i = 0; i < 9; ++i) {
+        raised.advance(0.1);
+        EXPECT_GT(fresh.camera->get<scene::Camera>()->eye.z, 10.0);
+    }
+    EXPECT_GT(raised.path_raised(), 10.0);
 }
 
 TEST_F(ViewerTest, SteeringTakesOverFromThePath) {
@@ -460,6 +479,50 @@ TEST(ViewerOnEarth, TitleTellsHeightsAlongThePlacesOwnVertical) {
         Viewer(over, scene::orbit_path(over.bounds), {400, 300}).title({}, {});
     EXPECT_THAT(title, HasSubstr("500 m above ground - 1500 m above sea"));
     EXPECT_THAT(title, HasSubstr("heading 250\u00b0"));
+}
+
+// As relief techniques draw a DEM of the whole Earth: the first view is from beside it.
+TEST(ViewerOnEarth, TitleSaysThatTheEyeIsBesideAMapOfTheWholeEarth) {
+    TerrainSource source;
+    source.terrain.name = "globe";
+    source.terrain.heightfield =
+        test::geographic_heightfield(Grid<float>(37, 19, 1000.0F), 90.0, -180.0, 10.0);
+    TerrainChoice choice;
+    choice.placement = terrain::PlacementKind::plane;
+    TerrainScene globe = make_scene(std::move(source), choice, {}).value();
+    Viewer viewer(globe, scene::orbit_path(globe.bounds), {400, 300});
+    EXPECT_THAT(viewer.title({}, {}), HasSubstr("beside the map of the Earth"));
+    // Just south of the north pole, with what is ahead beyond it.
+    auto& camera = *globe.camera->get<scene::Camera>();
+    const auto& placement = globe.terrain->get<scene::TerrainNode>()->surface->placement();
+    camera.eye = *placement.world_from_geodetic({89.9999, 0.0, 5000.0});
+    camera.look = camera.eye + glm::dvec3(0.0, 1.0, 0.0);
+    EXPECT_THAT(viewer.title({}, {}), HasSubstr("89.99990, 0.00000"));
+    EXPECT_THAT(viewer.title({}, {}), Not(HasSubstr("heading")));
+}
+
+TEST(Viewer, TitleTellsTheScaleAtTheMiddleOfThePicture) {
+    ViewChoice down;
+    down.eye = glm::dvec3(0.0, -80.0, 160.0);
+    down.look = glm::dvec3(0.0, -79.999, 10.0);
+    down.vertical_fov = 90.0;
+    TerrainScene over = hill_scene(down);
+    // 150 m over the ground a picture of 90 degrees is 300 m high.
+    EXPECT_THAT(Viewer(over, scene::orbit_path(over.bounds), {400, 300}).title({}, {}),
+                HasSubstr("1.00 m a pixel"));
+    EXPECT_THAT(Viewer(over, scene::orbit_path(over.bounds), {400, 600}).title({}, {}),
+                HasSubstr("0.50 m a pixel"));
+    ViewChoice up = down;
+    up.look = glm::dvec3(0.0, 0.0, 1000.0);
+    TerrainScene sky = hill_scene(up);
+    EXPECT_THAT(Viewer(sky, scene::orbit_path(sky.bounds), {400, 300}).title({}, {}),
+                Not(HasSubstr("a pixel")));
+    ViewChoice map;
+    map.projection = scene::ProjectionKind::orthographic;
+    TerrainScene flat = hill_scene(map);
+    const double high = flat.camera->get<scene::Camera>()->view_height;
+    EXPECT_THAT(Viewer(flat, scene::orbit_path(flat.bounds), {400, 300}).title({}, {}),
+                HasSubstr(fmt::format("{:.2f} m a pixel", high / 300.0)));
 }
 
 TEST(Viewer, HelpNamesEveryKeyOnce) {

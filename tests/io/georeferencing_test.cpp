@@ -213,6 +213,16 @@ TEST_F(Georeferencing, TheVerticalAxisOfACompoundCrsCounts) {
     EXPECT_EQ(heightfield.georeference->crs_code, "EPSG:26710");
 }
 
+TEST_F(Georeferencing, HeightsOfACrsWithThreeAxesAreAboveTheEllipsoid) {
+    const std::array<double, 6> corner{10.0, 0.01, 0.0, 50.0, 0.0, -0.01};
+    const auto datum = [&](const char* crs) {
+        return read(ramp(), crs, corner).heightfield.georeference->vertical_datum;
+    };
+    EXPECT_TRUE(geo::is_ellipsoidal(datum("EPSG:4979")));
+    EXPECT_FALSE(geo::is_ellipsoidal(datum("EPSG:4326+3855")));
+    EXPECT_FALSE(geo::is_ellipsoidal(datum("EPSG:4326")));
+}
+
 TEST_F(Georeferencing, SouthUpRastersAreTurned) {
     const auto heightfield =
         read(ramp(), "EPSG:32631", {500000.0, 10.0, 0.0, 5100000.0, 0.0, 10.0}).heightfield;

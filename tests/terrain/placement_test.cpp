@@ -48,6 +48,22 @@ TEST(Placement, PlaneIsTheConventionsFormula) {
     EXPECT_FALSE(placement->world_from_geodetic({45.0, 6.0, 0.0}));
 }
 
+// A map of the whole Earth: beyond its upper and lower edge there is no latitude.
+TEST(Placement, PlaneHasNoPlaceOnEarthBesideTheMap) {
+    const Heightfield earth =
+        test::geographic_heightfield(Grid<float>(37, 19, 0.0F), 90.0, -180.0, 10.0);
+    const auto placement = Placement::create(earth, PlacementKind::plane);
+    ASSERT_TRUE(placement);
+    const double edge = 9.0 * earth.spacing.y;
+    const auto pole = placement->geodetic_from_world({0.0, -0.999 * edge, 5.0});
+    ASSERT_TRUE(pole);
+    EXPECT_NEAR(pole->latitude, -89.91, 1e-9);
+    for (const double y : {-1.001 * edge, 1.001 * edge, 1e3 * edge, HUGE_VAL}) {
+        EXPECT_FALSE(placement->geodetic_from_world({0.0, y, 5.0})) << y;
+        EXPECT_EQ(placement->north({0.0, y, 5.0}), glm::dvec3(0.0, 1.0, 0.0));
+    }
+}
+
 TEST(Placement, PlaneComesBack) {
     const auto placement =
         Placement::create(nowhere(513, 257, {0.6096, 30.0}), PlacementKind::plane, 3.0);
