@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,9 +25,25 @@ struct InfoChoice {
     bool json = false;
 };
 
+// The first and the last sample that the source itself has: without those that close the globe.
+std::pair<glm::dvec2, glm::dvec2> source_samples(const terrain::Heightfield& heightfield) {
+    const geo::Closing closing = heightfield.georeference
+                                     ? heightfield.georeference->geodetic.rows().closing()
+                                     : geo::Closing{};
+    const glm::ivec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    return {glm::dvec2(0, closing.north_rows()),
+            glm::dvec2(last - glm::ivec2(closing.cols(), closing.south_rows()))};
+}
+
+glm::ivec2 source_size(const terrain::Heightfield& heightfield) {
+    const auto [first, last] = source_samples(heightfield);
+    return glm::ivec2(last - first) + 1;
+}
+
 Json extent_of(const terrain::Heightfield& heightfield) {
-    const double cols = heightfield.heights.cols() - 1;
-    const double rows = heightfield.heights.rows() - 1;
+    const auto [first, last] = source_samples(heightfield);
+    const double cols = last.x - first.x;
+    const double rows = last.y - first.y;
     Json extent{{"width_m", cols * heightfield.spacing.x},
                 {"height_m", rows * heightfield.spacing.y}};
     if (!heightfield.georeference) {
@@ -41,7 +58,8 @@ Json extent_of(const terrain::Heightfield& heightfield) {
         const double t = static_cast<double>(i) / steps;
         for (const glm::dvec2 sample : {glm::dvec2(t * cols, 0.0), glm::dvec2(t * cols, rows),
                                         glm::dvec2(0.0, t * rows), glm::dvec2(cols, t * rows)}) {
-            const auto place = heightfield.georeference->geodetic.latitude_longitude(sample);
+            const auto place =
+                heightfield.georeference->geodetic.latitude_longitude(sample + first);
             south = std::min(south, place.x);
             north = std::max(north, place.x);
             west = std::min(west, place.y);
@@ -105,8 +123,8 @@ Json tiles_info(const io::TileSet& tiles, const std::optional<io::GeodeticArea>&
     const int reduction = reduction_of(tiles, heightfield);
     return {{"format", "tiles"},
             {"type", fmt::format("{}", fmt::join(types, ", "))},
-            {"cols", heightfield.heights.cols() * reduction},
-            {"rows", heightfield.heights.rows() * reduction},
+            {"cols", source_size(heightfield).x * reduction},
+            {"rows", source_size(heightfield).y * reduction},
             {"files", count},
             {"formats", std::move(formats)},
             {"finest_spacing_m", finest}};
@@ -117,7 +135,7 @@ Json geoid_info(const geo::Georeference& georeference) {
 }
 
 int reduction_of(const terrain::Heightfield& heightfield, const Json& cols) {
-    return std::max(1, cols.get<int>() / heightfield.heights.cols());
+    return std::max(1, cols.get<int>() / source_size(heightfield).x);
 }
 
 Json describe(const TerrainSource& source, const TerrainChoice& choice) {
@@ -128,8 +146,9 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
                                                              : Json();
     Json info;
     info["name"] = source.terrain.name;
-    info["cols"] = file.is_null() ? Json(heightfield.heights.cols()) : file["cols"];
-    info["rows"] = file.is_null() ? Json(heightfield.heights.rows()) : file["rows"];
+    const glm::ivec2 size = source_size(heightfield);
+    info["cols"] = file.is_null() ? Json(size.x) : file["cols"];
+    info["rows"] = file.is_null() ? Json(size.y) : file["rows"];
     info["type"] = file.is_null() ? Json("Float32") : file["type"];
     info["format"] = file.is_null() ? Json("generated") : file["format"];
     if (const auto& georeference = heightfield.georeference) {
@@ -147,8 +166,8 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
                          {"finest_spacing_m", file["finest_spacing_m"]}};
     }
     // What was read within the memory is all or a whole-number part of the file.
-    info["read"] = {{"cols", heightfield.heights.cols()},
-                    {"rows", heightfield.heights.rows()},
+    info["read"] = {{"cols", size.x},
+                    {"rows", size.y},
                     {"reduction", reduction_of(heightfield, info["cols"])}};
     const glm::dvec2 spacing = heightfield.spacing / info["read"]["reduction"].get<double>();
     info["spacing"] = {{"x_m", spacing.x}, {"y_m", spacing.y}};
