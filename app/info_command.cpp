@@ -166,9 +166,8 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
                          {"finest_spacing_m", file["finest_spacing_m"]}};
     }
     // What was read within the memory is all or a whole-number part of the file.
-    info["read"] = {{"cols", size.x},
-                    {"rows", size.y},
-                    {"reduction", reduction_of(heightfield, info["cols"])}};
+    info["read"] = {
+        {"cols", size.x}, {"rows", size.y}, {"reduction", reduction_of(heightfield, info["cols"])}};
     const glm::dvec2 spacing = heightfield.spacing / info["read"]["reduction"].get<double>();
     info["spacing"] = {{"x_m", spacing.x}, {"y_m", spacing.y}};
     info["extent"] = extent_of(heightfield);

@@ -83,8 +83,7 @@ void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
     io::ImageryWindow window =
         images.read(io::picture_grid(grid, tile, cells, maker.picture_size(tile)),
                     maker.texel(tile.level), stop);
-    io::close_picture(window.texels, maker.rows(), maker.first(tile).y,
-                      cells.y * maker.step(tile));
+    io::close_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
     reading.picture = {std::move(window.texels), window.whole, window.has_more};
     for (const io::TileFault& fault : window.faults) {
         reading.picture_faults.push_back({fault.file.string(), fault.message});
@@ -116,8 +115,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     }
     return_freed_blocks();
     const scene::ImageryDetail imagery = source.stream->imagery;
-    const io::ClosedGrid ground =
-        ground_of(*source.tiles, *source.stream, overview->heightfield());
+    const io::ClosedGrid ground = ground_of(*source.tiles, *source.stream, overview->heightfield());
     const terrain::TileTree tree(ground.grid.cols, ground.grid.rows);
     scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
                            ground.closing);

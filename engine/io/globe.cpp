@@ -82,8 +82,8 @@ int samples_around(const OGRSpatialReference& crs, const geo::PixelAffine& affin
     }
     const double samples = whole_turn(crs) / std::abs(affine.x_col);
     const double whole = std::round(samples);
-    const bool closes = whole >= least_around && whole < 1e9 &&
-                        std::abs(samples - whole) <= same_place;
+    const bool closes =
+        whole >= least_around && whole < 1e9 && std::abs(samples - whole) <= same_place;
     return closes ? static_cast<int>(whole) : 0;
 }
 

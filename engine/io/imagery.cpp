@@ -200,8 +200,12 @@ Dataset target_of(Image& image, const SampleGrid& grid, const Meeting& meeting, 
     const geo::PixelAffine& from = meeting.from_heights;
     const glm::dvec2 step = grid.step * q;
     const glm::dvec2 corner = from.crs_from_pixel(grid.pixel_from_sample(-0.5 * q));
-    std::array<double, 6> t{corner.x - units_of(turn, meeting), from.x_col * step.x, from.x_row * step.y,
-                            corner.y, from.y_col * step.x, from.y_row * step.y};
+    std::array<double, 6> t{corner.x - units_of(turn, meeting),
+                            from.x_col * step.x,
+                            from.x_row * step.y,
+                            corner.y,
+                            from.y_col * step.x,
+                            from.y_row * step.y};
     target->SetGeoTransform(t.data());
     if (meeting.crs) {
         target->SetSpatialRef(&*meeting.crs);
@@ -424,9 +428,8 @@ void note_stretching(std::span<const KnownPicture> pictures, GDALDataset& height
 
 } // namespace
 
-Result<Image> read_imagery(GDALDataset& heights, const Place& place,
-                           const RasterOptions& options, std::vector<std::string>& notes,
-                           std::vector<std::string>& faults) {
+Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
+                           std::vector<std::string>& notes, std::vector<std::string>& faults) {
     const SampleGrid grid = closed(place.grid, place.closing);
     std::vector<std::string> wrong;
     const ImageFiles files =

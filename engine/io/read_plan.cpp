@@ -76,8 +76,9 @@ std::optional<int> smallest_reduction(const Window& window, std::size_t budget, 
         if (window.cols / k < 2 || window.rows / k < 2) {
             break;
         }
-        if (around % k == 0 && static_cast<std::size_t>(window.cols / k) * static_cast<std::size_t>(window.rows / k) <=
-            samples) {
+        if (around % k == 0 &&
+            static_cast<std::size_t>(window.cols / k) * static_cast<std::size_t>(window.rows / k) <=
+                samples) {
             return k;
         }
     }

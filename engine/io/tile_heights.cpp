@@ -175,8 +175,8 @@ Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
     }
     Poles poles;
     if (any_north || any_south) {
-        poles.closing = closing_of(crs_from_text(layer.crs), layer.crs_from_lattice, layer.cols,
-                                   layer.rows);
+        poles.closing =
+            closing_of(crs_from_text(layer.crs), layer.crs_from_lattice, layer.cols, layer.rows);
     }
     if (any_north && poles.closing.north > 0.0) {
         poles.north = mean_of_row(layer, 0, reading, faults);
@@ -333,8 +333,7 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
     std::mutex mutex;
     const auto answer_block = [&](int number) {
         std::vector<TileFault> faults;
-        BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach,
-                             poles);
+        BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach, poles);
         heights.find(reading, faults, [&](int index, HeightAnswer answer) {
             const auto place = static_cast<std::size_t>(wanted[static_cast<std::size_t>(index)]);
             result.answers[place] = answer;

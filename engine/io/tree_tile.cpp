@@ -119,7 +119,8 @@ TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
     if (ground.closing.north > 0.0 && first.y == 0) {
         const PolarCap cap(tiles, part, grid.first.y + refinement * grid.step.y,
                            ground.north_height, gaps, stop);
-        close_pole(cap, [&](int row) { return (row - 1) * step / refinement; }, window);
+        close_pole(
+            cap, [&](int row) { return (row - 1) * step / refinement; }, window);
     }
     if (ground.closing.south > 0.0 && first.y + end.y * step >= last.y) {
         const PolarCap cap(tiles, part, grid.first.y + (last.y - refinement) * grid.step.y,

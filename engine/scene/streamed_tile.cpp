@@ -327,7 +327,8 @@ Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {
         return tint;
     }
     const Grid<float>& samples = overview_->heightfield().heights;
-    const glm::dvec2 share = around_overview(overview_sample) / glm::dvec2(samples.cols() - 1, samples.rows() - 1);
+    const glm::dvec2 share =
+        around_overview(overview_sample) / glm::dvec2(samples.cols() - 1, samples.rows() - 1);
     const glm::dvec2 texel = glm::clamp(share, glm::dvec2(0.0), glm::dvec2(1.0)) *
                              glm::dvec2(picture.cols() - 1, picture.rows() - 1);
     const Rgba8 nearest =
@@ -377,6 +378,20 @@ StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights,
     return made;
 }
 
+namespace {
+
+// Metres along a tile: on wider ones the ground bends by more than a degree.
+constexpr double widest_with_one_up = 100e3;
+
+glm::vec3 up_at(const TileMaker& maker, const StreamedTile& tile, glm::ivec2 vertex) {
+    const glm::dvec3 size = tile.bounds.size();
+    return std::max({size.x, size.y, size.z}) <= widest_with_one_up
+               ? tile.up
+               : glm::vec3(maker.overview().placement().up(tile.place(vertex)));
+}
+
+} // namespace
+
 Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
                const TerrainIrradiance& irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
@@ -387,7 +402,8 @@ Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
             const glm::dvec2 sample = maker.on_overview(maker.sample(tile.id, {col, row}));
             const float visibility =
                 irradiance.visibility(glm::clamp(sample, glm::dvec2(0.0), last));
-            light(col, row) = irradiance.at(tile.normals(col, row), tile.up, visibility);
+            light(col, row) =
+                irradiance.at(tile.normals(col, row), up_at(maker, tile, {col, row}), visibility);
         }
     }
     Image lit(tile.albedo.cols(), tile.albedo.rows());

@@ -141,9 +141,9 @@ Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement&
     parallel_for(heights.rows(), [&](int row) {
         for (int col = 0; col < heights.cols(); ++col) {
             const glm::dvec2 slope = placement.exaggeration() * border.rise(heights, col, row);
-            gradients(col, row) = !axes                ? glm::vec2(slope / heightfield.spacing)
+            gradients(col, row) = !axes                 ? glm::vec2(slope / heightfield.spacing)
                                   : border.is_pole(row) ? slope_of(axes->at(col, row).up)
-                                                       : scene_slope(axes->at(col, row), slope);
+                                                        : scene_slope(axes->at(col, row), slope);
         }
     });
     return gradients;

@@ -20,7 +20,7 @@ struct Sweep {
     int first, direction; // line index order, away from the sun
     double shift;         // samples along a line from one line to the previous one
     double run;           // metres over the ground from one line to the previous one
-    bool around = false;   // columns go all around: the last is the first
+    bool around = false;  // columns go all around: the last is the first
 };
 
 Sweep sweep_along(GridView<const float> heights, glm::dvec2 spacing, glm::dvec3 to_sun) {
