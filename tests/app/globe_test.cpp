@@ -1,4 +1,5 @@
 // A DEM of the whole Earth in the program: no hole at the antimeridian and the poles.
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,7 @@
 
 #include "engine/io/image.h"
 #include "tests/app/command_line.h"
+#include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef {
@@ -17,7 +19,7 @@ protected:
     GlobeFile() {
         options_.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
         options_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
-        write(360, 180);
+        write(180, 90);
     }
     void write(int cols, int rows) const {
         const double step = 360.0 / cols;
@@ -62,19 +64,24 @@ protected:
     test::ProgramOptions options_;
 };
 
-constexpr std::array cameras{"0,180,100000,0,-90", "37,-179.9,300000,0,-90", "90,0,200000,0,-90",
-                             "-90,0,200000,0,-90", "89.5,20,2000000,0,-90"};
+constexpr std::array cameras{"0,180,100000,0,-90", "90,0,200000,0,-90", "-90,0,200000,0,-90"};
 
 TEST_F(GlobeFile, has_no_hole_where_it_is_read_whole) {
     for (const char* camera : cameras) {
         EXPECT_EQ(holes(camera, {}), 0) << camera;
+    }
+}
+
+TEST_F(GlobeFile, has_no_hole_where_triangles_are_few) {
+    RELJEF_RELEASE_ONLY("the triangles of three views");
+    for (const char* camera : cameras) {
         EXPECT_EQ(holes(camera, {"--technique", "polygons:error=1"}), 0) << camera;
     }
 }
 
 TEST_F(GlobeFile, has_no_hole_where_it_is_streamed) {
     for (const char* camera : cameras) {
-        EXPECT_EQ(holes(camera, {"--memory", "2"}), 0) << camera;
+        EXPECT_EQ(holes(camera, {"--memory", "1"}), 0) << camera;
     }
 }
 
@@ -85,15 +92,15 @@ TEST_F(GlobeFile, has_no_hole_in_the_exact_picture) {
 }
 
 TEST_F(GlobeFile, info_tells_the_size_and_extent_of_the_file) {
-    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--memory", "2"}}) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--memory", "1"}}) {
         std::vector<std::string> arguments{"info", path(), "--json"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto result = test::reljef(arguments, options_);
         ASSERT_EQ(result.exit_code, 0) << result.err;
         const auto info = nlohmann::json::parse(result.out);
-        EXPECT_EQ(info["cols"], 360);
-        EXPECT_EQ(info["rows"], 180);
-        const double half = 0.5 * info["read"]["reduction"].get<int>();
+        EXPECT_EQ(info["cols"], 180);
+        EXPECT_EQ(info["rows"], 90);
+        const double half = 1.0 * info["read"]["reduction"].get<int>();
         EXPECT_NEAR(info["extent"]["west"], -180.0 + half, 1e-9);
         EXPECT_NEAR(info["extent"]["east"], 180.0 - half, 1e-9);
         EXPECT_NEAR(info["extent"]["south"], -90.0 + half, 1e-9);

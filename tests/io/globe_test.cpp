@@ -4,11 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/io/closed_picture.h"
 #include "engine/io/tree_tile.h"
+#include "engine/terrain/gradient.h"
+#include "engine/terrain/placement.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
 
@@ -265,6 +268,26 @@ TEST_F(WholeGlobe, APictureShowsAtThePoleWhatLiesThere) {
     EXPECT_EQ(picture(1, 4).r, 4);
     EXPECT_EQ(picture(1, 7).r, 6);
     EXPECT_EQ(picture(1, 8).r, 7);
+}
+
+TEST_F(WholeGlobe, SlopesAreTheSameOnBothSidesAndAtAllOfAPole) {
+    for (const Globe& globe : {Globe{}, Globe{73, 37, -180.0, 90.0, 5.0}}) {
+        write(globe);
+        const terrain::Heightfield heightfield = read();
+        const auto placement =
+            terrain::Placement::create(heightfield, terrain::PlacementKind::ellipsoid);
+        ASSERT_TRUE(placement);
+        const auto gradients = terrain::scene_gradients(heightfield, *placement);
+        const int last = gradients.cols() - 1;
+        for (int row = 0; row < gradients.rows(); ++row) {
+            const float size = glm::length(gradients(0, row));
+            ASSERT_LE(glm::distance(gradients(0, row), gradients(last, row)), 1e-4F * size) << row;
+        }
+        for (int col = 0; col <= last; ++col) {
+            const float size = glm::length(gradients(0, 0));
+            ASSERT_LE(glm::distance(gradients(0, 0), gradients(col, 0)), 1e-4F * size) << col;
+        }
+    }
 }
 
 } // namespace
