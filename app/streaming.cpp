@@ -1,5 +1,6 @@
 #include "app/streaming.h"
 
+#include <array>
 #include <functional>
 #include <numeric>
 #include <vector>
@@ -96,13 +97,22 @@ double mean_of_row(const Grid<float>& heights, int row) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// The samples that tiles are of; poles as the overview has them.
+// Of a pole, as the file has it; where it has a void or cannot be read, as the overview.
+double pole_height(const io::HeightAnswer& answer, const Grid<float>& overview, int row) {
+    return answer.kind == io::HeightAnswer::Kind::height ? answer.height
+                                                         : mean_of_row(overview, row);
+}
+
+// The samples that tiles are of.
 io::ClosedGrid ground_of(const io::TileSet& tiles, const StreamSource& stream,
-                         const terrain::Heightfield& overview) {
+                         const Grid<float>& overview) {
     io::ClosedGrid ground = io::closed_grid(stream.plan.grid, tiles.closing(stream.plan.grid),
                                             stream.imagery.refinement);
-    ground.north_height = mean_of_row(overview.heights, 0);
-    ground.south_height = mean_of_row(overview.heights, overview.heights.rows() - 1);
+    if (ground.closing.rows() > 0) {
+        const auto poles = tiles.heights(std::array{glm::dvec2(90.0, 0.0), glm::dvec2(-90.0, 0.0)});
+        ground.north_height = pole_height(poles.answers[0], overview, 0);
+        ground.south_height = pole_height(poles.answers[1], overview, overview.rows() - 1);
+    }
     return ground;
 }
 
@@ -115,7 +125,8 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     }
     return_freed_blocks();
     const scene::ImageryDetail imagery = source.stream->imagery;
-    const io::ClosedGrid ground = ground_of(*source.tiles, *source.stream, overview->heightfield());
+    const io::ClosedGrid ground =
+        ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
     const terrain::TileTree tree(ground.grid.cols, ground.grid.rows);
     scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
                            ground.closing);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 

@@ -33,8 +33,8 @@ Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileMaker& mak
             float& height = heights(col, row);
             if (!std::isfinite(height)) {
                 const glm::dvec2 sample = maker.sample(tile, {col - 1, row - 1});
-                height =
-                    static_cast<float>(terrain::bilinear_height(view, maker.on_overview(sample)));
+                height = static_cast<float>(terrain::bilinear_height(
+                    view, maker.around_overview(maker.on_overview(sample))));
                 voids(col, row) = 1;
             }
         }
@@ -230,7 +230,6 @@ glm::dvec2 TileMaker::from_overview(glm::dvec2 sample) const {
     return {at.x, rows_.closed_row(at.y)};
 }
 
-// Where the overview goes all around the Earth, within its columns.
 glm::dvec2 TileMaker::around_overview(glm::dvec2 overview_sample) const {
     const int turn = overview_->heightfield().heights.cols() - 1;
     if (overview_rows_.closing().east) {
@@ -399,7 +398,8 @@ Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
     Grid<glm::vec3> light(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < light.rows(); ++row) {
         for (int col = 0; col < light.cols(); ++col) {
-            const glm::dvec2 sample = maker.on_overview(maker.sample(tile.id, {col, row}));
+            const glm::dvec2 sample =
+                maker.around_overview(maker.on_overview(maker.sample(tile.id, {col, row})));
             const float visibility =
                 irradiance.visibility(glm::clamp(sample, glm::dvec2(0.0), last));
             light(col, row) =

@@ -114,6 +114,8 @@ public:
     /// Where a sample of the terrain lies on the overview.
     [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const;
     [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;
+    /// Within the overview's columns where it goes all around the Earth; else as it is.
+    [[nodiscard]] glm::dvec2 around_overview(glm::dvec2 overview_sample) const;
     /// The rows of the terrain's samples.
     [[nodiscard]] const geo::ClosedRows& rows() const { return rows_; }
     /// Whether a tile has all samples of the terrain: finer ones show only images finer.
@@ -148,8 +150,6 @@ private:
     [[nodiscard]] Image vertex_colors(const StreamedTile& tile, const Grid<float>& around,
                                       const Grid<std::uint8_t>& voids, bool with_overview) const;
     [[nodiscard]] int texels_per_cell(int level) const;
-    [[nodiscard]] glm::dvec2 around_overview(glm::dvec2 overview_sample) const;
-
     std::shared_ptr<const TerrainSurface> overview_;
     terrain::TileTree tree_;
     int reduction_;
