@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -34,6 +35,16 @@ struct FullGrid {
     glm::dvec2 first{0.0};
     glm::dvec2 last{0.0};
 };
+
+// The source's own rows and columns among those that were read, which may close the globe.
+geo::ClosedRows rows_of(const terrain::Heightfield& heightfield) {
+    return heightfield.georeference ? heightfield.georeference->geodetic.rows() : geo::ClosedRows();
+}
+
+// Where a sample of the source lies, both counted in samples that were read.
+glm::dvec2 read_from_source(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
+    return {sample.x, rows_of(heightfield).closed_row(sample.y)};
+}
 
 struct DegreeBox {
     double south = 90.0;
@@ -134,17 +145,30 @@ std::optional<FullGrid> grid_of_tiles(const io::TileSet& tiles,
     const glm::dvec2 step(affine.x_col, affine.y_row);
     FullGrid full{grid->cols, grid->rows, 1, {}, {}};
     full.reduction = static_cast<int>(std::lround(std::abs(step.x / grid->step.x)));
-    full.first = (grid->first - glm::dvec2(affine.x0, affine.y0)) / step;
-    full.last = full.first + grid->step / step * glm::dvec2(grid->cols - 1, grid->rows - 1);
+    const glm::dvec2 first = (grid->first - glm::dvec2(affine.x0, affine.y0)) / step -
+                             glm::dvec2(0, rows_of(heightfield).closing().north_rows());
+    const glm::dvec2 last = first + grid->step / step * glm::dvec2(grid->cols - 1, grid->rows - 1);
+    full.first = read_from_source(heightfield, first);
+    full.last = read_from_source(heightfield, last);
     return full;
 }
 
 // Of a file, which is read from its first column and row on.
 FullGrid grid_of_file(int cols, int rows, const terrain::Heightfield& heightfield) {
-    const int reduction = std::max(1, cols / heightfield.heights.cols());
+    const int read_cols = heightfield.heights.cols() - rows_of(heightfield).closing().cols();
+    const int reduction = std::max(1, cols / read_cols);
     const double half = 0.5 * (reduction - 1);
-    return {cols, rows, reduction, glm::dvec2(-half / reduction),
-            (glm::dvec2(cols - 1, rows - 1) - half) / static_cast<double>(reduction)};
+    const glm::dvec2 last =
+        (glm::dvec2(cols - 1, rows - 1) - half) / static_cast<double>(reduction);
+    return {cols, rows, reduction, read_from_source(heightfield, glm::dvec2(-half / reduction)),
+            read_from_source(heightfield, last)};
+}
+
+FullGrid grid_that_was_read(const terrain::Heightfield& heightfield) {
+    const geo::ClosedRows rows = rows_of(heightfield);
+    const geo::Closing& closing = rows.closing();
+    return grid_of_file(heightfield.heights.cols() - closing.cols(),
+                        heightfield.heights.rows() - closing.rows(), heightfield);
 }
 
 Json geoid_info(const geo::Georeference& georeference) {
@@ -158,7 +182,7 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
                               ? Json()
                               : file_info(source.description);
     const auto& heights = heightfield.heights;
-    const FullGrid read_grid = grid_of_file(heights.cols(), heights.rows(), heightfield);
+    const FullGrid read_grid = grid_that_was_read(heightfield);
     const FullGrid grid =
         source.tiles ? grid_of_tiles(*source.tiles, area, heightfield).value_or(read_grid)
         : own_file.is_null()

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "app/message.h"
+#include "engine/io/closed_picture.h"
 #include "engine/io/tree_tile.h"
 #include "engine/render/tile_choice.h"
 
@@ -80,9 +82,11 @@ scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduct
 void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
                  const scene::TileMaker& maker, terrain::TreeTile tile, const std::stop_token& stop,
                  scene::TileReading& reading) {
-    io::ImageryWindow window = images.read(
-        io::picture_grid(grid, tile, maker.tree().cells(tile), maker.picture_size(tile)),
-        maker.texel(tile.level), stop);
+    const glm::ivec2 cells = maker.tree().cells(tile);
+    io::ImageryWindow window =
+        images.read(io::picture_grid(grid, tile, cells, maker.picture_size(tile)),
+                    maker.texel(tile.level), stop);
+    io::close_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
     reading.picture = {std::move(window.texels), window.whole, window.has_more};
     for (const io::TileFault& fault : window.faults) {
         reading.picture_faults.push_back({fault.file.string(), fault.message});
@@ -111,10 +115,29 @@ bool wait_and_tell(scene::TileStream& stream, const std::stop_token& stop, bool 
     return is_there;
 }
 
-// The same ground with so many samples from sample to sample.
-io::TileGrid refined(const io::TileGrid& grid, int refinement) {
-    return {grid.first, grid.step / static_cast<double>(refinement),
-            (grid.cols - 1) * refinement + 1, (grid.rows - 1) * refinement + 1};
+// The mean of a row: of a pole's the height that it has everywhere.
+double mean_of_row(const Grid<float>& heights, int row) {
+    const auto values = heights.row(row);
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Of a pole, as the file has it; where it has a void or cannot be read, as the overview.
+double pole_height(const io::HeightAnswer& answer, const Grid<float>& overview, int row) {
+    return answer.kind == io::HeightAnswer::Kind::height ? answer.height
+                                                         : mean_of_row(overview, row);
+}
+
+// The samples that tiles are of.
+io::ClosedGrid ground_of(const io::TileSet& tiles, const StreamSource& stream,
+                         const Grid<float>& overview) {
+    io::ClosedGrid ground = io::closed_grid(stream.plan.grid, tiles.closing(stream.plan.grid),
+                                            stream.imagery.refinement);
+    if (ground.closing.rows() > 0) {
+        const auto poles = tiles.heights(std::array{glm::dvec2(90.0, 0.0), glm::dvec2(-90.0, 0.0)});
+        ground.north_height = pole_height(poles.answers[0], overview, 0);
+        ground.south_height = pole_height(poles.answers[1], overview, overview.rows() - 1);
+    }
+    return ground;
 }
 
 } // namespace
@@ -126,10 +149,12 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     }
     return_freed_blocks();
     const scene::ImageryDetail imagery = source.stream->imagery;
-    const io::TileGrid grid = refined(source.stream->plan.grid, imagery.refinement);
-    const terrain::TileTree tree(grid.cols, grid.rows);
-    scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery);
-    const auto read = [tiles = *source.tiles, images = source.imagery, grid, maker,
+    const io::ClosedGrid ground =
+        ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
+    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows);
+    scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
+                           ground.closing);
+    const auto read = [tiles = *source.tiles, images = source.imagery, ground, maker,
                        reduction = source.stream->plan.reduction,
                        step_of_overview = source.stream->step_of_overview,
                        gaps = source.stream->gaps](terrain::TreeTile tile,
@@ -137,14 +162,14 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
         scene::TileReading reading =
             step_of_overview > 0 && maker.step(tile) >= step_of_overview
                 ? overview_reading(maker, tile)
-                : reading_of(io::read_tree_tile(tiles, grid, maker.tree(), tile, gaps, stop));
+                : reading_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));
         reading.notes = tiles.take_new_notes();
         if (stop.stop_requested()) {
             return reading;
         }
         reading = reading_or_overview(maker, reduction, tile, std::move(reading));
         if (images && reading.faults.empty()) {
-            add_picture(*images, grid, maker, tile, stop, reading);
+            add_picture(*images, ground.grid, maker, tile, stop, reading);
         }
         return reading;
     };

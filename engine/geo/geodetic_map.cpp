@@ -79,10 +79,41 @@ glm::dvec2 GeodeticMap::middle() const {
     return first_ + 0.5 * step_ * glm::dvec2(control_.cols() - 1, control_.rows() - 1);
 }
 
+GeodeticMap GeodeticMap::closed(const Closing& closing, int cols, int rows) const {
+    GeodeticMap map(*this);
+    map.rows_ = ClosedRows(closing, rows);
+    if (closing.east) {
+        // Longitudes lead into the columns from the first to the first again.
+        map.middle_longitude_ = latitude_longitude({0.5 * cols, 0.5 * (rows - 1)}).y;
+    }
+    return map;
+}
+
+double ClosedRows::source_row(double row) const {
+    const double source = row - closing_.north_rows();
+    if (closing_.north > 0.0 && source < 0.0) {
+        return source * closing_.north;
+    }
+    if (closing_.south > 0.0 && source > last_) {
+        return last_ + (source - last_) * closing_.south;
+    }
+    return source;
+}
+
+double ClosedRows::closed_row(double source_row) const {
+    double source = source_row;
+    if (closing_.north > 0.0 && source < 0.0) {
+        source /= closing_.north;
+    } else if (closing_.south > 0.0 && source > last_) {
+        source = last_ + (source - last_) / closing_.south;
+    }
+    return source + closing_.north_rows();
+}
+
 glm::dvec2 GeodeticMap::latitude_longitude(glm::dvec2 sample) const {
-    const glm::dvec3 value = base_ + evaluate(sample).at;
+    const glm::dvec3 value = base_ + evaluate({sample.x, rows_.source_row(sample.y)}).at;
     if (kind_ == Kind::degrees) {
-        return glm::dvec2(value);
+        return {std::clamp(value.x, -90.0, 90.0), value.y};
     }
     return {glm::degrees(std::atan2(value.z, std::hypot(value.x, value.y))),
             glm::degrees(std::atan2(value.y, value.x))};
@@ -124,7 +155,8 @@ Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const 
         if (std::abs(step.x) <= converged_samples && std::abs(step.y) <= converged_samples) {
             const bool other_side =
                 kind_ == Kind::normals && glm::dot(base_ + wanted.at, base_ + value.at) <= 0.0;
-            return other_side ? Result<glm::dvec2>(no_sample(latitude, longitude)) : sample;
+            return other_side ? Result<glm::dvec2>(no_sample(latitude, longitude))
+                              : glm::dvec2(sample.x, rows_.closed_row(sample.y));
         }
     }
     return no_sample(latitude, longitude);

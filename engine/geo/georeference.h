@@ -39,6 +39,39 @@ struct PixelAffine {
     friend bool operator==(const PixelAffine&, const PixelAffine&) = default;
 };
 
+/// Samples beside those of a source that goes all around the Earth, so that nothing is missing
+/// between its last column and its first, and around the poles.
+struct Closing {
+    bool around = false; ///< the last column lies where the first does
+    bool east = false;   ///< it was added: the first again
+    /// A row more at the pole, so many rows from the outermost sample, in (0, 1]; 0: none.
+    double north = 0.0;
+    double south = 0.0;
+
+    [[nodiscard]] int cols() const { return east ? 1 : 0; }
+    [[nodiscard]] int north_rows() const { return north > 0.0 ? 1 : 0; }
+    [[nodiscard]] int south_rows() const { return south > 0.0 ? 1 : 0; }
+    [[nodiscard]] int rows() const { return north_rows() + south_rows(); }
+};
+
+/// The rows of a closed raster: between a pole's and the outermost of the source they are closer
+/// together than elsewhere.
+class ClosedRows {
+public:
+    ClosedRows() = default;
+    ClosedRows(const Closing& closing, int source_rows)
+        : closing_(closing), last_(source_rows - 1.0) {}
+
+    [[nodiscard]] const Closing& closing() const { return closing_; }
+    /// From a row of the closed raster, 0 the first of all, to that of the source, and back.
+    [[nodiscard]] double source_row(double row) const;
+    [[nodiscard]] double closed_row(double source_row) const;
+
+private:
+    Closing closing_;
+    double last_ = 0.0; // of the source
+};
+
 /// WGS 84 latitude and longitude of any (col, row) of a raster, whatever its CRS: values of the
 /// exact transform at control points, with bicubic (four-point Lagrange) interpolation between
 /// them. Whoever builds it chooses the control points dense enough and checks them (engine/io).
@@ -56,7 +89,13 @@ public:
     /// pole, where longitudes cannot run on.
     GeodeticMap(const Grid<glm::dvec3>& normals, glm::dvec2 first, glm::dvec2 step);
 
-    /// (latitude, longitude), degrees. Outside the control points the outermost cubic runs on.
+    /// The same map with the samples of a closing around `cols`×`rows` of a source: (0,0) is now
+    /// the first of all.
+    [[nodiscard]] GeodeticMap closed(const Closing& closing, int cols, int rows) const;
+    [[nodiscard]] const ClosedRows& rows() const { return rows_; }
+
+    /// (latitude, longitude), degrees. Outside the control points the outermost cubic runs on, but
+    /// not past a pole.
     [[nodiscard]] glm::dvec2 latitude_longitude(glm::dvec2 sample) const;
 
     /// The (col, row) that lies at a latitude and longitude (any multiple of 360 away), by Newton's
@@ -85,6 +124,7 @@ private:
     double middle_longitude_ = 0.0; // degrees
     glm::dvec2 first_{0.0};
     glm::dvec2 step_{1.0};
+    ClosedRows rows_;
 };
 
 /// Where a raster lies on the Earth.

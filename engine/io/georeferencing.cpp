@@ -14,6 +14,7 @@
 #include "engine/geo/place.h"
 #include "engine/io/exact_transform.h"
 #include "engine/io/geodetic_fit.h"
+#include "engine/io/globe.h"
 
 namespace reljef::io {
 namespace {
@@ -152,10 +153,10 @@ std::optional<geo::Georeference> georeference_of(GDALDataset& dataset,
         std::move(words.name),
         std::move(words.code),
         wkt_of(dataset.GetSpatialRef() != nullptr ? *dataset.GetSpatialRef() : crs),
-        affine_of_samples(affine, grid),
+        affine_of_samples(affine, closed(grid, place.closing)),
         std::move(words.horizontal_unit),
         vertical_datum_of(dataset),
-        fit->map,
+        fit->map.closed(place.closing, grid.cols, grid.rows),
         std::nullopt};
 }
 
@@ -183,7 +184,10 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
     if (!polar && ground) {
         note_rotation(*ground, notes);
     }
+    place.closing =
+        closing_of(crs, affine_of_samples(affine, place.grid), place.grid.cols, place.grid.rows);
     place.georeference = georeference_of(dataset, crs, affine, *exact, place, notes);
+    place.closing = place.georeference ? place.closing : geo::Closing{};
     return place;
 }
 

@@ -49,6 +49,9 @@ struct Place {
     glm::dvec2 spacing{1.0};      ///< metres
     bool spacing_assumed = false; ///< neither the file nor the options tell it
     std::optional<geo::Georeference> georeference;
+    /// What is to be added to the samples of a raster that goes all around the Earth; the
+    /// georeference has it already, the grid has not.
+    geo::Closing closing;
 };
 
 /// Fails where the file places its samples nowhere, absurdly close or far, and where

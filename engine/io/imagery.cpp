@@ -14,9 +14,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/io/closed_picture.h"
 #include "engine/io/degree_box.h"
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/georeferencing.h"
+#include "engine/io/globe.h"
 #include "engine/io/image_files.h"
 #include "engine/io/rgb_image.h"
 #include "engine/io/tile_layer.h"
@@ -124,7 +126,9 @@ struct KnownPicture {
     Meeting meeting;
     glm::dvec2 pixel{1.0}; ///< of the meeting space
     bool has_place = true;
-    bool meets_heights = true; ///< false: it lies elsewhere
+    /// By how many degrees it is moved to lie over the heights, for each whole turn; none: it lies
+    /// elsewhere.
+    std::vector<double> turns{0.0};
 };
 
 Error unreadable(const std::string& name, const GdalMessages& messages) {
@@ -177,8 +181,14 @@ Size target_size(const SampleGrid& grid, const Meeting& meeting, glm::dvec2 pixe
     return {static_cast<int>(size.x), static_cast<int>(size.y)};
 }
 
-/// A raster over the samples, edge to edge.
-Dataset target_of(Image& image, const SampleGrid& grid, const Meeting& meeting) {
+/// Of x in the meeting space, for degrees.
+double units_of(double degrees, const Meeting& meeting) {
+    const bool in_degrees = meeting.crs && meeting.crs->IsGeographic() != 0;
+    return in_degrees ? degrees / glm::degrees(meeting.crs->GetAngularUnits()) : 0.0;
+}
+
+/// A raster over the samples, edge to edge, as seen by a picture that is moved by `turn` degrees.
+Dataset target_of(Image& image, const SampleGrid& grid, const Meeting& meeting, double turn) {
     Dataset target = raster_over(image);
     if (target == nullptr) {
         return target;
@@ -190,8 +200,12 @@ Dataset target_of(Image& image, const SampleGrid& grid, const Meeting& meeting) 
     const geo::PixelAffine& from = meeting.from_heights;
     const glm::dvec2 step = grid.step * q;
     const glm::dvec2 corner = from.crs_from_pixel(grid.pixel_from_sample(-0.5 * q));
-    std::array<double, 6> t{corner.x, from.x_col * step.x, from.x_row * step.y,
-                            corner.y, from.y_col * step.x, from.y_row * step.y};
+    std::array<double, 6> t{corner.x - units_of(turn, meeting),
+                            from.x_col * step.x,
+                            from.x_row * step.y,
+                            corner.y,
+                            from.y_col * step.x,
+                            from.y_row * step.y};
     target->SetGeoTransform(t.data());
     if (meeting.crs) {
         target->SetSpatialRef(&*meeting.crs);
@@ -221,8 +235,6 @@ public:
         if (!colors) {
             return colors.error();
         }
-        Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
-        const Dataset target = target_of(drawn, grid_, picture.meeting);
         WarpOptions warping{.overview = automatic_overview,
                             .scale = 0.0,
                             .memory = options_.memory_budget / reading_part,
@@ -233,11 +245,12 @@ public:
                 options_.progress((static_cast<double>(index) + done) / static_cast<double>(count));
             };
         }
-        if (target == nullptr || !warp(**colors, *target, warping) || messages.has_lost_blocks()) {
-            return unreadable(picture.path.string(), messages);
+        bool any = false;
+        for (const double turn : picture.turns) {
+            any = (any && is_full()) || draw(**colors, picture.meeting, turn, warping) || any;
         }
-        lay_under(image_, drawn);
-        return {};
+        return any && !messages.has_lost_blocks() ? Result<void>()
+                                                  : unreadable(picture.path.string(), messages);
     }
     [[nodiscard]] bool is_full() const {
         const auto pixels = image_.samples();
@@ -247,6 +260,17 @@ public:
     Image take() && { return std::move(image_); }
 
 private:
+    bool draw(GDALDataset& colors, const Meeting& meeting, double turn,
+              const WarpOptions& warping) {
+        Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
+        const Dataset target = target_of(drawn, grid_, meeting, turn);
+        const bool done = target != nullptr && warp(colors, *target, warping);
+        if (done) {
+            lay_under(image_, drawn);
+        }
+        return done;
+    }
+
     GDALDataset& heights_;
     const SampleGrid& grid_;
     const RasterOptions& options_;
@@ -287,11 +311,16 @@ std::optional<DegreeBox> box_of(GDALDataset& image) {
     return placed ? std::optional(padded_box(degrees)) : std::nullopt;
 }
 
-/// False only where both are known to lie apart.
-bool may_meet(const SampleGrid& grid, GDALDataset& image, const Meeting& meeting) {
+/// None only where both are known to lie apart.
+std::vector<double> turns_of(const SampleGrid& grid, GDALDataset& image, const Meeting& meeting) {
     const auto ground = meeting.crs ? box_of(grid, meeting) : std::nullopt;
     const auto shown = ground ? box_of(image) : std::nullopt;
-    return !shown || !turns_to_meet(*ground, *shown).empty();
+    if (!shown) {
+        return {0.0};
+    }
+    const std::vector<double> turns = turns_to_meet(*shown, *ground);
+    const bool in_degrees = meeting.crs->IsGeographic() != 0;
+    return turns.empty() || in_degrees ? turns : std::vector{0.0};
 }
 
 Result<KnownPicture> known_picture(const std::filesystem::path& path, double white,
@@ -306,7 +335,7 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
     if (auto good = check_affine(**image, name); !good) {
         return good.error();
     }
-    KnownPicture picture{path, meeting_of(heights, **image, notes), {}, says_place(**image), true};
+    KnownPicture picture{path, meeting_of(heights, **image, notes), {}, says_place(**image)};
     if (!picture.meeting.stretched && !names_crs(**image)) {
         notes.push_back(fmt::format("imagery: {} names no coordinate system, so that of the "
                                     "terrain is taken",
@@ -322,7 +351,7 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
         return unreadable(name, messages);
     }
     picture.pixel = *pixel;
-    picture.meets_heights = may_meet(grid, **colors, picture.meeting);
+    picture.turns = turns_of(grid, **colors, picture.meeting);
     return picture;
 }
 
@@ -400,9 +429,9 @@ void note_stretching(std::span<const KnownPicture> pictures, GDALDataset& height
 
 } // namespace
 
-Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
-                           const RasterOptions& options, std::vector<std::string>& notes,
-                           std::vector<std::string>& faults) {
+Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
+                           std::vector<std::string>& notes, std::vector<std::string>& faults) {
+    const SampleGrid grid = closed(place.grid, place.closing);
     std::vector<std::string> wrong;
     const ImageFiles files =
         image_files(options.imagery, wrong, options.stop, options.imagery_white);
@@ -416,7 +445,7 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
     }
     leave_out_unplaced(pictures, notes);
     note_stretching(pictures, heights, notes);
-    std::erase_if(pictures, [](const KnownPicture& picture) { return !picture.meets_heights; });
+    std::erase_if(pictures, [](const KnownPicture& picture) { return picture.turns.empty(); });
     if (pictures.empty()) {
         return shows_nothing(options);
     }
@@ -439,6 +468,7 @@ Result<Image> read_imagery(GDALDataset& heights, const SampleGrid& grid,
         return Error{wrong.front()};
     }
     Image result = std::move(drape).take();
+    close_picture(result, {place.closing, place.grid.rows}, 0.0, grid.rows - 1);
     const double share = covered_share(result);
     if (share == 0.0) {
         return shows_nothing(options);

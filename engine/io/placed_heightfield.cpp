@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/io/globe.h"
+
 namespace reljef::io {
 namespace {
 
@@ -26,9 +28,11 @@ terrain::Heightfield heightfield_of(Samples samples, Place& place) {
     terrain::Heightfield result;
     result.range = terrain::height_range(samples.heights, samples.void_mask);
     terrain::fill_voids(samples.heights, samples.void_mask);
+    close_samples(samples.heights, samples.void_mask, place.closing);
     result.heights = std::move(samples.heights);
     result.void_mask = std::move(samples.void_mask);
-    result.void_count = samples.void_count;
+    result.void_count = static_cast<std::size_t>(std::count(
+        result.void_mask.samples().begin(), result.void_mask.samples().end(), std::uint8_t{1}));
     result.spacing = place.spacing;
     result.georeference = std::move(place.georeference);
     return result;

@@ -6,8 +6,8 @@
 
 namespace reljef::io {
 
-/// Samples as they were read, turned as their place asks for, with voids filled. Takes the place's
-/// georeference.
+/// Samples as they were read, turned as their place asks for, with voids filled, and closed where
+/// they go all around the Earth. Takes the place's georeference.
 terrain::Heightfield heightfield_of(Samples samples, Place& place);
 
 } // namespace reljef::io

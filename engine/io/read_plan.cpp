@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/io/globe.h"
 #include "engine/io/sample_decoder.h"
 #include "engine/io/sample_reader.h"
 
@@ -68,14 +69,16 @@ Level level_of(GDALRasterBand& band, int overview, const Window& full) {
     return level;
 }
 
-std::optional<int> smallest_reduction(const Window& window, std::size_t budget) {
+/// `around`: samples of a whole turn, which the reduction is to divide; 0 or 1: any does.
+std::optional<int> smallest_reduction(const Window& window, std::size_t budget, int around) {
     const std::size_t samples = budget / bytes_per_sample;
     for (int k = 1; k <= largest_reduction; ++k) {
         if (window.cols / k < 2 || window.rows / k < 2) {
             break;
         }
-        if (static_cast<std::size_t>(window.cols / k) * static_cast<std::size_t>(window.rows / k) <=
-            samples) {
+        if (around % k == 0 &&
+            static_cast<std::size_t>(window.cols / k) * static_cast<std::size_t>(window.rows / k) <=
+                samples) {
             return k;
         }
     }
@@ -95,16 +98,34 @@ ReadPlan plan_of(const Level& level, int reduction) {
     return plan;
 }
 
+/// Samples of a window that goes all around the Earth, so that it stays whole at a reduction; 0
+/// where it does not.
+int samples_to_divide(GDALDataset& dataset, const Window& window) {
+    const int around = samples_around(dataset);
+    return window.cols == around || window.cols == around + 1 ? around : 0;
+}
+
+/// Samples of an overview in a whole turn; nothing where they are no whole number.
+std::optional<int> around_on(const Level& level, int around) {
+    const double samples = around / level.scale.x;
+    const double whole = std::round(samples);
+    return std::abs(samples - whole) <= near_whole ? std::optional(static_cast<int>(whole))
+                                                   : std::nullopt;
+}
+
 /// `plan`, or the one of the coarsest overview that gives nearly as much.
 ReadPlan with_overview(GDALRasterBand& band, const Window& full, const RasterOptions& options,
-                       ReadPlan plan) {
+                       int around, ReadPlan plan) {
     const double coarsest = plan.grid.step.x * coarser_for_overview;
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
         const Level level = level_of(band, i, full);
         if (level.overview < 0 || level.window.cols < 2 || level.window.rows < 2) {
             continue;
         }
-        const auto reduction = smallest_reduction(level.window, options.memory_budget);
+        const auto around_level = around_on(level, around);
+        const auto reduction =
+            around_level ? smallest_reduction(level.window, options.memory_budget, *around_level)
+                         : std::nullopt;
         if (!reduction) {
             continue;
         }
@@ -126,7 +147,11 @@ Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
     }
     GDALRasterBand& band = *dataset.GetRasterBand(1);
     const double bytes = static_cast<double>(window->cols) * window->rows * bytes_per_sample;
-    const auto reduction = smallest_reduction(*window, options.memory_budget);
+    const int around = samples_to_divide(dataset, *window);
+    auto reduction = smallest_reduction(*window, options.memory_budget, around);
+    if (!reduction) {
+        reduction = smallest_reduction(*window, options.memory_budget, 0);
+    }
     if (!reduction) {
         return Error{
             fmt::format("{}: {}×{} samples take {} of memory, at most {} were expected, also "
@@ -139,7 +164,7 @@ Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
         return plan;
     }
     if (kind_of_values(dataset) == ValueKind::plain) {
-        plan = with_overview(band, *window, options, plan);
+        plan = with_overview(band, *window, options, around, plan);
     }
     notes.push_back(fmt::format("{}×{} samples would take {}: read at 1/{:.4g} ({}×{}) to fit {}",
                                 window->cols, window->rows, size_text(bytes), plan.grid.step.x,

@@ -8,6 +8,8 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/io/gdal_dataset.h"
+#include "engine/io/georeferencing.h"
+#include "engine/io/globe.h"
 #include "engine/io/sample_decoder.h"
 #include "engine/io/tile_set_state.h"
 
@@ -141,12 +143,56 @@ std::vector<Block> blocks_of(const TileLayer& layer, std::span<const glm::dvec2>
 /// cells.
 enum class Reach { samples, half_a_cell };
 
+/// The heights of the poles that a layer goes around, metres; NaN where no point needs them.
+struct Poles {
+    geo::Closing closing;
+    double north = void_value;
+    double south = void_value;
+};
+
+/// The mean of a row; NaN where it has no height.
+double mean_of_row(const TileLayer& layer, int row, const TileReading& reading,
+                   std::vector<TileFault>& faults) {
+    const CellWindow window{1, glm::ivec2(0), {0, row}, layer.cols, 1};
+    const Grid<double> heights = read_cells(layer, window, reading, faults);
+    double sum = 0.0;
+    int count = 0;
+    for (const double height : heights.samples()) {
+        sum += std::isnan(height) ? 0.0 : height;
+        count += std::isnan(height) ? 0 : 1;
+    }
+    return sum / count;
+}
+
+Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
+               const TileReading& reading, std::vector<TileFault>& faults) {
+    const int last = layer.rows - 1;
+    bool any_north = false;
+    bool any_south = false;
+    for (const glm::dvec2 point : points) {
+        any_north = any_north || point.y < 0.0;
+        any_south = any_south || point.y > last;
+    }
+    Poles poles;
+    if (any_north || any_south) {
+        poles.closing =
+            closing_of(crs_from_text(layer.crs), layer.crs_from_lattice, layer.cols, layer.rows);
+    }
+    if (any_north && poles.closing.north > 0.0) {
+        poles.north = mean_of_row(layer, 0, reading, faults);
+    }
+    if (any_south && poles.closing.south > 0.0) {
+        poles.south = mean_of_row(layer, last, reading, faults);
+    }
+    return poles;
+}
+
 /// One layer's answers for the points of one block.
 class BlockHeights {
 public:
     BlockHeights(const TileLayer& layer, const Block& block, std::span<const glm::dvec2> points,
-                 Reach reach)
-        : layer_(layer), block_(block), points_(points), reach_(reach) {
+                 Reach reach, const Poles& poles)
+        : layer_(layer), block_(block), points_(points), reach_(reach), poles_(poles) {
         const glm::dvec2 low(block.first - 1);
         const glm::dvec2 high(block.first + block_side + 1);
         for (const LayerTile& tile : layer.tiles) {
@@ -173,8 +219,9 @@ public:
         const Grid<double> heights = read_cells(layer_, window, reading, faults);
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].tile != nullptr) {
-                answer(block_.points[i],
-                       answer_at(heights, found[i].point - glm::dvec2(window.first)));
+                const HeightAnswer flat =
+                    answer_at(heights, found[i].point - glm::dvec2(window.first));
+                answer(block_.points[i], towards_pole(flat, block_.points[i]));
             }
         }
     }
@@ -213,6 +260,18 @@ private:
             });
         });
     }
+    /// From the outermost row's height to the pole's.
+    [[nodiscard]] HeightAnswer towards_pole(HeightAnswer answer, int index) const {
+        const double row = points_[static_cast<std::size_t>(index)].y;
+        const bool north = row < 0.0;
+        const double beyond = north ? -row : row - (layer_.rows - 1.0);
+        const double pole = north ? poles_.north : poles_.south;
+        if (beyond > 0.0 && !std::isnan(pole)) {
+            const double steps = north ? poles_.closing.north : poles_.closing.south;
+            answer.height = glm::mix(answer.height, pole, std::min(beyond / steps, 1.0));
+        }
+        return answer;
+    }
     static CellWindow window_of(std::span<const OnTile> found) {
         glm::dvec2 low(std::numeric_limits<double>::infinity());
         glm::dvec2 high = -low;
@@ -245,6 +304,7 @@ private:
     const Block& block_;
     std::span<const glm::dvec2> points_;
     Reach reach_;
+    const Poles& poles_;
     std::vector<const LayerTile*> near_;
 };
 
@@ -269,10 +329,11 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
     }
     const auto points = lattice_points(layer, places, wanted, threads);
     const std::vector<Block> blocks = blocks_of(layer, points);
+    const Poles poles = poles_of(layer, points, reading, result.faults);
     std::mutex mutex;
     const auto answer_block = [&](int number) {
         std::vector<TileFault> faults;
-        BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach);
+        BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach, poles);
         heights.find(reading, faults, [&](int index, HeightAnswer answer) {
             const auto place = static_cast<std::size_t>(wanted[static_cast<std::size_t>(index)]);
             result.answers[place] = answer;

@@ -102,6 +102,33 @@ GrowingLayer layer_from(const PlacedFile& file, const IndexedFile& indexed) {
     return growing;
 }
 
+/// Lattice points in a whole turn, where the layer has just so many columns; else 0.
+int around(const TileLayer& layer) {
+    const double step = std::abs(layer.crs_from_lattice.x_col);
+    const double miss = std::abs(layer.period / step - layer.cols);
+    return layer.period > 0.0 && layer.crs_from_lattice.x_row == 0.0 && miss <= same_phase
+               ? layer.cols
+               : 0;
+}
+
+/// Before the first column come the last ones again, and after the last the first.
+void add_turned_tiles(TileLayer& layer) {
+    const int turn = around(layer);
+    const std::size_t count = turn > 0 ? layer.tiles.size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        LayerTile tile = layer.tiles[i];
+        tile.is_turned = true;
+        const int first = tile.col;
+        for (const bool eastward : {true, false}) {
+            const bool near = eastward ? 2 * first < turn : 2 * (first + tile.cols) > turn;
+            tile.col = first + (eastward ? turn : -turn);
+            if (near) {
+                layer.tiles.push_back(tile);
+            }
+        }
+    }
+}
+
 /// Moves the lattice's origin to the first sample of all.
 TileLayer finished(GrowingLayer growing, std::span<const IndexedFile> files) {
     TileLayer& layer = growing.layer;
@@ -116,6 +143,7 @@ TileLayer finished(GrowingLayer growing, std::span<const IndexedFile> files) {
         tile.col -= low.x;
         tile.row -= low.y;
     }
+    add_turned_tiles(layer);
     std::stable_sort(layer.tiles.begin(), layer.tiles.end(),
                      [&](const LayerTile& a, const LayerTile& b) {
                          return files[static_cast<std::size_t>(a.file)].modified >

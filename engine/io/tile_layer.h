@@ -27,6 +27,7 @@ struct LayerTile {
     int cols = 0;
     int rows = 0;
     glm::dvec2 offset{0.0}; ///< its samples lie so far from the lattice's points, in lattice steps
+    bool is_turned = false; ///< the same tile again, a whole turn around the Earth away
 };
 
 /// Tiles of one coordinate system whose samples lie on one lattice: together one raster with gaps.
@@ -40,7 +41,7 @@ struct TileLayer {
     std::int64_t modified = 0;    ///< of the newest tile
     double period = 0.0;          ///< of x: 360 degrees in its unit; 0: no degrees
     DegreeBox box{};              ///< around all tiles
-    std::vector<LayerTile> tiles; ///< newest first
+    std::vector<LayerTile> tiles; ///< newest first; turned ones lie outside cols
 
     [[nodiscard]] glm::dvec2 lattice_from_crs(glm::dvec2 point) const {
         return lattice_steps * (point - glm::dvec2(crs_from_lattice.x0, crs_from_lattice.y0));

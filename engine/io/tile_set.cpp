@@ -11,6 +11,7 @@
 
 #include "engine/io/gdal_dataset.h"
 #include "engine/io/georeferencing.h"
+#include "engine/io/globe.h"
 #include "engine/io/tile_placing.h"
 #include "engine/io/tile_set_state.h"
 #include "engine/terrain/tile_tree.h"
@@ -112,6 +113,9 @@ std::vector<TileFile> files_of(std::span<const TileLayer> layers,
     for (const TileLayer& layer : layers) {
         const std::string crs_name = words_of(crs_from_text(layer.crs)).name;
         for (const LayerTile& tile : layer.tiles) {
+            if (tile.is_turned) {
+                continue;
+            }
             const PlacedFile& place = *place_of_file.at(tile.file);
             const IndexedFile& file = indexed[static_cast<std::size_t>(tile.file)];
             const auto& [west, south, east, north] = place.box;
@@ -293,6 +297,10 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const GeodeticArea& area) c
     }
     return TileGrid{grid.first + grid.step * low, grid.step, static_cast<int>(high.x - low.x) + 1,
                     static_cast<int>(high.y - low.y) + 1};
+}
+
+geo::Closing TileSet::closing(const TileGrid& grid) const {
+    return closing_of(crs_from_text(state_->crs), affine_of(grid), grid.cols, grid.rows);
 }
 
 TileGrid TileSet::reduced(const TileGrid& grid, int reduction) {

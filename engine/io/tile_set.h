@@ -117,6 +117,8 @@ public:
     [[nodiscard]] TileGrid grid() const;
     /// The part of `grid` in an area; fails where there is none.
     [[nodiscard]] Result<TileGrid> part(const TileGrid& grid, const GeodeticArea& area) const;
+    /// What is missing of a grid that goes all around the Earth.
+    [[nodiscard]] geo::Closing closing(const TileGrid& grid) const;
     /// Every `reduction`-th part of `grid` a side: its samples are the middles of whole blocks.
     [[nodiscard]] static TileGrid reduced(const TileGrid& grid, int reduction);
 

@@ -38,6 +38,11 @@ struct TileSet::State {
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
 };
 
+/// Of the samples of a grid.
+inline geo::PixelAffine affine_of(const TileGrid& grid) {
+    return {grid.first.x, grid.step.x, 0.0, grid.first.y, 0.0, grid.step.y};
+}
+
 /// Sorted by file, of each file the first.
 void keep_each_once(std::vector<TileFault>& faults);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/gdal_dataset.h"
+#include "engine/io/globe.h"
 #include "engine/io/imagery.h"
 #include "engine/io/placed_heightfield.h"
 #include "engine/io/tile_pyramid.h"
@@ -27,12 +28,25 @@ double samples_of(const TileGrid& grid) {
     return static_cast<double>(grid.cols) * grid.rows;
 }
 
-Result<int> fitting_reduction(const TileGrid& grid, const std::string& name, std::size_t budget) {
+/// The least divisor of `around` that is no less than a reduction, up to twice that; else that.
+int dividing_reduction(int around, int reduction) {
+    for (int divisor = reduction; divisor <= 2 * reduction; ++divisor) {
+        if (around % divisor == 0) {
+            return divisor;
+        }
+    }
+    return reduction;
+}
+
+/// `around`: samples of a whole turn, which stays whole; 0: the grid goes not all around.
+Result<int> fitting_reduction(const TileGrid& grid, int around, const std::string& name,
+                              std::size_t budget) {
     const double most = static_cast<double>(budget) / bytes_per_sample;
     int reduction = std::max(1, static_cast<int>(std::sqrt(samples_of(grid) / most)));
     while (samples_of(TileSet::reduced(grid, reduction)) > most) {
         ++reduction;
     }
+    reduction = dividing_reduction(around, reduction);
     if (grid.cols / reduction < 2 || grid.rows / reduction < 2) {
         return Error{fmt::format("{}: {}×{} samples do not fit {} of memory, at least 2×2 of them "
                                  "were expected to",
@@ -157,7 +171,10 @@ Result<TileSet::TerrainPlan> TileSet::plan(const TileTerrainOptions& options) co
     if (!whole) {
         return whole.error();
     }
-    const auto reduction = fitting_reduction(*whole, name(), options.raster.memory_budget);
+    const int around = samples_around(crs_from_text(crs()), affine_of(*whole));
+    const bool is_whole = whole->cols == around || whole->cols == around + 1;
+    const auto reduction =
+        fitting_reduction(*whole, is_whole ? around : 0, name(), options.raster.memory_budget);
     return reduction ? Result<TerrainPlan>({*whole, *reduction}) : reduction.error();
 }
 
@@ -201,7 +218,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     if (!options.raster.imagery.empty()) {
-        auto color = read_imagery(*frame, place->grid, options.raster, result.notes, result.faults);
+        auto color = read_imagery(*frame, *place, options.raster, result.notes, result.faults);
         if (!color) {
             return color.error();
         }

@@ -1,6 +1,7 @@
 #include "engine/io/tree_tile.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -34,20 +35,106 @@ void repeat_border(Grid<double>& heights, Inside cols, Inside rows) {
     }
 }
 
+/// The heights of the first column and of the next, at the rows of a tile, for the last one and
+/// beyond; faults are added.
+void close_east(const TileSet& tiles, const ClosedGrid& ground, const TileGrid& part, int last,
+                Gaps gaps, const std::stop_token& stop, TileWindow& window) {
+    TileGrid first = part;
+    first.first.x = ground.grid.first.x - part.step.x;
+    first.cols = 3;
+    const TileWindow again = tiles.read(first, gaps, stop);
+    for (int row = 0; row < window.heights.rows(); ++row) {
+        window.heights(last, row) = again.heights(1, row);
+        window.heights(last + 1, row) = again.heights(2, row);
+    }
+    window.faults.insert(window.faults.end(), again.faults.begin(), again.faults.end());
+    window.bytes_read += again.bytes_read;
+}
+
+/// Rows from a pole to the outermost of the source: from one height to its heights.
+class PolarCap {
+public:
+    PolarCap(const TileSet& tiles, const TileGrid& part, double outermost_y, double height,
+             Gaps gaps, const std::stop_token& stop)
+        : height_(height) {
+        TileGrid row = part;
+        row.first.y = outermost_y;
+        row.rows = 1;
+        outermost_ = tiles.read(row, gaps, stop);
+    }
+    [[nodiscard]] double at(int col, double share) const {
+        return share <= 0.0 ? height_ : glm::mix(height_, outermost_.heights(col, 0), share);
+    }
+    [[nodiscard]] const TileWindow& outermost() const { return outermost_; }
+
+private:
+    double height_;
+    TileWindow outermost_;
+};
+
+/// `from_pole`: of a row of the window, in samples of the source.
+template <class FromPole>
+void close_pole(const PolarCap& cap, const FromPole& from_pole, TileWindow& window) {
+    for (int row = 0; row < window.heights.rows(); ++row) {
+        const double share = from_pole(row);
+        for (int col = 0; share < 1.0 && col < window.heights.cols(); ++col) {
+            window.heights(col, row) = cap.at(col, share);
+        }
+    }
+    window.faults.insert(window.faults.end(), cap.outermost().faults.begin(),
+                         cap.outermost().faults.end());
+    window.bytes_read += cap.outermost().bytes_read;
+}
+
 } // namespace
 
-TileWindow read_tree_tile(const TileSet& tiles, const TileGrid& grid, const terrain::TileTree& tree,
-                          terrain::TreeTile tile, Gaps gaps, std::stop_token stop) {
+ClosedGrid closed_grid(const TileGrid& grid, const geo::Closing& closing, int refinement) {
+    ClosedGrid result{grid, closing, refinement};
+    result.grid.first.y -= grid.step.y * closing.north_rows();
+    result.grid.step /= static_cast<double>(refinement);
+    result.grid.cols = (grid.cols + closing.cols() - 1) * refinement + 1;
+    result.grid.rows = (grid.rows + closing.rows() - 1) * refinement + 1;
+    return result;
+}
+
+TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
+                          const terrain::TileTree& tree, terrain::TreeTile tile, Gaps gaps,
+                          std::stop_token stop) {
+    const TileGrid& grid = ground.grid;
     check(grid.cols == tree.cols() && grid.rows == tree.rows(), "a tree over another grid");
     const int step = terrain::TileTree::step(tile);
     const glm::ivec2 first = terrain::TileTree::first(tile);
-    const glm::ivec2 count = tree.cells(tile) + 3;
+    const glm::ivec2 last = glm::ivec2(grid.cols, grid.rows) - 1;
+    const glm::ivec2 end = tree.cells(tile);
     const TileGrid part{grid.first + grid.step * glm::dvec2(first - step),
-                        grid.step * static_cast<double>(step), count.x, count.y};
+                        grid.step * static_cast<double>(step), end.x + 3, end.y + 3};
     TileWindow window = tiles.read(part, gaps, stop);
-    repeat_border(window.heights, inside_of(first.x, step, count.x, grid.cols),
-                  inside_of(first.y, step, count.y, grid.rows));
+    Inside cols = inside_of(first.x, step, part.cols, grid.cols);
+    cols.first = ground.closing.east ? 0 : cols.first;
+    repeat_border(window.heights, cols, inside_of(first.y, step, part.rows, grid.rows));
+    if (ground.closing.east && first.x + end.x * step >= last.x) {
+        close_east(tiles, ground, part, end.x + 1, gaps, stop, window);
+    }
+    const double refinement = ground.refinement;
+    if (ground.closing.north > 0.0 && first.y == 0) {
+        const PolarCap cap(tiles, part, grid.first.y + refinement * grid.step.y,
+                           ground.north_height, gaps, stop);
+        close_pole(
+            cap, [&](int row) { return (row - 1) * step / refinement; }, window);
+    }
+    if (ground.closing.south > 0.0 && first.y + end.y * step >= last.y) {
+        const PolarCap cap(tiles, part, grid.first.y + (last.y - refinement) * grid.step.y,
+                           ground.south_height, gaps, stop);
+        close_pole(
+            cap, [&](int row) { return (last.y - first.y - (row - 1) * step) / refinement; },
+            window);
+    }
     return window;
+}
+
+TileWindow read_tree_tile(const TileSet& tiles, const TileGrid& grid, const terrain::TileTree& tree,
+                          terrain::TreeTile tile, Gaps gaps, std::stop_token stop) {
+    return read_tree_tile(tiles, ClosedGrid{grid, {}}, tree, tile, gaps, std::move(stop));
 }
 
 TileGrid picture_grid(const TileGrid& grid, terrain::TreeTile tile, glm::ivec2 cells,

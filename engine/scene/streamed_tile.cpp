@@ -33,8 +33,8 @@ Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileMaker& mak
             float& height = heights(col, row);
             if (!std::isfinite(height)) {
                 const glm::dvec2 sample = maker.sample(tile, {col - 1, row - 1});
-                height =
-                    static_cast<float>(terrain::bilinear_height(view, maker.on_overview(sample)));
+                height = static_cast<float>(terrain::bilinear_height(
+                    view, maker.around_overview(maker.on_overview(sample))));
                 voids(col, row) = 1;
             }
         }
@@ -62,7 +62,15 @@ double unit_of(const Box& bounds) {
     return std::ldexp(1.0, std::ilogb(longest) + 1 - 31);
 }
 
-void set_places(const Surround& around, StreamedTile& tile) {
+// At a pole, where nothing lies east, it is up.
+glm::dvec3 normal_of(glm::dvec3 east, glm::dvec3 north, glm::dvec3 up) {
+    constexpr double least_east = 1e-6;
+    return glm::length(east) > least_east * glm::length(north)
+               ? glm::normalize(glm::cross(east, north))
+               : up;
+}
+
+void set_places(const Surround& around, const terrain::Placement& placement, StreamedTile& tile) {
     const glm::ivec2 count = tile.cells + 1;
     for (int row = 1; row <= count.y; ++row) {
         for (int col = 1; col <= count.x; ++col) {
@@ -80,7 +88,8 @@ void set_places(const Surround& around, StreamedTile& tile) {
             const glm::dvec3 north = around.places(col, row - 1) - around.places(col, row + 1);
             tile.positions(col - 1, row - 1) =
                 glm::ivec3(glm::round((around.places(col, row) - tile.origin) / tile.unit));
-            tile.normals(col - 1, row - 1) = glm::vec3(glm::normalize(glm::cross(east, north)));
+            tile.normals(col - 1, row - 1) =
+                glm::vec3(normal_of(east, north, placement.up(around.places(col, row))));
             tile.heights(col - 1, row - 1) = around.heights(col, row);
         }
     }
@@ -176,11 +185,15 @@ std::size_t bytes_of_tile(int texels_per_cell) {
 }
 
 TileMaker::TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
-                     int reduction, const ImageryDetail& imagery)
+                     int reduction, const ImageryDetail& imagery, const geo::Closing& closing)
     : overview_(std::move(overview)), tree_(tree), reduction_(reduction), imagery_(imagery),
       tint_(overview_->heightfield()) {
     check(reduction >= 1 && imagery.refinement >= 1,
           "an overview of a reduction of at least 1 was expected");
+    rows_ = {closing, (tree.rows() - 1) / imagery.refinement + 1 - closing.rows()};
+    if (const auto& georeference = overview_->heightfield().georeference) {
+        overview_rows_ = georeference->geodetic.rows();
+    }
 }
 
 double TileMaker::step(terrain::TreeTile tile) const {
@@ -192,7 +205,13 @@ glm::dvec2 TileMaker::first(terrain::TreeTile tile) const {
 }
 
 glm::dvec2 TileMaker::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
-    return glm::dvec2(tree_.sample(tile, vertex)) / static_cast<double>(imagery_.refinement);
+    glm::dvec2 at(tree_.sample(tile, vertex));
+    if (rows_.closing().east) {
+        // Around the Earth there are samples on either side.
+        const int step = terrain::TileTree::step(tile);
+        at.x += step * (std::min(vertex.x, 0) + std::max(vertex.x - tree_.cells(tile).x, 0));
+    }
+    return at / static_cast<double>(imagery_.refinement);
 }
 
 glm::dvec2 TileMaker::tree_sample(glm::dvec2 sample) const {
@@ -200,11 +219,23 @@ glm::dvec2 TileMaker::tree_sample(glm::dvec2 sample) const {
 }
 
 glm::dvec2 TileMaker::on_overview(glm::dvec2 sample) const {
-    return (sample - 0.5 * (reduction_ - 1)) / static_cast<double>(reduction_);
+    sample.y = rows_.source_row(sample.y);
+    const glm::dvec2 at = (sample - 0.5 * (reduction_ - 1)) / static_cast<double>(reduction_);
+    return {at.x, overview_rows_.closed_row(at.y)};
 }
 
 glm::dvec2 TileMaker::from_overview(glm::dvec2 sample) const {
-    return sample * static_cast<double>(reduction_) + 0.5 * (reduction_ - 1);
+    sample.y = overview_rows_.source_row(sample.y);
+    const glm::dvec2 at = sample * static_cast<double>(reduction_) + 0.5 * (reduction_ - 1);
+    return {at.x, rows_.closed_row(at.y)};
+}
+
+glm::dvec2 TileMaker::around_overview(glm::dvec2 overview_sample) const {
+    const int turn = overview_->heightfield().heights.cols() - 1;
+    if (overview_rows_.closing().east) {
+        overview_sample.x -= turn * std::floor(overview_sample.x / turn);
+    }
+    return overview_sample;
 }
 
 bool TileMaker::has_all_samples(terrain::TreeTile tile) const {
@@ -257,7 +288,7 @@ Grid<float> TileMaker::overview_heights(terrain::TreeTile tile) const {
     Grid<float> heights(count.x, count.y);
     for (int row = 0; row < count.y; ++row) {
         for (int col = 0; col < count.x; ++col) {
-            const glm::dvec2 at = on_overview(sample(tile, {col - 1, row - 1}));
+            const glm::dvec2 at = around_overview(on_overview(sample(tile, {col - 1, row - 1})));
             heights(col, row) = is_void_at(overview, at) ? std::numeric_limits<float>::quiet_NaN()
                                                          : average_around(overview, at, taps);
         }
@@ -295,7 +326,8 @@ Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {
         return tint;
     }
     const Grid<float>& samples = overview_->heightfield().heights;
-    const glm::dvec2 share = overview_sample / glm::dvec2(samples.cols() - 1, samples.rows() - 1);
+    const glm::dvec2 share =
+        around_overview(overview_sample) / glm::dvec2(samples.cols() - 1, samples.rows() - 1);
     const glm::dvec2 texel = glm::clamp(share, glm::dvec2(0.0), glm::dvec2(1.0)) *
                              glm::dvec2(picture.cols() - 1, picture.rows() - 1);
     const Rgba8 nearest =
@@ -328,7 +360,7 @@ StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights,
     StreamedTile made;
     made.id = tile;
     made.cells = cells;
-    set_places(around, made);
+    set_places(around, overview_->placement(), made);
     made.range = range_of_heights(made.heights);
     made.blocks = blocks_of(made.heights);
     made.error = overview_->placement().exaggeration() * error_of(made.heights);
@@ -345,6 +377,20 @@ StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights,
     return made;
 }
 
+namespace {
+
+// Metres along a tile: on wider ones the ground bends by more than a degree.
+constexpr double widest_with_one_up = 100e3;
+
+glm::vec3 up_at(const TileMaker& maker, const StreamedTile& tile, glm::ivec2 vertex) {
+    const glm::dvec3 size = tile.bounds.size();
+    return std::max({size.x, size.y, size.z}) <= widest_with_one_up
+               ? tile.up
+               : glm::vec3(maker.overview().placement().up(tile.place(vertex)));
+}
+
+} // namespace
+
 Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
                const TerrainIrradiance& irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
@@ -352,10 +398,12 @@ Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
     Grid<glm::vec3> light(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < light.rows(); ++row) {
         for (int col = 0; col < light.cols(); ++col) {
-            const glm::dvec2 sample = maker.on_overview(maker.sample(tile.id, {col, row}));
+            const glm::dvec2 sample =
+                maker.around_overview(maker.on_overview(maker.sample(tile.id, {col, row})));
             const float visibility =
                 irradiance.visibility(glm::clamp(sample, glm::dvec2(0.0), last));
-            light(col, row) = irradiance.at(tile.normals(col, row), tile.up, visibility);
+            light(col, row) =
+                irradiance.at(tile.normals(col, row), up_at(maker, tile, {col, row}), visibility);
         }
     }
     Image lit(tile.albedo.cols(), tile.albedo.rows());

@@ -98,9 +98,9 @@ struct ImageryDetail {
 class TileMaker {
 public:
     /// `reduction`: samples of the terrain a side in one of the overview's, which lies in the
-    /// middle of them.
+    /// middle of them. `closing`: of the tree's raster, where it goes all around the Earth.
     TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree, int reduction,
-              const ImageryDetail& imagery = {});
+              const ImageryDetail& imagery = {}, const geo::Closing& closing = {});
 
     [[nodiscard]] const terrain::TileTree& tree() const { return tree_; }
     [[nodiscard]] const TerrainSurface& overview() const { return *overview_; }
@@ -114,6 +114,10 @@ public:
     /// Where a sample of the terrain lies on the overview.
     [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const;
     [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;
+    /// Within the overview's columns where it goes all around the Earth; else as it is.
+    [[nodiscard]] glm::dvec2 around_overview(glm::dvec2 overview_sample) const;
+    /// The rows of the terrain's samples.
+    [[nodiscard]] const geo::ClosedRows& rows() const { return rows_; }
     /// Whether a tile has all samples of the terrain: finer ones show only images finer.
     [[nodiscard]] bool has_all_samples(terrain::TreeTile tile) const;
     /// Texels along the sides of a tile with a picture.
@@ -146,11 +150,12 @@ private:
     [[nodiscard]] Image vertex_colors(const StreamedTile& tile, const Grid<float>& around,
                                       const Grid<std::uint8_t>& voids, bool with_overview) const;
     [[nodiscard]] int texels_per_cell(int level) const;
-
     std::shared_ptr<const TerrainSurface> overview_;
     terrain::TileTree tree_;
     int reduction_;
     ImageryDetail imagery_;
+    geo::ClosedRows rows_;
+    geo::ClosedRows overview_rows_;
     terrain::HeightTint tint_;
 };
 

@@ -22,7 +22,9 @@ Grid<std::uint8_t> visibility_of_sun(const TerrainSurface& surface, const Terrai
     const glm::dvec3 to_sun_on_grid = glm::inverse(light.world_from_local) * to_light(light.sun) *
                                       terrain::grid_axes(heightfield, surface.placement(), middle);
     return terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,
-                                   surface.placement().exaggeration(), to_sun_on_grid);
+                                   surface.placement().exaggeration(), to_sun_on_grid,
+                                   heightfield.georeference &&
+                                       heightfield.georeference->geodetic.rows().closing().around);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -19,6 +20,7 @@ struct Sweep {
     int first, direction; // line index order, away from the sun
     double shift;         // samples along a line from one line to the previous one
     double run;           // metres over the ground from one line to the previous one
+    bool around = false;  // columns go all around: the last is the first
 };
 
 Sweep sweep_along(GridView<const float> heights, glm::dvec2 spacing, glm::dvec3 to_sun) {
@@ -68,9 +70,10 @@ public:
     void advance(int previous) {
         for (int i = 0; i < sweep_.line_length; ++i) {
             const double last = sweep_.line_length - 1;
-            const double place = std::clamp(i + sweep_.shift, 0.0, last);
+            const double wanted = on_line(i + sweep_.shift);
+            const double place = std::clamp(wanted, 0.0, last);
             Edge& edge = next_[static_cast<std::size_t>(i)];
-            if (std::abs(i + sweep_.shift - place) > border_slack) {
+            if (std::abs(wanted - place) > border_slack) {
                 edge = {}; // nothing is known beyond the border
                 continue;
             }
@@ -91,6 +94,10 @@ public:
     }
 
 private:
+    [[nodiscard]] double on_line(double place) const {
+        const double turn = sweep_.line_length - 1;
+        return sweep_.around && sweep_.by_rows ? place - turn * std::floor(place / turn) : place;
+    }
     [[nodiscard]] Edge top(int line, int index) const {
         const double ground = exaggeration_ * sample(heights_, sweep_.by_rows, line, index);
         const Edge& edge = edges_[static_cast<std::size_t>(index)];
@@ -106,6 +113,19 @@ private:
     std::vector<Edge> next_;
 };
 
+// The lines in their order, each with the one before it: twice around where they go around, so that
+// the first ones know what stands before them.
+std::vector<std::pair<int, int>> lines_of(const Sweep& sweep) {
+    const bool twice = sweep.around && !sweep.by_rows;
+    const int last = sweep.lines - 1;
+    std::vector<std::pair<int, int>> lines;
+    for (int n = 1; n <= (twice ? 2 * last : last); ++n) {
+        const int at = sweep.first + ((n - 1) % last + 1) * sweep.direction;
+        lines.emplace_back(at, at - sweep.direction);
+    }
+    return lines;
+}
+
 std::uint8_t byte_share(double share) {
     const double smooth = std::clamp(share, 0.0, 1.0);
     return static_cast<std::uint8_t>(std::lround(255.0 * smooth * smooth * (3.0 - 2.0 * smooth)));
@@ -114,7 +134,7 @@ std::uint8_t byte_share(double share) {
 } // namespace
 
 Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spacing,
-                                  double exaggeration, glm::dvec3 to_sun) {
+                                  double exaggeration, glm::dvec3 to_sun, bool around) {
     const double horizontal = std::hypot(to_sun.x, to_sun.y);
     const bool below = !(to_sun.z > 0.0);
     Grid<std::uint8_t> visible(heights.cols(), heights.rows(), below ? 0 : 255);
@@ -122,7 +142,8 @@ Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spac
         return visible; // nothing lit, or a sun in the zenith: no shadow reaches a sample away
     }
     const glm::dvec3 unit_run = to_sun / horizontal;
-    const Sweep sweep = sweep_along(heights, spacing, unit_run);
+    Sweep sweep = sweep_along(heights, spacing, unit_run);
+    sweep.around = around && heights.cols() >= 2;
     const double drop = sweep.run * unit_run.z;
     // Half the disc as metres of height on a metre of run; even its lower limb's rays fall.
     const double spread =
@@ -130,15 +151,18 @@ Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spac
     // What hides the disc's middle, and what reaches farthest into its other half.
     ShadowFront deep(heights, sweep, exaggeration, drop, 0.0);
     ShadowFront wide(heights, sweep, exaggeration, drop, spread);
-    for (int n = 1; n < sweep.lines; ++n) {
-        const int line = sweep.first + n * sweep.direction;
-        deep.advance(line - sweep.direction);
-        wide.advance(line - sweep.direction);
+    for (const auto& [line, previous] : lines_of(sweep)) {
+        deep.advance(previous);
+        wide.advance(previous);
         for (int i = 0; i < sweep.line_length; ++i) {
             const double height = exaggeration * sample(heights, sweep.by_rows, line, i);
             (sweep.by_rows ? visible(i, line) : visible(line, i)) = byte_share(
                 std::min(deep.share(i, height, spread, drop), wide.share(i, height, spread, drop)));
         }
+    }
+    for (int row = 0; sweep.around && row < heights.rows(); ++row) {
+        const int from = sweep.direction > 0 ? heights.cols() - 1 : 0;
+        visible(heights.cols() - 1 - from, row) = visible(from, row);
     }
     return visible;
 }

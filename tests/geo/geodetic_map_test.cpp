@@ -142,5 +142,29 @@ TEST(GeodeticMap, AFlatMapHasNoWayBackAndSaysSo) {
     EXPECT_FALSE(map.sample(10.0, 20.0));
 }
 
+TEST(GeodeticMap, OfAWholeGlobeEndsAtThePoles) {
+    Grid<glm::dvec2> degrees(9, 9);
+    for (int row = 0; row < 9; ++row) {
+        for (int col = 0; col < 9; ++col) {
+            degrees(col, row) = {80.0 - 20.0 * row, -170.0 + 42.5 * col};
+        }
+    }
+    // 35×17 samples 10° apart, 36 and 18 with what closes them.
+    const GeodeticMap source(degrees, glm::dvec2(0.0), {4.25, 2.0});
+    Closing closing{.around = true, .east = true, .north = 1.0, .south = 1.0};
+    const GeodeticMap whole = source.closed(closing, 35, 17);
+    EXPECT_NEAR(whole.latitude_longitude({3.0, 0.0}).x, 90.0, 1e-12);
+    EXPECT_NEAR(whole.latitude_longitude({3.0, 18.0}).x, -90.0, 1e-12);
+    EXPECT_EQ(whole.latitude_longitude({3.0, 5.0}), source.latitude_longitude({3.0, 4.0}));
+    EXPECT_LE(whole.latitude_longitude({3.0, -1.0}).x, 90.0);
+    const ClosedRows rows({.north = 0.25, .south = 0.5}, 17);
+    EXPECT_EQ(rows.source_row(0.0), -0.25);
+    EXPECT_EQ(rows.source_row(1.0), 0.0);
+    EXPECT_EQ(rows.source_row(18.0), 16.5);
+    for (double row = -0.5; row < 18.6; row += 0.125) {
+        EXPECT_DOUBLE_EQ(rows.closed_row(rows.source_row(row)), row);
+    }
+}
+
 } // namespace
 } // namespace reljef::geo

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/scene/streamed_tile.h"
@@ -104,6 +107,73 @@ TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
     EXPECT_FALSE(make.has_all_samples({3, 0, 0}));
     const glm::dvec3 expected = maker().place({0, 1, 2}, {0, 0}, 5.0);
     EXPECT_EQ(make.place({0, 4, 8}, {0, 0}, 5.0), expected);
+}
+
+double globe_height(glm::dvec2 sample) {
+    const double x = sample.x * 2.0 * std::numbers::pi / 72.0;
+    return sample.y <= 0.0 || sample.y >= 37.0 ? 9000.0 : 9000.0 + 20000.0 * std::sin(x + 0.4);
+}
+
+/// 72×36 samples around the Earth, 5° apart, and what closes them.
+TileMaker globe_maker() {
+    constexpr geo::Closing closing{.around = true, .east = true, .north = 0.5, .south = 0.5};
+    Grid<glm::dvec2> degrees(9, 9);
+    for (int row = 0; row < 9; ++row) {
+        for (int col = 0; col < 9; ++col) {
+            degrees(col, row) = {87.5 - 175.0 * row / 8.0, -177.5 + 355.0 * col / 8.0};
+        }
+    }
+    terrain::Terrain globe{"globe", {}, {}, {}};
+    globe.heightfield.heights = Grid<float>(73, 38);
+    for (int row = 0; row < 38; ++row) {
+        for (int col = 0; col < 73; ++col) {
+            globe.heightfield.heights(col, row) = static_cast<float>(globe_height({col % 72, row}));
+        }
+    }
+    globe.heightfield.range = {-11000.0, 29000.0};
+    globe.heightfield.spacing = glm::dvec2(555e3);
+    globe.heightfield.georeference.emplace();
+    globe.heightfield.georeference->geodetic =
+        geo::GeodeticMap(degrees, glm::dvec2(0.0), {71.0 / 8.0, 35.0 / 8.0})
+            .closed(closing, 72, 36);
+    auto surface =
+        TerrainSurface::create(std::make_shared<const terrain::Terrain>(std::move(globe)),
+                               {.placement = terrain::PlacementKind::ellipsoid});
+    EXPECT_TRUE(surface);
+    return {std::make_shared<const TerrainSurface>(std::move(*surface)),
+            TileTree(73, 38),
+            1,
+            {},
+            closing};
+}
+
+TEST(TileMakers, OfAWholeGlobeMeetAcrossTheAntimeridianAndAtThePoles) {
+    const TileMaker make = globe_maker();
+    const TreeTile all{0, 0, 0};
+    Grid<float> heights(75, 40);
+    for (int row = 0; row < 40; ++row) {
+        for (int col = 0; col < 75; ++col) {
+            heights(col, row) =
+                static_cast<float>(globe_height({(col + 71) % 72, std::clamp(row - 1, 0, 37)}));
+        }
+    }
+    const StreamedTile made = make.make(all, std::move(heights));
+    for (int row = 0; row < 38; ++row) {
+        const glm::dvec3 step = made.place({0, row}) - made.place({72, row});
+        EXPECT_LT(glm::length(step), 0.05) << row;
+        EXPECT_LT(glm::distance(made.normals(0, row), made.normals(72, row)), 1e-5F) << row;
+    }
+    for (int col = 0; col <= 72; ++col) {
+        EXPECT_LT(glm::distance(made.place({col, 0}), made.place({5, 0})), 0.05);
+        EXPECT_LT(glm::distance(made.normals(col, 0), made.normals(5, 0)), 1e-5F);
+    }
+    const Grid<float> of_overview = make.overview_heights(all);
+    for (int row = 0; row < of_overview.rows(); ++row) {
+        EXPECT_EQ(of_overview(1, row), of_overview(73, row));
+    }
+    for (const double row : {0.0, 0.5, 1.0, 20.0, 36.25, 37.0}) {
+        EXPECT_NEAR(make.from_overview(make.on_overview({4.0, row})).y, row, 1e-12);
+    }
 }
 
 } // namespace

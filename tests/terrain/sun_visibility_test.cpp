@@ -158,5 +158,34 @@ TEST(SunVisibility, WorksOnTheLeastGrids) {
     }
 }
 
+TEST(SunVisibility, ShadowsFallAcrossWhereTheFirstColumnComesAgain) {
+    constexpr int turn = 40;
+    const auto hills = test::random_heights(turn, 30, 0.0F, 40.0F, 7);
+    const auto turned = [&](int by) {
+        Grid<float> heights(turn + 1, hills.rows());
+        for (int row = 0; row < hills.rows(); ++row) {
+            for (int col = 0; col <= turn; ++col) {
+                heights(col, row) = hills((col + by) % turn, row);
+            }
+        }
+        return heights;
+    };
+    for (const double azimuth : {90.0, 250.0, 200.0, 10.0}) {
+        const auto shares = [&](int by) {
+            return sun_visibility(turned(by).view(), {10.0, 10.0}, 1.0, sun_at(azimuth, 30.0),
+                                  true);
+        };
+        const auto here = shares(0);
+        const auto there = shares(17);
+        EXPECT_LT(darkest(here), 100);
+        for (int row = 0; row < here.rows(); ++row) {
+            ASSERT_EQ(here(0, row), here(turn, row));
+            for (int col = 0; col <= turn; ++col) {
+                ASSERT_NEAR(here((col + 17) % turn, row), there(col, row), 1) << azimuth;
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace reljef::terrain
