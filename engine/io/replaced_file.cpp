@@ -20,7 +20,7 @@
 namespace reljef::io {
 namespace {
 
-constexpr double same_place = 1e-3; // of a sample
+constexpr double same_sample = 1e-3; // of a sample
 
 /// Columns and rows of a raster and where they lie.
 struct RasterPlace {
@@ -58,7 +58,7 @@ bool is_same(const RasterPlace& now, const RasterPlace& before) {
     };
     return now.size == before.size && is_same_crs(now.crs, before.crs) &&
            std::max({miss({0.0, 0.0}), miss({now.size.x, 0.0}), miss({0.0, now.size.y})}) <
-               same_place;
+               same_sample;
 }
 
 /// Whether all of the indexed samples, told by those along their border, lie on the raster.
@@ -80,8 +80,8 @@ bool covers(const RasterPlace& now, const RasterPlace& before) {
     }
     return std::all_of(points.begin(), points.end(), [&](glm::dvec2 point) {
         const glm::dvec2 pixel = now.pixel_from_crs(point);
-        return glm::all(glm::greaterThanEqual(pixel, glm::dvec2(-same_place))) &&
-               glm::all(glm::lessThanEqual(pixel, now.size + same_place));
+        return glm::all(glm::greaterThanEqual(pixel, glm::dvec2(-same_sample))) &&
+               glm::all(glm::lessThanEqual(pixel, now.size + same_sample));
     });
 }
 

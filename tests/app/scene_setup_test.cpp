@@ -152,7 +152,7 @@ protected:
         ViewChoice view;
         view.path = folder_.write(name, text).string();
         auto scene = scene_of(view, terrain::PlacementKind::ellipsoid, ground, peak);
-        const auto path = open_path(scene, view);
+        const auto path = open_path(scene, view, {});
         EXPECT_TRUE(path) << (path ? "" : path.error().message);
         std::vector<geo::Geodetic> eyes;
         for (int i = 0; i < frames; ++i) {
@@ -188,7 +188,7 @@ TEST_F(Flight, LooksAlongItsWayAllTheTime) {
                            R"({"type":"LineString","coordinates":[[0,48,1500],[20,52,1500]]})")
                     .string();
     auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
-    const auto path = open_path(scene, view);
+    const auto path = open_path(scene, view, {});
     ASSERT_TRUE(path) << path.error().message;
     for (int i = 0; i < 30; ++i) {
         fly_to(scene, **path, i, 30);
