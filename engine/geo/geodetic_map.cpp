@@ -119,6 +119,12 @@ glm::dvec2 GeodeticMap::latitude_longitude(glm::dvec2 sample) const {
             glm::degrees(std::atan2(value.y, value.x))};
 }
 
+bool GeodeticMap::is_past_pole(glm::dvec2 sample) const {
+    constexpr double rounding = 1e-9; // degrees
+    const glm::dvec3 value = base_ + evaluate({sample.x, rows_.source_row(sample.y)}).at;
+    return kind_ == Kind::degrees && std::abs(value.x) > 90.0 + rounding;
+}
+
 GeodeticMap::Target GeodeticMap::target(double latitude, double longitude) const {
     if (kind_ == Kind::degrees) {
         const double turns = std::round((longitude - middle_longitude_) / 360.0);

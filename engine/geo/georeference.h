@@ -98,6 +98,10 @@ public:
     /// not past a pole.
     [[nodiscard]] glm::dvec2 latitude_longitude(glm::dvec2 sample) const;
 
+    /// Whether a sample lies farther than the pole that latitude_longitude gives for it, and not by
+    /// rounding (a tenth of a millimetre).
+    [[nodiscard]] bool is_past_pole(glm::dvec2 sample) const;
+
     /// The (col, row) that lies at a latitude and longitude (any multiple of 360 away), by Newton's
     /// method; fails where it does not converge to 1e-9 samples. May lie outside the raster.
     [[nodiscard]] Result<glm::dvec2> sample(double latitude, double longitude) const;

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include <OpenImageIO/imageio.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -140,6 +141,9 @@ bool is_remote(const fs::path& path) {
 void register_drivers() {
     static std::once_flag once;
     std::call_once(once, [] {
+        // At the first TIFF of each, OpenImageIO and GDAL take the TIFF library's errors for
+        // themselves: GDAL, which comes later now, hears them.
+        static_cast<void>(OIIO::ImageInput::create("a.tif"));
         GDALAllRegister();
         // Of larger folders not each file's opening lists the whole.
         set_default("GDAL_READDIR_LIMIT_ON_OPEN", "50");

@@ -115,7 +115,8 @@ std::optional<geo::Geodetic> Placement::geodetic_from_world(glm::dvec3 world) co
     }
     const std::optional<glm::dvec3> sample = sample_from_world(world);
     const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(*sample));
-    if (!(std::abs(position.x) <= 90.0 && std::isfinite(position.y))) {
+    if (geodetic_->is_past_pole(glm::dvec2(*sample)) || std::isnan(position.x) ||
+        !std::isfinite(position.y)) {
         return std::nullopt;
     }
     return geo::Geodetic{position.x, position.y, sample->z};
