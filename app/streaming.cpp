@@ -151,7 +151,10 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const scene::ImageryDetail imagery = source.stream->imagery;
     const io::ClosedGrid ground =
         ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
-    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows);
+    // On a plane the two ends of a globe are far apart.
+    const bool is_around =
+        ground.closing.around && overview->placement().kind() == terrain::PlacementKind::ellipsoid;
+    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, is_around);
     scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
                            ground.closing);
     const auto read = [tiles = *source.tiles, images = source.imagery, ground, maker,

@@ -4,15 +4,21 @@
 #include <optional>
 #include <utility>
 
-#include <glm/vector_relational.hpp>
 
 namespace reljef::terrain {
 namespace {
 
 bool touch(const TileTree& tree, TreeTile a, TreeTile b) {
-    const auto last = [&](TreeTile tile) { return tree.sample(tile, tree.cells(tile)); };
-    return glm::all(glm::lessThanEqual(TileTree::first(a), last(b))) &&
-           glm::all(glm::lessThanEqual(TileTree::first(b), last(a)));
+    const glm::ivec2 first_a = TileTree::first(a);
+    const glm::ivec2 first_b = TileTree::first(b);
+    const glm::ivec2 last_a = tree.sample(a, tree.cells(a));
+    const glm::ivec2 last_b = tree.sample(b, tree.cells(b));
+    const auto reaches_around = [&](int last, int first) {
+        return tree.is_around() && first == 0 && tree.other_end(last) == 0;
+    };
+    const bool across = (first_a.x <= last_b.x && first_b.x <= last_a.x) ||
+                        reaches_around(last_a.x, first_b.x) || reaches_around(last_b.x, first_a.x);
+    return across && first_a.y <= last_b.y && first_b.y <= last_a.y;
 }
 
 // The vertex of a tile at just that sample.
@@ -51,7 +57,11 @@ std::vector<TreeVertex> TileCover::partners(const TreeVertex& vertex) const {
     }
     const glm::ivec2 sample = tree_.sample(vertex.tile, vertex.vertex);
     for (const TreeTile other : edges.touching) {
-        if (const auto there = vertex_at(tree_, other, sample)) {
+        auto there = vertex_at(tree_, other, sample);
+        if (!there) {
+            there = vertex_at(tree_, other, {tree_.other_end(sample.x), sample.y});
+        }
+        if (there) {
             found.push_back({other, *there});
         }
     }

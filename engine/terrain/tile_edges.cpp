@@ -34,7 +34,11 @@ public:
     // where there is none or only finer ones.
     [[nodiscard]] std::optional<TreeTile> beside(TreeTile tile, glm::ivec2 side) const {
         TreeTile neighbour{tile.level, tile.col + side.x, tile.row + side.y};
-        if (neighbour.col < 0 || neighbour.row < 0) {
+        if (tree_.is_around()) {
+            const int cols = tree_.tile_cols(tile.level);
+            neighbour.col = (neighbour.col + cols) % cols;
+        }
+        if (neighbour.col < 0 || neighbour.row < 0 || neighbour == tile) {
             return std::nullopt;
         }
         for (; neighbour.level <= tree_.root().level; ++neighbour.level) {
@@ -57,7 +61,7 @@ private:
     [[nodiscard]] std::optional<TreeTile> coarsest_at(glm::ivec2 sample) const {
         for (int level = tree_.root().level; level >= 0; --level) {
             const int size = tile_cells * TileTree::step({level, 0, 0});
-            for (const int col : touching(sample.x, size)) {
+            for (const int col : cols_at(sample.x, size)) {
                 for (const int row : touching(sample.y, size)) {
                     if (drawn_.contains({level, col, row})) {
                         return TreeTile{level, col, row};
@@ -68,7 +72,26 @@ private:
         return std::nullopt;
     }
 
+    // Of the level, the first first, whichever end the sample is at.
+    [[nodiscard]] std::vector<int> cols_at(int sample, int size) const {
+        const int other = tree_.other_end(sample);
+        std::vector<int> cols = touching(std::min(sample, other), size);
+        if (other != sample) {
+            const std::vector<int> more = touching(std::max(sample, other), size);
+            cols.insert(cols.end(), more.begin(), more.end());
+        }
+        return cols;
+    }
+
+    // A sample at an end lies at both.
+    [[nodiscard]] int col_seen_from(TreeTile tile, int col) const {
+        const int first = TileTree::first(tile).x;
+        const int last = tree_.sample(tile, tree_.cells(tile)).x;
+        return col >= first && col <= last ? col : tree_.other_end(col);
+    }
+
     [[nodiscard]] TreeVertex nearest(TreeTile tile, glm::ivec2 sample) const {
+        sample.x = col_seen_from(tile, sample.x);
         const glm::ivec2 first = TileTree::first(tile);
         const glm::ivec2 cells = tree_.cells(tile);
         const int step = TileTree::step(tile);

@@ -8,12 +8,23 @@
 
 namespace reljef::terrain {
 
-TileTree::TileTree(int cols, int rows) : last_(cols - 1, rows - 1) {
+TileTree::TileTree(int cols, int rows, bool is_around)
+    : last_(cols - 1, rows - 1), is_around_(is_around) {
     check(std::min(cols, rows) >= 2 && std::max(cols, rows) <= most_tree_samples,
           "a tile tree needs 2 to 2^30 samples a side");
     while (tile_cells * step({levels_ - 1, 0, 0}) < std::max(last_.x, last_.y)) {
         ++levels_;
     }
+}
+
+int TileTree::other_end(int col) const {
+    const bool is_end = is_around_ && (col == 0 || col == last_.x);
+    return is_end ? last_.x - col : col;
+}
+
+int TileTree::tile_cols(int level) const {
+    const int size = tile_cells * step({level, 0, 0});
+    return (last_.x + size - 1) / size;
 }
 
 std::vector<TreeTile> TileTree::children(TreeTile tile) const {

@@ -27,11 +27,17 @@ inline constexpr int most_tree_samples = 1 << 30;
 /// tile is where its numbers say.
 class TileTree {
 public:
+    /// `is_around`: the last column lies where the first does, and tiles of both meet.
     /// Precondition: 2 to most_tree_samples samples a side.
-    TileTree(int cols, int rows);
+    TileTree(int cols, int rows, bool is_around = false);
 
     [[nodiscard]] int cols() const { return last_.x + 1; }
     [[nodiscard]] int rows() const { return last_.y + 1; }
+    /// The column at the other end, where that is the same place; else the column itself.
+    [[nodiscard]] int other_end(int col) const;
+    /// How many columns of tiles a level has.
+    [[nodiscard]] int tile_cols(int level) const;
+    [[nodiscard]] bool is_around() const { return is_around_; }
     /// The tile that covers all.
     [[nodiscard]] TreeTile root() const { return {levels_ - 1, 0, 0}; }
     /// The tiles below that cover it; none at level 0.
@@ -49,6 +55,7 @@ public:
 private:
     glm::ivec2 last_;
     int levels_ = 1;
+    bool is_around_ = false;
 };
 
 } // namespace reljef::terrain
