@@ -77,6 +77,16 @@ std::set<terrain::TreeTile> tiles_of(const std::vector<terrain::EdgeMove>& moves
     return tiles;
 }
 
+// Around the Earth a sample is many: the one that is nearest to a place.
+glm::dvec2 nearest_turn(const scene::TileMaker& maker, glm::dvec2 sample, glm::dvec2 place) {
+    if (maker.tree().is_around()) {
+        const terrain::TreeTile root = maker.tree().root();
+        const double turn = maker.sample(root, maker.tree().cells(root)).x - maker.first(root).x;
+        sample.x -= turn * std::round((sample.x - place.x) / turn);
+    }
+    return sample;
+}
+
 } // namespace
 
 GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::EdgeMove>& moves,
@@ -85,20 +95,22 @@ GridMesh streamed_mesh(const StreamedDraw& draw, const std::vector<terrain::Edge
     const scene::TileMaker& maker = draw.terrain->stream->maker();
     const glm::dvec2 first = maker.first(tile.id);
     GridMesh mesh{tile.cells.x, tile.cells.y, {}};
-    const auto vertex_of = [&](const StreamedDraw& from, glm::ivec2 vertex) {
+    const auto vertex_of = [&](const StreamedDraw& from, glm::ivec2 vertex, glm::ivec2 own) {
         const PlacedVertex at = placed(from, vertex);
-        return grid_vertex(at.place, at.height, maker.sample(from.tile->id, vertex) - first);
+        const glm::dvec2 sample =
+            nearest_turn(maker, maker.sample(from.tile->id, vertex), maker.sample(tile.id, own));
+        return grid_vertex(at.place, at.height, sample - first);
     };
     mesh.vertices.reserve(tile.positions.size());
     for (int row = 0; row <= tile.cells.y; ++row) {
         for (int col = 0; col <= tile.cells.x; ++col) {
-            mesh.vertices.push_back(vertex_of(draw, {col, row}));
+            mesh.vertices.push_back(vertex_of(draw, {col, row}, {col, row}));
         }
     }
     for (const terrain::EdgeMove& move : moves) {
         const int index = move.vertex.y * (tile.cells.x + 1) + move.vertex.x;
         mesh.vertices[static_cast<std::size_t>(index)] =
-            vertex_of(*drawn.at(move.to.tile), move.to.vertex);
+            vertex_of(*drawn.at(move.to.tile), move.to.vertex, move.vertex);
     }
     return mesh;
 }

@@ -1,8 +1,10 @@
 // A DEM of the whole Earth in the program: no hole at the antimeridian and the poles.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -43,21 +45,25 @@ protected:
     }
     [[nodiscard]] std::string path() const { return (folder_.path() / "globe.asc").string(); }
 
-    /// Pixels of a view straight down that show sky.
-    [[nodiscard]] int holes(const std::string& camera, std::vector<std::string> more) const {
+    /// What a view straight down shows.
+    [[nodiscard]] HitBuffer hits_of(const std::string& camera,
+                                    std::vector<std::string> more) const {
         const std::string file = (folder_.path() / "hit.exr").string();
         std::vector<std::string> arguments{"render", path(),    "--camera", camera, "--size",
                                            "96x72",  "--quiet", "--hit",    file};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto result = test::reljef(arguments, options_);
         EXPECT_EQ(result.exit_code, 0) << result.err;
-        const auto hits = io::read_hits(file);
+        auto hits = io::read_hits(file);
         EXPECT_TRUE(hits);
-        int count = 0;
-        for (const Hit& hit : hits->samples()) {
-            count += hit.is_sky() ? 1 : 0;
-        }
-        return count;
+        return hits ? std::move(*hits) : HitBuffer();
+    }
+    /// Pixels of it that show sky.
+    [[nodiscard]] int holes(const std::string& camera, std::vector<std::string> more) const {
+        const HitBuffer hits = hits_of(camera, std::move(more));
+        EXPECT_FALSE(hits.empty());
+        return static_cast<int>(std::count_if(hits.samples().begin(), hits.samples().end(),
+                                              [](const Hit& hit) { return hit.is_sky(); }));
     }
 
     test::TemporaryFolder folder_;
@@ -80,8 +86,27 @@ TEST_F(GlobeFile, has_no_hole_where_triangles_are_few) {
 }
 
 TEST_F(GlobeFile, has_no_hole_where_it_is_streamed) {
+    write(720, 360); // more than a megabyte holds
     for (const char* camera : cameras) {
         EXPECT_EQ(holes(camera, {"--memory", "1"}), 0) << camera;
+    }
+}
+
+// Its colours and light are those of the place, where tiles of both sides meet, too.
+TEST_F(GlobeFile, streamed_colours_run_on_across_the_antimeridian) {
+    write(720, 360);
+    const std::string file = (folder_.path() / "a.png").string();
+    const auto result = test::reljef({"render", path(), "--camera", "0,180,1000000,0,-90", "--size",
+                                      "96x72", "--quiet", "--stats", "--memory", "1", "-o", file},
+                                     options_);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, testing::HasSubstr("streamed:"));
+    const auto picture = io::read_image(file);
+    ASSERT_TRUE(picture);
+    for (int row = 0; row < picture->rows(); ++row) {
+        for (int col = 1; col < picture->cols(); ++col) {
+            ASSERT_NEAR((*picture)(col, row).g, (*picture)(col - 1, row).g, 12.0) << col;
+        }
     }
 }
 
