@@ -31,6 +31,11 @@ public:
         const std::lock_guard lock(mutex_);
         failures_.erase(path);
     }
+    /// Whether it has since it was last forgotten.
+    [[nodiscard]] bool has_failed(const std::filesystem::path& path) const {
+        const std::lock_guard lock(mutex_);
+        return failures_.contains(path);
+    }
     /// What was wrong with a file that is given up for now, else nothing.
     [[nodiscard]] std::optional<std::string> given_up(const std::filesystem::path& path) const {
         const std::lock_guard lock(mutex_);

@@ -245,12 +245,12 @@ public:
                 options_.progress((static_cast<double>(index) + done) / static_cast<double>(count));
             };
         }
-        bool any = false;
         for (const double turn : picture.turns) {
-            any = (any && is_full()) || draw(**colors, picture.meeting, turn, warping) || any;
+            if (!draw(**colors, picture.meeting, turn, warping) || messages.has_lost_blocks()) {
+                return unreadable(picture.path.string(), messages);
+            }
         }
-        return any && !messages.has_lost_blocks() ? Result<void>()
-                                                  : unreadable(picture.path.string(), messages);
+        return {};
     }
     [[nodiscard]] bool is_full() const {
         const auto pixels = image_.samples();

@@ -119,13 +119,27 @@ struct Block {
     std::vector<int> points;
 };
 
-std::vector<Block> blocks_of(const TileLayer& layer, std::span<const glm::dvec2> points) {
+/// Of a point on the way to a pole that a layer is closed by, the nearest that its cells reach.
+glm::dvec2 in_reach(const TileLayer& layer, const geo::Closing& closing, glm::dvec2 point) {
+    const double north = -point.y;
+    const double south = point.y - (layer.rows - 1.0);
+    if (north > 0.0 && north <= closing.north + on_sample) {
+        point.y = std::max(point.y, -0.5);
+    } else if (south > 0.0 && south <= closing.south + on_sample) {
+        point.y = std::min(point.y, layer.rows - 0.5);
+    }
+    return point;
+}
+
+std::vector<Block> blocks_of(const TileLayer& layer, const geo::Closing& closing,
+                             std::span<const glm::dvec2> points) {
     std::unordered_map<std::int64_t, std::size_t> numbers;
     std::vector<Block> blocks;
-    const glm::dvec2 last(layer.cols - 0.5, layer.rows - 0.5);
+    const double first = -0.5 - on_sample;
+    const glm::dvec2 last = glm::dvec2(layer.cols, layer.rows) - 1.0 - first;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::dvec2 point = points[i];
-        if (!(point.x >= -0.5 && point.y >= -0.5 && point.x <= last.x && point.y <= last.y)) {
+        const glm::dvec2 point = in_reach(layer, closing, points[i]);
+        if (!(point.x >= first && point.y >= first && point.x <= last.x && point.y <= last.y)) {
             continue;
         }
         const glm::ivec2 at(glm::max(point, 0.0) / static_cast<double>(block_side));
@@ -210,7 +224,8 @@ public:
         std::vector<OnTile> found;
         found.reserve(block_.points.size());
         for (const int index : block_.points) {
-            found.push_back(locate(points_[static_cast<std::size_t>(index)]));
+            found.push_back(
+                locate(in_reach(layer_, poles_.closing, points_[static_cast<std::size_t>(index)])));
         }
         const CellWindow window = window_of(found);
         if (window.cols == 0) {
@@ -328,8 +343,8 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
         return;
     }
     const auto points = lattice_points(layer, places, wanted, threads);
-    const std::vector<Block> blocks = blocks_of(layer, points);
     const Poles poles = poles_of(layer, points, reading, result.faults);
+    const std::vector<Block> blocks = blocks_of(layer, poles.closing, points);
     std::mutex mutex;
     const auto answer_block = [&](int number) {
         std::vector<TileFault> faults;

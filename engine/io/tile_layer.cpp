@@ -1,6 +1,7 @@
 #include "engine/io/tile_layer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -242,6 +243,8 @@ Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileRea
     });
 }
 
+constexpr std::chrono::seconds longest_answer{5}; // of a server that does not hang
+
 /// Nobody waits for a server that does not answer again and again.
 Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileReading& reading,
                                  const GdalMessages& messages) {
@@ -324,14 +327,25 @@ void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reducti
 /// Adds the part of a tile to sums over cells, or tells what fails.
 void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
               const TileReading& reading, CellSums& sums, std::vector<TileFault>& faults) {
+    const auto begin = BackOff::Clock::now();
     const auto read = read_part(tile, part, reduction, reading);
     const std::filesystem::path path = path_of(tile, reading);
     if (read) {
         sums.add(tile, read->plan, read->values);
-    } else if (is_tile_pyramid(path) && !reading.options.stop.stop_requested()) {
-        add_pyramid_tiles(tile, part, reduction, reading, sums, faults);
-    } else {
+        return;
+    }
+    if (!is_tile_pyramid(path) || reading.options.stop.stop_requested()) {
         faults.push_back({path, read.error().message});
+        return;
+    }
+    // A server that hangs would hang for each of the tiles again.
+    if (BackOff::Clock::now() - begin > longest_answer) {
+        reading.failing->note(path, read.error().message);
+    }
+    if (reading.failing->has_failed(path)) {
+        faults.push_back({path, read.error().message});
+    } else {
+        add_pyramid_tiles(tile, part, reduction, reading, sums, faults);
     }
 }
 

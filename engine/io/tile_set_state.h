@@ -31,7 +31,11 @@ struct TileSet::State {
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
     mutable std::atomic<std::size_t> bytes_read{0};
-    mutable DatasetPool pool{open_whole_raster};
+    mutable WholeRasters whole;
+    mutable DatasetPool pool{
+        [this](const std::filesystem::path& path, const GdalMessages& messages) {
+            return whole.open(path, messages);
+        }};
     mutable FailingFiles failing; ///< what a server does not give is not asked for by every tile
     mutable NewNotes new_notes;
 

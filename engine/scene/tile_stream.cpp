@@ -1,6 +1,7 @@
 #include "engine/scene/tile_stream.h"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -89,8 +90,11 @@ std::optional<TileSummary> TileStream::recall(terrain::TreeTile tile) const {
 
 std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
     const glm::dvec2 last(tree().cols() - 1, tree().rows() - 1);
-    const glm::dvec2 sample = glm::clamp(maker_.tree_sample(maker_.from_overview(overview_sample)),
-                                         glm::dvec2(0.0), last);
+    glm::dvec2 sample = maker_.tree_sample(maker_.from_overview(overview_sample));
+    if (tree().is_around() && (sample.x < 0.0 || sample.x > last.x)) {
+        sample.x -= last.x * std::floor(sample.x / last.x);
+    }
+    sample = glm::clamp(sample, glm::dvec2(0.0), last);
     const std::lock_guard lock(mutex_);
     for (int level = 0; level <= tree().root().level; ++level) {
         const int side = terrain::tile_cells << level;
