@@ -38,7 +38,8 @@ public:
 /// floor, at 0 m, is three samples wide. It is read part by part.
 class StreamedCanyon : public testing::Test {
 protected:
-    [[nodiscard]] TerrainScene scene_of(const ViewChoice& view) const {
+    [[nodiscard]] TerrainScene
+    scene_of(terrain::PlacementKind placement = terrain::PlacementKind::plane) const {
         constexpr int side = 257;
         std::string text = fmt::format("ncols {0}\nnrows {0}\nxllcenter 10\nyllcenter 0\n"
                                        "cellsize 0.0001\n",
@@ -52,13 +53,13 @@ protected:
         TerrainChoice choice;
         choice.terrain = folder_.write("canyon.asc", text).string();
         choice.memory_megabytes = 1;
-        choice.placement = terrain::PlacementKind::plane;
+        choice.placement = placement;
         choice.quiet = true;
         choice.streamed = true;
         auto source = open_terrain(choice, {});
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
         EXPECT_TRUE(source->stream);
-        return std::move(*make_scene(std::move(*source), choice, view));
+        return std::move(*make_scene(std::move(*source), choice, ViewChoice{}));
     }
 
     test::TemporaryFolder folder_;
@@ -72,7 +73,7 @@ scene::FlyPath northward_path(glm::dvec3 start) {
 }
 
 TEST_F(StreamedCanyon, FramesOfAFlightAreRaisedOverTheFineGroundOnly) {
-    TerrainScene scene = scene_of({});
+    TerrainScene scene = scene_of();
     const scene::FlyPath path = northward_path({0.0, -300.0, 5.0});
     TilesOnly maker;
     for (int i = 0; i < 3; ++i) {
@@ -82,7 +83,7 @@ TEST_F(StreamedCanyon, FramesOfAFlightAreRaisedOverTheFineGroundOnly) {
 }
 
 TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
-    TerrainScene scene = scene_of({});
+    TerrainScene scene = scene_of();
     const scene::FlyPath path = northward_path({500.0, -300.0, 200.0});
     TilesOnly maker;
     EXPECT_NEAR(fly_above_ground(scene, path, 0, 2, maker, {}), 800.0 + least_clearance(scene),
@@ -90,6 +91,29 @@ TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
     const auto& stream = *scene.terrain->get<scene::TerrainNode>()->stream;
     const std::array views{scene.scene.camera()};
     EXPECT_TRUE(render::wanted_tiles(scene.scene, stream, views, small_picture).empty());
+}
+
+// From beside the terrain, as the pose overview looks, and from afar. Without finer tiles the
+// ground is that of the overview, of which the exact ray cast knows.
+TEST_F(StreamedCanyon, TheScaleIsKnownFromBesideTheTerrain) {
+    for (const auto placement :
+         {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        TerrainScene scene = scene_of(placement);
+        const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+        auto& camera = *scene.camera->get<scene::Camera>();
+        scene::TerrainNode overview = terrain;
+        overview.stream = nullptr;
+        for (const double times : {1.0, 3.0, 100.0}) {
+            scene::Camera away = camera;
+            away.eye = camera.look + times * (camera.eye - camera.look);
+            const auto wanted = metres_per_pixel(overview, away, 120);
+            const auto found = metres_per_pixel(terrain, away, 120);
+            ASSERT_TRUE(wanted && found) << times;
+            EXPECT_NEAR(*found, *wanted, 1e-3 * *wanted) << times;
+            away.look = away.eye + (away.eye - camera.look);
+            EXPECT_FALSE(metres_per_pixel(terrain, away, 120)) << "nothing but sky";
+        }
+    }
 }
 
 } // namespace
