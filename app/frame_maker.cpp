@@ -25,6 +25,8 @@ private:
 };
 
 constexpr double megabyte = 1e6;
+constexpr int most_rises =
+    4; // of a frame: what a raised camera shows may be higher once it is there
 
 // As many triangles as a view of a terrain has, of few vertices: software renderers keep what they
 // are about to draw, tens of megabytes, whatever draws with them.
@@ -170,9 +172,17 @@ std::string TruthFrames::stats() const {
 
 double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
                         FrameMaker& maker, const std::stop_token& stop) {
-    const double raised = fly_to(scene, path, index, frames);
-    maker.bring(scene.scene, stop);
-    return raised + keep_above_ground(scene);
+    fly_to(scene, path, index, frames);
+    double raised = 0.0;
+    for (int i = 0; i < most_rises; ++i) {
+        maker.bring(scene.scene, stop);
+        const double rise = keep_above_ground(scene);
+        if (rise == 0.0) {
+            break;
+        }
+        raised += rise;
+    }
+    return raised;
 }
 
 } // namespace reljef::app

@@ -86,7 +86,8 @@ private:
     double draw_ms_ = 0.0;
 };
 
-/// As fly_to, above the ground that the frame shows: waits for it.
+/// As fly_to, above the ground that the frame shows (see keep_above_ground in ground.h): waits for
+/// it before. Returns by how many metres the camera was raised.
 double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
                         FrameMaker& maker, const std::stop_token& stop);
 

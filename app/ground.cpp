@@ -63,26 +63,60 @@ double highest_at(const scene::TerrainNode& terrain, glm::dvec2 sample) {
 
 constexpr double largest_share = 0.25; // of the height above the ground, for a step along a ray
 constexpr double least_share = 1e-3;   // of the way so far
+constexpr double step_in_sides = 1e-3; // of the box that holds the ground, where none is below
 constexpr int most_steps_of_ray = 4096;
 constexpr int halvings = 30;
+
+double longest_side(const Box& box) {
+    const glm::dvec3 size = box.size();
+    return std::max({size.x, size.y, size.z});
+}
+
+// Of all that is read part by part, which may rise above its averages in the overview.
+Box box_of_tiles(const scene::TerrainSurface& surface) {
+    const terrain::HeightRange& range = surface.heightfield().range;
+    Box box = surface.bounds();
+    const glm::dvec3 margin(surface.placement().exaggeration() * (range.high - range.low) +
+                            step_in_sides * longest_side(box));
+    box.low -= margin;
+    box.high += margin;
+    return box;
+}
+
+bool is_under_ground(const scene::TerrainNode& terrain, glm::dvec3 place) {
+    const auto height = height_above_ground(terrain, place);
+    return height && *height <= 0.0;
+}
+
+// Where a ray goes under the ground, between a place over or beside it and one under it.
+double distance_between(const scene::TerrainNode& terrain, const Ray& ray, double over,
+                        double under) {
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (over + under);
+        (is_under_ground(terrain, ray.at(middle)) ? under : over) = middle;
+    }
+    return under;
+}
 
 // Along a ray of unit length, to a thousandth: where the terrain is read part by part, by what is
 // there of it.
 std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const Ray& ray) {
-    double before = 0.0;
-    double distance = 0.0;
-    for (int i = 0; i < most_steps_of_ray; ++i) {
+    const Box box = box_of_tiles(*terrain.surface);
+    const auto part = intersect(ray, box);
+    if (!part) {
+        return std::nullopt;
+    }
+    const double beside = step_in_sides * longest_side(box);
+    double before = part->begin;
+    double distance = part->begin;
+    for (int i = 0; i < most_steps_of_ray && before <= part->end; ++i) {
         const auto height = height_above_ground(terrain, ray.at(distance));
         if (height && *height <= 0.0) {
-            for (int j = 0; j < halvings; ++j) {
-                const double middle = 0.5 * (before + distance);
-                const auto at = height_above_ground(terrain, ray.at(middle));
-                (at && *at <= 0.0 ? distance : before) = middle;
-            }
-            return distance;
+            return distance_between(terrain, ray, before, distance);
         }
         before = distance;
-        distance += std::max({largest_share * height.value_or(0.0), least_share * distance, 1e-3});
+        const double least = std::max(std::min(least_share * distance, beside), 1e-3);
+        distance += height ? std::max(largest_share * *height, least) : std::max(beside, least);
     }
     return std::nullopt;
 }

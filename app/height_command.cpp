@@ -206,8 +206,8 @@ Command add_height_command(CLI::App& program, Interrupt& interrupt) {
     });
     arguments->footer(
         "Prints LAT,LON,HEIGHT, one line a place; the height is in metres above the DEM's "
-        "own zero, nan on a void, and with --points outside the terrain. In a folder of "
-        "tiles the finest has the word, then the newer.\n"
+        "own zero, nan on a void, and with --points outside the terrain or --area. In a folder "
+        "of tiles the finest has the word, then the newer.\n"
         "Examples:\n"
         "  reljef height N45E006.hgt --at 45.8326,6.8652\n"
         "  reljef height tiles/ --points - < places.csv > heights.csv");

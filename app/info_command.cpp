@@ -41,6 +41,13 @@ geo::ClosedRows rows_of(const terrain::Heightfield& heightfield) {
     return heightfield.georeference ? heightfield.georeference->geodetic.rows() : geo::ClosedRows();
 }
 
+// Samples that were read, without those that close the globe.
+glm::ivec2 size_that_was_read(const terrain::Heightfield& heightfield) {
+    const geo::ClosedRows rows = rows_of(heightfield);
+    return {heightfield.heights.cols() - rows.closing().cols(),
+            heightfield.heights.rows() - rows.closing().rows()};
+}
+
 // Where a sample of the source lies, both counted in samples that were read.
 glm::dvec2 read_from_source(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
     return {sample.x, rows_of(heightfield).closed_row(sample.y)};
@@ -155,8 +162,7 @@ std::optional<FullGrid> grid_of_tiles(const io::TileSet& tiles,
 
 // Of a file, which is read from its first column and row on.
 FullGrid grid_of_file(int cols, int rows, const terrain::Heightfield& heightfield) {
-    const int read_cols = heightfield.heights.cols() - rows_of(heightfield).closing().cols();
-    const int reduction = std::max(1, cols / read_cols);
+    const int reduction = std::max(1, cols / size_that_was_read(heightfield).x);
     const double half = 0.5 * (reduction - 1);
     const glm::dvec2 last =
         (glm::dvec2(cols - 1, rows - 1) - half) / static_cast<double>(reduction);
@@ -165,10 +171,8 @@ FullGrid grid_of_file(int cols, int rows, const terrain::Heightfield& heightfiel
 }
 
 FullGrid grid_that_was_read(const terrain::Heightfield& heightfield) {
-    const geo::ClosedRows rows = rows_of(heightfield);
-    const geo::Closing& closing = rows.closing();
-    return grid_of_file(heightfield.heights.cols() - closing.cols(),
-                        heightfield.heights.rows() - closing.rows(), heightfield);
+    const glm::ivec2 size = size_that_was_read(heightfield);
+    return grid_of_file(size.x, size.y, heightfield);
 }
 
 Json geoid_info(const geo::Georeference& georeference) {
@@ -181,7 +185,6 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     const Json own_file = source.tiles || !source.description.generator.empty()
                               ? Json()
                               : file_info(source.description);
-    const auto& heights = heightfield.heights;
     const FullGrid read_grid = grid_that_was_read(heightfield);
     const FullGrid grid =
         source.tiles ? grid_of_tiles(*source.tiles, area, heightfield).value_or(read_grid)
@@ -210,8 +213,8 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
                          {"finest_spacing_m", file["finest_spacing_m"]}};
     }
     // What was read within the memory is all or a whole-number part of it.
-    info["read"] = {
-        {"cols", heights.cols()}, {"rows", heights.rows()}, {"reduction", grid.reduction}};
+    const glm::ivec2 read = size_that_was_read(heightfield);
+    info["read"] = {{"cols", read.x}, {"rows", read.y}, {"reduction", grid.reduction}};
     const glm::dvec2 spacing = heightfield.spacing / static_cast<double>(grid.reduction);
     info["spacing"] = {{"x_m", spacing.x}, {"y_m", spacing.y}};
     info["extent"] = extent_of(heightfield, grid);
@@ -226,26 +229,28 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     return info;
 }
 
-std::string geoid_text(const Json& crs) {
+std::string geoid_text(const Json& crs, const TerrainChoice& choice) {
     if (!crs["geoid"].is_null()) {
         return fmt::format("geoid {} applied on the ellipsoid", crs["geoid"].get<std::string>());
     }
-    return geo::is_ellipsoidal(crs["vertical_datum"].get<std::string>())
-               ? "no geoid needed on the ellipsoid"
-               : "geoid not applied: none given or installed for it";
+    if (geo::is_ellipsoidal(crs["vertical_datum"].get<std::string>())) {
+        return "no geoid needed on the ellipsoid";
+    }
+    return choice.geoid == "none" ? "geoid not applied: --geoid none"
+                                  : "geoid not applied: none given or installed for it";
 }
 
 // What heights count from, and whether the geoid is applied.
-void print_vertical(const Json& crs) {
+void print_vertical(const Json& crs, const TerrainChoice& choice) {
     if (crs.is_null()) {
         return;
     }
     const auto datum = crs["vertical_datum"].get<std::string>();
     fmt::print("  zero     {}; {}\n", datum.empty() ? std::string("unnamed") : datum,
-               geoid_text(crs));
+               geoid_text(crs, choice));
 }
 
-void print_text(const Json& info) {
+void print_text(const Json& info, const TerrainChoice& choice) {
     const auto number = [&](const char* group, const char* key) {
         return info[group][key].get<double>();
     };
@@ -259,7 +264,7 @@ void print_text(const Json& info) {
         fmt::print("  CRS      {}{}\n", info["crs"]["name"].get<std::string>(),
                    code.empty() ? "" : " (" + code + ")");
     }
-    print_vertical(info["crs"]);
+    print_vertical(info["crs"], choice);
     if (info.contains("tiles")) {
         fmt::print("  tiles    {} {}\n", info["tiles"]["files"].get<std::size_t>(),
                    info["tiles"]["formats"].dump());
@@ -304,7 +309,7 @@ Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
     if (choice.json) {
         fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));
     } else {
-        print_text(info);
+        print_text(info, choice.terrain);
     }
     return report_faults(choice.terrain.terrain, source->terrain.faults.size());
 }

@@ -213,7 +213,7 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         .add_option(
             "--path", choice.path,
             "fly: orbit, flyover, a path file (TOML: [[key]] time, eye, look; or time, latitude, "
-            "longitude, height) or the line of a GPX, KML or GeoJSON file")
+            "longitude, height) or the first track or line of a GPX, KML or GeoJSON file")
         ->type_name("NAME|FILE")
         ->excludes(eye)
         ->excludes(camera);

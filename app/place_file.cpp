@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -50,6 +51,10 @@ bool is_heading(std::string_view line) {
     const auto first = line.find_first_not_of("\"'+-. \t");
     return first != std::string_view::npos && (line[first] < '0' || line[first] > '9') &&
            !line_of(line);
+}
+
+bool is_left_out(std::string_view line) {
+    return line.empty() || line.front() == '#';
 }
 
 std::string_view without_byte_order_mark(std::string_view text) {
@@ -121,11 +126,15 @@ Result<PlaceFile::Piece> PlaceFile::next() {
         text.remove_prefix(std::min(raw.size() + 1, text.size()));
         ++lines_read_;
         const std::string_view whole = trimmed(raw);
+        if (is_left_out(whole)) {
+            continue;
+        }
+        const bool is_first = std::exchange(may_be_heading_, false);
         const auto line = line_of(whole);
         if (line && checked_place("", line->place)) {
             piece.places.push_back(line->place);
             piece.texts.push_back(line->text);
-        } else if (!whole.empty() && !(lines_read_ == 1 && is_heading(whole))) {
+        } else if (!is_first || !is_heading(whole)) {
             return Error{fmt::format("--points: line {}: '{}' found, LAT,LON in degrees was "
                                      "expected",
                                      lines_read_, whole.substr(0, 80))};

@@ -18,9 +18,9 @@ namespace reljef::app {
 Result<glm::dvec2> checked_place(std::string_view option, glm::dvec2 place);
 
 /// A file of places that is read piece by piece: a line each, LAT,LON in degrees, and what follows
-/// another comma is not looked at. Empty lines are left out, and a first line that begins with no
-/// number: a heading. Errors name --points and the file or the line, what was found and what was
-/// expected.
+/// another comma is not looked at. Blank lines and lines that begin with # are left out, and the
+/// first other line if it begins with no number: a heading. Errors name --points and the file or
+/// the line, what was found and what was expected.
 class PlaceFile {
 public:
     /// "-" is standard input. `piece_bytes`: at most so much is read at a time, and of a line.
@@ -47,6 +47,7 @@ private:
     std::string text_;           // whole lines
     std::string rest_;           // the beginning of a line
     std::size_t lines_read_ = 0; // of the file, before text_
+    bool may_be_heading_ = true; // the next line that is not left out
     bool at_end_ = false;
 };
 

@@ -9,7 +9,6 @@
 
 #include "app/flight_keys.h"
 #include "app/gallery.h"
-#include "app/ground.h"
 #include "app/ground_detail.h"
 #include "app/message.h"
 #include "app/misuse.h"
@@ -290,12 +289,11 @@ Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const
     return Path(std::move(*path));
 }
 
-double fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
+void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
     const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
     auto& camera = *scene.camera->get<scene::Camera>();
     camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
     camera.up = scene.terrain->get<scene::TerrainNode>()->surface->placement().up(camera.eye);
-    return keep_above_ground(scene);
 }
 
 } // namespace reljef::app

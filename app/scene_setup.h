@@ -49,9 +49,8 @@ Result<void> prepare_bisection(TerrainScene& scene, const TerrainChoice& terrain
 Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene, const ViewChoice& view,
                                                 const TerrainChoice& terrain);
 
-/// Puts the camera where frame `index` of so many evenly spread along a path sees from, above the
-/// ground that is there (see keep_above_ground in ground.h). Returns by how many metres it was
-/// raised.
-double fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
+/// Puts the camera where frame `index` of so many evenly spread along a path sees from, be it under
+/// the ground: see fly_above_ground in frame_maker.h.
+void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
 
 } // namespace reljef::app

@@ -17,7 +17,7 @@ struct GeodeticKey {
     double latitude = 0.0;
     double longitude = 0.0;
     std::optional<double> height;  ///< above the DEM's own zero; absent: as the flyer sees fit
-    std::optional<double> heading; ///< clockwise from north; absent: towards the next key
+    std::optional<double> heading; ///< clockwise from north; absent: along the way
     std::optional<double> pitch;   ///< above the horizon, [-90, 90]; given with a heading only
 };
 
@@ -34,7 +34,8 @@ struct Flight {
 /// 100,000. Errors as everywhere.
 Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_second = 100.0);
 
-/// The first line of a file that GDAL opens, as keys on Earth: see read_flight.
+/// The first track, route or line of a file that GDAL opens, with all its segments, as keys on
+/// Earth: see read_flight.
 Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second);
 
 } // namespace reljef::io

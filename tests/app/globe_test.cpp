@@ -125,7 +125,10 @@ TEST_F(GlobeFile, info_tells_the_size_and_extent_of_the_file) {
         const auto info = nlohmann::json::parse(result.out);
         EXPECT_EQ(info["cols"], 180);
         EXPECT_EQ(info["rows"], 90);
-        const double half = 1.0 * info["read"]["reduction"].get<int>();
+        const int reduction = info["read"]["reduction"].get<int>();
+        EXPECT_EQ(info["read"]["cols"], 180 / reduction) << "without the column that closes it";
+        EXPECT_EQ(info["read"]["rows"], 90 / reduction) << "without the poles";
+        const double half = 1.0 * reduction;
         EXPECT_NEAR(info["extent"]["west"], -180.0 + half, 1e-9);
         EXPECT_NEAR(info["extent"]["east"], 180.0 - half, 1e-9);
         EXPECT_NEAR(info["extent"]["south"], -90.0 + half, 1e-9);

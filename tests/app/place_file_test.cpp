@@ -65,6 +65,22 @@ TEST_F(PlaceFileTest, OnlyAFirstLineWithoutANumberIsAHeading) {
     EXPECT_TRUE(read("")->places.empty());
 }
 
+TEST_F(PlaceFileTest, BlankLinesAndCommentsStandAnywhere) {
+    for (const char* good :
+         {"\nlat,lon\n40.08,10.01\n", "# by hand\n \r\nlat,lon\n# in degrees\n40.08,10.01\n",
+          "\n\n40.08,10.01\n  # the end", "lat,lon\n#\n40.08,10.01\n#1,2"}) {
+        for (const std::size_t piece : {20U, 1000U}) {
+            const auto places = read(good, piece);
+            ASSERT_TRUE(places) << good << ": " << places.error().message;
+            EXPECT_EQ(places->texts, "40.08,10.01\n") << good;
+        }
+    }
+    EXPECT_THAT(read("\n# by hand\nlat,lon\nlat,lon\n").error().message,
+                HasSubstr("line 4: 'lat,lon' found"));
+    EXPECT_THAT(read("1,2\n# by hand\nlat,lon\n").error().message,
+                HasSubstr("line 3: 'lat,lon' found"));
+}
+
 TEST_F(PlaceFileTest, PiecesCutNoLine) {
     std::string text = "latitude,longitude\n";
     std::string wanted;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "app/frame_maker.h"
+#include "app/ground.h"
 #include "app/scene_setup.h"
 #include "engine/scene/tile_stream.h"
 #include "tests/support/process_state.h"
@@ -111,6 +112,7 @@ protected:
         glm::dvec3 ahead(0.0);
         for (int i = 0; i < frames; ++i) {
             fly_to(place.scene(), **flight, i, frames);
+            keep_above_ground(place.scene());
             const glm::dvec3 eye = camera.eye;
             const glm::dvec3 forward = glm::normalize(camera.look - eye);
             const glm::dvec3 up = place.placement().up(eye);

@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "app/frame_maker.h"
 #include "engine/geo/place.h"
 #include "tests/support/temporary_folder.h"
 
@@ -154,9 +155,10 @@ protected:
         auto scene = scene_of(view, terrain::PlacementKind::ellipsoid, ground, peak);
         const auto path = open_path(scene, view, {});
         EXPECT_TRUE(path) << (path ? "" : path.error().message);
+        TruthFrames maker({1, 1}, 1);
         std::vector<geo::Geodetic> eyes;
         for (int i = 0; i < frames; ++i) {
-            raised_.push_back(fly_to(scene, **path, i, frames));
+            raised_.push_back(fly_above_ground(scene, **path, i, frames, maker, {}));
             const glm::dvec3 eye = scene.camera->get<scene::Camera>()->eye;
             eyes.push_back(*placement_of(scene).geodetic_from_world(eye));
         }

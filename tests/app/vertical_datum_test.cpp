@@ -103,5 +103,13 @@ TEST_F(VerticalDatum, without_a_geoid_is_told_where_the_ellipsoid_is_drawn_on) {
     EXPECT_FALSE(misses_geoid(flat));
 }
 
+TEST_F(VerticalDatum, info_tells_why_no_geoid_is_applied) {
+    const std::string name = dem("EPSG:4326+3855");
+    EXPECT_THAT(test::reljef({"info", name}).out,
+                HasSubstr("geoid not applied: none given or installed for it"));
+    EXPECT_THAT(test::reljef({"info", name, "--geoid", "none"}).out,
+                HasSubstr("geoid not applied: --geoid none\n"));
+}
+
 } // namespace
 } // namespace reljef
