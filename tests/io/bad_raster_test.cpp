@@ -177,8 +177,9 @@ TEST_F(BadRaster, HeadersThatClaimAHundredThousandSquared) {
     for (int i = 0; i < 2000; ++i) {
         cut += "7 ";
     }
-    EXPECT_TRUE(read_terrain(write("nan.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\n"
-                                              "cellsize 30\nNODATA_value nan\n1.5 nan\n2.5 3.5\n")));
+    EXPECT_TRUE(
+        read_terrain(write("nan.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\n"
+                                      "cellsize 30\nNODATA_value nan\n1.5 nan\n2.5 3.5\n")));
     EXPECT_THAT(refused(write("cut.asc", cut)), HasSubstr("2000 values found, 50×50 were"));
     EXPECT_THAT(
         refused(write("b.asc", "ncols 0\nnrows 0\nxllcorner 0\nyllcorner 0\ncellsize 30\n1")),
