@@ -178,6 +178,21 @@ std::vector<glm::dvec2> outline_of(const GeodeticArea& area) {
     return points;
 }
 
+// An outline as a whole to where a layer's longitudes are, however far it goes around.
+void turn_together(std::vector<glm::dvec2>& outline, glm::dvec2 centre, const TileLayer& layer) {
+    if (layer.period <= 0.0) {
+        return;
+    }
+    constexpr double half_a_turn_stays = 1.0 - 1e-9;
+    const double turned =
+        layer.crs_from_lattice.crs_from_pixel(layer.lattice_from_turned(centre)).x;
+    for (glm::dvec2& point : outline) {
+        const double from_centre = point.x - centre.x;
+        point.x = turned + from_centre -
+                  layer.period * std::round(from_centre / layer.period * half_a_turn_stays);
+    }
+}
+
 } // namespace
 
 bool reaches_into(const TileFile& file, const GeodeticArea& area) {
@@ -279,11 +294,13 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const GeodeticArea& area) c
         if (!transform) {
             return nothing();
         }
+        const glm::dvec2 centre(0.5 * (area.west + area.east) + 360.0 * turns,
+                                0.5 * (area.south + area.north));
+        points.push_back(centre);
         transform->apply(points);
-        const TileLayer& layer = state_->layers.front();
-        for (glm::dvec2& point : points) {
-            point = layer.crs_from_lattice.crs_from_pixel(layer.lattice_from_turned(point));
-        }
+        const glm::dvec2 at_centre = points.back();
+        points.pop_back();
+        turn_together(points, at_centre, state_->layers.front());
     }
     CrsBox box;
     for (const glm::dvec2 point : points) {

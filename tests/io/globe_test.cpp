@@ -200,6 +200,21 @@ TEST_F(WholeGlobe, HeightsAreBetweenTheSamplesOnBothSides) {
     EXPECT_EQ(height(8), height(9));
 }
 
+TEST_F(WholeGlobe, AnAreaAllAroundHasAllColumnsWhereverItBegins) {
+    write({720, 360, -179.75, 89.75, 0.5}, {});
+    const TileSet set = tiles();
+    for (const double west : {-180.0, -179.75, 180.0}) {
+        const auto part = set.part(set.grid(), {-10.0, west, 10.0, west + 360.0});
+        ASSERT_TRUE(part) << part.error().message;
+        EXPECT_GE(part->cols, 719) << west;
+        EXPECT_EQ(part->rows, 42) << west; // a sample beyond each side
+    }
+    const auto part = set.part(set.grid(), {-10.0, -180.0, 10.0, -170.0});
+    ASSERT_TRUE(part);
+    EXPECT_EQ(part->cols, 21);
+    EXPECT_NEAR(part->first.x, -179.75, 1e-9);
+}
+
 TEST_F(WholeGlobe, TilesMeetAcrossTheAntimeridianAtEveryLevel) {
     write({720, 360, -179.75, 89.75, 0.5}, {2, 4});
     const TileSet set = tiles();
