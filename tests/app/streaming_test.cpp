@@ -174,11 +174,7 @@ std::string coarse_cell(double west, double south) {
 
 TEST_F(Streaming, a_file_that_is_replaced_by_one_of_another_size_is_shown_and_told) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    app::TerrainChoice choice;
-    choice.terrain = path("tiles");
-    choice.memory_megabytes = 32;
-    choice.quiet = true;
-    choice.streamed = true;
+    const app::TerrainChoice choice = streamed_choice();
     auto source = app::open_terrain(choice, {});
     ASSERT_TRUE(source) << source.error().message;
     const auto scene = app::make_scene(std::move(*source), choice, {});
@@ -443,11 +439,9 @@ TEST_F(BadServer, gives_the_picture_of_the_local_file_even_where_it_is_slow) {
 TEST_F(BadServer, that_hangs_holds_up_no_picture_and_finer_tiles_come_once_it_has_recovered) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
     test::Nginx server(folder_.path());
-    app::TerrainChoice choice;
+    app::TerrainChoice choice = streamed_choice();
     choice.terrain = server.url("dem.tif");
     choice.memory_megabytes = 1;
-    choice.quiet = true;
-    choice.streamed = true;
     auto source = app::open_terrain(choice, {});
     ASSERT_TRUE(source) << source.error().message;
     const auto scene = app::make_scene(std::move(*source), choice, {});
