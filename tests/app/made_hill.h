@@ -1,0 +1,26 @@
+#pragma once
+
+#include <utility>
+
+#include "app/scene_setup.h"
+#include "engine/terrain/heightfield.h"
+
+namespace reljef::app {
+
+inline TerrainScene scene_of(Grid<float> heights, const ViewChoice& view = {}) {
+    TerrainSource source;
+    source.terrain.name = "hill";
+    auto& heightfield = source.terrain.heightfield;
+    heightfield.heights = std::move(heights);
+    heightfield.spacing = {10.0, 10.0};
+    heightfield.range = terrain::height_range(heightfield.heights, {});
+    return make_scene(std::move(source), {}, view).value();
+}
+
+inline TerrainScene hill_scene(const ViewChoice& view = {}) {
+    Grid<float> heights(33, 33, 10.0F);
+    heights(16, 16) = 60.0F;
+    return scene_of(std::move(heights), view);
+}
+
+} // namespace reljef::app
