@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/video_encoder.h"
-#include "engine/io/image.h"
+#include "engine/io/image/image.h"
 
 namespace reljef::app {
 namespace {
@@ -76,7 +76,7 @@ bool is_numbered(const fs::path& output) {
 }
 
 Result<void> check_output_name(const fs::path& output, int frames) {
-    const auto refuse = [&](std::string_view expected) {
+    const auto wrong_name = [&](std::string_view expected) {
         return Error{fmt::format("-o: '{}' found, {} was expected", output.string(), expected)};
     };
     if (is_numbered(output)) {
@@ -84,13 +84,13 @@ Result<void> check_output_name(const fs::path& output, int frames) {
             return first.error();
         }
         if (is_video(output)) {
-            return refuse("a video's name without a number");
+            return wrong_name("a video's name without a number");
         }
         if (!is_numbered(output.filename())) {
-            return refuse("a number in the file's name, not in the folder's");
+            return wrong_name("a number in the file's name, not in the folder's");
         }
     } else if (frames > 1 && !is_video(output)) {
-        return refuse(
+        return wrong_name(
             fmt::format("a numbered name like %04d.png or a video for {} frames", frames));
     }
     return is_video(output) ? Result<void>() : io::check_image_name(output);

@@ -8,25 +8,25 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/command.h"
-#include "app/message.h"
-#include "app/options.h"
+#include "app/cli/message.h"
+#include "app/cli/options.h"
+#include "app/commands.h"
 #include "app/place_file.h"
-#include "app/terrain_source.h"
 #include "engine/core/worker_pool.h"
+#include "engine/session/terrain_source.h"
 
 namespace reljef::app {
 namespace {
 
 struct HeightChoice {
-    TerrainChoice terrain;
+    cli::TerrainChoice terrain;
     std::vector<glm::dvec2> places; // latitude, longitude, degrees
     std::string points;             // a file of them, "-": standard input; empty: none
 };
 
 // What is read of a file at a time: places of so much text are answered together, which takes five
 // times as much.
-std::size_t bytes_of_piece(const TerrainChoice& choice) {
+std::size_t bytes_of_piece(const cli::TerrainChoice& choice) {
     constexpr std::size_t part = 16; // of the memory
     constexpr std::size_t most = std::size_t{64} << 20U;
     return std::min((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / part, most);
@@ -35,7 +35,7 @@ std::size_t bytes_of_piece(const TerrainChoice& choice) {
 std::vector<glm::dvec2> places_of(const std::vector<std::string>& texts) {
     std::vector<glm::dvec2> places;
     for (const std::string& text : texts) {
-        const auto numbers = parse_numbers<2>("--at", text, "LAT,LON in degrees");
+        const auto numbers = cli::parse_numbers<2>("--at", text, "LAT,LON in degrees");
         if (!numbers) {
             throw CLI::ValidationError(numbers.error().message);
         }
@@ -87,12 +87,12 @@ void print_answers(std::span<const std::string_view> texts,
     }
 }
 
-void keep_faults(std::vector<io::TileFault> found, const TerrainChoice& choice,
+void keep_faults(std::vector<io::TileFault> found, const cli::TerrainChoice& choice,
                  std::vector<io::TileFault>& faults) {
     for (io::TileFault& fault : found) {
         if (std::find(faults.begin(), faults.end(), fault) == faults.end()) {
             if (!choice.quiet) {
-                tell(fmt::format("reljef: left out: {}\n", fault.message));
+                cli::tell(fmt::format("reljef: left out: {}\n", fault.message));
             }
             faults.push_back(std::move(fault));
         }
@@ -106,14 +106,14 @@ std::string left_out_text(std::span<const io::TileFault> faults) {
                                         faults.front().message);
 }
 
-bool is_inside(glm::dvec2 place, const io::GeodeticArea& area) {
+bool is_inside(glm::dvec2 place, const geo::GeodeticArea& area) {
     const double east_of_west = place.y - area.west;
     const double turned = east_of_west - 360.0 * std::floor(east_of_west / 360.0);
     return place.x >= area.south && place.x <= area.north && turned <= area.east - area.west;
 }
 
 // Places outside the area have no answer, whatever the tiles hold there.
-io::TileSet::Heights heights_within(const HeightSource& source,
+io::TileSet::Heights heights_within(const session::HeightSource& source,
                                     std::span<const glm::dvec2> places) {
     auto found = source.tiles.heights(places);
     for (std::size_t i = 0; source.area && i < places.size(); ++i) {
@@ -124,7 +124,7 @@ io::TileSet::Heights heights_within(const HeightSource& source,
     return found;
 }
 
-Result<void> print_places(const HeightChoice& choice, const HeightSource& source,
+Result<void> print_places(const HeightChoice& choice, const session::HeightSource& source,
                           std::vector<io::TileFault>& faults) {
     auto found = heights_within(source, choice.places);
     keep_faults(std::move(found.faults), choice.terrain, faults);
@@ -143,8 +143,8 @@ Result<void> print_places(const HeightChoice& choice, const HeightSource& source
     return {};
 }
 
-Result<void> print_points(const HeightChoice& choice, const HeightSource& source,
-                          const Interrupt& interrupt, std::vector<io::TileFault>& faults) {
+Result<void> print_points(const HeightChoice& choice, const session::HeightSource& source,
+                          const cli::Interrupt& interrupt, std::vector<io::TileFault>& faults) {
     auto file = PlaceFile::open(choice.points, bytes_of_piece(choice.terrain));
     if (!file) {
         return file.error();
@@ -164,8 +164,8 @@ Result<void> print_points(const HeightChoice& choice, const HeightSource& source
     return {};
 }
 
-Result<void> print_heights(const HeightChoice& choice, const Interrupt& interrupt) {
-    const auto source = open_heights(choice.terrain, interrupt.token());
+Result<void> print_heights(const HeightChoice& choice, const cli::Interrupt& interrupt) {
+    const auto source = session::open_heights(choice.terrain, interrupt.token());
     if (!source) {
         return source.error();
     }
@@ -180,15 +180,15 @@ Result<void> print_heights(const HeightChoice& choice, const Interrupt& interrup
             return printed;
         }
     }
-    return report_faults(choice.terrain.terrain, faults.size());
+    return session::report_faults(choice.terrain.terrain, faults.size());
 }
 
 } // namespace
 
-Command add_height_command(CLI::App& program, Interrupt& interrupt) {
+cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("height", "print heights at places on Earth");
     auto choice = std::make_shared<HeightChoice>();
-    add_source_options(*arguments, choice->terrain);
+    cli::add_source_options(*arguments, choice->terrain);
     auto* at = arguments->add_option_function<std::vector<std::string>>(
         "--at",
         [choice](const std::vector<std::string>& texts) { choice->places = places_of(texts); },

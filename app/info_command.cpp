@@ -10,11 +10,11 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
-#include "app/options.h"
-#include "app/terrain_source.h"
-#include "engine/io/raster.h"
-#include "terrains/gallery.h"
+#include "app/cli/options.h"
+#include "app/commands.h"
+#include "engine/io/raster/raster.h"
+#include "engine/session/terrain_source.h"
+#include "terrains/gallery/gallery.h"
 
 namespace reljef::app {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct InfoChoice {
-    TerrainChoice terrain;
+    cli::TerrainChoice terrain;
     bool json = false;
 };
 
@@ -103,7 +103,7 @@ Json file_info(const io::SceneDescription& description) {
 }
 
 // What stands on the gallery's floor, with the tiles it shows.
-Json models_of(const TerrainSource& source, const TerrainChoice& choice) {
+Json models_of(const session::TerrainSource& source, const cli::TerrainChoice& choice) {
     Json models = Json::array();
     if (source.description.generator == "gallery") {
         const std::string asked_for = choice.textures.value_or(source.description.gallery_textures);
@@ -117,7 +117,7 @@ Json models_of(const TerrainSource& source, const TerrainChoice& choice) {
 }
 
 // A folder: how many files of which format.
-Json tiles_info(const io::TileSet& tiles, const std::optional<io::GeodeticArea>& area,
+Json tiles_info(const io::TileSet& tiles, const std::optional<geo::GeodeticArea>& area,
                 const FullGrid& grid) {
     Json formats = Json::object();
     std::set<std::string> types;
@@ -142,7 +142,7 @@ Json tiles_info(const io::TileSet& tiles, const std::optional<io::GeodeticArea>&
 
 // Of the finest tiles, in the area.
 std::optional<FullGrid> grid_of_tiles(const io::TileSet& tiles,
-                                      const std::optional<io::GeodeticArea>& area,
+                                      const std::optional<geo::GeodeticArea>& area,
                                       const terrain::Heightfield& heightfield) {
     const auto grid = area ? tiles.part(tiles.grid(), *area) : Result<io::TileGrid>(tiles.grid());
     if (!grid || !heightfield.georeference) {
@@ -179,9 +179,9 @@ Json geoid_info(const geo::Georeference& georeference) {
     return georeference.geoid ? Json(georeference.geoid->name()) : Json(nullptr);
 }
 
-Json describe(const TerrainSource& source, const TerrainChoice& choice) {
+Json describe(const session::TerrainSource& source, const cli::TerrainChoice& choice) {
     const terrain::Heightfield& heightfield = source.terrain.heightfield;
-    const auto area = area_of(choice, source.description);
+    const auto area = session::area_of(choice, source.description);
     const Json own_file = source.tiles || !source.description.generator.empty()
                               ? Json()
                               : file_info(source.description);
@@ -229,7 +229,7 @@ Json describe(const TerrainSource& source, const TerrainChoice& choice) {
     return info;
 }
 
-std::string geoid_text(const Json& crs, const TerrainChoice& choice) {
+std::string geoid_text(const Json& crs, const cli::TerrainChoice& choice) {
     if (!crs["geoid"].is_null()) {
         return fmt::format("geoid {} applied on the ellipsoid", crs["geoid"].get<std::string>());
     }
@@ -241,7 +241,7 @@ std::string geoid_text(const Json& crs, const TerrainChoice& choice) {
 }
 
 // What heights count from, and whether the geoid is applied.
-void print_vertical(const Json& crs, const TerrainChoice& choice) {
+void print_vertical(const Json& crs, const cli::TerrainChoice& choice) {
     if (crs.is_null()) {
         return;
     }
@@ -250,7 +250,7 @@ void print_vertical(const Json& crs, const TerrainChoice& choice) {
                geoid_text(crs, choice));
 }
 
-void print_text(const Json& info, const TerrainChoice& choice) {
+void print_text(const Json& info, const cli::TerrainChoice& choice) {
     const auto number = [&](const char* group, const char* key) {
         return info[group][key].get<double>();
     };
@@ -300,8 +300,8 @@ void print_text(const Json& info, const TerrainChoice& choice) {
     }
 }
 
-Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
-    auto source = open_terrain(choice.terrain, interrupt.token(), Notes::kept);
+Result<void> print_info(const InfoChoice& choice, const cli::Interrupt& interrupt) {
+    auto source = session::open_terrain(choice.terrain, interrupt.token(), session::Notes::kept);
     if (!source) {
         return source.error();
     }
@@ -311,15 +311,15 @@ Result<void> print_info(const InfoChoice& choice, const Interrupt& interrupt) {
     } else {
         print_text(info, choice.terrain);
     }
-    return report_faults(choice.terrain.terrain, source->terrain.faults.size());
+    return session::report_faults(choice.terrain.terrain, source->terrain.faults.size());
 }
 
 } // namespace
 
-Command add_info_command(CLI::App& program, Interrupt& interrupt) {
+cli::Command add_info_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("info", "say what a terrain holds");
     auto choice = std::make_shared<InfoChoice>();
-    add_terrain_options(*arguments, choice->terrain);
+    cli::add_terrain_options(*arguments, choice->terrain);
     arguments->add_flag("--json", choice->json, "as JSON");
     arguments->footer("Examples:\n  reljef info N45E006.hgt\n  reljef info dem.tif --json");
     return {arguments, [choice, &interrupt] { return print_info(*choice, interrupt); }};

@@ -1,8 +1,9 @@
-#include "app/program.h"
+#include "app/cli/program.h"
+#include "app/commands.h"
 
 int main(int argc, char** argv) {
     using namespace reljef::app;
-    return run_program(
+    return reljef::cli::run_program(
         {.name = "reljef",
          .description = "reljef draws terrain, fast, and says how wrong each picture is.",
          .verb = "verb",

@@ -5,17 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/command.h"
-#include "app/output_files.h"
-#include "app/parsed_option.h"
+#include "app/cli/output_files.h"
+#include "app/cli/parsed_option.h"
+#include "app/commands.h"
 #include "app/surface_maps.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::app {
 namespace {
 
-std::vector<NamedFile> outputs_of(const MapChoice& choice) {
-    std::vector<NamedFile> files;
+std::vector<cli::NamedFile> outputs_of(const MapChoice& choice) {
+    std::vector<cli::NamedFile> files;
     for (const MapOutput& output : choice.outputs) {
         if (!output.file.empty()) {
             files.push_back({output.option, output.file});
@@ -24,11 +24,12 @@ std::vector<NamedFile> outputs_of(const MapChoice& choice) {
     return files;
 }
 
-Result<void> make_maps(const MapChoice& choice, const Interrupt& interrupt) {
-    const std::array<NamedFile, 2> inputs{{{"PICTURE", choice.picture}, {"--back", choice.back}}};
+Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt) {
+    const std::array<cli::NamedFile, 2> inputs{
+        {{"PICTURE", choice.picture}, {"--back", choice.back}}};
     const auto outputs = outputs_of(choice);
-    expect_apart(outputs, inputs);
-    if (auto good = check_writable(outputs); !good) {
+    cli::expect_apart(outputs, inputs);
+    if (auto good = cli::check_writable(outputs); !good) {
         return good;
     }
     const auto heights = heights_of_picture(choice, interrupt.token());
@@ -87,7 +88,7 @@ void expect_outputs(const MapChoice& choice) {
         throw CLI::ValidationError("maps: no output found, --heights, --normals, --combined, "
                                    "--cones, --relaxed-cones or --layers was expected");
     }
-    for (const NamedFile& file : outputs) {
+    for (const cli::NamedFile& file : outputs) {
         if (const auto good = io::check_map_name(file.path); !good) {
             throw CLI::ValidationError(fmt::format("{}: {}", file.option, good.error().message));
         }
@@ -121,36 +122,40 @@ void expect_used(const CLI::App& arguments, const MapChoice& choice) {
 
 void add_map_options(CLI::App& arguments, MapChoice& choice) {
     arguments.add_option("PICTURE", choice.picture, "what the maps are made from")->required();
-    add_parsed(arguments, "--from", choice.input,
-               word_of<MapInput>("--from", {{"heights", MapInput::heights},
-                                            {"normals", MapInput::normals},
-                                            {"colors", MapInput::colors}}),
-               "what the picture shows: heights, normals or colors (heights)", "KIND");
+    cli::add_parsed(arguments, "--from", choice.input,
+                    cli::word_of<MapInput>("--from", {{"heights", MapInput::heights},
+                                                      {"normals", MapInput::normals},
+                                                      {"colors", MapInput::colors}}),
+                    "what the picture shows: heights, normals or colors (heights)", "KIND");
     arguments.add_option("--back", choice.back, "heights off the back of a sheet, for --layers")
         ->type_name("FILE");
-    add_parsed(arguments, "--border", choice.border,
-               word_of<terrain::TileBorder>("--border", {{"wrap", terrain::TileBorder::wrap},
-                                                         {"clamp", terrain::TileBorder::clamp}}),
-               "what lies beyond: wrap, its copies, or clamp, its border drawn out (wrap)", "RULE");
-    add_parsed(arguments, "--scale", choice.scale, number_in("--scale", 0.0, 1000.0, true),
-               "a height of 1 lifts a point so many widths of the picture (0.05)", "S");
-    add_parsed(arguments, "--octaves", choice.octaves, whole_number_in("--octaves", 1, 12),
-               "from colors: what is coarser than so many doublings is no relief (5)", "N");
+    cli::add_parsed(
+        arguments, "--border", choice.border,
+        cli::word_of<material::TileBorder>("--border", {{"wrap", material::TileBorder::wrap},
+                                                        {"clamp", material::TileBorder::clamp}}),
+        "what lies beyond: wrap, its copies, or clamp, its border drawn out (wrap)", "RULE");
+    cli::add_parsed(arguments, "--scale", choice.scale,
+                    cli::number_in("--scale", 0.0, 1000.0, true),
+                    "a height of 1 lifts a point so many widths of the picture (0.05)", "S");
+    cli::add_parsed(arguments, "--octaves", choice.octaves,
+                    cli::whole_number_in("--octaves", 1, 12),
+                    "from colors: what is coarser than so many doublings is no relief (5)", "N");
     arguments.add_flag("--dark-is-high", choice.dark_is_high, "from colors: the darker the higher");
-    add_parsed(arguments, "--green", choice.green_up,
-               word_of<bool>("--green", {{"down", false}, {"up", true}}),
-               "of normals read and written: down, along the rows, or up, against them (down)",
-               "WAY");
+    cli::add_parsed(arguments, "--green", choice.green_up,
+                    cli::word_of<bool>("--green", {{"down", false}, {"up", true}}),
+                    "of normals read and written: down, along the rows, or up, against them (down)",
+                    "WAY");
     arguments.add_flag("--sobel", choice.sobel,
                        "normals by Sobel's filter instead of the bilinear surface's slopes");
-    add_parsed(arguments, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
-               "0: as many as the machine has (0)", "N");
+    cli::add_parsed(arguments, "--threads", choice.threads,
+                    cli::whole_number_in("--threads", 0, 1024), "0: as many as the machine has (0)",
+                    "N");
     arguments.add_flag("--quiet", choice.quiet, "no progress");
 }
 
 } // namespace
 
-Command add_maps_command(CLI::App& program, Interrupt& interrupt) {
+cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("maps", "make maps of surface detail from a picture");
     auto choice = std::make_shared<MapChoice>();
     add_map_options(*arguments, *choice);

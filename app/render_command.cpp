@@ -4,24 +4,24 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/command.h"
-#include "app/frame_maker.h"
+#include "app/cli/message.h"
+#include "app/cli/misuse.h"
+#include "app/cli/options.h"
+#include "app/cli/output_files.h"
+#include "app/cli/progress_line.h"
+#include "app/commands.h"
 #include "app/frame_sink.h"
-#include "app/message.h"
-#include "app/misuse.h"
-#include "app/options.h"
-#include "app/output_files.h"
-#include "app/progress_line.h"
-#include "app/scene_setup.h"
-#include "app/streaming.h"
-#include "engine/io/image.h"
+#include "engine/io/image/image.h"
+#include "engine/session/frame_maker.h"
+#include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
 
 namespace reljef::app {
 namespace {
 
 struct RenderChoice {
-    TerrainChoice terrain;
-    ViewChoice view;
+    cli::TerrainChoice terrain;
+    cli::ViewChoice view;
     std::filesystem::path output;
     std::filesystem::path hits;
     std::filesystem::path contact_sheet;
@@ -34,21 +34,21 @@ constexpr int sheet_columns = 4;
 constexpr int sheet_picture_width = 320;
 constexpr int most_sheet_pictures = 24;
 
-Result<std::unique_ptr<FrameMaker>> make_frame_maker(const RenderChoice& choice) {
-    using Maker = std::unique_ptr<FrameMaker>;
+Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice& choice) {
+    using Maker = std::unique_ptr<session::FrameMaker>;
     if (choice.truth) {
-        return Maker(new TruthFrames(choice.view.size, choice.rays));
+        return Maker(new session::TruthFrames(choice.view.size, choice.rays));
     }
-    DeviceOptions options;
+    session::DeviceOptions options;
     options.threads = choice.terrain.threads;
     options.context = choice.view.context;
     options.context_options.size = choice.view.size;
     options.context_options.visible = false;
     options.driver.size = choice.view.size;
     options.driver.shader_dir = choice.view.shader_dir;
-    auto device = Device::create(options);
-    return device ? Result<Maker>(Maker(
-                        new DeviceFrames(std::move(*device), {choice.stats, choice.terrain.quiet})))
+    auto device = session::Device::create(options);
+    return device ? Result<Maker>(Maker(new session::DeviceFrames(
+                        std::move(*device), {choice.stats, choice.terrain.quiet})))
                   : device.error();
 }
 
@@ -83,9 +83,10 @@ public:
     }
     void tell_of(const RenderChoice& choice) const {
         if (count_ > 0 && !choice.terrain.quiet) {
-            tell(fmt::format("reljef: note: --path {}: {} of {} frames would be under the ground "
-                             "or too close to it; raised by up to {:.1f} m\n",
-                             choice.view.path, count_, choice.view.frames, most_));
+            cli::tell(
+                fmt::format("reljef: note: --path {}: {} of {} frames would be under the ground "
+                            "or too close to it; raised by up to {:.1f} m\n",
+                            choice.view.path, count_, choice.view.frames, most_));
         }
     }
 
@@ -95,19 +96,20 @@ private:
 };
 
 // How a frame is drawn: stopped by Ctrl-C, told as a part of all frames.
-ParallelOptions frame_options(const RenderChoice& choice, const Interrupt& interrupt,
+ParallelOptions frame_options(const RenderChoice& choice, const cli::Interrupt& interrupt,
                               Progress progress = {}) {
     return {.threads = static_cast<unsigned>(choice.terrain.threads),
             .stop = interrupt.token(),
             .progress = std::move(progress)};
 }
 
-Result<void> check_interrupt(const Interrupt& interrupt) {
+Result<void> check_interrupt(const cli::Interrupt& interrupt) {
     return interrupt.requested() ? Result<void>(Error{"interrupted"}) : Result<void>();
 }
 
-Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameMaker& maker,
-                         const std::optional<scene::FlyPath>& path, const Interrupt& interrupt) {
+Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
+                         session::FrameMaker& maker, const std::optional<scene::FlyPath>& path,
+                         const cli::Interrupt& interrupt) {
     const int frames = choice.view.frames;
     auto sink =
         make_frame_sink(choice.output, {.size = choice.view.size,
@@ -118,10 +120,11 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameM
     }
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
     RaisedFrames raised;
-    ProgressLine line("drawing", choice.terrain.quiet);
+    cli::ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (path) {
-            raised.add(fly_above_ground(scene, *path, index, frames, maker, interrupt.token()));
+            raised.add(
+                session::fly_above_ground(scene, *path, index, frames, maker, interrupt.token()));
         }
         auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
                                       line.update((index + part) / frames);
@@ -151,20 +154,21 @@ Result<void> draw_frames(const RenderChoice& choice, TerrainScene& scene, FrameM
 // What the arguments alone show to be wrong.
 void expect_outputs(const RenderChoice& choice) {
     if (choice.output.empty() && choice.hits.empty()) {
-        refuse("render: no output found, -o FILE or --hit FILE was expected");
+        cli::refuse("render: no output found, -o FILE or --hit FILE was expected");
     }
     if (choice.output.empty() && (choice.stats || !choice.contact_sheet.empty())) {
-        refuse("render: --stats or --contact-sheet found without -o FILE, whose frames they need");
+        cli::refuse(
+            "render: --stats or --contact-sheet found without -o FILE, whose frames they need");
     }
     if (!choice.hits.empty() && choice.view.frames > 1) {
-        refuse("render: --hit found with many frames, one frame was expected");
+        cli::refuse("render: --hit found with many frames, one frame was expected");
     }
     if (choice.view.frames > 1 && choice.view.path.empty()) {
-        refuse("render: --frames found without a --path to fly along");
+        cli::refuse("render: --frames found without a --path to fly along");
     }
     const auto expect_good = [&](const Result<void>& named) {
         if (!named) {
-            refuse(named.error().message);
+            cli::refuse(named.error().message);
         }
     };
     if (!choice.output.empty()) {
@@ -178,14 +182,14 @@ void expect_outputs(const RenderChoice& choice) {
     }
 }
 
-std::vector<NamedFile> inputs_of(const RenderChoice& choice,
-                                 const io::SceneDescription& description) {
-    std::vector<NamedFile> files{
+std::vector<cli::NamedFile> inputs_of(const RenderChoice& choice,
+                                      const io::SceneDescription& description) {
+    std::vector<cli::NamedFile> files{
         {"TERRAIN", choice.terrain.terrain},
         {"the terrain's heights", description.heights},
         {"--textures", choice.terrain.textures.value_or("")},
         {"the gallery's textures", description.gallery_textures},
-        {"--detail", choice.view.detail.value_or(DetailChoice{}).textures},
+        {"--detail", choice.view.detail.value_or(cli::DetailChoice{}).textures},
         {"the tile of detail", description.detail.value_or(io::DetailDescription{}).textures},
         {"--path", choice.view.path}};
     for (const std::filesystem::path& image : description.imagery) {
@@ -198,15 +202,16 @@ std::vector<NamedFile> inputs_of(const RenderChoice& choice,
 }
 
 // The files that will be written. Of numbered pictures those that could be another file.
-std::vector<NamedFile> outputs_of(const RenderChoice& choice, std::span<const NamedFile> inputs) {
-    std::vector<NamedFile> outputs{{"--hit", choice.hits},
-                                   {"--contact-sheet", choice.contact_sheet}};
+std::vector<cli::NamedFile> outputs_of(const RenderChoice& choice,
+                                       std::span<const cli::NamedFile> inputs) {
+    std::vector<cli::NamedFile> outputs{{"--hit", choice.hits},
+                                        {"--contact-sheet", choice.contact_sheet}};
     if (!is_numbered(choice.output)) {
         outputs.push_back({"-o", choice.output});
         return outputs;
     }
     std::set<std::filesystem::path> names;
-    for (const NamedFile& file : inputs) {
+    for (const cli::NamedFile& file : inputs) {
         names.insert(file.path.filename());
     }
     names.insert({choice.hits.filename(), choice.contact_sheet.filename()});
@@ -221,16 +226,17 @@ std::vector<NamedFile> outputs_of(const RenderChoice& choice, std::span<const Na
 
 // Before anything is drawn: all outputs appear, or none.
 Result<void> check_targets(const RenderChoice& choice) {
-    std::vector<NamedFile> files{{"--hit", choice.hits}, {"--contact-sheet", choice.contact_sheet}};
+    std::vector<cli::NamedFile> files{{"--hit", choice.hits},
+                                      {"--contact-sheet", choice.contact_sheet}};
     if (!is_video(choice.output) && !is_numbered(choice.output)) {
         files.push_back({"-o", choice.output});
     }
-    return check_writable(files);
+    return cli::check_writable(files);
 }
 
-Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scene,
-                            FrameMaker& maker, const Interrupt& interrupt) {
-    ProgressLine line("finding hits", choice.terrain.quiet);
+Result<void> write_hit_file(const RenderChoice& choice, const session::TerrainScene& scene,
+                            session::FrameMaker& maker, const cli::Interrupt& interrupt) {
+    cli::ProgressLine line("finding hits", choice.terrain.quiet);
     const auto hits =
         maker.draw_hits(scene.scene, frame_options(choice, interrupt, line.callback()));
     if (!hits) {
@@ -242,14 +248,14 @@ Result<void> write_hit_file(const RenderChoice& choice, const TerrainScene& scen
     return io::write_hits(choice.hits, *hits);
 }
 
-Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, FrameMaker& maker,
-                          const Interrupt& interrupt) {
-    const auto path = open_path(scene, choice.view, choice.terrain);
+Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& scene,
+                          session::FrameMaker& maker, const cli::Interrupt& interrupt) {
+    const auto path = session::open_path(scene, choice.view, choice.terrain);
     if (!path) {
         return path.error();
     }
     if (*path) {
-        static_cast<void>(fly_above_ground(scene, **path, 0, 1, maker, interrupt.token()));
+        static_cast<void>(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token()));
     }
     if (!choice.hits.empty()) {
         if (auto written = write_hit_file(choice, scene, maker, interrupt); !written) {
@@ -260,7 +266,7 @@ Result<void> draw_outputs(const RenderChoice& choice, TerrainScene& scene, Frame
                                  : draw_frames(choice, scene, maker, *path, interrupt);
 }
 
-Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
+Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {
     if (auto good = check_targets(choice); !good) {
         return good;
     }
@@ -268,52 +274,57 @@ Result<void> render(const RenderChoice& choice, const Interrupt& interrupt) {
     if (!maker) {
         return maker.error();
     }
-    TerrainChoice terrain = choice.terrain;
-    terrain.streamed = !choice.truth && may_stream(choice.view);
-    terrain.pictures_streamed = terrain.streamed && may_stream_pictures(choice.view);
-    auto source = open_terrain(terrain, interrupt.token());
+    cli::TerrainChoice terrain = choice.terrain;
+    terrain.streamed = !choice.truth && cli::may_stream(choice.view);
+    terrain.pictures_streamed = terrain.streamed && cli::may_stream_pictures(choice.view);
+    auto source = session::open_terrain(terrain, interrupt.token());
     if (!source) {
         return source.error();
     }
     if (choice.truth && source->description.generator == "gallery") {
-        refuse(fmt::format("--truth: {} found, whose models the exact picture does not know; a "
-                           "terrain was expected, or --technique exact",
-                           choice.terrain.terrain));
+        cli::refuse(
+            fmt::format("--truth: {} found, whose models the exact picture does not know; a "
+                        "terrain was expected, or --technique exact",
+                        choice.terrain.terrain));
     }
     const auto inputs = inputs_of(choice, source->description);
-    expect_apart(outputs_of(choice, inputs), inputs);
-    if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
-                                       interrupt.token());
+    cli::expect_apart(outputs_of(choice, inputs), inputs);
+    if (auto ready = session::prepare_technique(*source, cli::technique_of(choice.view),
+                                                choice.terrain, interrupt.token());
         !ready) {
         return ready;
     }
     const std::size_t faults = source->terrain.faults.size();
-    auto scene = make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
+    auto scene =
+        session::make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
     if (!scene) {
         return scene.error();
     }
-    if (const auto note = missing_geoid(*scene, choice.terrain); note && !choice.terrain.quiet) {
-        tell(fmt::format("reljef: note: {}\n", *note));
+    if (const auto note = session::missing_geoid(*scene, choice.terrain);
+        note && !choice.terrain.quiet) {
+        cli::tell(fmt::format("reljef: note: {}\n", *note));
     }
-    if (auto ready = choice.truth ? Result<void>()
-                                  : prepare_bisection(*scene, choice.terrain, interrupt.token());
+    if (auto ready = choice.truth
+                         ? Result<void>()
+                         : session::prepare_bisection(*scene, choice.terrain, interrupt.token());
         !ready) {
         return ready;
     }
     if (auto drawn = draw_outputs(choice, *scene, **maker, interrupt); !drawn) {
         return drawn;
     }
-    tell_stream_faults(scene->scene, choice.terrain.quiet);
-    return report_faults(choice.terrain.terrain, faults + faulty_files(scene->scene));
+    session::tell_stream_faults(scene->scene, choice.terrain.quiet);
+    return session::report_faults(choice.terrain.terrain,
+                                  faults + session::faulty_files(scene->scene));
 }
 
 } // namespace
 
-Command add_render_command(CLI::App& program, Interrupt& interrupt) {
+cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("render", "draw pictures without a window");
     auto choice = std::make_shared<RenderChoice>();
-    add_terrain_options(*arguments, choice->terrain);
-    add_view_options(*arguments, choice->view);
+    cli::add_terrain_options(*arguments, choice->terrain);
+    cli::add_view_options(*arguments, choice->view);
     arguments
         ->add_option(
             "-o,--output", choice->output,
@@ -344,7 +355,7 @@ Command add_render_command(CLI::App& program, Interrupt& interrupt) {
         "--stats", choice->stats,
         "print what the last frame took and skipped, and all frames' times and memory");
     arguments->callback([choice] {
-        check_view_options(choice->view);
+        cli::check_view_options(choice->view);
         if (choice->truth && choice->view.max_error) {
             throw CLI::ValidationError("--max-error: found beside --truth, which has no error; one "
                                        "of them was expected");

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/message.h"
-#include "app/progress_line.h"
-#include "engine/io/image.h"
-#include "engine/terrain/height_integration.h"
-#include "engine/terrain/layer_map.h"
-#include "engine/terrain/tile_cones.h"
+#include "app/cli/message.h"
+#include "app/cli/progress_line.h"
+#include "engine/io/image/image.h"
+#include "engine/material/height_integration.h"
+#include "engine/material/layer_map.h"
+#include "engine/material/tile_cones.h"
 
 namespace reljef::app {
 namespace {
@@ -23,7 +23,7 @@ glm::dvec2 texel_spacing(const MapChoice& choice, int cols, int rows) {
 
 void tell_note(const MapChoice& choice, const std::string& note) {
     if (!choice.quiet) {
-        tell(fmt::format("reljef: note: {}\n", note));
+        cli::tell(fmt::format("reljef: note: {}\n", note));
     }
 }
 
@@ -53,7 +53,7 @@ void tell_heights(const MapChoice& choice, const std::string& file, const io::Ch
                                       "--scale {}, they come in steps of {:.2g} m",
                                       file, choice.scale, choice.scale / 255.0));
     }
-    if (choice.border == terrain::TileBorder::wrap && terrain::has_seam(heights.view())) {
+    if (choice.border == material::TileBorder::wrap && material::has_seam(heights.view())) {
         tell_note(choice, fmt::format("{}: opposite borders do not fit together; where the tile "
                                       "repeats, a seam shows",
                                       file));
@@ -138,11 +138,11 @@ Result<Grid<float>> integrated(const MapChoice& choice, const std::stop_token& s
     for (glm::vec3& normal : normals->samples()) {
         normal.y *= choice.green_up ? 1.0F : -1.0F; // north is against the rows
     }
-    terrain::IntegrationOptions options;
+    material::IntegrationOptions options;
     options.spacing = texel_spacing(choice, normals->cols(), normals->rows());
     options.border = choice.border;
     options.stop = stop;
-    auto made = terrain::heights_from_normals(normals->view(), options);
+    auto made = material::heights_from_normals(normals->view(), options);
     if (stop.stop_requested()) {
         return Error{"interrupted"};
     }
@@ -158,11 +158,12 @@ io::Channels height_channels(const Grid<float>& heights) {
 
 // Normals as (n + 1) / 2, y along the rows or against them; and the heights.
 io::Channels normal_channels(const MapChoice& choice, const Grid<float>& heights, bool combined) {
-    terrain::NormalOptions options;
+    material::NormalOptions options;
     options.spacing = texel_spacing(choice, heights.cols(), heights.rows());
     options.border = choice.border;
-    options.filter = choice.sobel ? terrain::NormalFilter::sobel : terrain::NormalFilter::bilinear;
-    const Grid<glm::vec3> normals = terrain::normals_from_heights(heights.view(), options);
+    options.filter =
+        choice.sobel ? material::NormalFilter::sobel : material::NormalFilter::bilinear;
+    const Grid<glm::vec3> normals = material::normals_from_heights(heights.view(), options);
     io::Channels channels = io::make_channels(heights.cols(), heights.rows(), combined ? 4 : 3);
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 0; col < heights.cols(); ++col) {
@@ -185,7 +186,7 @@ io::Channels cone_channels(const Grid<float>& cones, const std::string& file) {
     if (file.ends_with(".exr")) {
         return height_channels(cones);
     }
-    const auto codes = terrain::cone_codes(cones, terrain::widest_cone, highest);
+    const auto codes = material::cone_codes(cones, material::widest_cone, highest);
     Grid<float> shares(cones.cols(), cones.rows());
     std::transform(codes.samples().begin(), codes.samples().end(), shares.samples().begin(),
                    [](std::uint16_t code) { return static_cast<float>(code) / highest; });
@@ -195,32 +196,32 @@ io::Channels cone_channels(const Grid<float>& cones, const std::string& file) {
 Result<io::Channels> made_cones(const MapChoice& choice, const Grid<float>& heights,
                                 const MapOutput& output, const std::stop_token& stop) {
     const bool relaxed = output.kind == MapKind::relaxed_cones;
-    ProgressLine line(relaxed ? "relaxed cones" : "cones", choice.quiet);
-    terrain::ConeOptions options;
+    cli::ProgressLine line(relaxed ? "relaxed cones" : "cones", choice.quiet);
+    material::ConeOptions options;
     options.parallel = {static_cast<unsigned>(choice.threads), stop, line.callback()};
-    const Grid<float> field = terrain::cone_field(heights.view(), choice.border);
-    auto cones = terrain::cone_map(
-        field.view(), relaxed ? terrain::ConeKind::relaxed : terrain::ConeKind::plain, options);
+    const Grid<float> field = material::cone_field(heights.view(), choice.border);
+    auto cones = material::cone_map(
+        field.view(), relaxed ? material::ConeKind::relaxed : material::ConeKind::plain, options);
     if (!cones) {
         return Error{"interrupted"};
     }
-    const Grid<float> at_samples = terrain::cones_at_samples(*cones);
+    const Grid<float> at_samples = material::cones_at_samples(*cones);
     return cone_channels(
-        choice.border == terrain::TileBorder::wrap
-            ? terrain::tile_cones(at_samples, heights.cols(), heights.rows(), choice.border)
+        choice.border == material::TileBorder::wrap
+            ? material::tile_cones(at_samples, heights.cols(), heights.rows(), choice.border)
             : at_samples,
         output.file);
 }
 
 // Depths of the layers of a sheet.
 Result<io::Channels> layer_channels(const MapChoice& choice, const Grid<float>& heights) {
-    terrain::LayerMap layers = terrain::symmetric_layers(heights.view());
+    material::LayerMap layers = material::symmetric_layers(heights.view());
     if (!choice.back.empty()) {
         const auto back = read_heights(choice, choice.back);
         if (!back) {
             return back.error();
         }
-        auto both = terrain::dual_layers(heights.view(), back->view());
+        auto both = material::dual_layers(heights.view(), back->view());
         if (!both) {
             return Error{fmt::format("--back: {}: {} x {} texels found, {} x {} were expected: one "
                                      "size, that of {}",
@@ -260,10 +261,10 @@ Result<Grid<float>> heights_of_picture(const MapChoice& choice, const std::stop_
     if (auto finite = io::check_finite(*channels, 3, choice.picture, "a colour"); !finite) {
         return finite.error();
     }
-    return terrain::heights_from_colors(*picture,
-                                        {.octaves = choice.octaves,
-                                         .dark_is_high = choice.dark_is_high,
-                                         .wraps = choice.border == terrain::TileBorder::wrap});
+    return material::heights_from_colors(*picture,
+                                         {.octaves = choice.octaves,
+                                          .dark_is_high = choice.dark_is_high,
+                                          .wraps = choice.border == material::TileBorder::wrap});
 }
 
 Result<io::Channels> make_map(const MapChoice& choice, const Grid<float>& heights,

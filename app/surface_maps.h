@@ -6,9 +6,9 @@
 
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
-#include "engine/io/channels.h"
-#include "engine/terrain/color_relief.h"
-#include "engine/terrain/texture_set.h"
+#include "engine/io/image/channels.h"
+#include "engine/material/color_relief.h"
+#include "engine/material/texture_set.h"
 
 namespace reljef::app {
 
@@ -28,12 +28,12 @@ struct MapChoice {
     std::string picture;
     std::string back; ///< heights of it; empty: none
     MapInput input = MapInput::heights;
-    terrain::TileBorder border = terrain::TileBorder::wrap;
+    material::TileBorder border = material::TileBorder::wrap;
     double scale = 0.05;   ///< a height of 1 lifts a point so many widths
     bool green_up = false; ///< y of stored normals
     bool sobel = false;
     bool dark_is_high = false;
-    int octaves = terrain::ColorReliefOptions{}.octaves;
+    int octaves = material::ColorReliefOptions{}.octaves;
     int threads = 0;
     bool quiet = false;
     std::array<MapOutput, 6> outputs{{{MapKind::heights, "--heights", {}},

@@ -7,8 +7,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
-#include "engine/scene/technique.h"
+#include "app/commands.h"
+#include "engine/scene/technique/technique.h"
 
 namespace reljef::app {
 namespace {
@@ -96,7 +96,7 @@ void print_text() {
 
 } // namespace
 
-Command add_techniques_command(CLI::App& program, Interrupt& /*interrupt*/) {
+cli::Command add_techniques_command(CLI::App& program, cli::Interrupt& /*interrupt*/) {
     auto* arguments = program.add_subcommand("techniques", "list the ways to draw a surface");
     auto json = std::make_shared<bool>(false);
     arguments->add_flag("--json", *json, "as JSON");

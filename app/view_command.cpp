@@ -3,16 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/command.h"
-#include "app/device.h"
-#include "app/message.h"
-#include "app/options.h"
-#include "app/scene_setup.h"
-#include "app/streaming.h"
-#include "app/viewer.h"
-#include "engine/io/image.h"
+#include "app/cli/message.h"
+#include "app/cli/options.h"
+#include "app/commands.h"
+#include "app/viewer/viewer.h"
+#include "engine/io/image/image.h"
 #include "engine/platform/window.h"
 #include "engine/render/driver.h"
+#include "engine/session/device.h"
+#include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
 
 namespace reljef::app {
 namespace {
@@ -20,8 +20,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct ViewerChoice {
-    TerrainChoice terrain;
-    ViewChoice view;
+    cli::TerrainChoice terrain;
+    cli::ViewChoice view;
     bool frames_given = false;
 };
 
@@ -38,25 +38,25 @@ double seconds_since(Clock::time_point start) {
 // The loop between the window, what the viewer decides, and the driver.
 class WindowLoop {
 public:
-    WindowLoop(platform::Window& window, render::Driver& driver, TerrainScene& scene,
+    WindowLoop(platform::Window& window, render::Driver& driver, session::TerrainScene& scene,
                Viewer& viewer, const ViewerChoice& choice)
         : window_(window), driver_(driver), scene_(scene), viewer_(viewer),
           frames_(choice.frames_given ? choice.view.frames : 0), quiet_(choice.terrain.quiet) {}
 
-    Result<void> run(const Interrupt& interrupt) {
+    Result<void> run(const cli::Interrupt& interrupt) {
         auto before = Clock::now();
         while (!is_over() && !interrupt.requested()) {
             receive(window_.wait_events(pause()));
             viewer_.advance(seconds_since(std::exchange(before, Clock::now())));
             has_drawn_ = false;
-            const bool has_new_tiles = take_new_tiles(scene_.scene);
+            const bool has_new_tiles = session::take_new_tiles(scene_.scene);
             if (viewer_.take_redraw() || frames_ > 0 || has_new_tiles) {
                 ask_ahead();
                 if (auto drawn = draw(); !drawn) {
                     return drawn;
                 }
             }
-            tell_stream_faults(scene_.scene, quiet_);
+            session::tell_stream_faults(scene_.scene, quiet_);
             tell_raised_path();
             serve_requests();
             show_title();
@@ -71,7 +71,7 @@ private:
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
-        if (!viewer_.is_moving() && frames_ == 0 && !awaits_tiles(scene_.scene)) {
+        if (!viewer_.is_moving() && frames_ == 0 && !session::awaits_tiles(scene_.scene)) {
             return drawn_ == 0 ? std::chrono::milliseconds(0) : still;
         }
         return has_drawn_ || drawn_ == 0 ? std::chrono::milliseconds(0) : stuck;
@@ -82,7 +82,7 @@ private:
         std::vector<scene::Camera> views{scene_.scene.camera()};
         const std::vector<scene::Camera> upcoming = viewer_.upcoming();
         views.insert(views.end(), upcoming.begin(), upcoming.end());
-        ask_for_tiles(scene_.scene, views, driver_.size());
+        session::ask_for_tiles(scene_.scene, views, driver_.size());
     }
 
     void receive(const std::vector<Event>& events) {
@@ -100,8 +100,9 @@ private:
     // Once, when it happens first.
     void tell_raised_path() {
         if (viewer_.path_raised() > 0.0 && !std::exchange(raise_told_, true) && !quiet_) {
-            tell("reljef: note: the path leads under the ground or too close to it: it is raised "
-                 "there\n");
+            cli::tell(
+                "reljef: note: the path leads under the ground or too close to it: it is raised "
+                "there\n");
         }
     }
 
@@ -119,7 +120,7 @@ private:
     void save_picture() {
         const auto file = next_screenshot(".");
         if (const auto written = io::write_image(file, driver_.read_color()); !written) {
-            tell(fmt::format("reljef: {}\n", written.error().message));
+            cli::tell(fmt::format("reljef: {}\n", written.error().message));
             return;
         }
         fmt::print("saved {}\n", file.filename().string());
@@ -169,11 +170,11 @@ private:
 
     platform::Window& window_;
     render::Driver& driver_;
-    TerrainScene& scene_;
+    session::TerrainScene& scene_;
     Viewer& viewer_;
     int frames_; // to draw, moving or not, before the window closes; 0: until the user ends it
     bool quiet_;
-    render::FrameStats stats_;
+    view::FrameStats stats_;
     FrameTiming timing_;
     std::string title_;
     Clock::time_point titled_;
@@ -185,12 +186,12 @@ private:
 };
 
 // The path that was named, or the flight over the terrain.
-Result<scene::FlyPath> path_or_flyover(const TerrainScene& scene, ViewChoice view,
-                                       const TerrainChoice& terrain) {
+Result<scene::FlyPath> path_or_flyover(const session::TerrainScene& scene, cli::ViewChoice view,
+                                       const cli::TerrainChoice& terrain) {
     if (view.path.empty()) {
         view.path = "flyover";
     }
-    auto path = open_path(scene, view, terrain);
+    auto path = session::open_path(scene, view, terrain);
     if (!path) {
         return path.error();
     }
@@ -198,38 +199,41 @@ Result<scene::FlyPath> path_or_flyover(const TerrainScene& scene, ViewChoice vie
 }
 
 Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice) {
-    limit_software_threads(choice.terrain.threads);
+    session::limit_software_threads(choice.terrain.threads);
     platform::ContextOptions options;
     options.size = choice.view.size;
     options.title = "reljef - opening " + choice.terrain.terrain;
     return platform::make_window(options);
 }
 
-Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
+Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     auto window = open_window(choice);
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
-    TerrainChoice terrain = choice.terrain;
-    terrain.streamed = may_stream(choice.view);
-    terrain.pictures_streamed = may_stream_pictures(choice.view);
-    auto source = open_terrain(terrain, interrupt.token());
+    cli::TerrainChoice terrain = choice.terrain;
+    terrain.streamed = cli::may_stream(choice.view);
+    terrain.pictures_streamed = cli::may_stream_pictures(choice.view);
+    auto source = session::open_terrain(terrain, interrupt.token());
     if (!source) {
         return source.error();
     }
-    if (auto ready = prepare_technique(*source, technique_of(choice.view), choice.terrain,
-                                       interrupt.token());
+    if (auto ready = session::prepare_technique(*source, cli::technique_of(choice.view),
+                                                choice.terrain, interrupt.token());
         !ready) {
         return ready;
     }
-    auto scene = make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
+    auto scene =
+        session::make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
     if (!scene) {
         return scene.error();
     }
-    if (const auto note = missing_geoid(*scene, choice.terrain); note && !choice.terrain.quiet) {
-        tell(fmt::format("reljef: note: {}\n", *note));
+    if (const auto note = session::missing_geoid(*scene, choice.terrain);
+        note && !choice.terrain.quiet) {
+        cli::tell(fmt::format("reljef: note: {}\n", *note));
     }
-    if (auto ready = prepare_bisection(*scene, choice.terrain, interrupt.token()); !ready) {
+    if (auto ready = session::prepare_bisection(*scene, choice.terrain, interrupt.token());
+        !ready) {
         return ready;
     }
     auto path = path_or_flyover(*scene, choice.view, choice.terrain);
@@ -253,7 +257,7 @@ Result<void> view(const ViewerChoice& choice, const Interrupt& interrupt) {
     return WindowLoop(**window, *driver, *scene, viewer, choice).run(interrupt);
 }
 
-void expect_window(const ViewChoice& view) {
+void expect_window(const cli::ViewChoice& view) {
     if (view.context && *view.context != platform::ContextKind::glfw) {
         throw CLI::ValidationError(
             fmt::format("--context: {} found, but view needs a window: auto or glfw was expected",
@@ -263,13 +267,13 @@ void expect_window(const ViewChoice& view) {
 
 } // namespace
 
-Command add_view_command(CLI::App& program, Interrupt& interrupt) {
+cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("view", "fly through a terrain in a window");
     auto choice = std::make_shared<ViewerChoice>();
-    add_terrain_options(*arguments, choice->terrain);
-    add_view_options(*arguments, choice->view);
+    cli::add_terrain_options(*arguments, choice->terrain);
+    cli::add_view_options(*arguments, choice->view);
     arguments->callback([choice] {
-        check_view_options(choice->view);
+        cli::check_view_options(choice->view);
         expect_window(choice->view);
     });
     arguments->footer(

@@ -10,9 +10,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/message.h"
-#include "bench/compare.h"
-#include "bench/report_json.h"
+#include "app/cli/message.h"
+#include "bench/report/report_json.h"
+#include "bench/suites/compare.h"
 
 namespace reljef::bench {
 namespace {
@@ -48,11 +48,11 @@ void add_compare_options(CLI::App& command, CompareChoice& choice) {
 
 // Reading and comparing leave nothing to tidy up.
 void end_at_once() {
-    app::tell("reljef-bench: interrupted\n");
+    cli::tell("reljef-bench: interrupted\n");
     std::_Exit(1);
 }
 
-Result<void> run_compare(const CompareChoice& choice, const app::Interrupt& interrupt) {
+Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& interrupt) {
     const std::stop_callback ending(interrupt.token(), end_at_once);
     const auto before = read_json_report(choice.before);
     if (!before) {
@@ -79,7 +79,7 @@ Result<void> run_compare(const CompareChoice& choice, const app::Interrupt& inte
 
 } // namespace
 
-app::Command add_compare_command(CLI::App& program, app::Interrupt& interrupt) {
+cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
         "compare", "what is faster, slower, more or less accurate than before");
     auto choice = std::make_shared<CompareChoice>();

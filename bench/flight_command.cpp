@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bench/flight_suite.h"
 #include "bench/output_options.h"
 #include "bench/suite_arguments.h"
+#include "bench/suites/flight_suite.h"
 
 namespace reljef::bench {
 namespace {
@@ -16,8 +16,8 @@ struct FlightChoice {
     OutputChoice outputs; // the JSON only
 };
 
-Result<void> run_flight_command(const FlightChoice& choice, const app::Interrupt& interrupt) {
-    const std::vector<app::NamedFile> inputs{{"TERRAIN", choice.options.terrain.terrain},
+Result<void> run_flight_command(const FlightChoice& choice, const cli::Interrupt& interrupt) {
+    const std::vector<cli::NamedFile> inputs{{"TERRAIN", choice.options.terrain.terrain},
                                              {"--path", choice.options.view.path}};
     if (auto good = check_outputs(choice.outputs, inputs); !good) {
         return good;
@@ -28,16 +28,16 @@ Result<void> run_flight_command(const FlightChoice& choice, const app::Interrupt
 
 } // namespace
 
-app::Command add_flight_command(CLI::App& program, app::Interrupt& interrupt) {
+cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
         "flight", "time, reading and memory of a flight over a terrain larger than memory");
     auto choice = std::make_shared<FlightChoice>();
-    app::add_terrain_options(*arguments, choice->options.terrain);
-    app::add_view_options(*arguments, choice->options.view);
+    cli::add_terrain_options(*arguments, choice->options.terrain);
+    cli::add_view_options(*arguments, choice->options.view);
     arguments->add_option("--json", choice->outputs.json, "write the results there too")
         ->type_name("FILE");
     arguments->callback([choice] {
-        app::check_view_options(choice->options.view);
+        cli::check_view_options(choice->options.view);
         if (choice->options.view.path.empty()) {
             throw CLI::ValidationError("flight: no --path found, one to fly along was expected");
         }

@@ -10,16 +10,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/growth.h"
-#include "bench/growth_report.h"
-#include "bench/lod_suite.h"
-#include "bench/methods_suite.h"
+#include "bench/baselines/methods_suite.h"
 #include "bench/output_options.h"
-#include "bench/promise.h"
-#include "bench/promise_report.h"
-#include "bench/selection_suite.h"
 #include "bench/suite_arguments.h"
-#include "engine/render/error_view.h"
+#include "bench/suites/growth.h"
+#include "bench/suites/growth_report.h"
+#include "bench/suites/lod_suite.h"
+#include "bench/suites/promise.h"
+#include "bench/suites/promise_report.h"
+#include "bench/suites/selection_suite.h"
+#include "engine/view/error_view.h"
 
 namespace reljef::bench {
 namespace {
@@ -38,7 +38,7 @@ struct LodChoice {
     int memory_megabytes = 512;
 };
 
-Result<void> run_poses(const LodChoice& choice, const app::Interrupt& interrupt) {
+Result<void> run_poses(const LodChoice& choice, const cli::Interrupt& interrupt) {
     PromiseOptions options;
     options.suite = choice.suite;
     options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
@@ -48,14 +48,14 @@ Result<void> run_poses(const LodChoice& choice, const app::Interrupt& interrupt)
     return report(run_promise(options, interrupt.token()), choice.outputs.json);
 }
 
-Result<void> run_triangle_methods(const LodChoice& choice, const app::Interrupt& interrupt) {
+Result<void> run_triangle_methods(const LodChoice& choice, const cli::Interrupt& interrupt) {
     MethodsOptions options;
     options.suite = choice.suite;
     options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
     return report(run_methods(options, interrupt.token()), choice.outputs.json);
 }
 
-Result<void> run_selection_command(const LodChoice& choice, const app::Interrupt& interrupt) {
+Result<void> run_selection_command(const LodChoice& choice, const cli::Interrupt& interrupt) {
     SelectionOptions options;
     options.suite = choice.suite;
     options.rounds = choice.suite.quick ? 100 : options.rounds;
@@ -63,7 +63,7 @@ Result<void> run_selection_command(const LodChoice& choice, const app::Interrupt
 }
 
 Result<void> run_growth_command(const LodChoice& choice, const CLI::App& command,
-                                const app::Interrupt& interrupt) {
+                                const cli::Interrupt& interrupt) {
     GrowthOptions options;
     options.suite = with_quick_size(choice.suite, command, lod_quick_size);
     options.error = choice.error;
@@ -76,7 +76,7 @@ Result<void> run_growth_command(const LodChoice& choice, const CLI::App& command
 }
 
 Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
-                             const app::Interrupt& interrupt) {
+                             const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
@@ -124,10 +124,10 @@ void add_poses_options(CLI::App& command, LodChoice& choice) {
                 const auto [end, code] =
                     std::from_chars(text.data(), text.data() + text.size(), error);
                 const bool fits = code == std::errc{} && end == text.data() + text.size() &&
-                                  error >= render::least_error && error <= render::most_error;
+                                  error >= view::least_error && error <= view::most_error;
                 return fits ? std::string()
                             : fmt::format("'{}' found, a number from {} to {} was expected", text,
-                                          render::least_error, render::most_error);
+                                          view::least_error, view::most_error);
             },
             ""));
 }
@@ -192,7 +192,7 @@ void check_lod_options(const LodChoice& choice, const CLI::App& command) {
 
 } // namespace
 
-app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt) {
+cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
         "lod", "triangles, time and error of polygons by levels and by --max-error");
     auto choice = std::make_shared<LodChoice>();

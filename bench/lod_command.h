@@ -1,10 +1,10 @@
 #pragma once
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 namespace reljef::bench {
 
 /// The suite lod: what levels of detail cost, save and do wrong.
-app::Command add_lod_command(CLI::App& program, app::Interrupt& interrupt);
+cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt);
 
 } // namespace reljef::bench

@@ -1,4 +1,4 @@
-#include "app/program.h"
+#include "app/cli/program.h"
 #include "bench/compare_command.h"
 #include "bench/flight_command.h"
 #include "bench/lod_command.h"
@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
     namespace bench = reljef::bench;
-    return reljef::app::run_program(
+    return reljef::cli::run_program(
         {.name = "reljef-bench",
          .description = "reljef-bench measures how fast each technique draws a terrain, and how "
                         "wrong its picture is.",

@@ -8,22 +8,22 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/misuse.h"
-#include "bench/page.h"
-#include "bench/report_csv.h"
-#include "bench/report_json.h"
-#include "bench/report_markdown.h"
-#include "bench/report_terminal.h"
+#include "app/cli/misuse.h"
+#include "bench/page/page.h"
+#include "bench/report/report_csv.h"
+#include "bench/report/report_json.h"
+#include "bench/report/report_markdown.h"
+#include "bench/report/report_terminal.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {
 namespace {
 
-std::vector<app::NamedFile> outputs_of(const OutputChoice& choice) {
-    std::vector<app::NamedFile> outputs;
-    for (const app::NamedFile& output :
-         {app::NamedFile{"--json", choice.json}, app::NamedFile{"--csv", choice.csv},
-          app::NamedFile{"--markdown", choice.markdown}}) {
+std::vector<cli::NamedFile> outputs_of(const OutputChoice& choice) {
+    std::vector<cli::NamedFile> outputs;
+    for (const cli::NamedFile& output :
+         {cli::NamedFile{"--json", choice.json}, cli::NamedFile{"--csv", choice.csv},
+          cli::NamedFile{"--markdown", choice.markdown}}) {
         if (!output.path.empty()) {
             outputs.push_back(output);
         }
@@ -32,7 +32,7 @@ std::vector<app::NamedFile> outputs_of(const OutputChoice& choice) {
 }
 
 // The page and its folder are no files of others.
-std::vector<app::NamedFile> with_page(std::vector<app::NamedFile> outputs,
+std::vector<cli::NamedFile> with_page(std::vector<cli::NamedFile> outputs,
                                       const std::filesystem::path& html) {
     if (!html.empty()) {
         outputs.push_back({"--html", page_file(html).parent_path()});
@@ -61,7 +61,7 @@ std::vector<RowPictures> pictures_of(const Results& results) {
 Result<std::vector<AtomicFile>> prepare_outputs(const Results& results,
                                                 const OutputChoice& choice) {
     std::vector<AtomicFile> files;
-    for (const app::NamedFile& output : outputs_of(choice)) {
+    for (const cli::NamedFile& output : outputs_of(choice)) {
         const std::string text = output_text(output.option, results);
         auto file = prepare_file(output.path, std::as_bytes(std::span(text)));
         if (!file) {
@@ -101,10 +101,10 @@ void add_output_options(CLI::App& command, OutputChoice& choice) {
         ->type_name("FILE");
 }
 
-Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs) {
-    const std::vector<app::NamedFile> outputs = outputs_of(choice);
-    app::expect_apart(with_page(outputs, choice.html), inputs);
-    for (const app::NamedFile& output : outputs) {
+Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::NamedFile> inputs) {
+    const std::vector<cli::NamedFile> outputs = outputs_of(choice);
+    cli::expect_apart(with_page(outputs, choice.html), inputs);
+    for (const cli::NamedFile& output : outputs) {
         if (const auto writable = AtomicFile::create(output.path); !writable) {
             return writable.error();
         }
@@ -115,7 +115,7 @@ Result<void> check_outputs(const OutputChoice& choice, std::span<const app::Name
     auto page = check_page_target(choice.html);
     std::error_code ignored;
     if (!page && std::filesystem::is_regular_file(choice.html, ignored)) {
-        app::refuse(page.error().message);
+        cli::refuse(page.error().message);
     }
     return page;
 }

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <span>
 
-#include "app/output_files.h"
-#include "bench/results.h"
+#include "app/cli/output_files.h"
+#include "bench/report/results.h"
 
 namespace CLI {
 class App;
@@ -26,7 +26,7 @@ void add_output_options(CLI::App& command, OutputChoice& choice);
 /// Fails where a file could not be written, and refuses (CLI::ParseError) one that is an input or
 /// another output, and a page into a file: asked before anything is measured, leaves nothing
 /// behind.
-Result<void> check_outputs(const OutputChoice& choice, std::span<const app::NamedFile> inputs);
+Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::NamedFile> inputs);
 
 /// Writes the files and the page, with the pictures of the rows that have a view: all, or none
 /// where one fails; and prints the table. A run that failed, or has no rows, leaves earlier files

@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bench/gallery_tiles.h"
 #include "bench/output_options.h"
-#include "bench/pareto_suite.h"
+#include "bench/runner/gallery_tiles.h"
 #include "bench/suite_arguments.h"
+#include "bench/suites/pareto_suite.h"
 
 namespace reljef::bench {
 namespace {
@@ -27,7 +27,7 @@ void add_pareto_options(CLI::App& command, ParetoChoice& choice) {
 }
 
 Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& command,
-                                const app::Interrupt& interrupt) {
+                                const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
@@ -43,7 +43,7 @@ Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& comm
 
 } // namespace
 
-app::Command add_pareto_command(CLI::App& program, app::Interrupt& interrupt) {
+cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
         "pareto", "time against error of every technique over its parameters' ranges");
     auto choice = std::make_shared<ParetoChoice>();

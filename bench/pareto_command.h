@@ -1,10 +1,10 @@
 #pragma once
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 namespace reljef::bench {
 
 /// `reljef-bench pareto`.
-app::Command add_pareto_command(CLI::App& program, app::Interrupt& interrupt);
+cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt);
 
 } // namespace reljef::bench

@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/baselines/peers.h"
+#include "bench/baselines/peers_report.h"
 #include "bench/output_options.h"
-#include "bench/peers.h"
-#include "bench/peers_report.h"
 #include "bench/suite_arguments.h"
 
 namespace reljef::bench {
@@ -20,7 +20,7 @@ struct PeersChoice {
 };
 
 Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& command,
-                               const app::Interrupt& interrupt) {
+                               const cli::Interrupt& interrupt) {
     const std::vector<std::string> terrains{choice.options.terrain};
     if (auto good = check_outputs(choice.outputs, terrain_files(terrains)); !good) {
         return good;
@@ -32,7 +32,7 @@ Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& comman
 
 } // namespace
 
-app::Command add_peers_command(CLI::App& program, app::Interrupt& interrupt) {
+cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
         "peers", "time, triangles and error of polygons beside Irrlicht's terrain node");
     auto choice = std::make_shared<PeersChoice>();

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 namespace reljef::bench {
 
 /// `reljef-bench peers`: polygons beside Irrlicht's terrain node.
-app::Command add_peers_command(CLI::App& program, app::Interrupt& interrupt);
+cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt);
 
 } // namespace reljef::bench

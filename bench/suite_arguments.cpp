@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/options.h"
-#include "engine/io/scene_file.h"
+#include "app/cli/options.h"
+#include "engine/io/formats/scene_file.h"
 
 namespace reljef::bench {
 namespace {
@@ -57,7 +57,7 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
     command
         .add_option_function<std::string>(
             "--size",
-            [&options](const std::string& text) { options.size = checked(app::parse_size(text)); },
+            [&options](const std::string& text) { options.size = checked(cli::parse_size(text)); },
             "of the picture, pixels (1024x768)")
         ->type_name("WxH");
     command
@@ -113,13 +113,13 @@ void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& tec
 void add_pose_option(CLI::App& command, std::optional<scene::Pose>& pose) {
     command
         .add_option_function<std::string>(
-            "--pose", [&pose](const std::string& text) { pose = checked(app::parse_pose(text)); },
+            "--pose", [&pose](const std::string& text) { pose = checked(cli::parse_pose(text)); },
             "overview, oblique, low, grazing or map (overview)")
         ->type_name("NAME");
 }
 
-std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains) {
-    std::vector<app::NamedFile> files;
+std::vector<cli::NamedFile> terrain_files(std::span<const std::string> terrains) {
+    std::vector<cli::NamedFile> files;
     for (const std::string& terrain : terrains) {
         files.push_back({"--terrain", terrain});
         if (std::filesystem::path(terrain).extension() == ".toml") {

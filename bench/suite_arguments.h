@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/output_files.h"
-#include "bench/suite_options.h"
+#include "app/cli/output_files.h"
+#include "bench/runner/suite_options.h"
 #include "engine/core/result.h"
-#include "engine/scene/poses.h"
-#include "engine/scene/technique.h"
+#include "engine/scene/motion/poses.h"
+#include "engine/scene/technique/technique.h"
 
 namespace CLI {
 class App;
@@ -37,6 +37,6 @@ void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& tec
 void add_pose_option(CLI::App& command, std::optional<scene::Pose>& pose);
 
 /// The terrains as files that no output may replace, and those that their scene files name.
-std::vector<app::NamedFile> terrain_files(std::span<const std::string> terrains);
+std::vector<cli::NamedFile> terrain_files(std::span<const std::string> terrains);
 
 } // namespace reljef::bench

@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bench/gallery_tiles.h"
 #include "bench/output_options.h"
+#include "bench/runner/gallery_tiles.h"
 #include "bench/suite_arguments.h"
-#include "bench/tables_suite.h"
+#include "bench/suites/tables_suite.h"
 
 namespace reljef::bench {
 namespace {
@@ -31,7 +31,7 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
 }
 
 Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& command,
-                                const app::Interrupt& interrupt) {
+                                const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
         return good;
@@ -47,7 +47,7 @@ Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& comm
 
 } // namespace
 
-app::Command add_tables_command(CLI::App& program, app::Interrupt& interrupt) {
+cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
         "tables", "time and error of the techniques, the whole terrain in view");
     auto choice = std::make_shared<TablesChoice>();

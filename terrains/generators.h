@@ -6,7 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/core/worker_pool.h"
-#include "engine/terrain/heightfield.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::terrains {
 

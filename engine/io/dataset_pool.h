@@ -8,7 +8,7 @@
 #include <mutex>
 #include <utility>
 
-#include "engine/io/gdal_dataset.h"
+#include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {
 

@@ -12,10 +12,10 @@
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "engine/io/crs_transform.h"
-#include "engine/io/georeferencing.h"
-#include "engine/io/height_unit.h"
-#include "engine/io/sample_decoder.h"
+#include "engine/io/raster/crs_transform.h"
+#include "engine/io/raster/georeferencing.h"
+#include "engine/io/raster/height_unit.h"
+#include "engine/io/raster/sample_decoder.h"
 
 namespace reljef::io {
 namespace {

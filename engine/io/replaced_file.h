@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/core/result.h"
-#include "engine/io/gdal_dataset.h"
+#include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/fnv_hash.h"
+#include "engine/io/cache/fnv_hash.h"
 
 namespace reljef::io {
 namespace {

@@ -7,10 +7,10 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "engine/io/gdal_dataset.h"
-#include "engine/io/georeferencing.h"
-#include "engine/io/globe.h"
-#include "engine/io/sample_decoder.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/georeferencing.h"
+#include "engine/io/raster/globe.h"
+#include "engine/io/raster/sample_decoder.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {

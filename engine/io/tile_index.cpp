@@ -8,12 +8,12 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/worker_pool.h"
-#include "engine/io/fnv_hash.h"
-#include "engine/io/gdal_dataset.h"
-#include "engine/io/georeferencing.h"
-#include "engine/io/sample_decoder.h"
+#include "engine/io/cache/fnv_hash.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/georeferencing.h"
+#include "engine/io/raster/sample_decoder.h"
 #include "engine/io/side_files.h"
-#include "engine/terrain/tile_tree.h"
+#include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/fnv_hash.h"
+#include "engine/io/cache/fnv_hash.h"
 #include "engine/io/tile_index.h"
-#include "engine/terrain/tile_tree.h"
+#include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
 namespace {

@@ -7,11 +7,11 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/io/gdal_dataset.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/sample_decoder.h"
+#include "engine/io/raster/sample_reader.h"
 #include "engine/io/replaced_file.h"
-#include "engine/io/sample_decoder.h"
-#include "engine/io/sample_reader.h"
-#include "engine/terrain/tile_tree.h"
+#include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
 namespace {

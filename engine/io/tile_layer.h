@@ -11,10 +11,10 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
-#include "engine/io/crs_transform.h"
 #include "engine/io/dataset_pool.h"
 #include "engine/io/failing_files.h"
 #include "engine/io/new_notes.h"
+#include "engine/io/raster/crs_transform.h"
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
-#include "engine/io/georeferencing.h"
+#include "engine/io/raster/georeferencing.h"
 
 namespace reljef::io {
 namespace {

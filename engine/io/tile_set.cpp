@@ -9,12 +9,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/io/gdal_dataset.h"
-#include "engine/io/georeferencing.h"
-#include "engine/io/globe.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/georeferencing.h"
+#include "engine/io/raster/globe.h"
 #include "engine/io/tile_placing.h"
 #include "engine/io/tile_set_state.h"
-#include "engine/terrain/tile_tree.h"
+#include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
 namespace {
@@ -165,7 +165,7 @@ Error nothing_usable(const std::string& name, std::span<const TileFault> faults)
 }
 
 /// The outline of an area, longitude and latitude.
-std::vector<glm::dvec2> outline_of(const GeodeticArea& area) {
+std::vector<glm::dvec2> outline_of(const geo::GeodeticArea& area) {
     constexpr int steps = 32;
     std::vector<glm::dvec2> points;
     for (int i = 0; i <= steps; ++i) {
@@ -195,7 +195,7 @@ void turn_together(std::vector<glm::dvec2>& outline, glm::dvec2 centre, const Ti
 
 } // namespace
 
-bool reaches_into(const TileFile& file, const GeodeticArea& area) {
+bool reaches_into(const TileFile& file, const geo::GeodeticArea& area) {
     const double turn = 360.0 * std::ceil((area.west - file.east) / 360.0);
     const bool beside = file.west + turn >= area.east || file.east + turn <= area.west;
     return !beside && file.south < area.north && file.north > area.south;
@@ -276,7 +276,7 @@ TileGrid TileSet::grid() const {
     return state_->grid;
 }
 
-Result<TileGrid> TileSet::part(const TileGrid& grid, const GeodeticArea& area) const {
+Result<TileGrid> TileSet::part(const TileGrid& grid, const geo::GeodeticArea& area) const {
     const auto nothing = [&] {
         return Error{fmt::format("{}: has nothing from {} to {} north, {} to {} east, an area that "
                                  "overlaps its tiles was expected",

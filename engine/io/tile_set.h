@@ -14,8 +14,10 @@
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
 #include "engine/core/worker_pool.h"
-#include "engine/io/raster.h"
-#include "engine/terrain/heightfield.h"
+#include "engine/geo/geodetic_area.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/raster/tile_pyramid.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::io {
 
@@ -44,23 +46,8 @@ struct TileFile {
     bool declares_voids = false;
 };
 
-/// A file that could not be read, and why: one sentence that names it.
-struct TileFault {
-    std::filesystem::path file;
-    std::string message;
-    friend bool operator==(const TileFault&, const TileFault&) = default;
-};
-
-/// A rectangle in degrees; east may exceed 180, and is at most 360 beyond west.
-struct GeodeticArea {
-    double south = -90.0;
-    double west = -180.0;
-    double north = 90.0;
-    double east = 180.0;
-};
-
 /// Whether a tile has samples inside an area, not only on its edge.
-bool reaches_into(const TileFile& file, const GeodeticArea& area);
+bool reaches_into(const TileFile& file, const geo::GeodeticArea& area);
 
 /// What lies where the set has no tile.
 enum class Gaps { holes, sea };
@@ -87,7 +74,7 @@ struct HeightAnswer {
 
 struct TileTerrainOptions {
     RasterOptions raster; ///< `window` and `spacing` are of no use here
-    std::optional<GeodeticArea> area;
+    std::optional<geo::GeodeticArea> area;
     Gaps gaps = Gaps::holes;
     unsigned threads = 0;
 };
@@ -116,7 +103,7 @@ public:
     /// share a coordinate system.
     [[nodiscard]] TileGrid grid() const;
     /// The part of `grid` in an area; fails where there is none.
-    [[nodiscard]] Result<TileGrid> part(const TileGrid& grid, const GeodeticArea& area) const;
+    [[nodiscard]] Result<TileGrid> part(const TileGrid& grid, const geo::GeodeticArea& area) const;
     /// What is missing of a grid that goes all around the Earth.
     [[nodiscard]] geo::Closing closing(const TileGrid& grid) const;
     /// Every `reduction`-th part of `grid` a side: its samples are the middles of whole blocks.

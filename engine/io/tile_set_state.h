@@ -3,9 +3,9 @@
 #include <atomic>
 #include <map>
 
-#include "engine/io/ascii_grid.h"
 #include "engine/io/dataset_pool.h"
 #include "engine/io/failing_files.h"
+#include "engine/io/raster/ascii_grid.h"
 #include "engine/io/tile_layer.h"
 #include "engine/io/tile_set.h"
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/gdal_dataset.h"
-#include "engine/io/globe.h"
-#include "engine/io/imagery.h"
-#include "engine/io/placed_heightfield.h"
-#include "engine/io/tile_pyramid.h"
+#include "engine/io/imagery/imagery.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/globe.h"
+#include "engine/io/raster/placed_heightfield.h"
+#include "engine/io/raster/tile_pyramid.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {
@@ -138,14 +138,14 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int redu
     return result;
 }
 
-std::string text_of_tiles(const TileSet& tiles, const std::optional<GeodeticArea>& area) {
+std::string text_of_tiles(const TileSet& tiles, const std::optional<geo::GeodeticArea>& area) {
     const auto counts = [&](const TileFile& file) { return !area || reaches_into(file, *area); };
     const auto count = std::count_if(tiles.files().begin(), tiles.files().end(), counts);
     return count == 1 ? "1 tile" : fmt::format("{} tiles drawn as one", count);
 }
 
 void note_grid(const TileSet& tiles, const TileGrid& grid, int reduction, glm::dvec2 spacing,
-               const std::optional<GeodeticArea>& area, std::vector<std::string>& notes) {
+               const std::optional<geo::GeodeticArea>& area, std::vector<std::string>& notes) {
     notes.push_back(fmt::format("{} in {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
                                 text_of_tiles(tiles, area), tiles.crs_name(), grid.cols, grid.rows,
                                 spacing.x, spacing.y,

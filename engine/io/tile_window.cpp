@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "engine/io/gdal_dataset.h"
+#include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "engine/io/gdal_dataset.h"
+#include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/io/tile_set.h"
-#include "engine/terrain/tile_tree.h"
+#include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
 

@@ -3,15 +3,15 @@
 #include <chrono>
 
 #include "engine/gl/read_pixels.h"
-#include "engine/render/draw_state.h"
-#include "engine/render/frame_block.h"
-#include "engine/render/mesh_painter.h"
-#include "engine/render/occlusion.h"
-#include "engine/render/painting.h"
-#include "engine/render/relief_painter.h"
-#include "engine/render/sky_painter.h"
-#include "engine/render/technique_support.h"
-#include "engine/render/terrain_painter.h"
+#include "engine/render/passes/draw_state.h"
+#include "engine/render/passes/mesh_painter.h"
+#include "engine/render/passes/painting.h"
+#include "engine/render/passes/relief_painter.h"
+#include "engine/render/passes/sky_painter.h"
+#include "engine/render/passes/terrain_painter.h"
+#include "engine/render/shaders/frame_block.h"
+#include "engine/render/shaders/technique_support.h"
+#include "engine/view/occlusion.h"
 
 #include <glad/gl.h>
 
@@ -58,10 +58,10 @@ Result<void> Driver::resize(glm::ivec2 size) {
     return {};
 }
 
-Result<FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
+Result<view::FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
     const auto start = Clock::now();
-    const DrawList& list = list_of(scene);
-    FrameStats stats = list.stats;
+    const view::DrawList& list = list_of(scene);
+    view::FrameStats stats = list.stats;
     if (auto done = prepare(list, false, stats); !done) {
         return done.error();
     }
@@ -96,8 +96,8 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
         hit_target_ = std::move(*target);
     }
-    const DrawList& list = list_of(scene);
-    FrameStats stats;
+    const view::DrawList& list = list_of(scene);
+    view::FrameStats stats;
     if (auto done = prepare(list, true, stats); !done) {
         return done.error();
     }
@@ -122,21 +122,21 @@ void Driver::forget_scene() {
     list_.reset();
 }
 
-const DrawList& Driver::list_of(const scene::Scene& scene) {
+const view::DrawList& Driver::list_of(const scene::Scene& scene) {
     const bool is_new = view_.look(scene, size());
     if (!is_new && list_ && !options_.selects_always) {
         list_->stats.skipped.selections_unchanged = 1;
         return *list_;
     }
-    list_ = select(view_, {.keeps_hidden = !options_.occlusion});
+    list_ = view::select(view_, {.keeps_hidden = !options_.occlusion});
     if (options_.occlusion) {
-        drop_occluded(*list_);
+        view::drop_occluded(*list_);
     }
     return *list_;
 }
 
-Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats) {
-    if (auto good = check_techniques(list); !good) {
+Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameStats& stats) {
+    if (auto good = view::check_techniques(list); !good) {
         return good;
     }
     if (auto good = check_support(list, limits_); !good) {
@@ -152,7 +152,7 @@ Result<void> Driver::prepare(const DrawList& list, bool hits, FrameStats& stats)
     return residency_.prepare(list, !hits, stats);
 }
 
-Result<void> Driver::draw_content(const DrawList& list, bool hits, FrameStats& stats) {
+Result<void> Driver::draw_content(const view::DrawList& list, bool hits, view::FrameStats& stats) {
     DrawState state(shaders_, stats);
     const gl::Framebuffer& picture = hits ? hit_target_ : color_target_;
     picture.clear_depth();

@@ -12,11 +12,11 @@
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/limits.h"
 #include "engine/gl/timer_query.h"
-#include "engine/render/beams.h"
-#include "engine/render/draw_list.h"
-#include "engine/render/frame_stats.h"
-#include "engine/render/residency.h"
-#include "engine/render/shader_library.h"
+#include "engine/render/passes/beams.h"
+#include "engine/render/residency/residency.h"
+#include "engine/render/shaders/shader_library.h"
+#include "engine/view/draw_list.h"
+#include "engine/view/frame_stats.h"
 
 namespace reljef::render {
 
@@ -38,7 +38,7 @@ public:
 
     /// Draws a frame; fails as check_techniques() and check_support() do. `wait` also waits until
     /// it is finished and fills FrameStats::gpu_ms.
-    Result<FrameStats> draw(const scene::Scene& scene, bool wait = false);
+    Result<view::FrameStats> draw(const scene::Scene& scene, bool wait = false);
 
     /// Lets go of the last scene's terrains, before another is read.
     void forget_scene();
@@ -57,9 +57,9 @@ public:
 private:
     Driver(const DriverOptions& options, gl::Framebuffer target);
 
-    const DrawList& list_of(const scene::Scene& scene);
-    Result<void> prepare(const DrawList& list, bool hits, FrameStats& stats);
-    Result<void> draw_content(const DrawList& list, bool hits, FrameStats& stats);
+    const view::DrawList& list_of(const scene::Scene& scene);
+    Result<void> prepare(const view::DrawList& list, bool hits, view::FrameStats& stats);
+    Result<void> draw_content(const view::DrawList& list, bool hits, view::FrameStats& stats);
 
     DriverOptions options_;
     gl::Limits limits_;
@@ -70,8 +70,8 @@ private:
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;
     Residency residency_;
-    SceneView view_;               // of the last frame
-    std::optional<DrawList> list_; // what it shows
+    view::SceneView view_;               // of the last frame
+    std::optional<view::DrawList> list_; // what it shows
 };
 
 } // namespace reljef::render

@@ -9,11 +9,11 @@
 #include "engine/core/color.h"
 #include "engine/core/geometry.h"
 #include "engine/core/grid.h"
-#include "engine/scene/terrain_light.h"
-#include "engine/scene/terrain_node.h"
-#include "engine/terrain/min_max_pyramid.h"
-#include "engine/terrain/tile_tree.h"
-#include "engine/terrain/tint.h"
+#include "engine/scene/graph/terrain_light.h"
+#include "engine/scene/graph/terrain_node.h"
+#include "engine/terrain/field/min_max_pyramid.h"
+#include "engine/terrain/field/tint.h"
+#include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::scene {
 

@@ -6,7 +6,7 @@
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
 #include "engine/core/worker_pool.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/graph/scene.h"
 #include "engine/truth/scene_caster.h"
 #include "engine/truth/shading.h"
 

@@ -9,8 +9,8 @@
 #include "engine/core/grid.h"
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
-#include "engine/scene/camera.h"
-#include "engine/terrain/placement.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/terrain/field/placement.h"
 
 namespace reljef::truth {
 

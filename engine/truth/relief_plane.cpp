@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/field/ray_cast.h"
 
 namespace reljef::truth {
 namespace {

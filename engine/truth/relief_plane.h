@@ -8,12 +8,12 @@
 #include "engine/core/geometry.h"
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
-#include "engine/terrain/min_max_pyramid.h"
-#include "engine/terrain/tile_border.h"
+#include "engine/material/tile_border.h"
+#include "engine/terrain/field/min_max_pyramid.h"
 
 namespace reljef::truth {
 
-using Border = terrain::TileBorder;
+using Border = material::TileBorder;
 
 struct ReliefOptions {
     double width = 1.0;   ///< metres that texture coordinates 0 … 1 cover, both ways; > 0

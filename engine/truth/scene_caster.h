@@ -9,8 +9,8 @@
 
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
-#include "engine/scene/scene.h"
-#include "engine/terrain/surface_caster.h"
+#include "engine/scene/graph/scene.h"
+#include "engine/terrain/field/surface_caster.h"
 
 namespace reljef::truth {
 

@@ -7,8 +7,8 @@
 
 #include "engine/core/color.h"
 #include "engine/core/geometry.h"
-#include "engine/scene/scene.h"
-#include "engine/scene/terrain_light.h"
+#include "engine/scene/graph/scene.h"
+#include "engine/scene/graph/terrain_light.h"
 #include "engine/truth/scene_caster.h"
 
 namespace reljef::truth {

@@ -70,9 +70,9 @@ Result<TilePlane> TilePlane::create(TileSquare square) {
         plane.surface_ = std::move(*relief);
         return plane;
     }
-    plane.layers_ = terrain::layers_of(*made.set, *made.layers);
-    plane.layer_normals_ = terrain::layer_normals(plane.layers_, static_cast<float>(made.scale),
-                                                  terrain::TileBorder::wrap);
+    plane.layers_ = material::layers_of(*made.set, *made.layers);
+    plane.layer_normals_ = material::layer_normals(plane.layers_, static_cast<float>(made.scale),
+                                                   material::TileBorder::wrap);
     auto layered =
         LayeredPlane::create(plane.layers_.heights().view(), relief_options(made, plane.width_));
     if (!layered) {

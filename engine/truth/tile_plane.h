@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "engine/core/result.h"
-#include "engine/scene/scene.h"
-#include "engine/terrain/texture_set.h"
+#include "engine/material/texture_set.h"
+#include "engine/scene/graph/scene.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
 #include "engine/truth/layered_plane.h"
@@ -16,9 +16,9 @@ namespace reljef::truth {
 
 /// A tile of detail, its copies side by side over a level square around the origin, lit by a sun.
 struct TileSquare {
-    std::shared_ptr<const terrain::TextureSet> set; ///< as completed() gave it
+    std::shared_ptr<const material::TextureSet> set; ///< as completed() gave it
     /// Which solids its maps say; absent: all below its heights.
-    std::optional<terrain::LayerKind> layers;
+    std::optional<material::LayerKind> layers;
     double side = 1.0;  ///< of the square, metres; > 0
     int repeats = 1;    ///< tiles along the side; > 0
     double scale = 0.1; ///< as ReliefOptions have it, and offset too
@@ -71,8 +71,8 @@ private:
     double width_ = 1.0;     // of a tile, metres
     glm::dvec3 middle_{0.0}; // of the tile with texture coordinates 0 … 1
     std::variant<std::monostate, ReliefPlane, LayeredPlane> surface_;
-    terrain::LayerMap layers_;
-    terrain::LayerNormals layer_normals_;
+    material::LayerMap layers_;
+    material::LayerNormals layer_normals_;
 };
 
 } // namespace reljef::truth

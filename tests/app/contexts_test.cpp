@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/image.h"
+#include "engine/io/image/image.h"
 #include "tests/app/command_line.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"

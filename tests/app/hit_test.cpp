@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/image.h"
-#include "engine/io/raster.h"
+#include "engine/io/image/image.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/terrain_file.h"
 #include "tests/app/command_line.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"

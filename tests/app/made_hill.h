@@ -2,22 +2,22 @@
 
 #include <utility>
 
-#include "app/scene_setup.h"
-#include "engine/terrain/heightfield.h"
+#include "engine/session/scene_setup.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::app {
 
-inline TerrainScene scene_of(Grid<float> heights, const ViewChoice& view = {}) {
-    TerrainSource source;
+inline session::TerrainScene scene_of(Grid<float> heights, const cli::ViewChoice& view = {}) {
+    session::TerrainSource source;
     source.terrain.name = "hill";
     auto& heightfield = source.terrain.heightfield;
     heightfield.heights = std::move(heights);
     heightfield.spacing = {10.0, 10.0};
     heightfield.range = terrain::height_range(heightfield.heights, {});
-    return make_scene(std::move(source), {}, view).value();
+    return session::make_scene(std::move(source), {}, view).value();
 }
 
-inline TerrainScene hill_scene(const ViewChoice& view = {}) {
+inline session::TerrainScene hill_scene(const cli::ViewChoice& view = {}) {
     Grid<float> heights(33, 33, 10.0F);
     heights(16, 16) = 60.0F;
     return scene_of(std::move(heights), view);

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/atomic_file.h"
-#include "engine/io/channels.h"
-#include "engine/io/image.h"
-#include "engine/io/texture_files.h"
+#include "engine/io/image/channels.h"
+#include "engine/io/image/image.h"
+#include "engine/io/image/texture_files.h"
 #include "tests/app/command_line.h"
 #include "tests/support/temporary_folder.h"
 

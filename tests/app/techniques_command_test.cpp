@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/technique.h"
+#include "engine/scene/technique/technique.h"
 #include "tests/app/command_line.h"
 
 namespace reljef {

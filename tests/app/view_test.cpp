@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/viewer.h"
-#include "engine/io/image.h"
+#include "app/viewer/viewer.h"
+#include "engine/io/image/image.h"
 #include "tests/app/command_line.h"
 #include "tests/support/temporary_folder.h"
 

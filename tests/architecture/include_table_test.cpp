@@ -79,6 +79,15 @@ TEST(Project, ListsEveryFileInItsFolder) {
                 IsEmpty());
 }
 
+TEST(Project, CrowdsNoFolder) {
+    std::vector<SourceFile> files =
+        files_below({"engine", "app", "bench", "terrains", "tests", "shaders"});
+    std::erase_if(files, [](const SourceFile& file) {
+        return file.path.ends_with(".png") || file.path.starts_with("bench/results");
+    });
+    EXPECT_THAT(crowded_folders(files), IsEmpty());
+}
+
 TEST(Project, NamesNoPlaceOnOneMachine) {
     std::vector<SourceFile> files =
         files_below({"engine", "app", "bench", "terrains", "tests", "shaders", "cmake", ".ci"});

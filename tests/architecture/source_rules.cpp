@@ -7,25 +7,60 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
+
 namespace reljef::test {
 namespace {
 
 using Names = std::vector<std::string_view>;
 
-// What each room may include directly; what lies below these is allowed too.
+// What each folder of code may include directly; what lies below these is allowed too. The folders
+// of files that are many (io), of imagery and of streams (scene) include each other.
 const std::map<std::string_view, Names>& include_table() {
     static const std::map<std::string_view, Names> table{
-        {"core", {}},
-        {"geo", {"core"}},
-        {"terrain", {"geo"}},
-        {"io", {"terrain"}},
-        {"scene", {"terrain"}},
-        {"truth", {"scene"}},
-        {"gl", {"core"}},
-        {"platform", {"gl"}},
-        {"shaders", {}},
-        {"render", {"scene", "gl", "shaders"}},
-        {"terrains", {"terrain"}},
+        {"engine/core", {}},
+        {"engine/geo", {"engine/core"}},
+        {"engine/material", {"engine/core"}},
+        {"engine/terrain/field", {"engine/geo", "engine/material"}},
+        {"engine/terrain/mesh", {"engine/terrain/field"}},
+        {"engine/terrain/tree", {"engine/terrain/mesh"}},
+        {"engine/io/raster", {"engine/terrain/field"}},
+        {"engine/io/imagery", {"engine/io/raster", "engine/io"}},
+        {"engine/io",
+         {"engine/io/raster", "engine/io/imagery", "engine/io/cache", "engine/terrain/tree"}},
+        {"engine/io/cache", {"engine/terrain/mesh"}},
+        {"engine/io/image", {"engine/io/raster"}},
+        {"engine/io/formats", {"engine/io"}},
+        {"engine/scene/technique", {"engine/material"}},
+        {"engine/scene/graph", {"engine/scene/technique", "engine/terrain/mesh", "engine/scene"}},
+        {"engine/scene", {"engine/scene/graph", "engine/terrain/tree"}},
+        {"engine/scene/motion", {"engine/scene/graph"}},
+        {"engine/truth", {"engine/scene/graph"}},
+        {"engine/view", {"engine/scene"}},
+        {"engine/gl", {"engine/core"}},
+        {"engine/platform", {"engine/gl"}},
+        {"shaders/frame", {}},
+        {"engine/render/shaders", {"engine/view", "engine/gl", "shaders/frame"}},
+        {"engine/render/residency", {"engine/render/shaders"}},
+        {"engine/render/passes", {"engine/render/residency"}},
+        {"engine/render", {"engine/render/passes"}},
+        {"terrains", {"engine/terrain/field"}},
+        {"terrains/natural", {"terrains"}},
+        {"terrains/urban", {"terrains/natural"}},
+        {"terrains/gallery", {"terrains/natural"}},
+        {"engine/session",
+         {"engine/io/formats", "engine/io/image", "engine/scene/motion", "engine/truth",
+          "engine/platform", "engine/render", "terrains/gallery"}},
+        {"app/cli", {"engine/session"}},
+        {"app/viewer", {"engine/session"}},
+        {"app", {"app/cli", "app/viewer"}},
+        {"bench/report", {"app/cli"}},
+        {"bench/page", {"bench/report"}},
+        {"bench/runner", {"bench/report"}},
+        {"bench/suites", {"bench/runner"}},
+        {"bench/baselines/irrlicht", {}},
+        {"bench/baselines", {"bench/runner", "bench/baselines/irrlicht"}},
+        {"bench", {"bench/suites", "bench/baselines", "bench/page"}},
     };
     return table;
 }
@@ -99,14 +134,14 @@ const std::vector<Library>& guarded_libraries() {
         {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
         {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
-        {"Irrlicht", {"irrlicht"}, {"bench/irrlicht/"}},
+        {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},
     };
     return libraries;
 }
 
 bool may_use_gl(std::string_view path) {
     return starts_with_any(path, {"engine/gl/", "engine/platform/", "engine/render/", "tests/gl/",
-                                  "tests/platform/", "bench/irrlicht/"}) ||
+                                  "tests/platform/", "bench/baselines/irrlicht/"}) ||
            (path.starts_with("tests/") && path.ends_with("_gl_test.cpp"));
 }
 
@@ -307,26 +342,32 @@ std::vector<Include> includes_of(std::string_view text) {
 }
 
 std::string room_of(std::string_view path) {
-    if (path.starts_with("engine/")) {
-        path.remove_prefix(std::string_view("engine/").size());
+    const std::string folder = folder_of(path);
+    if (include_table().contains(folder)) {
+        return folder;
     }
-    const std::size_t slash = path.find('/');
-    const std::string room(path.substr(0, slash));
-    const bool known =
-        include_table().contains(room) || room == "app" || room == "bench" || room == "tests";
-    return slash != std::string_view::npos && known ? room : "";
+    return folder == "tests" || folder.starts_with("tests/") ? "tests" : "";
 }
 
 bool may_include(std::string_view from, std::string_view to) {
-    if (from == to) {
+    if (to.starts_with("shaders/")) {
+        return from == "engine/render/shaders";
+    }
+    if (from == "tests") {
         return true;
     }
-    const auto row = include_table().find(from);
-    if (row == include_table().end()) { // app, bench and tests
-        return to != "shaders";
+    std::set<std::string_view> below{from};
+    std::vector<std::string_view> open{from};
+    while (!open.empty()) {
+        const auto row = include_table().find(open.back());
+        open.pop_back();
+        for (const std::string_view room : row == include_table().end() ? Names() : row->second) {
+            if (below.insert(room).second) {
+                open.push_back(room);
+            }
+        }
     }
-    return std::any_of(row->second.begin(), row->second.end(),
-                       [&](std::string_view room) { return may_include(room, to); });
+    return below.contains(to);
 }
 
 Complaints forbidden_includes(const SourceFile& file) {
@@ -417,19 +458,47 @@ Complaints include_circles(std::span<const SourceFile> files) {
 
 Complaints unlisted_files(std::span<const SourceFile> files) {
     static const std::regex separators("[\\s()]+");
-    std::map<std::string, std::set<std::string>> listed;
+    std::map<std::string, std::set<std::string>> listed; // by folder, as paths from the root
     for (const SourceFile& file : files) {
         if (file.path.ends_with("CMakeLists.txt")) {
+            std::set<std::string>& names = listed[folder_of(file.path)];
             std::sregex_token_iterator word(file.text.begin(), file.text.end(), separators, -1);
-            listed[folder_of(file.path)].insert(word, {});
+            names.insert(word, {});
         }
     }
     Complaints complaints;
     for (const SourceFile& file : files) {
-        const std::string folder = folder_of(file.path);
-        const bool source = file.path.ends_with(".cpp") || file.path.ends_with(".h");
-        if (source && !listed[folder].contains(file.path.substr(folder.size() + 1))) {
+        if (!file.path.ends_with(".cpp") && !file.path.ends_with(".h")) {
+            continue;
+        }
+        const std::string own_folder = folder_of(file.path);
+        std::string folder = own_folder;
+        while (!folder.empty() && !listed.contains(folder)) {
+            folder = folder_of(folder);
+        }
+        folder = folder.empty() ? own_folder : folder;
+        if (!listed[folder].contains(file.path.substr(folder.size() + 1))) {
             complaints.push_back(file.path + " is not named in " + folder + "/CMakeLists.txt");
+        }
+    }
+    return complaints;
+}
+
+Complaints crowded_folders(std::span<const SourceFile> files) {
+    static const std::regex ending(R"((_gl)?(_test)?\.\w+$)");
+    std::map<std::string, std::set<std::string>> concepts;
+    for (const SourceFile& file : files) {
+        const std::string folder = folder_of(file.path);
+        const std::string name = file.path.substr(folder.size() + 1);
+        if (name != "CMakeLists.txt") {
+            concepts[folder].insert(std::regex_replace(name, ending, ""));
+        }
+    }
+    Complaints complaints;
+    for (const auto& [folder, names] : concepts) {
+        if (names.size() > max_concepts) {
+            complaints.push_back(fmt::format("{} holds {} concepts, at most {} were expected",
+                                             folder, names.size(), max_concepts));
         }
     }
     return complaints;

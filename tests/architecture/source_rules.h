@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,7 +27,8 @@ struct Include {
 };
 std::vector<Include> includes_of(std::string_view text);
 
-/// "core" for engine/core/grid.h, "app" for app/main.cpp, "" for a file in no room.
+/// The folder of a file of code, "engine/core" for engine/core/grid.h; "tests" for all tests; ""
+/// for a file in no folder of the table.
 std::string room_of(std::string_view path);
 
 /// Whether a file of room `from` may include one of room `to`: its own room, the rooms of the table
@@ -55,7 +57,11 @@ Complaints missing_includes(std::span<const SourceFile> files);
 /// Files that include each other in a circle, each circle once.
 Complaints include_circles(std::span<const SourceFile> files);
 
-/// Sources and headers that the CMakeLists.txt of their folder does not name.
+/// Sources and headers that no CMakeLists.txt names: that of their folder, or the nearest above.
 Complaints unlisted_files(std::span<const SourceFile> files);
+
+/// How many concepts a folder holds at most. A header, its source and its tests are one concept.
+inline constexpr std::size_t max_concepts = 16;
+Complaints crowded_folders(std::span<const SourceFile> files);
 
 } // namespace reljef::test

@@ -52,49 +52,65 @@ TEST(IncludesOf, OverlooksCommentsAndStrings) {
     EXPECT_THAT(include_paths("auto s = R\"(\n#include <b.h>\n)\";"), IsEmpty());
 }
 
-TEST(RoomOf, IsTheFolderBelowEngineOrAtTheTop) {
-    EXPECT_EQ(room_of("engine/core/grid.h"), "core");
-    EXPECT_EQ(room_of("terrains/noise.h"), "terrains");
+TEST(RoomOf, IsTheFolderOfCode) {
+    EXPECT_EQ(room_of("engine/core/grid.h"), "engine/core");
+    EXPECT_EQ(room_of("engine/io/raster/raster.h"), "engine/io/raster");
+    EXPECT_EQ(room_of("terrains/natural/noise.h"), "terrains/natural");
     EXPECT_EQ(room_of("tests/core/grid_test.cpp"), "tests");
+    EXPECT_EQ(room_of("engine/nowhere/a.h"), "");
     EXPECT_EQ(room_of("fmt/format.h"), "");
     EXPECT_EQ(room_of("core"), "");
 }
 
 TEST(IncludeTable, AllowsWhatLiesBelow) {
-    EXPECT_TRUE(may_include("geo", "core"));
-    EXPECT_TRUE(may_include("io", "core"));
-    EXPECT_TRUE(may_include("render", "terrain"));
-    EXPECT_TRUE(may_include("render", "gl"));
-    EXPECT_TRUE(may_include("truth", "geo"));
-    EXPECT_TRUE(may_include("app", "render"));
+    EXPECT_TRUE(may_include("engine/geo", "engine/core"));
+    EXPECT_TRUE(may_include("engine/io/raster", "engine/core"));
+    EXPECT_TRUE(may_include("engine/io/imagery", "engine/io"));
+    EXPECT_TRUE(may_include("engine/io", "engine/io/imagery"));
+    EXPECT_TRUE(may_include("engine/render/passes", "engine/view"));
+    EXPECT_TRUE(may_include("engine/render", "engine/gl"));
+    EXPECT_TRUE(may_include("engine/truth", "engine/geo"));
+    EXPECT_TRUE(may_include("app", "engine/render"));
+    EXPECT_TRUE(may_include("bench/suites", "app/cli"));
     EXPECT_TRUE(may_include("tests", "app"));
 }
 
 TEST(IncludeTable, RefusesUpwardAndSideways) {
-    EXPECT_FALSE(may_include("core", "geo"));
-    EXPECT_FALSE(may_include("terrain", "io"));
-    EXPECT_FALSE(may_include("io", "scene"));
-    EXPECT_FALSE(may_include("scene", "gl"));
-    EXPECT_FALSE(may_include("gl", "geo"));
-    EXPECT_FALSE(may_include("render", "platform"));
-    EXPECT_FALSE(may_include("render", "io"));
-    EXPECT_FALSE(may_include("terrains", "io"));
-    EXPECT_FALSE(may_include("scene", "app"));
-    EXPECT_FALSE(may_include("render", "tests"));
+    EXPECT_FALSE(may_include("engine/core", "engine/geo"));
+    EXPECT_FALSE(may_include("engine/terrain/field", "engine/io/raster"));
+    EXPECT_FALSE(may_include("engine/terrain/mesh", "engine/terrain/tree"));
+    EXPECT_FALSE(may_include("engine/io", "engine/scene"));
+    EXPECT_FALSE(may_include("engine/io/raster", "engine/io"));
+    EXPECT_FALSE(may_include("engine/scene", "engine/gl"));
+    EXPECT_FALSE(may_include("engine/view", "engine/gl"));
+    EXPECT_FALSE(may_include("engine/view", "engine/render"));
+    EXPECT_FALSE(may_include("engine/gl", "engine/geo"));
+    EXPECT_FALSE(may_include("engine/render", "engine/platform"));
+    EXPECT_FALSE(may_include("engine/render", "engine/io"));
+    EXPECT_FALSE(may_include("engine/session", "app/cli"));
+    EXPECT_FALSE(may_include("bench", "app"));
+    EXPECT_FALSE(may_include("bench/suites", "app/viewer"));
+    EXPECT_FALSE(may_include("app", "bench"));
+    EXPECT_FALSE(may_include("terrains", "engine/io"));
+    EXPECT_FALSE(may_include("engine/scene", "app"));
+    EXPECT_FALSE(may_include("engine/render", "tests"));
 }
 
 TEST(IncludeTable, GivesTheShadersToRenderOnly) {
-    EXPECT_TRUE(may_include("render", "shaders"));
-    EXPECT_FALSE(may_include("app", "shaders"));
-    EXPECT_FALSE(may_include("scene", "shaders"));
+    EXPECT_TRUE(may_include("engine/render/shaders", "shaders/frame"));
+    EXPECT_FALSE(may_include("app", "shaders/frame"));
+    EXPECT_FALSE(may_include("engine/scene", "shaders/frame"));
+    EXPECT_FALSE(may_include("tests", "shaders/frame"));
 }
 
 TEST(ForbiddenIncludes, NameTheFileAndWhatItIncludes) {
     EXPECT_THAT(
-        forbidden_includes(file_with("engine/core/a.h", "#include \"engine/io/image.h\"\n")),
-        ElementsAre("engine/core/a.h includes engine/io/image.h: core may not include io"));
-    EXPECT_THAT(forbidden_includes(file_with("engine/io/a.h", "#include \"engine/core/b.h\"\n")),
-                IsEmpty());
+        forbidden_includes(file_with("engine/core/a.h", "#include \"engine/io/image/image.h\"\n")),
+        ElementsAre("engine/core/a.h includes engine/io/image/image.h: engine/core may not include "
+                    "engine/io/image"));
+    EXPECT_THAT(
+        forbidden_includes(file_with("engine/io/raster/a.h", "#include \"engine/core/b.h\"\n")),
+        IsEmpty());
 }
 
 TEST(ForbiddenIncludes, WantOwnFilesFromTheRootAndLibrariesInAngleBrackets) {
@@ -215,6 +231,18 @@ TEST(UnlistedFiles, AreNamed) {
     EXPECT_THAT(unlisted_files(files),
                 ElementsAre("engine/core/h.cpp is not named in engine/core/CMakeLists.txt",
                             "engine/geo/b.h is not named in engine/geo/CMakeLists.txt"));
+}
+
+TEST(CrowdedFolders, AreThoseOfTooManyConcepts) {
+    std::vector<SourceFile> files;
+    for (std::size_t i = 0; i < max_concepts; ++i) {
+        for (const char* const ending : {".h", ".cpp", "_test.cpp"}) {
+            files.push_back(file_with("a/concept" + std::to_string(i) + ending, ""));
+        }
+    }
+    EXPECT_THAT(crowded_folders(files), IsEmpty());
+    files.push_back(file_with("a/one_more.h", ""));
+    EXPECT_THAT(crowded_folders(files), SizeIs(1));
 }
 
 } // namespace

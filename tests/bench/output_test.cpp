@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/page.h"
+#include "bench/page/page.h"
 #include "tests/bench/bench_program.h"
-#include "tests/bench/made_results.h"
+#include "tests/bench/report/made_results.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {

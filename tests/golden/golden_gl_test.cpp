@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/image.h"
-#include "engine/scene/technique.h"
+#include "engine/io/image/image.h"
+#include "engine/scene/technique/technique.h"
 #include "tests/app/command_line.h"
 #include "tests/golden/golden_picture.h"
 #include "tests/support/release_only.h"

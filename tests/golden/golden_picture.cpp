@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/image.h"
+#include "engine/io/image/image.h"
 
 namespace reljef::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/image.h"
+#include "engine/io/image/image.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::test {

@@ -6,7 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/raster.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/terrain_file.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/plain_permissions.h"
 #include "tests/support/temporary_folder.h"

@@ -7,7 +7,8 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/io/raster.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/terrain_file.h"
 #include "engine/io/tile_set.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"

@@ -12,8 +12,9 @@
 
 #include "engine/core/worker_pool.h"
 #include "engine/geo/place.h"
-#include "engine/io/crs_transform.h"
-#include "engine/io/raster.h"
+#include "engine/io/raster/crs_transform.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/terrain_file.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/gie.h"
 #include "tests/support/release_only.h"

@@ -11,7 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/raster.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/terrain_file.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -84,15 +85,15 @@ const std::vector<Known> known_files{
 struct Closer {
     void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
-using Dataset = std::unique_ptr<GDALDataset, Closer>;
+using OpenDataset = std::unique_ptr<GDALDataset, Closer>;
 
-Dataset open(const Known& known) {
+OpenDataset open(const Known& known) {
     GDALAllRegister();
     std::string path = test::data_path(known.file).string();
     if (!known.inner.empty()) {
         path = "/vsizip/{" + path + "}/" + known.inner;
     }
-    return Dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+    return OpenDataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
 }
 
 class RealRaster : public ::testing::TestWithParam<Known> {
@@ -127,7 +128,7 @@ TEST_P(RealRaster, HeightsAreGdalsAtRandomPlaces) {
     RELJEF_NEED_DATA(known.file);
     const auto terrain = read_terrain(test::data_path(known.file));
     ASSERT_TRUE(terrain);
-    const Dataset dataset = open(known);
+    const OpenDataset dataset = open(known);
     ASSERT_NE(dataset, nullptr);
     GDALRasterBand& band = *dataset->GetRasterBand(1);
     const double unit = std::string(band.GetUnitType()) == "US survey foot" ? survey_foot : 1.0;
@@ -160,7 +161,7 @@ TEST_P(PlacedRaster, CornersAreWhereGdaltransformPutsThem) {
     RELJEF_NEED_DATA(known.file);
     const auto terrain = read_terrain(test::data_path(known.file));
     ASSERT_TRUE(terrain);
-    const Dataset dataset = open(known);
+    const OpenDataset dataset = open(known);
     ASSERT_NE(dataset, nullptr);
     ASSERT_TRUE(terrain->heightfield.georeference);
     CPLStringList options;

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/worker_pool.h"
-#include "engine/io/gdal_dataset.h"
-#include "engine/io/image.h"
+#include "engine/io/image/image.h"
+#include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/tree_tile.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/nginx.h"

@@ -207,7 +207,7 @@ TEST_F(TileSets, NeighboursOfDifferentSystemsAndSpacingJoinWatertight) {
     const TileSet tiles = open();
     EXPECT_EQ(tiles.crs_name(), "WGS 84");
     TileTerrainOptions options;
-    options.area = GeodeticArea{45.01, 2.91, 45.09, 3.19};
+    options.area = geo::GeodeticArea{45.01, 2.91, 45.09, 3.19};
     auto terrain = tiles.terrain(options);
     ASSERT_TRUE(terrain) << terrain.error().message;
     const auto& heightfield = terrain->heightfield;
@@ -334,7 +334,7 @@ TEST_F(TileSets, AFolderWithoutAnyTileIsAnError) {
 
 TEST_F(TileSets, AnAreaBesideAllTilesIsAnError) {
     tile("a.tif", utm31, 20, 20, {500000.0, 5000000.0, 10.0}, plane);
-    const auto part = open().part(open().grid(), GeodeticArea{10.0, 3.0, 11.0, 4.0});
+    const auto part = open().part(open().grid(), geo::GeodeticArea{10.0, 3.0, 11.0, 4.0});
     ASSERT_FALSE(part);
     EXPECT_THAT(part.error().message, HasSubstr("has nothing from 10 to 11 north"));
 }

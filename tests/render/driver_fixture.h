@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/render/driver.h"
-#include "engine/scene/poses.h"
+#include "engine/scene/motion/poses.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/render/frame_block.h"
+#include "engine/render/shaders/frame_block.h"
 #include "tests/render/driver_fixture.h"
 
 namespace reljef::render {
@@ -122,13 +122,13 @@ TEST_F(DriverGlTest, ASecondFrameUploadsTheFrameBlockOnly) {
     World world;
     world.look(camera_at({0.0, -350.0, 250.0}, {0.0, 0.0, 0.0}));
     Driver made = driver();
-    const FrameStats first = test::must(made.draw(world.scene));
+    const view::FrameStats first = test::must(made.draw(world.scene));
     EXPECT_EQ(first.tiles, 9);
     EXPECT_EQ(first.triangles, 2U * 300U * 300U);
     EXPECT_EQ(first.draws, 10) << "the sky's included";
     EXPECT_GT(first.upload_bytes, 300U * 300U * 16U);
     const Image picture = made.read_color();
-    const FrameStats second = test::must(made.draw(world.scene));
+    const view::FrameStats second = test::must(made.draw(world.scene));
     EXPECT_EQ(second.uploads, 1);
     EXPECT_EQ(second.upload_bytes, sizeof(FrameBlock));
     EXPECT_EQ(second.skipped.uploads_unchanged, 9 + 1) << "nine tiles and the maps";
@@ -145,7 +145,7 @@ TEST_F(DriverGlTest, AMovedSunUploadsTheMapsAgain) {
             light->azimuth += 90.0;
         }
     }
-    const FrameStats stats = test::must(made.draw(world.scene));
+    const view::FrameStats stats = test::must(made.draw(world.scene));
     EXPECT_EQ(stats.uploads, 1 + 1) << "the map of what is lit";
     EXPECT_NE(made.read_color(), before);
     EXPECT_EQ(test::must(made.draw(world.scene)).uploads, 1);
@@ -158,7 +158,7 @@ TEST_F(DriverGlTest, WhatIsGoneFromTheSceneLeavesTheDriver) {
     for (int i = 0; i < 20; ++i) {
         Node& terrain = test::add_terrain(
             scene, test::plane_heightfield(Grid<float>(20, 20, 0.1F * static_cast<float>(i))));
-        const FrameStats stats = test::must(made.draw(scene));
+        const view::FrameStats stats = test::must(made.draw(scene));
         EXPECT_GE(stats.uploads, 3)
             << "a new surface is uploaded, even at an address of an old one";
         (void)scene.root().remove(terrain);
@@ -213,7 +213,7 @@ TEST_F(DriverGlTest, WithoutSunAndSkyTheImageryItselfShows) {
                                       Image(50, 50, Rgba8{100, 150, 200, 255}));
     scene.add_camera(pose(scene::Pose::overview, terrain));
     Driver made = driver();
-    const FrameStats stats = test::must(made.draw(scene));
+    const view::FrameStats stats = test::must(made.draw(scene));
     EXPECT_EQ(stats.draws, 1);
     EXPECT_EQ(stats.skipped.sky, 1);
     const Image picture = made.read_color();

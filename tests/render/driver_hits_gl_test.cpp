@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/terrain/surface_caster.h"
+#include "engine/terrain/field/surface_caster.h"
 #include "tests/render/driver_fixture.h"
 
 namespace reljef::render {

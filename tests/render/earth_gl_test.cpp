@@ -111,7 +111,7 @@ TEST(EarthPrecision, VerticesAreWhereTheyBelongFarFromTheMiddleOfTheirTerrain) {
         const glm::dvec3 way(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0),
                              chance.between(-1.0, 1.0));
         const glm::dvec3 place = eye + way * distance;
-        const GridVertex vertex = grid_vertex(place, 0.0, {});
+        const view::GridVertex vertex = view::grid_vertex(place, 0.0, {});
         const SplitPoint split = split_into_floats(eye);
         const glm::vec3 from_eye = (vertex.position - split.rounded) + (vertex.rest - split.rest);
         const double off = glm::distance(glm::dvec3(from_eye), place - eye);

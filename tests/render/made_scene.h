@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/graph/scene.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::test {

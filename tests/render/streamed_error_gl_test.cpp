@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
-#include "engine/render/streamed_cut.h"
-#include "engine/render/tile_choice.h"
 #include "engine/scene/tile_stream.h"
+#include "engine/view/streamed_cut.h"
+#include "engine/view/tile_choice.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_tiles.h"
@@ -91,8 +91,8 @@ protected:
     void bring() {
         auto& stream = *terrain_->get<scene::TerrainNode>()->stream;
         const std::array views{scene_.camera()};
-        for (auto wanted = wanted_tiles(scene_, stream, views, size); !wanted.empty();
-             wanted = wanted_tiles(scene_, stream, views, size)) {
+        for (auto wanted = view::wanted_tiles(scene_, stream, views, size); !wanted.empty();
+             wanted = view::wanted_tiles(scene_, stream, views, size)) {
             stream.want(wanted);
             stream.wait({});
         }
@@ -134,7 +134,7 @@ TEST_F(StreamedError, OfRoughGroundIsWhatWasAskedForOrLess) {
         *camera_->get<Camera>() =
             camera_at(eye, {chance.between(-300, 300), chance.between(-300, 300), 0.0});
         bring();
-        const FrameStats stats = test::must(made.draw(scene_));
+        const view::FrameStats stats = test::must(made.draw(scene_));
         EXPECT_LT(4 * stats.triangles, 2U * 128U * 128U * static_cast<std::size_t>(stats.tiles));
         const std::vector<double> found = errors(test::must(made.draw_hits(scene_)));
         ASSERT_GT(found.size(), 1000U);
@@ -144,10 +144,10 @@ TEST_F(StreamedError, OfRoughGroundIsWhatWasAskedForOrLess) {
 
 TEST_F(StreamedError, OfTheVerticesBesideATileIsNotLeftToItsTriangles) {
     bring();
-    DrawList list = select(scene_, size);
+    view::DrawList list = view::select(scene_, size);
     ASSERT_GT(list.streamed_tiles.size(), 2U);
     std::set<TreeTile> ids;
-    for (StreamedDraw& draw : list.streamed_tiles) {
+    for (view::StreamedDraw& draw : list.streamed_tiles) {
         draw.error = 0.0;
         ids.insert(draw.tile->id);
     }
@@ -155,16 +155,16 @@ TEST_F(StreamedError, OfTheVerticesBesideATileIsNotLeftToItsTriangles) {
     const terrain::TileCover cover(stream.tree(), ids);
     const TreeTile beside = cover.touching(list.streamed_tiles.front().tile->id).front();
     const auto left_to_first = [&] {
-        std::vector<StreamedCut> cuts(list.streamed_tiles.size());
-        std::vector<TileToCut> tiles;
+        std::vector<view::StreamedCut> cuts(list.streamed_tiles.size());
+        std::vector<view::TileToCut> tiles;
         for (std::size_t i = 0; i < cuts.size(); ++i) {
             tiles.push_back({&list.streamed_tiles[i], &cuts[i]});
         }
-        cut_together(list, cover, true, tiles);
+        view::cut_together(list, cover, true, tiles);
         return tiles.front().view.most_error;
     };
     EXPECT_GT(left_to_first(), 0.95);
-    for (StreamedDraw& draw : list.streamed_tiles) {
+    for (view::StreamedDraw& draw : list.streamed_tiles) {
         draw.error = draw.tile->id == beside ? 0.5 : 0.0;
     }
     EXPECT_LT(left_to_first(), 0.75);

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/render/occlusion.h"
-#include "engine/render/tile_choice.h"
 #include "engine/scene/tile_stream.h"
+#include "engine/view/occlusion.h"
+#include "engine/view/tile_choice.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/terrain/chance.h"
 
@@ -116,14 +116,14 @@ struct RidgeWorld {
                                      .first_pause = std::chrono::milliseconds(1)});
     }
 
-    [[nodiscard]] TileChoice choice(const TileChoiceOptions& options = {}) const {
-        return choose_tiles(*terrain, scene.camera(), picture, glm::dmat4(1.0), options);
+    [[nodiscard]] view::TileChoice choice(const view::TileChoiceOptions& options = {}) const {
+        return view::choose_tiles(*terrain, scene.camera(), picture, glm::dmat4(1.0), options);
     }
 
     void look(const Camera& view) { *camera->get<Camera>() = view; }
 
     // All that is wanted and can be read.
-    void bring(const TileChoiceOptions& options = {}) const {
+    void bring(const view::TileChoiceOptions& options = {}) const {
         for (auto wanted = choice(options).wanted;
              !std::all_of(wanted.begin(), wanted.end(),
                           [&](TreeTile tile) { return terrain->stream->has_given_up(tile); });
@@ -134,15 +134,15 @@ struct RidgeWorld {
     }
 };
 
-std::vector<TreeTile> drawn_tiles(const TileChoice& choice) {
+std::vector<TreeTile> drawn_tiles(const view::TileChoice& choice) {
     std::vector<TreeTile> tiles;
-    for (const TileChoice::Drawn& drawn : choice.drawn) {
+    for (const view::TileChoice::Drawn& drawn : choice.drawn) {
         tiles.push_back(drawn.tile->id);
     }
     return tiles;
 }
 
-int hidden_tiles(const TileChoice& choice) {
+int hidden_tiles(const view::TileChoice& choice) {
     return static_cast<int>(choice.hidden.size()) + choice.hidden_unread;
 }
 
@@ -218,9 +218,9 @@ TEST_F(StreamedOcclusion, ThePictureIsTheSameToTheBitWithAllThatIsHiddenReadAndD
         for (int i = 0; i < views; ++i) {
             world.look(i % 2 == 0 ? view_from_valley(chance) : view_across_ridges(chance));
             world.bring();
-            const FrameStats fewer = test::must(with.draw(world.scene));
+            const view::FrameStats fewer = test::must(with.draw(world.scene));
             world.bring({.keeps_hidden = true});
-            const FrameStats all = test::must(without.draw(world.scene));
+            const view::FrameStats all = test::must(without.draw(world.scene));
             EXPECT_EQ(all.skipped.tiles_occluded, 0);
             hidden += all.tiles - fewer.tiles;
             EXPECT_EQ(with.read_color(), without.read_color()) << technique << ' ' << i;
@@ -261,7 +261,7 @@ TEST(StreamedOcclusionChoice, WhereATileFailsNothingIsHidden) {
     world.picture = whole.picture;
     world.look(camera);
     world.bring();
-    const TileChoice choice = world.choice();
+    const view::TileChoice choice = world.choice();
     EXPECT_EQ(choice.wanted, std::vector{farthest});
     EXPECT_EQ(hidden_tiles(choice), 0);
     world.bring({.keeps_hidden = true});
@@ -278,9 +278,9 @@ TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShor
         for (int i = 0; i < 4; ++i) {
             world.look(i % 2 == 0 ? view_from_valley(chance) : view_across_ridges(chance));
             for (int round = 0; round < 12; ++round) {
-                const TileChoice choice = world.choice();
+                const view::TileChoice choice = world.choice();
                 double worst = 0.0; // pixels
-                for (const TileChoice::Drawn& drawn : choice.drawn) {
+                for (const view::TileChoice::Drawn& drawn : choice.drawn) {
                     worst = std::max(worst, drawn.error);
                 }
                 ASSERT_LE(choice.drawn.size(), world.terrain->stream->most_drawn());

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "engine/core/bilinear.h"
-#include "engine/render/streamed_tiles.h"
-#include "engine/render/tile_choice.h"
+#include "engine/render/residency/streamed_tiles.h"
 #include "engine/scene/tile_stream.h"
+#include "engine/view/tile_choice.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
 #include "tests/terrain/made_tiles.h"
@@ -134,7 +134,7 @@ TEST_F(StreamedPicturesGlTest, EveryPixelHasTheColourOfItsPlace) {
 
 // Level and of two colours, one beside the other from west to east, six metres wide.
 std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
-    terrain::TextureSet set;
+    material::TextureSet set;
     set.name = "two colours";
     set.heights = Grid<float>(16, 16, 1.0F);
     set.color = Image(16, 16, west);
@@ -145,8 +145,8 @@ std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
         }
     }
     scene::GroundDetail detail;
-    detail.set = std::make_shared<const terrain::TextureSet>(
-        terrain::completed(std::move(set), terrain::TileBorder::wrap).value());
+    detail.set = std::make_shared<const material::TextureSet>(
+        material::completed(std::move(set), material::TileBorder::wrap).value());
     detail.width = 6.0;
     detail.technique = scene::parse_technique("exact:shadow=hard").value();
     return std::make_shared<const scene::GroundDetail>(std::move(detail));
@@ -204,8 +204,8 @@ TEST_F(StreamedPicturesGlTest, WhereImagesAreFinerFinerTilesAreDrawn) {
     const auto finest_level = [&](glm::dvec3 eye) {
         world.look_down(eye);
         int level = 99;
-        for (const auto& drawn : choose_tiles(*world.terrain->get<scene::TerrainNode>(),
-                                              world.scene.camera(), size, glm::dmat4(1.0))
+        for (const auto& drawn : view::choose_tiles(*world.terrain->get<scene::TerrainNode>(),
+                                                    world.scene.camera(), size, glm::dmat4(1.0))
                                      .drawn) {
             level = std::min(level, drawn.tile->id.level);
         }
@@ -242,16 +242,16 @@ TEST(StreamedVertices, StandWhereADoubleOracleHasThemSeenFromAMetre) {
     });
     node.stream = std::make_shared<scene::TileStream>(
         maker, [](TreeTile, const std::stop_token&) { return scene::TileReading{}; });
-    StreamedDraw draw;
+    view::StreamedDraw draw;
     draw.terrain = &node;
     draw.tile = std::make_shared<const scene::StreamedTile>(maker.make(id, heights));
-    const GridMesh mesh = streamed_mesh(draw, {}, {});
+    const view::GridMesh mesh = streamed_mesh(draw, {}, {});
     // Of a picture 768 pixels high, from a metre away.
     const double pixels_per_metre = 0.5 * 768.0 / std::tan(glm::radians(0.5 * 57.3));
     double worst = 0.0;
     for (int row = 0; row <= mesh.rows; ++row) {
         for (int col = 0; col <= mesh.cols; ++col) {
-            const GridVertex& vertex =
+            const view::GridVertex& vertex =
                 mesh.vertices[static_cast<std::size_t>(row * (mesh.cols + 1) + col)];
             const glm::dvec3 found = glm::dvec3(vertex.position) + glm::dvec3(vertex.rest);
             const glm::dvec3 expected = maker.place(id, {col, row}, heights(col + 1, row + 1));

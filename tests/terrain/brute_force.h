@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/geometry.h"
-#include "engine/terrain/heightfield.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::test {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/terrain/bisection.h"
-#include "engine/terrain/bisection_mesh.h"
+#include "engine/terrain/mesh/bisection.h"
+#include "engine/terrain/mesh/bisection_mesh.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::test {

@@ -8,8 +8,8 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "engine/terrain/heightfield.h"
-#include "engine/terrain/placement.h"
+#include "engine/terrain/field/heightfield.h"
+#include "engine/terrain/field/placement.h"
 
 namespace reljef::test {
 

@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/terrain/min_max_pyramid.h"
-#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/field/min_max_pyramid.h"
+#include "engine/terrain/field/ray_cast.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_heightfield.h"
 

@@ -11,7 +11,7 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/terrain/surface_caster.h"
+#include "engine/terrain/field/surface_caster.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::truth {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/terrain/ray_cast.h"
+#include "engine/terrain/field/ray_cast.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_heightfield.h"
 

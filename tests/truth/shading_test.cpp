@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/terrain/gradient.h"
+#include "engine/terrain/field/gradient.h"
 #include "tests/render/made_scene.h"
 #include "tests/terrain/chance.h"
 

@@ -1,0 +1,54 @@
+#include "app/cli/interrupt.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <ctime>
+
+namespace reljef::cli {
+namespace {
+
+sigset_t stop_signals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGHUP);
+    return signals;
+}
+
+// Signals closer together than this are one: `timeout` and some shells deliver the same one twice.
+constexpr std::chrono::milliseconds one_signal{500};
+
+void watch(const std::stop_token& end, std::stop_source& source) {
+    const sigset_t signals = stop_signals();
+    const timespec pause{0, 50'000'000}; // how late the watcher notices the program's end
+    std::chrono::steady_clock::time_point first;
+    while (!end.stop_requested()) {
+        const int signal = sigtimedwait(&signals, nullptr, &pause);
+        if (signal <= 0) {
+            continue;
+        }
+        const auto now = std::chrono::steady_clock::now();
+        if (!source.stop_requested()) {
+            first = now;
+            source.request_stop();
+        } else if (now - first > one_signal) {
+            std::_Exit(128 + signal);
+        }
+    }
+}
+
+} // namespace
+
+Interrupt::Interrupt() {
+    const sigset_t signals = stop_signals();
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    // A file too large and a reader gone are errors of writing, told like others.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    watcher_ = std::jthread(
+        [source = source_](const std::stop_token& end) mutable { watch(end, source); });
+}
+
+} // namespace reljef::cli

@@ -1,0 +1,407 @@
+#include "app/cli/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "app/cli/parsed_option.h"
+#include "engine/core/geometry.h"
+#include "engine/scene/graph/terrain_node.h"
+#include "engine/scene/technique/ground_detail.h"
+#include "engine/view/error_view.h"
+
+namespace reljef::cli {
+namespace {
+
+Result<glm::dvec3> parse_point(std::string_view option, std::string_view text) {
+    const auto numbers = parse_numbers<3>(option, text, "x,y,z in scene metres");
+    if (!numbers) {
+        return numbers.error();
+    }
+    const glm::dvec3 point((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(world_reach)))) {
+        return Error{fmt::format("{}: '{}' found, at most {} metres from the middle were expected",
+                                 option, text, world_reach)};
+    }
+    return point;
+}
+
+Result<GeodeticView> parse_geodetic_view(const std::string& text) {
+    constexpr const char* expected = "LAT,LON,HEIGHT,HEADING,PITCH in degrees and metres";
+    const auto numbers = parse_numbers<5>("--camera", text, expected);
+    if (!numbers) {
+        return numbers.error();
+    }
+    const auto [latitude, longitude, height, heading, pitch] = *numbers;
+    if (std::abs(latitude) > 90.0 || std::abs(pitch) > 90.0) {
+        return Error{fmt::format("--camera: '{}' found, a latitude and a pitch from -90 to 90 were "
+                                 "expected",
+                                 text)};
+    }
+    if (std::abs(height) > world_reach) {
+        return Error{fmt::format("--camera: height {} found, at most {} metres were expected",
+                                 height, world_reach)};
+    }
+    return GeodeticView{latitude, longitude, height, heading, pitch};
+}
+
+Result<glm::dvec2> parse_sun(const std::string& text) {
+    const auto numbers = parse_numbers<2>("--sun", text, "AZIMUTH,ALTITUDE in degrees");
+    if (!numbers) {
+        return numbers.error();
+    }
+    const auto [azimuth, altitude] = *numbers;
+    if (std::abs(azimuth) > 360.0) {
+        return Error{fmt::format("--sun: azimuth {} found, -360 to 360 was expected", azimuth)};
+    }
+    if (!(altitude > 0.0 && altitude <= 90.0)) {
+        return Error{fmt::format("--sun: altitude {} found, over 0 to 90 was expected", altitude)};
+    }
+    return glm::dvec2(azimuth, altitude);
+}
+
+Result<geo::GeodeticArea> parse_area(const std::string& text) {
+    const auto numbers = parse_numbers<4>("--area", text, "SOUTH,WEST,NORTH,EAST in degrees");
+    if (!numbers) {
+        return numbers.error();
+    }
+    const auto [south, west, north, east] = *numbers;
+    if (!(south >= -90.0 && south < north && north <= 90.0 && west < east && east - west <= 360.0 &&
+          std::abs(west) <= 360.0)) {
+        return Error{fmt::format("--area: '{}' found, SOUTH below NORTH in -90 to 90 and WEST "
+                                 "below EAST, at most 360 apart, were expected",
+                                 text)};
+    }
+    return geo::GeodeticArea{south, west, north, east};
+}
+
+Result<scene::Technique> parse_detail_technique(const std::string& text) {
+    auto technique = scene::parse_technique(text);
+    if (technique) {
+        if (auto good = scene::check_ground_technique(*technique); !good) {
+            return Error{"--detail-technique: " + good.error().message};
+        }
+    }
+    return technique;
+}
+
+// One of the numbers behind a tile's name.
+Result<void> set_detail_number(DetailChoice& choice, const std::string& assignment) {
+    const auto equals = assignment.find('=');
+    const std::string key = assignment.substr(0, equals);
+    const std::string text =
+        equals == std::string::npos ? std::string() : assignment.substr(equals + 1);
+    if (key != "width" && key != "scale") {
+        return Error{
+            fmt::format("--detail: '{}' found, width=METRES or scale=S was expected", assignment)};
+    }
+    const bool is_width = key == "width";
+    const auto value =
+        is_width ? number_in("--detail: width", material::least_tile_width,
+                             material::most_tile_width)(text)
+                 : number_in("--detail: scale", 0.0, material::most_tile_scale, true)(text);
+    if (!value) {
+        return value.error();
+    }
+    auto& chosen = is_width ? choice.width : choice.scale;
+    if (chosen) {
+        return Error{fmt::format("--detail: {} found twice, once was expected", key)};
+    }
+    chosen = *value;
+    return {};
+}
+
+Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
+    const auto kind = platform::context_kind_from_string(text);
+    if (!kind && text != "auto") {
+        return Error{fmt::format(
+            "--context: '{}' found, one of auto, glfw, egl, osmesa was expected", text)};
+    }
+    return kind;
+}
+
+CLI::Validator existing_folder() {
+    return {[](const std::string& text) {
+                std::error_code code;
+                return std::filesystem::is_directory(text, code)
+                           ? std::string()
+                           : fmt::format("'{}' found, a folder was expected", text);
+            },
+            ""};
+}
+
+void add_picture_options(CLI::App& command, ViewChoice& choice) {
+    add_parsed(command, "--context", choice.context, parse_context,
+               "auto, glfw (window), egl (GPU without a window) or osmesa (CPU)", "KIND");
+    add_parsed(
+        command, "--size", choice.size, [](const std::string& text) { return parse_size(text); },
+        "of the picture, pixels (1024x768)", "WxH");
+    add_parsed(
+        command, "--technique", choice.technique,
+        [&choice](const std::string& text) -> Result<std::optional<scene::Technique>> {
+            choice.mixed = text == "mixed";
+            if (choice.mixed) {
+                return std::optional<scene::Technique>();
+            }
+            auto technique = scene::parse_technique(text);
+            if (!technique) {
+                return technique.error();
+            }
+            return std::optional(std::move(*technique));
+        },
+        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: mixed, as "
+        "suits each model)",
+        "ID[:key=value,...]");
+    add_parsed(command, "--max-error", choice.max_error,
+               number_in("--max-error", view::least_error, view::most_error),
+               "polygons: no pixel farther from where it belongs, with as few triangles as that "
+               "takes (every sample a vertex)",
+               "PX");
+    add_parsed(
+        command, "--detail", choice.detail, parse_detail,
+        "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
+        "heights S widths: brick, rock, cobble, fence, rings, copper, or a folder of pictures",
+        "NAME|FOLDER[:width=W,scale=S]");
+    add_parsed(
+        command, "--detail-technique", choice.detail_technique,
+        [](const std::string& text) { return parse_detail_technique(text); },
+        "how the tile of detail is drawn where it is near (relief)", "ID[:key=value,...]");
+    command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
+    add_parsed(command, "--projection", choice.projection,
+               word_of<scene::ProjectionKind>(
+                   "--projection", {{"perspective", scene::ProjectionKind::perspective},
+                                    {"orthographic", scene::ProjectionKind::orthographic}}),
+               "perspective, or orthographic: a map where no camera is given", "KIND");
+    add_parsed(command, "--sun", choice.sun, parse_sun,
+               "where the light comes from: clockwise from north, above the horizon (300,40)",
+               "AZIMUTH,ALTITUDE");
+    command
+        .add_option("--shader-dir", choice.shader_dir,
+                    "shader files here come before the built-in ones")
+        ->type_name("FOLDER")
+        ->check(existing_folder());
+}
+
+void add_camera_options(CLI::App& command, ViewChoice& choice) {
+    add_parsed(command, "--fov", choice.vertical_fov, number_in("--fov", 1e-3, 179.0),
+               "vertical field of view, degrees (57.3)", "DEG");
+    auto* eye = add_parsed(
+        command, "--eye", choice.eye,
+        [](const std::string& text) { return parse_point("--eye", text); },
+        "where the camera stands, scene metres", "x,y,z");
+    auto* look = add_parsed(
+        command, "--look", choice.look,
+        [](const std::string& text) { return parse_point("--look", text); },
+        "what it looks at, scene metres", "x,y,z");
+    look->needs(eye);
+    eye->needs(look);
+    auto* camera = add_parsed(command, "--camera", choice.geodetic, parse_geodetic_view,
+                              "where on Earth it stands and looks, degrees and metres",
+                              "LAT,LON,HEIGHT,HEADING,PITCH");
+    camera->excludes(eye);
+    auto* pose = add_parsed(
+        command, "--pose", choice.pose, [](const std::string& text) { return parse_pose(text); },
+        "overview, oblique, low, grazing or map (overview)", "NAME");
+    pose->excludes(eye)->excludes(camera);
+    command
+        .add_option(
+            "--path", choice.path,
+            "fly: orbit, flyover, a path file (TOML: [[key]] time, eye, look; or time, latitude, "
+            "longitude, height) or the first track or line of a GPX, KML or GeoJSON file")
+        ->type_name("NAME|FILE")
+        ->excludes(eye)
+        ->excludes(camera);
+    add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
+               "pictures along the path (1)", "N");
+    add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
+               "pictures a second in a video (25)", "F");
+}
+
+} // namespace
+
+Result<scene::Pose> parse_pose(std::string_view text) {
+    const auto pose = scene::pose_from_string(text);
+    if (!pose) {
+        return Error{fmt::format(
+            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
+    }
+    return *pose;
+}
+
+Result<DetailChoice> parse_detail(const std::string& text) {
+    const auto colon = text.rfind(':');
+    const bool has_numbers =
+        colon != std::string::npos && text.find('=', colon) != std::string::npos;
+    DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
+    if (choice.textures.empty() || choice.textures.back() == ':') {
+        return Error{fmt::format(
+            "--detail: '{}' found, a tile's name or folder, then :width=W,scale=S was expected",
+            text)};
+    }
+    std::string rest = has_numbers ? text.substr(colon + 1) : std::string();
+    while (!rest.empty()) {
+        const auto comma = std::min(rest.find(','), rest.size());
+        if (auto set = set_detail_number(choice, rest.substr(0, comma)); !set) {
+            return set.error();
+        }
+        rest = rest.substr(std::min(comma + 1, rest.size()));
+    }
+    return choice;
+}
+
+Result<glm::ivec2> parse_size(std::string_view text) {
+    const auto cross = text.find('x');
+    const auto width = number_from<int>(text.substr(0, cross));
+    const auto height =
+        cross == std::string_view::npos ? std::nullopt : number_from<int>(text.substr(cross + 1));
+    const auto fits = [](std::optional<int> side) {
+        return side && *side >= 1 && *side <= largest_picture_side;
+    };
+    if (!fits(width) || !fits(height)) {
+        return Error{fmt::format("--size: '{}' found, WxH with each from 1 to {} was expected",
+                                 text, largest_picture_side)};
+    }
+    return glm::ivec2(*width, *height);
+}
+
+template <std::size_t N>
+Result<std::array<double, N>> parse_numbers(std::string_view option, std::string_view text,
+                                            std::string_view expected) {
+    std::array<double, N> numbers{};
+    std::string_view rest = text;
+    bool right = true;
+    for (std::size_t i = 0; i < N && right; ++i) {
+        const auto comma = rest.find(',');
+        const auto value = number_from<double>(rest.substr(0, comma));
+        const bool is_last = comma == std::string_view::npos;
+        right = value && std::isfinite(*value) && is_last == (i + 1 == N);
+        numbers[i] = value.value_or(0.0);
+        rest = is_last ? std::string_view() : rest.substr(comma + 1);
+    }
+    if (!right) {
+        return Error{fmt::format("{}: '{}' found, {} was expected", option, text, expected)};
+    }
+    return numbers;
+}
+
+template Result<std::array<double, 2>> parse_numbers<2>(std::string_view, std::string_view,
+                                                        std::string_view);
+template Result<std::array<double, 3>> parse_numbers<3>(std::string_view, std::string_view,
+                                                        std::string_view);
+template Result<std::array<double, 4>> parse_numbers<4>(std::string_view, std::string_view,
+                                                        std::string_view);
+template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::string_view,
+                                                        std::string_view);
+
+void add_source_options(CLI::App& command, TerrainChoice& choice) {
+    command
+        .add_option(
+            "TERRAIN", choice.terrain,
+            "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
+            "reads, a folder of them, the https:// address of one, or tiles z/x/y.png of "
+            "heights in colours: terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
+        ->required();
+    add_parsed(command, "--area", choice.area, parse_area,
+               "only this part of a folder of tiles, degrees", "SOUTH,WEST,NORTH,EAST");
+    add_parsed(command, "--memory", choice.memory_megabytes,
+               whole_number_in("--memory", 1, 1'000'000),
+               "for the terrain, megabytes; of what is larger, parts are read as the view needs "
+               "them (512)",
+               "MB");
+    add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
+               "0: as many as the machine has (0)", "N");
+    command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
+}
+
+void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
+    add_source_options(command, choice);
+    command
+        .add_option("--imagery", choice.imagery,
+                    "picture to drape over the terrain, or a folder of them; may be given again. "
+                    "Pictures finer than 4096 pixels along the terrain are read where the view "
+                    "needs them, unless an error is promised: far ground is of averages then")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
+    command
+        .add_option("--textures", choice.textures,
+                    "gallery only: brick, rock, cobble, fence, rings, copper, mixed, or a folder "
+                    "of pictures (colour, "
+                    "height, normal)")
+        ->type_name("NAME|FOLDER");
+    add_parsed(command, "--exaggeration", choice.exaggeration,
+               number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
+               "of the heights, in the picture only (1)", "X");
+    add_parsed(command, "--placement", choice.placement,
+               word_of<terrain::PlacementKind>("--placement",
+                                               {{"plane", terrain::PlacementKind::plane},
+                                                {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
+               "plane, or ellipsoid: on the curved Earth (georeferenced terrains)", "KIND");
+    add_parsed(command, "--gaps", choice.gaps,
+               word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
+               "what lies between the tiles of a folder: holes, or sea at 0 m (holes)", "KIND");
+    command
+        .add_option(
+            "--geoid", choice.geoid,
+            "how far sea level lies above the ellipsoid: a file (.gtx, .tif, .pgm), or none "
+            "(the installed EGM96, for heights above EGM96)")
+        ->type_name("FILE");
+}
+
+scene::Technique technique_of(const ViewChoice& choice) {
+    const scene::Technique technique =
+        choice.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
+    return choice.max_error ? scene::with_parameter(technique, "error", *choice.max_error)
+                            : technique;
+}
+
+bool may_stream(const ViewChoice& choice) {
+    return scene::draws_tiles(technique_of(choice));
+}
+
+bool may_stream_pictures(const ViewChoice& choice) {
+    const scene::Technique technique = technique_of(choice);
+    const bool promised =
+        technique.id == scene::TechniqueId::polygons && scene::parameter(technique, "error") > 0.0;
+    return may_stream(choice) && !promised;
+}
+
+void check_view_options(const ViewChoice& choice) {
+    if (choice.eye && choice.look && *choice.eye == *choice.look) {
+        throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
+    }
+    if (choice.max_error && choice.technique &&
+        choice.technique->id != scene::TechniqueId::polygons) {
+        throw CLI::ValidationError(
+            fmt::format("--max-error: technique {} found, polygons was expected",
+                        scene::technique_info(choice.technique->id).name));
+    }
+    if (choice.detail && choice.technique && choice.technique->id != scene::TechniqueId::polygons) {
+        throw CLI::ValidationError(
+            fmt::format("--detail: technique {} found, polygons was expected, which it lies on",
+                        scene::technique_info(choice.technique->id).name));
+    }
+    const scene::Technique plain = scene::make_technique(scene::TechniqueId::polygons);
+    if (choice.max_error && choice.technique && choice.technique->values != plain.values) {
+        throw CLI::ValidationError(
+            fmt::format("--max-error: --technique {} found beside it, which says how coarse "
+                        "triangles may be too; one of them was expected",
+                        scene::to_string(*choice.technique)));
+    }
+    if (choice.pose == scene::Pose::map && !choice.path.empty()) {
+        throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "
+                                   "another pose or none was expected");
+    }
+}
+
+void add_view_options(CLI::App& command, ViewChoice& choice) {
+    add_picture_options(command, choice);
+    add_camera_options(command, choice);
+}
+
+} // namespace reljef::cli

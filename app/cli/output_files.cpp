@@ -1,0 +1,72 @@
+#include "app/cli/output_files.h"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "engine/core/atomic_file.h"
+
+namespace reljef::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    if (a.empty() || b.empty()) {
+        return false;
+    }
+    std::error_code code;
+    if (fs::equivalent(a, b, code)) {
+        return true;
+    }
+    const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, code), code);
+    return whole_a == fs::weakly_canonical(fs::absolute(b, code), code);
+}
+
+// Whether writing `output` would replace `input`, or a file in it where it is a folder.
+bool would_replace(const fs::path& output, const fs::path& input) {
+    std::error_code code;
+    if (!fs::is_directory(input, code) || !fs::is_regular_file(output, code)) {
+        return is_same_file(output, input);
+    }
+    const fs::path folder = fs::canonical(input, code);
+    const fs::path file = fs::canonical(output, code);
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
+           folder.end();
+}
+
+} // namespace
+
+void expect_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (const NamedFile& input : inputs) {
+            if (would_replace(outputs[i].path, input.path)) {
+                throw CLI::ValidationError(
+                    fmt::format("{}: {} found, which is read as {}; another file was expected",
+                                outputs[i].option, outputs[i].path.string(), input.option));
+            }
+        }
+        for (const NamedFile& other : outputs.subspan(i + 1)) {
+            if (is_same_file(outputs[i].path, other.path)) {
+                throw CLI::ValidationError(
+                    fmt::format("{}: {} found, which {} writes too; another file was expected",
+                                other.option, other.path.string(), outputs[i].option));
+            }
+        }
+    }
+}
+
+Result<void> check_writable(std::span<const NamedFile> outputs) {
+    for (const NamedFile& output : outputs) {
+        if (output.path.empty()) {
+            continue;
+        }
+        if (const auto file = AtomicFile::create(output.path); !file) {
+            return file.error();
+        }
+    }
+    return {};
+}
+
+} // namespace reljef::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "app/cli/command.h"
+
+namespace reljef::app {
+
+// The verbs of reljef.
+cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_info_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_techniques_command(CLI::App& program, cli::Interrupt& interrupt);
+
+} // namespace reljef::app

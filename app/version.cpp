@@ -1,9 +1,0 @@
-#include "app/version.h"
-
-namespace reljef::app {
-
-std::string version_text() {
-    return "reljef " RELJEF_VERSION;
-}
-
-} // namespace reljef::app

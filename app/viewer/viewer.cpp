@@ -1,0 +1,395 @@
+#include "app/viewer/viewer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/geo/place.h"
+#include "engine/scene/motion/animators.h"
+#include "engine/scene/motion/poses.h"
+#include "engine/session/ground.h"
+#include "engine/session/streaming.h"
+#include "engine/terrain/field/heightfield.h"
+
+namespace reljef::app {
+namespace {
+
+// Flying once across the terrain takes this long.
+constexpr double seconds_across = 20.0;
+// How long a first step lasts at most, seconds.
+constexpr double first_step = 1.0 / 60.0;
+// Of a path, seconds.
+constexpr double least_duration = 1e-9;
+// Metres: less is no more than rounding.
+constexpr double least_raise = 1e-3;
+
+// Metres on the way ahead over which a heading is told: the compass's own points are farther apart.
+constexpr double heading_length = 100.0;
+
+/// Degrees clockwise from true north, [0, 360), of what is up in the picture where that is farther
+/// along than what is straight ahead; nothing where that leads off the Earth's map.
+std::optional<double> heading_at(const terrain::Placement& placement, const scene::Camera& camera) {
+    const scene::ViewAxes axes = scene::view_axes(camera);
+    const glm::dvec3 up = placement.up(camera.eye);
+    const bool steep = std::abs(glm::dot(axes.forward, up)) > std::abs(glm::dot(axes.up, up));
+    const glm::dvec3 ahead = camera.eye + heading_length * (steep ? axes.up : axes.forward);
+    const auto from = placement.geodetic_from_world(camera.eye);
+    const auto to = placement.geodetic_from_world(ahead);
+    if (!from || !to) {
+        return std::nullopt;
+    }
+    const geo::Geodesic way = geo::geodesic_between(*from, *to);
+    return std::fmod(std::round(way.azimuth_start) + 360.0, 360.0);
+}
+
+double width_of(const session::TerrainScene& scene) {
+    return std::max(scene.bounds.size().x, scene.bounds.size().y);
+}
+
+scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::Camera& start) {
+    const scene::TerrainNode& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const auto surface = terrain.surface;
+    scene::FreeFlightOptions options;
+    options.speed = width_of(scene) / seconds_across;
+    options.clearance = session::least_clearance(scene);
+    options.ground = [terrain](double x, double y) { return session::ground_at(terrain, x, y); };
+    options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
+    options.north = [surface](glm::dvec3 world) { return surface->placement().north(world); };
+    return {start, std::move(options)};
+}
+
+// Where to fly from when the scene begins as a map.
+scene::Camera perspective_start(const session::TerrainScene& scene) {
+    scene::Camera camera = *scene.camera->get<scene::Camera>();
+    if (camera.projection == scene::ProjectionKind::perspective) {
+        return camera;
+    }
+    const scene::Camera overview =
+        scene::pose_camera(scene::Pose::overview, scene.bounds,
+                           [&](double x, double y) { return scene.ground(x, y); });
+    camera.projection = scene::ProjectionKind::perspective;
+    camera.eye = overview.eye;
+    camera.look = overview.look;
+    camera.up = overview.up;
+    return camera;
+}
+
+// The catalogue's that can draw what is shown, with the parameters that were asked for.
+std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
+                                              const session::TerrainScene& scene) {
+    std::vector<scene::Technique> techniques;
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        if (!scene.check(scene::make_technique(info.id))) {
+            continue;
+        }
+        techniques.push_back(info.id == asked_for.id ? asked_for : scene::make_technique(info.id));
+    }
+    return techniques;
+}
+
+std::string length_text(double metres) {
+    return metres < 0.1       ? fmt::format("{:.2g} mm", 1000.0 * metres)
+           : metres < 10.0    ? fmt::format("{:.2f} m", metres)
+           : metres < 10000.0 ? fmt::format("{:.0f} m", metres)
+                              : fmt::format("{:.1f} km", metres / 1000.0);
+}
+
+std::string place_on_earth(const scene::TerrainSurface& surface, const scene::Camera& camera) {
+    if (!surface.heightfield().georeference) {
+        return {};
+    }
+    const auto place = surface.placement().geodetic_from_world(camera.eye);
+    if (!place) {
+        return " - beside the map of the Earth";
+    }
+    const auto heading = heading_at(surface.placement(), camera);
+    return fmt::format(" - {} above sea - {:.5f}, {:.5f} - {}{}", length_text(place->height),
+                       place->latitude, place->longitude, geo::mgrs_text(*place),
+                       heading ? fmt::format(" - heading {:.0f}\u00b0", *heading) : "");
+}
+
+} // namespace
+
+struct Viewer::Binding {
+    Key key;
+    Key other; // that does the same; unknown: none
+    void (Viewer::*action)();
+    const char* names;
+    const char* meaning;
+};
+
+std::span<const Viewer::Binding> Viewer::bindings() {
+    static constexpr std::array<Binding, 11> all{
+        {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
+         {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
+          "keep the height above the ground, or fly where you look"},
+         {Key::o, Key::unknown, &Viewer::toggle_map, "O", "map from straight above, and back"},
+         {Key::t, Key::unknown, &Viewer::next_technique, "T, 1 2 ...",
+          "next technique, or a certain one"},
+         {Key::l, Key::unknown, &Viewer::turn_light, "L", "move the light on by 15 degrees"},
+         {Key::f, Key::unknown, &Viewer::toggle_wireframe, "F",
+          "the triangles' edges only, or filled"},
+         {Key::m, Key::unknown, &Viewer::toggle_mouse_look, "M",
+          "turn with every move of the mouse, or only with its button held"},
+         {Key::r, Key::home, &Viewer::go_to_start, "R, Home", "back to the first view"},
+         {Key::c, Key::f12, &Viewer::ask_for_screenshot, "C, F12",
+          "save the picture here: reljef-0001.png and on"},
+         {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show these lines"},
+         {Key::escape, Key::unknown, &Viewer::leave, "Esc", "let go of the mouse, or end"}}};
+    return all;
+}
+
+std::string Viewer::keys() {
+    std::string text = "  W A S D, arrows  move (shift: faster; wheel: speed)\n"
+                       "  Q E              down, up; never under the ground\n"
+                       "  drag             turn; on the map: shift (wheel, Q E: closer, farther)\n";
+    for (const Binding& binding : bindings()) {
+        text += fmt::format("  {:<15}  {}\n", binding.names, binding.meaning);
+    }
+    return text;
+}
+
+Viewer::Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size)
+    : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
+      techniques_(techniques_with(material().technique, scene)),
+      flight_(make_flight(scene, start_)) {
+    if (camera().projection == scene::ProjectionKind::orthographic) {
+        map_.emplace(camera(), scene_.bounds, size_);
+    } else {
+        show_camera(flight_.camera());
+    }
+}
+
+const scene::Material& Viewer::material() const {
+    return *scene_.materials().front();
+}
+
+void Viewer::receive(const Event& event) {
+    if (std::holds_alternative<CloseEvent>(event)) {
+        close_ = true;
+    }
+    if (const auto* resize = std::get_if<ResizeEvent>(&event)) {
+        size_ = resize->framebuffer;
+        redraw_ = true;
+    }
+    if (const auto* key = std::get_if<KeyEvent>(&event); key != nullptr && receive_key(*key)) {
+        return;
+    }
+    if (map_) {
+        map_->receive(event);
+        return;
+    }
+    flight_.receive(event);
+    // Whoever steers takes over from the path.
+    playing_ = playing_ && !flight_.is_steered();
+}
+
+bool Viewer::receive_key(const KeyEvent& event) {
+    const Modifiers& with = event.modifiers;
+    if (!event.pressed || event.repeat || with.control || with.alt || with.super) {
+        return false;
+    }
+    if (event.key >= Key::digit1 && event.key <= Key::digit9) {
+        choose_technique(static_cast<std::size_t>(event.key) -
+                         static_cast<std::size_t>(Key::digit1));
+        return true;
+    }
+    for (const Binding& binding : bindings()) {
+        if (event.key != Key::unknown && (binding.key == event.key || binding.other == event.key)) {
+            (this->*binding.action)();
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<scene::Camera> Viewer::upcoming() const {
+    std::vector<scene::Camera> cameras;
+    for (const double ahead : {0.5, 1.5, 3.0}) { // seconds
+        if (playing_) {
+            const double time =
+                std::fmod(path_time_ + ahead, std::max(path_.duration(), least_duration));
+            cameras.push_back(scene::at_key(camera(), path_.at(path_.begin() + time)));
+        } else {
+            cameras.push_back(session::camera_ahead(before_, camera(), last_step_, ahead));
+        }
+    }
+    return cameras;
+}
+
+bool Viewer::is_moving() const {
+    return playing_ || (map_ ? map_->is_steered() : flight_.is_steered());
+}
+
+void Viewer::advance(double seconds) {
+    double step = std::isfinite(seconds) && seconds > 0.0 ? seconds : 0.0;
+    if (rested_) {
+        step = std::min(step, first_step);
+    }
+    rested_ = !is_moving();
+    before_ = camera();
+    last_step_ = step;
+    if (playing_) {
+        advance_path(step);
+    } else if (map_ && map_->advance(step)) {
+        show_camera(map_->camera());
+    } else if (!map_ && flight_.advance(step)) {
+        show_camera(flight_.camera());
+    }
+}
+
+void Viewer::advance_path(double seconds) {
+    path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), least_duration));
+    const scene::Camera asked_for = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
+    flight_.set_camera(asked_for);
+    const scene::Camera next = flight_.camera();
+    if (const double raised = glm::distance(asked_for.eye, next.eye); raised > least_raise) {
+        path_raised_ = std::max(path_raised_, raised);
+    }
+    if (next.eye != camera().eye || next.look != camera().look) {
+        show_camera(next);
+    }
+}
+
+bool Viewer::take_redraw() {
+    return std::exchange(redraw_, false);
+}
+
+bool Viewer::take_screenshot_request() {
+    return std::exchange(screenshot_, false);
+}
+
+bool Viewer::take_help_request() {
+    return std::exchange(help_, false);
+}
+
+void Viewer::show_camera(const scene::Camera& camera) {
+    *scene_.camera->get<scene::Camera>() = camera;
+    redraw_ = true;
+}
+
+void Viewer::toggle_path() {
+    if (map_) {
+        toggle_map();
+    }
+    playing_ = !playing_;
+}
+
+void Viewer::go_to_start() {
+    playing_ = false;
+    map_.reset();
+    flight_.set_camera(start_);
+    show_camera(flight_.camera());
+}
+
+void Viewer::toggle_map() {
+    if (map_) {
+        map_.reset();
+        show_camera(flight_.camera());
+        return;
+    }
+    playing_ = false;
+    if (mouse_look_) {
+        toggle_mouse_look();
+    }
+    flight_.let_go();
+    scene::Camera from_above = whole_map(scene_.bounds, size_);
+    from_above.vertical_fov = camera().vertical_fov;
+    from_above.near = camera().near;
+    map_.emplace(from_above, scene_.bounds, size_);
+    show_camera(map_->camera());
+}
+
+void Viewer::toggle_wireframe() {
+    const bool wireframe = !material().wireframe;
+    for (scene::Material* const shown : scene_.materials()) {
+        shown->wireframe = wireframe;
+    }
+    redraw_ = true;
+}
+
+void Viewer::turn_light() {
+    constexpr double step = 15.0; // degrees
+    auto& light = *scene_.light->get<scene::Light>();
+    light.azimuth = std::fmod(light.azimuth + step, 360.0);
+    redraw_ = true;
+}
+
+void Viewer::toggle_mouse_look() {
+    mouse_look_ = !mouse_look_ && !map_;
+    flight_.set_mouse_look(mouse_look_);
+}
+
+void Viewer::toggle_follow_ground() {
+    flight_.set_follow_ground(!flight_.follows_ground());
+}
+
+void Viewer::next_technique() {
+    const auto found =
+        std::find_if(techniques_.begin(), techniques_.end(), [&](const auto& technique) {
+            return technique.id == material().technique.id;
+        });
+    const auto index = static_cast<std::size_t>(found - techniques_.begin());
+    choose_technique((index + 1) % techniques_.size());
+}
+
+void Viewer::choose_technique(std::size_t index) {
+    if (index < techniques_.size() && techniques_[index].id != material().technique.id) {
+        for (scene::Material* const shown : scene_.materials()) {
+            shown->technique = techniques_[index];
+        }
+        redraw_ = true;
+    }
+}
+
+void Viewer::leave() {
+    if (mouse_look_) {
+        toggle_mouse_look();
+    } else {
+        close_ = true;
+    }
+}
+
+std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timing) const {
+    const auto& surface = *scene_.terrain->get<scene::TerrainNode>()->surface;
+    const std::string rate = timing.frames_per_second
+                                 ? fmt::format("{:.1f} fps", *timing.frames_per_second)
+                                 : std::string("still");
+    return fmt::format("reljef - {} - {} - {} ({:.1f} ms) - {} triangles - {}",
+                       surface.terrain().name, scene::to_string(material().technique), rate,
+                       timing.last_ms, stats.triangles, place());
+}
+
+std::string Viewer::place() const {
+    const auto& terrain = *scene_.terrain->get<scene::TerrainNode>();
+    const scene::TerrainSurface& surface = *terrain.surface;
+    const glm::dvec3 eye = camera().eye;
+    std::string text;
+    if (map_) {
+        text = "map, " + length_text(camera().view_height) + " high";
+    } else if (const auto height = session::height_above_ground(terrain, eye)) {
+        text = length_text(*height) + " above ground";
+    } else {
+        text = "beside the terrain";
+    }
+    text += place_on_earth(surface, camera());
+    if (const auto scale = session::metres_per_pixel(terrain, camera(), size_.y)) {
+        text += fmt::format(" - {} a pixel", length_text(*scale));
+    }
+    return text + fmt::format(" - speed {}/s", length_text(flight_.speed()));
+}
+
+std::filesystem::path next_screenshot(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (int number = 1;; ++number) {
+        auto file = folder / fmt::format("reljef-{:04}.png", number);
+        if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
+            return file;
+        }
+    }
+}
+
+} // namespace reljef::app

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/event.h"
+#include "engine/core/geometry.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/scene/motion/free_flight.h"
+
+namespace reljef::app {
+
+/// An orthographic camera moved like a map: dragging and W A S D or the arrows shift it, the wheel
+/// enlarges what is below the pointer, Q and E go closer and farther, shift is four times as fast.
+/// What it looks at stays within half a terrain around the terrain.
+class ViewerMap {
+public:
+    /// Precondition: `start` is orthographic. `size` is the picture's, pixels.
+    ViewerMap(const scene::Camera& start, const Box& terrain, glm::ivec2 size);
+
+    /// Takes the events it knows and says whether it did.
+    bool receive(const Event& event);
+    /// Moves on by `seconds` (clamped to [0, 0.25], not a number: 0); returns whether the camera
+    /// changed since the last call.
+    bool advance(double seconds);
+    /// Whether the next advance() may change the camera.
+    [[nodiscard]] bool is_steered() const;
+
+    [[nodiscard]] const scene::Camera& camera() const { return camera_; }
+
+private:
+    bool receive_button(const MouseButtonEvent& event);
+    bool receive_move(const MouseMoveEvent& event);
+    bool receive_scroll(const ScrollEvent& event);
+    void shift(glm::dvec2 metres);
+    void zoom(double factor, glm::dvec2 pixel);
+    [[nodiscard]] double metres_per_pixel() const { return camera_.view_height / size_.y; }
+
+    scene::Camera camera_;
+    Box reach_; // of what is looked at
+    double widest_;
+    glm::dvec2 size_;
+    scene::SteeringKeys keys_;
+    bool dragged_ = false;
+    bool changed_ = false;
+    std::optional<glm::dvec2> pointer_;
+};
+
+/// The whole terrain from straight above, north up.
+scene::Camera whole_map(const Box& terrain, glm::ivec2 size);
+
+} // namespace reljef::app

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "bench/report/environment.h"
+#include "bench/runner/suite_options.h"
+#include "engine/core/statistics.h"
+#include "engine/scene/motion/poses.h"
+#include "engine/truth/geometric_error.h"
+
+namespace reljef::bench {
+
+struct PeersOptions {
+    SuiteOptions suite;
+    std::string terrain = "natural"; ///< of which the middle 2^n+1 × 2^n+1 samples are drawn
+};
+
+/// One way to draw the terrain from one pose.
+struct PeerRow {
+    scene::Pose pose = scene::Pose::overview;
+    std::string what;    ///< "irrlicht:lods=5", "polygons:error=1"
+    bool moving = false; ///< the camera, from frame to frame; triangles are those of the last one
+    std::size_t frames = 0;
+    Summary ms;
+    std::size_t triangles = 0;
+    std::optional<truth::Distribution> error; ///< reprojection, pixels; of still cameras
+};
+
+struct PeersResults {
+    Environment environment;
+    PeersOptions options;
+    int side = 0; ///< samples
+    std::vector<PeerRow> rows;
+    std::optional<Error> stopped; ///< why the run ended early
+    bool failed = false;          ///< so it did by an error, and not as it was asked to
+};
+
+/// Draws the terrain with Irrlicht's terrain node at 1, 3 and 5 levels and with polygons, frames in
+/// turns, each in a window of its own: with a still camera, whose triangles are chosen before
+/// they are timed, and those that choose by distance or error also with one that moves a 500th of
+/// the terrain's width to its right each frame. Both show the same heights and colours, without
+/// light and sky. Irrlicht's error is that of the places its depth buffer names. Fails, saying how
+/// to get it, where the build found no Irrlicht.
+PeersResults run_peers(const PeersOptions& options, const std::stop_token& stop);
+
+} // namespace reljef::bench

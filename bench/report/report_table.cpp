@@ -1,0 +1,304 @@
+#include "bench/report/report_table.h"
+
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/cli/message.h"
+#include "bench/report/pareto_front.h"
+
+namespace reljef::bench {
+namespace {
+
+constexpr const char* no_figure = "–";
+
+bool is_same_table(const Row& a, const Row& b) {
+    return a.suite == b.suite && a.test == b.test && a.scene == b.scene && a.pose == b.pose &&
+           a.size == b.size;
+}
+
+// Of what it is the noise floor, where it is not texture's.
+std::string noise_of(std::span<const Row> rows) {
+    const auto again =
+        std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.null_row; });
+    return again == rows.end() || again->setting.label == rows.front().setting.label
+               ? ""
+               : fmt::format(" of {}", again->setting.label);
+}
+
+std::string heading_of(std::span<const Row> rows) {
+    const Row& row = rows.front();
+    std::string heading =
+        fmt::format("{}{}, {}, {}x{}", row.test.empty() ? "" : row.test + ": ", row.scene,
+                    scene::to_string(row.pose), row.size.x, row.size.y);
+    if (row.timing) {
+        heading +=
+            fmt::format(", {} frame{}", row.timing->frames, row.timing->frames == 1 ? "" : "s");
+        heading += row.timing->noise_floor ? fmt::format(", noise floor{} {:.1f} %", noise_of(rows),
+                                                         100.0 * *row.timing->noise_floor)
+                                           : ", noise floor unknown";
+    }
+    return heading + (!row.noisy()           ? ""
+                      : row.has_few_frames() ? ": NOISY, too few frames"
+                                             : ": NOISY");
+}
+
+bool has_sources(std::span<const Row> rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const Row& row) { return row.source.has_value(); });
+}
+
+// Where triangles are what is chosen, and the greatest error what is promised.
+bool is_of_levels(std::span<const Row> rows) {
+    return rows.front().suite == "lod";
+}
+
+std::vector<std::string> columns_of(bool with_sources, bool with_levels) {
+    std::vector<std::string> columns{"technique", "ms", "±", "fps", "1 % low", "ratio", "drop"};
+    if (with_sources) {
+        columns.insert(columns.end(), {"source", "ratio"});
+    }
+    if (with_levels) {
+        columns.insert(columns.end(), {"triangles", "most px"});
+    }
+    columns.insert(columns.end(), {"error px", "wrong"});
+    return columns;
+}
+
+// At least three digits that count, and never more than one needs.
+std::string figure(double value) {
+    if (value >= 99.95) {
+        return fmt::format("{:.0f}", value);
+    }
+    return value >= 9.995 ? fmt::format("{:.1f}", value)
+                          : fmt::format("{:.{}f}", value, value >= 0.9995 ? 2 : 3);
+}
+
+std::string half_width_cell(const Timing& timing) {
+    if (!timing.interval) {
+        return no_figure;
+    }
+    const double half_width = 0.5 * (timing.interval->high - timing.interval->low);
+    return fmt::format("{:.1f} %", 100.0 * half_width / timing.ms.median);
+}
+
+std::vector<std::string> time_cells(const Row& row) {
+    if (!row.timing) {
+        return std::vector<std::string>(6, no_figure);
+    }
+    const Timing& timing = *row.timing;
+    const auto& ratio = timing.ratio_to_texture;
+    return {figure(timing.ms.median),
+            half_width_cell(timing),
+            figure(1000.0 / timing.ms.median),
+            figure(timing.fps_1_percent_low),
+            ratio ? fmt::format("{:.2f}", *ratio) : no_figure,
+            ratio ? fmt::format("{:.0f} %", 100.0 * (1.0 - 1.0 / *ratio)) : no_figure};
+}
+
+std::vector<std::string> source_cells(const Row& row) {
+    return row.source ? std::vector<std::string>{figure(row.source->fps),
+                                                 fmt::format("{:.2f}", row.source->ratio)}
+                      : std::vector<std::string>(2, no_figure);
+}
+
+bool has_unbounded(const Row& row) {
+    return row.error && row.error->reprojection_px && row.error->reprojection_px->unbounded > 0;
+}
+
+std::vector<std::string> level_cells(const Row& row) {
+    const bool has_error = row.error && row.error->reprojection_px;
+    return {row.timing ? fmt::format("{}", row.timing->stats.triangles) : std::string(no_figure),
+            !has_error           ? std::string(no_figure)
+            : has_unbounded(row) ? "∞"
+                                 : figure(row.error->reprojection_px->distribution.max)};
+}
+
+std::vector<std::string> error_cells(const Row& row) {
+    if (!row.error) {
+        return std::vector<std::string>(2, no_figure);
+    }
+    const auto& error = row.error->reprojection_px;
+    const std::string bound = has_unbounded(row) ? "≥" : "";
+    return {error ? bound + figure(error->distribution.rms) : std::string(no_figure),
+            fmt::format("{:.1f} %", row.error->wrong_percent)};
+}
+
+std::vector<std::string> cells_of(const Row& row, bool with_sources, bool with_levels) {
+    std::vector<std::string> cells{row.setting.label};
+    const auto append = [&](const std::vector<std::string>& more) {
+        cells.insert(cells.end(), more.begin(), more.end());
+    };
+    append(time_cells(row));
+    if (with_sources) {
+        append(source_cells(row));
+    }
+    if (with_levels) {
+        append(level_cells(row));
+    }
+    append(error_cells(row));
+    return cells;
+}
+
+std::string unbounded_text(const Row& row) {
+    return fmt::format("{} {}", row.setting.label, row.error->reprojection_px->unbounded);
+}
+
+// Of what the pictures' errors hold in any row: the true one filters its colours otherwise.
+std::string picture_floor(const Row& exact) {
+    const RowError& error = *exact.error;
+    return fmt::format(
+        "floor of the pictures' errors, that of exact: FLIP {:.3f}, PSNR {}, SSIM {}", error.flip,
+        error.psnr ? fmt::format("{:.1f} dB", *error.psnr) : "∞",
+        error.ssim ? fmt::format("{:.3f}", *error.ssim) : no_figure);
+}
+
+std::vector<std::string> notes_of(std::span<const Row> rows) {
+    std::vector<std::string> notes;
+    const auto tell = [&](std::string_view title, bool (*is_meant)(const Row&),
+                          std::string (*text_of)(const Row&)) {
+        std::vector<std::string> labels;
+        for (const Row& row : rows) {
+            if (!row.null_row && is_meant(row)) {
+                labels.push_back(text_of(row));
+            }
+        }
+        if (!labels.empty()) {
+            notes.push_back(fmt::format("{}: {}", title, fmt::join(labels, ", ")));
+        }
+    };
+    const auto label_of = [](const Row& row) { return row.setting.label; };
+    tell(
+        "missing, not there yet", [](const Row& row) { return row.missing(); }, label_of);
+    tell(
+        "shows nothing of the terrain here, so its time says nothing",
+        [](const Row& row) { return row.shows_nothing(); }, label_of);
+    tell("≥, pixels whose error has no bound are not in it", has_unbounded, unbounded_text);
+    const auto exact = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
+        return row.setting.technique == "exact" && row.error;
+    });
+    if (exact != rows.end()) {
+        notes.push_back(picture_floor(*exact));
+    }
+    return notes;
+}
+
+ReportTable table_of_rows(std::span<const Row> rows) {
+    const bool with_sources = has_sources(rows);
+    const bool with_levels = is_of_levels(rows);
+    ReportTable table{heading_of(rows), columns_of(with_sources, with_levels), {}, notes_of(rows)};
+    for (const Row& row : rows) {
+        if (!row.null_row) {
+            table.lines.push_back(cells_of(row, with_sources, with_levels));
+        }
+    }
+    return table;
+}
+
+} // namespace
+
+std::vector<ReportTable> report_tables(const Results& results) {
+    std::vector<ReportTable> tables;
+    const auto end = results.rows.end();
+    for (auto begin = results.rows.begin(); begin != end;) {
+        const auto next = std::find_if_not(
+            begin, end, [&](const Row& row) { return is_same_table(row, *begin); });
+        tables.push_back(table_of_rows(std::span(begin, next)));
+        begin = next;
+    }
+    return tables;
+}
+
+Results printable(Results results) {
+    const auto clean = [](std::string& text) { text = cli::printable(text); };
+    const auto clean_all = [&](std::vector<std::string>& texts) {
+        std::for_each(texts.begin(), texts.end(), clean);
+    };
+    Environment& environment = results.environment;
+    for (std::string* text : {&environment.renderer, &environment.gl, &environment.context,
+                              &environment.cpu, &environment.commit}) {
+        clean(*text);
+    }
+    for (Row& row : results.rows) {
+        for (std::string* text : {&row.suite, &row.test, &row.scene, &row.setting.label}) {
+            clean(*text);
+        }
+    }
+    for (Front& front : results.fronts) {
+        clean(front.scene);
+        clean_all(front.front);
+        clean_all(front.holed);
+        for (Front::Dominated& setting : front.dominated) {
+            clean(setting.label);
+            clean(setting.by);
+        }
+    }
+    clean_all(results.notes);
+    if (results.stopped) {
+        clean(results.stopped->message);
+    }
+    return results;
+}
+
+std::vector<std::string> environment_lines(const Environment& environment) {
+    return {fmt::format("renderer: {}", environment.renderer),
+            fmt::format("OpenGL:   {}, context {}", environment.gl, environment.context),
+            fmt::format("machine:  {}, {} thread{}; commit {}", environment.cpu,
+                        environment.threads, environment.threads == 1 ? "" : "s",
+                        environment.commit)};
+}
+
+std::vector<std::string> column_notes(const Results& results) {
+    std::vector<std::string> notes{
+        "ms: median; ±: half of its 95 % interval. 1 % low: frame rate of the slowest hundredth.",
+        "ratio: median over that of texture in the same run; drop: what it costs of the rate.",
+        "error px: reprojection, RMS. wrong: pixels whose surface is over a texel off, or a hole."};
+    const auto begin = results.rows.begin();
+    const auto end = results.rows.end();
+    if (has_sources(results.rows)) {
+        notes.emplace_back(
+            "source: frame rate in the thesis, on the newer of its two machines, and ratio there.");
+    }
+    if (std::any_of(begin, end,
+                    [](const Row& row) { return row.noisy() && !row.has_few_frames(); })) {
+        notes.push_back(fmt::format("NOISY: what is measured twice, texture or what is named, "
+                                    "lies over {:.0f} % apart; a difference below the floor is "
+                                    "none.",
+                                    100.0 * most_noise));
+    }
+    if (std::any_of(begin, end, [](const Row& row) { return row.has_few_frames(); })) {
+        notes.push_back(fmt::format("Caution: under {} frames of a technique are too few to rely "
+                                    "on, and to tell a noise floor of.",
+                                    least_frames));
+    }
+    if (std::any_of(begin, end, [](const Row& row) { return row.setting.technique == "exact"; })) {
+        notes.emplace_back("FLIP, PSNR, SSIM, RMSE: of the shaded picture, filtering of its colour "
+                           "map included; exact's own is the floor.");
+    }
+    notes.insert(notes.end(), results.notes.begin(), results.notes.end());
+    return notes;
+}
+
+std::string front_text(const Front& front) {
+    return front.front.empty() ? "none" : fmt::format("{}", fmt::join(front.front, ", "));
+}
+
+std::string area_text(const Front& front) {
+    return front.area ? fmt::format("area {:.3f}", *front.area)
+                      : "no area, as a technique or the ratio to texture is lacking";
+}
+
+std::string holed_text(const Front& front) {
+    return fmt::format("holes over {:.1f} % of the picture: {}", 100.0 * most_holes,
+                       fmt::join(front.holed, ", "));
+}
+
+std::size_t text_width(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    }));
+}
+
+} // namespace reljef::bench

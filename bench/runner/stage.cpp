@@ -1,0 +1,181 @@
+#include "bench/runner/stage.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bench/runner/gallery_tiles.h"
+#include "engine/io/formats/scene_file.h"
+
+namespace reljef::bench {
+namespace {
+
+Result<session::TerrainSource> open_source(const StageChoice& choice,
+                                           const cli::TerrainChoice& terrain,
+                                           const std::stop_token& stop) {
+    if (choice.size == 0) {
+        return session::open_terrain(terrain, stop);
+    }
+    io::SceneDescription description;
+    description.name =
+        fmt::format("{} {}{}", choice.terrain, choice.size, choice.tileable ? " tile" : "");
+    description.generator = choice.terrain;
+    description.size = choice.size;
+    description.tileable = choice.tileable;
+    return session::open_terrain(std::move(description), terrain, stop);
+}
+
+bool shows_gallery(const std::string& terrain) {
+    if (std::filesystem::path(terrain).extension() != ".toml") {
+        return terrain == "gallery";
+    }
+    const auto scene = io::read_scene_file(terrain);
+    return scene && scene->generator == "gallery"; // else opening it will tell
+}
+
+constexpr int tile_rays_per_side = 2; // of its true picture: texels are as small as pixels
+
+scene::Material material_of(const truth::TileSquare& square) {
+    scene::Material material;
+    material.detail = {.set = square.set,
+                       .repeats = glm::vec2(static_cast<float>(square.repeats)),
+                       .scale = static_cast<float>(square.scale),
+                       .offset = static_cast<float>(square.offset)};
+    return material;
+}
+
+} // namespace
+
+Result<Stage> Stage::open_tile(const StageChoice& choice, const StageOptions& options) {
+    const auto square = tile_square(choice.tile, static_cast<unsigned>(options.threads));
+    if (!square) {
+        return square.error();
+    }
+    auto tile = truth::TilePlane::create(*square);
+    if (!tile) {
+        return tile.error();
+    }
+    session::TerrainScene scene;
+    scene::Mesh mesh = scene::plane_mesh(glm::vec2(static_cast<float>(square->side)));
+    scene.bounds = scene::bounds_of(mesh);
+    scene.models = {&scene.scene.add_mesh(std::move(mesh), material_of(*square))};
+    scene.light = &scene.scene.add_light(square->light);
+    scene.camera = &scene.scene.add_camera({});
+    Stage stage("tile " + choice.tile, std::move(scene), options);
+    stage.tile_ = std::move(*tile);
+    return stage;
+}
+
+Result<Stage> Stage::open(const StageChoice& choice, const StageOptions& options,
+                          const std::stop_token& stop) {
+    if (!choice.tile.empty()) {
+        return open_tile(choice, options);
+    }
+    if (shows_gallery(choice.terrain)) {
+        return Error{fmt::format("{}: the gallery found, a terrain was expected: the truth of its "
+                                 "models is not known; tables and pareto measure its tiles, "
+                                 "--terrain gallery",
+                                 choice.terrain)};
+    }
+    cli::TerrainChoice terrain;
+    terrain.terrain = choice.terrain;
+    terrain.threads = options.threads;
+    terrain.quiet = options.quiet;
+    terrain.placement = terrain::PlacementKind::plane; // one surface that all techniques draw
+    auto source = open_source(choice, terrain, stop);
+    if (!source) {
+        return source.error();
+    }
+    cli::ViewChoice view;
+    view.size = options.size;
+    view.pose = scene::Pose::overview;
+    std::string name = source->description.name;
+    auto scene = session::make_scene(std::move(*source), terrain, view);
+    if (!scene) {
+        return scene.error();
+    }
+    return Stage(std::move(name), std::move(*scene), options);
+}
+
+void Stage::set_pose(scene::Pose pose) {
+    scene::Camera& camera = *scene_.camera->get<scene::Camera>();
+    const double near = camera.near;
+    camera = scene::pose_camera(pose, scene_.bounds,
+                                [this](double x, double y) { return scene_.ground(x, y); });
+    camera.near = near;
+    pose_ = pose;
+}
+
+void Stage::set_camera(const scene::Camera& camera) {
+    *scene_.camera->get<scene::Camera>() = camera;
+}
+
+void Stage::set_technique(const scene::Technique& technique) {
+    for (scene::Material* const material : scene_.materials()) {
+        material->technique = technique;
+    }
+}
+
+Result<truth::Picture> Stage::true_picture(const ParallelOptions& parallel) {
+    if (tile_) {
+        return tile_->draw(scene().camera(), options_.size,
+                           {.rays_per_side = tile_rays_per_side, .parallel = parallel});
+    }
+    if (!caster_) {
+        auto caster = truth::SceneCaster::create(scene());
+        if (!caster) {
+            return caster.error();
+        }
+        caster_ = std::move(*caster);
+        shading_.emplace(scene(), *caster_);
+    }
+    return truth::draw(*caster_, *shading_, scene().camera(), options_.size,
+                       {.parallel = parallel});
+}
+
+Result<std::reference_wrapper<const TruePicture>> Stage::truth(const std::stop_token& stop) {
+    if (truth_ && truth_->pose == pose_) {
+        return std::cref(*truth_);
+    }
+    auto picture = true_picture({static_cast<unsigned>(options_.threads), stop, {}});
+    if (!picture) {
+        return picture.error();
+    }
+    truth_ = TruePicture{pose_, std::move(picture->hits),
+                         std::make_shared<const Image>(std::move(picture->image))};
+    return std::cref(*truth_);
+}
+
+Result<truth::GeometricErrors> Stage::errors(const HitBuffer& shown, const HitBuffer& truth,
+                                             unsigned threads) const {
+    if (tile_) {
+        return tile_->errors(scene().camera(), shown, truth, threads);
+    }
+    const scene::TerrainSurface& surface = *terrain().get<scene::TerrainNode>()->surface;
+    const truth::SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
+                                  terrain().world_from_local(), scene().camera()};
+    return truth::geometric_errors(view, shown, truth, threads);
+}
+
+Result<Stage*> Stages::get(const StageChoice& choice) {
+    const auto found = std::find_if(open_.begin(), open_.end(),
+                                    [&](const auto& entry) { return entry.first == choice; });
+    if (found != open_.end()) {
+        return found->second.get();
+    }
+    if (!keep_) {
+        open_.clear();
+    }
+    auto stage = Stage::open(choice, options_, stop_);
+    if (!stage) {
+        return stage.error();
+    }
+    if (stop_.stop_requested()) {
+        return Error{"stopped"};
+    }
+    open_.emplace_back(choice, std::make_unique<Stage>(std::move(*stage)));
+    return open_.back().second.get();
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,112 @@
+#include "bench/suites/flight_suite.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/cli/process_memory.h"
+#include "app/cli/progress_line.h"
+#include "engine/scene/motion/animators.h"
+#include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
+
+namespace reljef::bench {
+namespace {
+
+using FlightClock = std::chrono::steady_clock;
+
+double flown_since(FlightClock::time_point start) {
+    return std::chrono::duration<double>(FlightClock::now() - start).count();
+}
+
+Result<session::DeviceFrames> flight_device(const FlightOptions& options) {
+    session::DeviceOptions device;
+    device.threads = options.terrain.threads;
+    device.context = options.view.context;
+    device.context_options.size = options.view.size;
+    device.context_options.visible = false;
+    device.driver.size = options.view.size;
+    device.driver.shader_dir = options.view.shader_dir;
+    auto made = session::Device::create(device);
+    return made ? Result<session::DeviceFrames>(
+                      session::DeviceFrames(std::move(*made), {true, options.terrain.quiet}))
+                : made.error();
+}
+
+Result<session::TerrainScene> flight_scene(const FlightOptions& options,
+                                           const std::stop_token& stop) {
+    cli::TerrainChoice terrain = options.terrain;
+    terrain.streamed = cli::may_stream(options.view);
+    terrain.pictures_streamed = cli::may_stream_pictures(options.view);
+    auto source = session::open_terrain(terrain, stop);
+    return source ? session::make_scene(std::move(*source), terrain, options.view, stop)
+                  : source.error();
+}
+
+Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
+                 session::DeviceFrames& frames, FlightClock::time_point start,
+                 FlightResults& results, const std::stop_token& stop) {
+    const int count = results.options.view.frames;
+    cli::ProgressLine line("flying", results.options.terrain.quiet);
+    for (int index = 0; index < count && !stop.stop_requested(); ++index) {
+        static_cast<void>(session::fly_above_ground(scene, path, index, count, frames, stop));
+        ParallelOptions parallel;
+        parallel.stop = stop;
+        if (const auto drawn = frames.draw(scene.scene, parallel); !drawn) {
+            return drawn.error();
+        }
+        results.most_memory = std::max(results.most_memory, cli::process_memory().now);
+        session::tell_stream_faults(scene.scene, results.options.terrain.quiet);
+        if (index == 0) {
+            results.seconds_to_first_frame = flown_since(start);
+        }
+        line.update(static_cast<double>(index + 1) / count);
+    }
+    if (stop.stop_requested()) {
+        results.stopped = Error{"interrupted"};
+    }
+    return {};
+}
+
+} // namespace
+
+Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop) {
+    auto frames = flight_device(options);
+    if (!frames) {
+        return frames.error();
+    }
+    const auto start = FlightClock::now();
+    auto scene = flight_scene(options, stop);
+    if (!scene) {
+        return scene.error();
+    }
+    const auto path = session::open_path(*scene, options.view, options.terrain);
+    if (!path) {
+        return path.error();
+    }
+    FlightResults results;
+    results.options = options;
+    results.environment = environment_of(frames->context(), options.terrain.threads);
+    if (auto flown = fly(*scene, **path, *frames, start, results, stop); !flown) {
+        return flown.error();
+    }
+    results.seconds = flown_since(start);
+    results.times = frames->times();
+    results.faulty_files = session::faulty_files(scene->scene);
+    results.most_memory =
+        std::max({results.most_memory, cli::process_memory().most, results.times.memory_before});
+    const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
+    if (stream != nullptr) {
+        results.stream = stream->stats();
+    }
+    return results;
+}
+
+double memory_share(const FlightResults& results) {
+    const auto allowed =
+        static_cast<double>(results.options.terrain.memory_megabytes) * (1U << 20U);
+    return (static_cast<double>(results.most_memory) -
+            static_cast<double>(results.times.memory_before)) /
+           allowed;
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,215 @@
+#include "bench/suites/pareto_suite.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "bench/report/pareto_front.h"
+#include "bench/runner/gallery_tiles.h"
+#include "bench/runner/suite.h"
+
+namespace reljef::bench {
+namespace {
+
+constexpr std::array poses{scene::Pose::overview, scene::Pose::oblique, scene::Pose::low,
+                           scene::Pose::grazing};
+
+constexpr scene::Pose tile_pose = scene::Pose::oblique; // that of the sources' figures
+
+constexpr int most_view_cols = 512; // there are hundreds of rows
+
+bool is_wide(const scene::ParameterInfo& parameter) {
+    return parameter.low > 0.0 && parameter.high > 10.0 * parameter.low;
+}
+
+double value_at(const scene::ParameterInfo& parameter, double share) {
+    if (share == 0.0 || share == 1.0) {
+        return share == 0.0 ? parameter.low : parameter.high;
+    }
+    const double value = is_wide(parameter)
+                             ? parameter.low * std::pow(parameter.high / parameter.low, share)
+                             : std::lerp(parameter.low, parameter.high, share);
+    return parameter.whole ? std::round(value) : value;
+}
+
+// What the command line would refuse is no setting.
+bool is_accepted(const scene::Technique& technique) {
+    return scene::parse_technique(scene::to_string(technique)).has_value();
+}
+
+// What a technique costs by its kind, about: the first cost the least.
+int cost_rank(const scene::TechniqueInfo& info) {
+    constexpr int searches = 2;
+    constexpr std::array<std::pair<std::string_view, int>, 5> ranks{
+        {{"texture", 0}, {"parallax", 1}, {"exact", 3}, {"prewarp", 4}, {"cone", 5}}};
+    constexpr int triangles = 6;
+    const auto found = std::find_if(ranks.begin(), ranks.end(), [&](const auto& rank) {
+        return info.name.starts_with(rank.first);
+    });
+    const bool is_full = scene::geometry_of(info.id) == scene::Geometry::full;
+    return is_full ? triangles : found == ranks.end() ? searches : found->second;
+}
+
+std::vector<scene::TechniqueInfo> by_cost(std::vector<scene::TechniqueInfo> infos) {
+    std::stable_sort(infos.begin(), infos.end(),
+                     [](const scene::TechniqueInfo& a, const scene::TechniqueInfo& b) {
+                         return cost_rank(a) < cost_rank(b);
+                     });
+    return infos;
+}
+
+// The values of a parameter but its default, by how many of them lie between.
+std::vector<std::vector<double>> values_by_distance(const scene::ParameterInfo& parameter) {
+    const std::vector<double> values = values_over_range(parameter);
+    const auto usual = std::find(values.begin(), values.end(), parameter.default_value);
+    std::vector<std::vector<double>> rings(values.size() - 1);
+    for (auto value = values.begin(); value != values.end(); ++value) {
+        if (const auto distance = std::abs(value - usual); distance > 0) {
+            rings[static_cast<std::size_t>(distance) - 1].push_back(*value);
+        }
+    }
+    return rings;
+}
+
+// A technique with one parameter as far from its default as `ring` says.
+std::vector<scene::Technique> settings_of_ring(const scene::TechniqueInfo& info, std::size_t ring) {
+    std::vector<scene::Technique> settings;
+    for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+        const auto rings = values_by_distance(info.parameters[i]);
+        for (const double value : ring < rings.size() ? rings[ring] : std::vector<double>()) {
+            scene::Technique setting = scene::make_technique(info.id);
+            setting.values[i] = value;
+            if (is_accepted(setting)) {
+                settings.push_back(std::move(setting));
+            }
+        }
+    }
+    return settings;
+}
+
+// The cheap kinds first; the options of what is measured nowhere else.
+std::vector<scene::Technique> usual_settings(const StageChoice& stage) {
+    const std::vector<scene::TechniqueInfo> infos = techniques_of(stage);
+    std::vector<scene::Technique> settings = settings_over_range(infos);
+    if (suits(scene::TechniqueId::relief, stage) && !stage.tile.empty()) {
+        const auto options = settings_of_options();
+        settings.insert(settings.begin() + static_cast<std::ptrdiff_t>(infos.size()),
+                        options.begin(), options.end());
+    }
+    return settings;
+}
+
+std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& settings) {
+    const std::string texture =
+        scene::to_string(scene::make_technique(scene::TechniqueId::texture));
+    std::vector<Candidate> candidates{candidate_named(texture)};
+    for (const scene::Technique& technique : settings) {
+        if (scene::to_string(technique) != texture) {
+            candidates.push_back(candidate_of(technique));
+        }
+    }
+    return candidates;
+}
+
+std::vector<StageChoice> pareto_stages(const ParetoOptions& options) {
+    const std::vector<std::string> built_in{"gallery", "natural", "urban"};
+    const bool by_itself = options.terrains.empty();
+    std::vector<StageChoice> stages;
+    for (const std::string& terrain : by_itself ? built_in : options.terrains) {
+        if (terrain == "gallery") {
+            const auto tiles = gallery_stages();
+            stages.insert(stages.end(), tiles.begin(), tiles.end());
+        } else {
+            stages.push_back({terrain, by_itself && options.suite.quick ? quick_samples : 0});
+        }
+    }
+    return stages;
+}
+
+// Of those that were chosen; empty: all that suit it. A terrain that was named is to be drawn as
+// it was asked for, or the run says why not.
+std::vector<scene::Technique> settings_on(const StageChoice& stage, const ParetoOptions& options) {
+    if (options.techniques.empty()) {
+        return usual_settings(stage);
+    }
+    const bool takes_any = stage.tile.empty() && !options.terrains.empty();
+    std::vector<scene::Technique> settings;
+    std::copy_if(
+        options.techniques.begin(), options.techniques.end(), std::back_inserter(settings),
+        [&](const scene::Technique& setting) { return takes_any || suits(setting.id, stage); });
+    return settings;
+}
+
+bool lacks_a_technique(const Front& front, const std::vector<LeftOut>& left_out) {
+    return std::any_of(left_out.begin(), left_out.end(), [&](const LeftOut& group) {
+        return group.scene == front.scene && group.pose == front.pose && !group.techniques.empty();
+    });
+}
+
+} // namespace
+
+std::vector<double> values_over_range(const scene::ParameterInfo& parameter) {
+    std::vector<double> values{parameter.default_value};
+    for (int i = 0; i < most_values; ++i) {
+        values.push_back(value_at(parameter, i / (most_values - 1.0)));
+    }
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+}
+
+std::vector<scene::Technique>
+settings_over_range(const std::vector<scene::TechniqueInfo>& techniques) {
+    const std::vector<scene::TechniqueInfo> catalogue = by_cost(techniques);
+    std::vector<scene::Technique> all;
+    std::transform(catalogue.begin(), catalogue.end(), std::back_inserter(all),
+                   [](const scene::TechniqueInfo& info) { return scene::make_technique(info.id); });
+    for (std::size_t ring = 0; ring < most_values; ++ring) {
+        for (const scene::TechniqueInfo& info : catalogue) {
+            const std::vector<scene::Technique> settings = settings_of_ring(info, ring);
+            all.insert(all.end(), settings.begin(), settings.end());
+        }
+    }
+    return all;
+}
+
+std::vector<scene::Technique> settings_of_options() {
+    std::vector<scene::Technique> settings;
+    for (const char* const option :
+         {"steps=8..32", "fade=0..1", "shadow=hard", "shadow=soft", "edges=smooth", "sides=two",
+          "border=wrap", "depth=write", "silhouettes=true"}) {
+        settings.push_back(scene::parse_technique(fmt::format("relief:{}", option)).value());
+    }
+    return settings;
+}
+
+std::vector<Group> pareto_groups(const ParetoOptions& options) {
+    std::vector<Group> groups;
+    for (const StageChoice& stage : pareto_stages(options)) {
+        const auto settings = settings_on(stage, options);
+        for (const scene::Pose pose : poses) {
+            if (!settings.empty() && (stage.tile.empty() || pose == tile_pose)) {
+                groups.push_back({"", stage, pose, pareto_candidates(settings)});
+            }
+        }
+    }
+    return groups;
+}
+
+Results run_pareto(const ParetoOptions& options, const std::stop_token& stop) {
+    Suite suite{.name = "pareto", .groups = pareto_groups(options)};
+    suite.most_view_cols = most_view_cols;
+    Results results = run_suite(suite, options.suite, stop);
+    results.fronts = fronts_of(results.rows);
+    for (Front& front : results.fronts) {
+        if (lacks_a_technique(front, results.left_out)) {
+            front.area.reset();
+        }
+    }
+    return results;
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,98 @@
+#include "bench/suites/source_tests.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace reljef::bench {
+namespace {
+
+constexpr std::array<SourceMeasurement, 24> measurements{{
+    {"parallax-1", "urban (tile repeated)", 1, "texture", 45},
+    {"parallax-1", "urban (tile repeated)", 1, "parallax", 35},
+    {"parallax-1", "urban (tile repeated)", 2, "texture", 894},
+    {"parallax-1", "urban (tile repeated)", 2, "parallax", 867},
+    {"parallax-2", "urban (fragment of a 4096x4096 image)", 1, "texture", 48},
+    {"parallax-2", "urban (fragment of a 4096x4096 image)", 1, "parallax", 36},
+    {"parallax-2", "urban (fragment of a 4096x4096 image)", 2, "texture", 885},
+    {"parallax-2", "urban (fragment of a 4096x4096 image)", 2, "parallax", 807},
+    {"parallax-3", "natural", 1, "texture", 51},
+    {"parallax-3", "natural", 1, "parallax", 43},
+    {"parallax-3", "natural", 2, "texture", 893},
+    {"parallax-3", "natural", 2, "parallax", 808},
+    {"relief-1", "urban 512 (tile repeated)", 2, "texture", 176},
+    {"relief-1", "urban 512 (tile repeated)", 2, "relief", 44},
+    {"relief-2", "urban 1024 (spread over the terrain)", 2, "texture", 196},
+    {"relief-2", "urban 1024 (spread over the terrain)", 2, "relief", 56},
+    {"relief-3", "natural 1280", 2, "texture", 170},
+    {"relief-3", "natural 1280", 2, "relief", 60},
+    {"relief-4", "1024 heightfield", 2, "texture", 824},
+    {"relief-4", "1024 heightfield", 2, "polygons lod=1", 5},
+    {"relief-4", "1024 heightfield", 2, "polygons lod=3", 62},
+    {"relief-4", "1024 heightfield", 2, "polygons lod=5", 170},
+    {"relief-4", "1024 heightfield", 2, "parallax", 716},
+    {"relief-4", "1024 heightfield", 2, "relief", 55},
+}};
+
+constexpr int chosen_configuration = 2;
+
+// "polygons lod=3" as the command line has it, "polygons:lods=3".
+std::string our_name(std::string_view technique) {
+    constexpr std::string_view levels = " lod=";
+    const auto at = technique.find(levels);
+    return at == std::string_view::npos ? std::string(technique)
+                                        : fmt::format("{}:lods={}", technique.substr(0, at),
+                                                      technique.substr(at + levels.size()));
+}
+
+std::vector<SourceMeasurement> measurements_of(std::string_view test) {
+    std::vector<SourceMeasurement> found;
+    std::copy_if(measurements.begin(), measurements.end(), std::back_inserter(found),
+                 [&](const SourceMeasurement& measurement) {
+                     return measurement.test == test &&
+                            measurement.configuration == chosen_configuration;
+                 });
+    return found;
+}
+
+Group group_of(std::string_view test, const StageChoice& stage) {
+    const std::vector<SourceMeasurement> found = measurements_of(test);
+    Group group{std::string(test), stage, scene::Pose::overview, {}};
+    for (const SourceMeasurement& measurement : found) {
+        Candidate candidate = candidate_named(our_name(measurement.technique));
+        candidate.source =
+            SourceFigure{measurement.fps, found.front().fps / measurement.fps,
+                         fmt::format("{}, configuration {}", test, chosen_configuration)};
+        group.candidates.push_back(std::move(candidate));
+    }
+    return group;
+}
+
+// The same with techniques that the sources do not have.
+Group with_ours(Group group, std::initializer_list<std::string_view> techniques) {
+    for (const std::string_view technique : techniques) {
+        group.candidates.push_back(candidate_named(std::string(technique)));
+    }
+    return group;
+}
+
+} // namespace
+
+std::span<const SourceMeasurement> source_measurements() {
+    return measurements;
+}
+
+std::vector<Group> source_groups(bool quick) {
+    const StageChoice urban_tile{"urban", 512, true};
+    const StageChoice natural{"natural", 1025};
+    return {group_of("parallax-1", urban_tile),
+            group_of("relief-1", urban_tile),
+            group_of("parallax-2", {"urban", quick ? 2048 : 4096}),
+            group_of("relief-2", {"urban", 1024}),
+            group_of("parallax-3", natural),
+            with_ours(group_of("relief-4", natural), {"polygons:error=1", "exact"}),
+            group_of("relief-3", {"natural", 1280})};
+}
+
+} // namespace reljef::bench

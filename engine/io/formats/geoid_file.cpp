@@ -1,0 +1,113 @@
+#include "engine/io/formats/geoid_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <ogr_srs_api.h>
+
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/georeferencing.h"
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float most_undulation = 150.0F; // metres: the Earth's is -107 to 86
+constexpr int most_geoid_side = 1 << 15;  // samples: EGM2008 at 1′ has 21,600
+
+Result<geo::Geoid> unfit(const std::string& name, const std::string& found) {
+    return Error{
+        fmt::format("{}: {}, a geoid's heights on a grid of degrees were expected", name, found)};
+}
+
+std::optional<Grid<float>> undulation_of(GDALRasterBand& band) {
+    Grid<float> heights(band.GetXSize(), band.GetYSize());
+    const CPLErr read =
+        band.RasterIO(GF_Read, 0, 0, heights.cols(), heights.rows(), heights.samples().data(),
+                      heights.cols(), heights.rows(), GDT_Float32, 0, 0, nullptr);
+    if (read != CE_None) {
+        return std::nullopt;
+    }
+    int has_void = 0;
+    const auto void_height = static_cast<float>(band.GetNoDataValue(&has_void));
+    if (has_void != 0) {
+        std::replace(heights.samples().begin(), heights.samples().end(), void_height,
+                     std::numeric_limits<float>::quiet_NaN());
+    }
+    return heights;
+}
+
+/// The farthest from the ellipsoid.
+float most_of(const Grid<float>& undulation) {
+    float most = 0.0F;
+    for (const float height : undulation.samples()) {
+        most = std::abs(height) > std::abs(most) ? height : most;
+    }
+    return most;
+}
+
+} // namespace
+
+Result<geo::Geoid> read_geoid(const fs::path& path) {
+    const std::string name = path.string();
+    if (path.extension() == ".pgm") {
+        return geo::Geoid::read_pgm(path);
+    }
+    GdalMessages messages;
+    auto dataset = open_raster(path, messages);
+    if (!dataset) {
+        return dataset.error();
+    }
+    std::vector<std::string> ignored;
+    const auto affine = affine_of(**dataset);
+    const auto crs = horizontal_crs(**dataset, ignored);
+    if (!affine || !crs || crs->IsGeographic() == 0 || affine->x_row != 0.0 ||
+        affine->y_col != 0.0 || affine->x_col == 0.0 || affine->y_row == 0.0) {
+        return unfit(name, "is no grid of degrees");
+    }
+    GDALRasterBand& band = *(*dataset)->GetRasterBand(1);
+    if (band.GetXSize() < 4 || band.GetYSize() < 4 || band.GetXSize() > most_geoid_side ||
+        band.GetYSize() > most_geoid_side) {
+        return unfit(name, fmt::format("has {}×{} samples", band.GetXSize(), band.GetYSize()));
+    }
+    auto undulation = undulation_of(band);
+    if (!undulation) {
+        return unfit(name, "cannot be read" + messages.reason());
+    }
+    if (const float most = most_of(*undulation); std::abs(most) > most_undulation) {
+        return unfit(name, fmt::format("{:.0f} m from the ellipsoid found", most));
+    }
+    const glm::dvec2 first = affine->crs_from_pixel(glm::dvec2(0.5));
+    return geo::Geoid(path.filename().string(), std::move(*undulation), {first.y, first.x},
+                      {affine->y_row, affine->x_col});
+}
+
+std::optional<fs::path> installed_geoid() {
+    std::vector<fs::path> folders;
+    const CPLStringList proj(OSRGetPROJSearchPaths());
+    folders.reserve(static_cast<std::size_t>(proj.size()) + 1);
+    for (int i = 0; i < proj.size(); ++i) {
+        folders.emplace_back(proj[i]);
+    }
+    folders.push_back(geo::Geoid::installed_folder());
+    for (const fs::path& folder : folders) {
+        for (const char* file :
+             {"egm96_15.gtx", "us_nga_egm96_15.tif", "egm96-5.pgm", "egm96-15.pgm"}) {
+            std::error_code ignored;
+            if (fs::is_regular_file(folder / file, ignored)) {
+                return folder / file;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,142 @@
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "engine/core/atomic_file.h"
+#include "engine/core/geometry.h"
+#include "engine/io/formats/flight_file.h"
+#include "engine/io/formats/toml_reader.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr std::size_t most_keys = 100'000;
+constexpr NumberRange any_time{-std::numeric_limits<double>::max(),
+                               std::numeric_limits<double>::max(), false};
+
+Result<PathKey> key_of(TomlTable& table) {
+    std::optional<double> time;
+    std::optional<glm::dvec3> eye;
+    std::optional<glm::dvec3> look;
+    table.read("time", time, any_time);
+    table.read("eye", eye);
+    table.read("look", look);
+    for (const char* key : {"time", "eye", "look"}) {
+        if (!table.has(key)) {
+            table.fail(key, "is missing, time, eye and look were expected");
+        }
+    }
+    if (eye && look && *eye == *look) {
+        table.fail("look", "is where eye is, another point was expected");
+    }
+    if (auto good = table.finish(); !good) {
+        return good.error();
+    }
+    return PathKey{*time, *eye, *look};
+}
+
+constexpr NumberRange any_latitude{-90.0, 90.0, false};
+constexpr NumberRange any_longitude{-720.0, 720.0, false};
+constexpr NumberRange any_height{-world_reach, world_reach, false};
+constexpr NumberRange any_heading{-720.0, 720.0, false};
+constexpr NumberRange any_pitch{-90.0, 90.0, false};
+
+Result<GeodeticKey> geodetic_key_of(TomlTable& table) {
+    GeodeticKey key;
+    table.read("time", key.time, any_time);
+    table.read("latitude", key.latitude, any_latitude);
+    table.read("longitude", key.longitude, any_longitude);
+    table.read("height", key.height, any_height);
+    table.read("heading", key.heading, any_heading);
+    table.read("pitch", key.pitch, any_pitch);
+    for (const char* name : {"time", "latitude", "longitude", "height"}) {
+        if (!table.has(name)) {
+            table.fail(name, "is missing, time, latitude, longitude and height were expected");
+        }
+    }
+    if (key.pitch && !key.heading) {
+        table.fail("pitch", "stands without heading, both or neither were expected");
+    }
+    if (auto good = table.finish(); !good) {
+        return good.error();
+    }
+    return key;
+}
+
+/// All keys of a file, each later than the one before.
+template <class Key, class KeyOf>
+Result<std::vector<Key>> keys_of(std::vector<TomlTable>& tables, const std::string& name,
+                                 const KeyOf& key_from) {
+    if (tables.empty() || tables.size() > most_keys) {
+        return Error{fmt::format("{}: has {} tables [[key]], 1 to {} were expected", name,
+                                 tables.size(), most_keys)};
+    }
+    std::vector<Key> keys;
+    for (TomlTable& table : tables) {
+        auto key = key_from(table);
+        if (key && !keys.empty() && key->time <= keys.back().time) {
+            table.fail("time", fmt::format("is {}, a time after the last one's {} was expected",
+                                           key->time, keys.back().time));
+            return table.finish().error();
+        }
+        if (!key) {
+            return key.error();
+        }
+        keys.push_back(*key);
+    }
+    return keys;
+}
+
+/// The document of a path file; its tables of keys point into it.
+struct PathDocument {
+    toml::table document;
+    std::vector<TomlTable> tables;
+};
+
+Result<std::unique_ptr<PathDocument>> open_path_file(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    const auto text = read_text_file(path);
+    if (!text) {
+        return text.error();
+    }
+    auto document = parse_toml(*text, name);
+    if (!document) {
+        return document.error();
+    }
+    auto result = std::make_unique<PathDocument>(PathDocument{std::move(*document), {}});
+    TomlTable root(result->document, name, "");
+    result->tables = root.tables("key");
+    if (auto good = root.finish(); !good) {
+        return good.error();
+    }
+    return result;
+}
+
+template <class Key> Result<Flight> flight_of(Result<std::vector<Key>> keys) {
+    return keys ? Result<Flight>(Flight{std::move(*keys), {}}) : keys.error();
+}
+
+} // namespace
+
+Result<std::vector<PathKey>> read_path_file(const std::filesystem::path& path) {
+    auto file = open_path_file(path);
+    return file ? keys_of<PathKey>((*file)->tables, path.string(), key_of) : file.error();
+}
+
+Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_second) {
+    if (path.extension() != ".toml") {
+        return read_track(path, metres_a_second);
+    }
+    auto file = open_path_file(path);
+    if (!file) {
+        return file.error();
+    }
+    std::vector<TomlTable>& tables = (*file)->tables;
+    const bool on_earth =
+        !tables.empty() && (tables.front().has("latitude") || tables.front().has("longitude"));
+    return on_earth ? flight_of(keys_of<GeodeticKey>(tables, path.string(), geodetic_key_of))
+                    : flight_of(keys_of<PathKey>(tables, path.string(), key_of));
+}
+
+} // namespace reljef::io

@@ -1,0 +1,118 @@
+#include "engine/io/formats/raster_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include "engine/core/atomic_file.h"
+#include "engine/io/raster/gdal_dataset.h"
+
+namespace reljef::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int written_block = 256;     // samples of a side
+constexpr int least_overview = 256;    // samples of a side
+constexpr double writing_share = 0.75; // of the time; the rest for the overviews
+constexpr int utm_zone_32_north = 32632;
+
+Error cannot_write(const fs::path& path, const GdalMessages& messages) {
+    return Error{fmt::format("{}: cannot be written{}", path.string(), messages.reason())};
+}
+
+Dataset create_geotiff(const fs::path& path, const HeightRaster& raster) {
+    register_drivers();
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+    const std::string side = fmt::format("={}", written_block);
+    CPLStringList options;
+    options.AddString("TILED=YES");
+    options.AddString(("BLOCKXSIZE" + side).c_str());
+    options.AddString(("BLOCKYSIZE" + side).c_str());
+    options.AddString("BIGTIFF=IF_SAFER");
+    return Dataset(
+        driver->Create(path.c_str(), raster.cols, raster.rows, 1, GDT_Float32, options.List()));
+}
+
+bool place(GDALDataset& dataset, const HeightRaster& raster) {
+    OGRSpatialReference crs;
+    const glm::dvec2 corner = raster.first + raster.spacing * glm::dvec2(-0.5, 0.5);
+    std::array<double, 6> transform{corner.x, raster.spacing, 0.0, corner.y, 0.0, -raster.spacing};
+    return crs.importFromEPSG(utm_zone_32_north) == OGRERR_NONE &&
+           dataset.SetSpatialRef(&crs) == CE_None &&
+           dataset.SetGeoTransform(transform.data()) == CE_None;
+}
+
+// False where it could not be written or was stopped.
+bool write_bands(GDALDataset& dataset, const FillHeights& fill, const ParallelOptions& parallel) {
+    const int cols = dataset.GetRasterXSize();
+    const int rows = dataset.GetRasterYSize();
+    for (int row = 0; row < rows; row += written_block) {
+        Grid<float> band(cols, std::min(written_block, rows - row));
+        fill(row, band.view());
+        if (parallel.stop.stop_requested() ||
+            dataset.GetRasterBand(1)->RasterIO(GF_Write, 0, row, cols, band.rows(),
+                                               band.samples().data(), cols, band.rows(),
+                                               GDT_Float32, 0, 0, nullptr) != CE_None) {
+            return false;
+        }
+        if (parallel.progress) {
+            parallel.progress(writing_share * (row + band.rows()) / rows);
+        }
+    }
+    return true;
+}
+
+int CPL_STDCALL overview_progress(double fraction, const char* /*message*/, void* told) {
+    const auto& parallel = *static_cast<const ParallelOptions*>(told);
+    if (parallel.progress) {
+        parallel.progress(writing_share + (1.0 - writing_share) * fraction);
+    }
+    return parallel.stop.stop_requested() ? FALSE : TRUE;
+}
+
+bool write_overviews(GDALDataset& dataset, const HeightRaster& raster,
+                     const ParallelOptions& parallel) {
+    std::vector<int> factors;
+    for (int factor = raster.finest_overview;
+         std::max(raster.cols, raster.rows) / factor >= least_overview; factor *= 4) {
+        factors.push_back(factor);
+    }
+    ParallelOptions told = parallel;
+    return factors.empty() ||
+           dataset.BuildOverviews("AVERAGE", static_cast<int>(factors.size()), factors.data(), 0,
+                                  nullptr, overview_progress, &told) == CE_None;
+}
+
+} // namespace
+
+Result<void> write_heights(const fs::path& path, const HeightRaster& raster,
+                           const FillHeights& fill, const ParallelOptions& parallel) {
+    check(raster.cols > 0 && raster.rows > 0 && raster.finest_overview >= 2, "no raster to write");
+    auto file = AtomicFile::create(path);
+    if (!file) {
+        return file.error();
+    }
+    const GdalMessages messages;
+    Dataset dataset = create_geotiff(file->temporary(), raster);
+    const bool written = dataset != nullptr && place(*dataset, raster) &&
+                         write_bands(*dataset, fill, parallel) &&
+                         write_overviews(*dataset, raster, parallel);
+    if (parallel.stop.stop_requested()) {
+        return Error{fmt::format("{}: stopped", path.string())};
+    }
+    if (!written) {
+        return cannot_write(path, messages);
+    }
+    const CPLErr before = CPLGetLastErrorType();
+    dataset.reset(); // writes the rest
+    if (before < CE_Failure && CPLGetLastErrorType() >= CE_Failure) {
+        return cannot_write(path, messages);
+    }
+    return file->commit();
+}
+
+} // namespace reljef::io

@@ -1,0 +1,199 @@
+#include "engine/io/formats/scene_file.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "engine/core/atomic_file.h"
+#include "engine/io/formats/toml_reader.h"
+#include "engine/material/texture_set.h"
+#include "engine/terrain/field/placement.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::max();
+constexpr NumberRange positive{0.0, unlimited, true};
+constexpr NumberRange any_number{-unlimited, unlimited, false};
+constexpr NumberRange spacings{terrain::least_spacing, terrain::most_spacing, false};
+constexpr NumberRange sizes{16.0, 4096.0, false};
+constexpr NumberRange seeds{0.0, 4294967295.0, false};
+constexpr NumberRange exaggerations{0.0, terrain::largest_exaggeration, true};
+constexpr NumberRange azimuths{-360.0, 360.0, false};
+constexpr NumberRange altitudes{0.0, 90.0, true};
+constexpr NumberRange tile_widths{material::least_tile_width, material::most_tile_width, false};
+constexpr NumberRange tile_scales{0.0, material::most_tile_scale, true};
+constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
+constexpr NumberRange latitudes{-90.0, 90.0, false};
+constexpr NumberRange longitudes{-360.0, 720.0, false};
+constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
+constexpr std::array<std::string_view, 2> placements{"plane", "ellipsoid"};
+
+/// Keys that only one of the two sources of heights has a use for.
+void refuse(TomlTable& table, std::initializer_list<std::string_view> keys,
+            std::string_view owner) {
+    for (const std::string_view key : keys) {
+        if (table.has(key)) {
+            table.fail(key,
+                       fmt::format("is given, but it belongs to {} and was not expected", owner));
+        }
+    }
+}
+
+void check_source(TomlTable& table) {
+    const bool file = table.has("heights");
+    const bool generator = table.has("generator");
+    if (file == generator) {
+        table.fail("heights", fmt::format("and generator are {} given, exactly one was expected",
+                                          file ? "both" : "neither"));
+    } else if (file) {
+        refuse(table, {"size", "seed", "tileable"}, "a generator");
+    } else {
+        refuse(table, {"imagery", "height_scale", "height_offset", "gaps"}, "a file of heights");
+    }
+}
+
+void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
+                       SceneDescription& scene) {
+    table.read("heights", scene.heights, folder);
+    table.read("generator", scene.generator, generators);
+    table.read("size", scene.size, sizes);
+    table.read("seed", scene.seed, seeds);
+    table.read("tileable", scene.tileable);
+    table.read("spacing", scene.spacing, spacings);
+    table.read("height_scale", scene.height_scale, any_number);
+    table.read("height_offset", scene.height_offset, any_number);
+    table.read("imagery", scene.imagery, folder);
+    table.read("gaps", scene.gaps, kinds_of_gaps);
+    table.read("exaggeration", scene.exaggeration, exaggerations);
+    std::string placement;
+    table.read("placement", placement, placements);
+    if (!placement.empty()) {
+        scene.placement = placement;
+    }
+    if (scene.height_scale == 0.0) {
+        table.fail("height_scale", "is 0, another number was expected");
+    }
+    check_source(table);
+}
+
+void read_area_keys(TomlTable& table, SceneDescription& scene) {
+    constexpr std::array keys{"south", "west", "north", "east"};
+    if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); })) {
+        return;
+    }
+    geo::GeodeticArea area;
+    table.read("south", area.south, latitudes);
+    table.read("west", area.west, longitudes);
+    table.read("north", area.north, latitudes);
+    table.read("east", area.east, longitudes);
+    for (const char* key : keys) {
+        if (!table.has(key)) {
+            table.fail(key, "is missing, south, west, north and east were expected");
+        }
+    }
+    if (!(area.south < area.north)) {
+        table.fail("north", "is not above south, a latitude north of it was expected");
+    }
+    if (!(area.west < area.east && area.east - area.west <= 360.0)) {
+        table.fail("east", "is not east of west, a longitude at most 360 beyond it was expected");
+    }
+    scene.area = area;
+}
+
+void read_camera_keys(TomlTable& table, SceneDescription& scene) {
+    table.read("eye", scene.eye);
+    table.read("look", scene.look);
+    if (table.has("eye") != table.has("look")) {
+        table.fail(table.has("eye") ? "eye" : "look",
+                   "stands alone, both eye and look were expected");
+    } else if (scene.eye && scene.look && *scene.eye == *scene.look) {
+        table.fail("look", "is where eye is, another point was expected");
+    }
+}
+
+// The name of what is built in, or a folder beside the scene file; where that is to be.
+std::filesystem::path read_textures(TomlTable& table, const std::filesystem::path& folder,
+                                    std::string& textures) {
+    table.read("textures", textures);
+    std::filesystem::path beside = folder / textures;
+    std::error_code ignored;
+    if (!textures.empty() && std::filesystem::is_directory(beside, ignored)) {
+        textures = beside.string();
+    }
+    return beside;
+}
+
+void read_gallery_keys(TomlTable& table, const std::filesystem::path& folder,
+                       SceneDescription& scene) {
+    if (scene.generator != "gallery") {
+        refuse(table, {"textures", "technique"}, "the generator gallery");
+    }
+    scene.gallery_folder = read_textures(table, folder, scene.gallery_textures);
+    table.read("technique", scene.gallery_technique);
+}
+
+void read_detail_keys(TomlTable& table, const std::filesystem::path& folder,
+                      SceneDescription& scene) {
+    DetailDescription detail;
+    detail.folder = read_textures(table, folder, detail.textures);
+    table.read("width", detail.width, tile_widths);
+    table.read("scale", detail.scale, tile_scales);
+    table.read("technique", detail.technique);
+    if (table.has("textures")) {
+        scene.detail = std::move(detail);
+    } else if (table.has("width") || table.has("scale") || table.has("technique")) {
+        table.fail("textures", "is missing, the name of a tile or its folder was expected");
+    }
+}
+
+} // namespace
+
+Result<SceneDescription> parse_scene(std::string_view text, const std::string& name,
+                                     const std::filesystem::path& folder) {
+    const auto document = parse_toml(text, name);
+    if (!document) {
+        return document.error();
+    }
+    SceneDescription scene;
+    TomlTable root(*document, name, "");
+    root.read("name", scene.name);
+    TomlTable terrain = root.table("terrain");
+    TomlTable area = root.table("area");
+    TomlTable gallery = root.table("gallery");
+    TomlTable detail = root.table("detail");
+    TomlTable sun = root.table("sun");
+    TomlTable air = root.table("air");
+    TomlTable camera = root.table("camera");
+    read_terrain_keys(terrain, folder, scene);
+    read_area_keys(area, scene);
+    read_gallery_keys(gallery, folder, scene);
+    read_detail_keys(detail, folder, scene);
+    sun.read("azimuth", scene.sun_azimuth, azimuths);
+    sun.read("altitude", scene.sun_altitude, altitudes);
+    air.read("visibility", scene.visibility, positive);
+    read_camera_keys(camera, scene);
+    for (const TomlTable* table :
+         {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {
+        if (auto good = table->finish(); !good) {
+            return good.error();
+        }
+    }
+    return scene;
+}
+
+Result<SceneDescription> read_scene_file(const std::filesystem::path& path) {
+    const auto text = read_text_file(path);
+    if (!text) {
+        return text.error();
+    }
+    auto scene = parse_scene(*text, path.string(), path.parent_path());
+    if (scene && scene->name.empty()) {
+        scene->name = path.stem().string();
+    }
+    return scene;
+}
+
+} // namespace reljef::io

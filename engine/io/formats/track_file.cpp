@@ -1,0 +1,176 @@
+#include <cmath>
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <ogrsf_frmts.h>
+
+#include "engine/geo/place.h"
+#include "engine/io/formats/flight_file.h"
+#include "engine/io/raster/crs_transform.h"
+#include "engine/io/raster/gdal_dataset.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr std::size_t most_track_points = 100'000;
+constexpr double least_way = 1.0; // metres; nearer points are the same place to a camera
+
+using Segments = std::vector<const OGRLineString*>;
+
+/// All lines in a geometry, in order.
+Segments segments_in(const OGRGeometry* geometry) {
+    if (geometry == nullptr) {
+        return {};
+    }
+    const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+    if (type == wkbLineString) {
+        return {geometry->toLineString()};
+    }
+    if (type != wkbMultiLineString && type != wkbGeometryCollection) {
+        return {};
+    }
+    Segments segments;
+    for (const OGRGeometry* part : *geometry->toGeometryCollection()) {
+        const Segments more = segments_in(part);
+        segments.insert(segments.end(), more.begin(), more.end());
+    }
+    return segments;
+}
+
+std::size_t points_in(const Segments& segments) {
+    std::size_t count = 0;
+    for (const OGRLineString* segment : segments) {
+        count += static_cast<std::size_t>(segment->getNumPoints());
+    }
+    return count;
+}
+
+/// A point of a line in degrees; the height where the line has heights.
+struct TrackPoint {
+    glm::dvec2 place{0.0}; // longitude, latitude
+    std::optional<double> height;
+};
+
+std::optional<CrsTransform> to_degrees(const OGRSpatialReference& crs) {
+    char* text = nullptr;
+    crs.exportToWkt(&text);
+    const std::string wkt = text != nullptr ? text : "";
+    CPLFree(text);
+    return CrsTransform::create(wkt, wgs84_degrees);
+}
+
+/// Nothing where their coordinate system, which they share, does not lead to WGS 84.
+std::optional<std::vector<TrackPoint>> points_of(const Segments& segments) {
+    std::vector<TrackPoint> points;
+    std::vector<glm::dvec2> places;
+    for (const OGRLineString* line : segments) {
+        for (int i = 0; i < line->getNumPoints(); ++i) {
+            const bool has_height = line->Is3D() != 0 && std::isfinite(line->getZ(i));
+            points.push_back({{}, has_height ? std::optional(line->getZ(i)) : std::nullopt});
+            places.emplace_back(line->getX(i), line->getY(i));
+        }
+    }
+    if (const OGRSpatialReference* crs = segments.front()->getSpatialReference()) {
+        const auto transform = to_degrees(*crs);
+        if (!transform) {
+            return std::nullopt;
+        }
+        transform->apply(places);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].place = places[i];
+    }
+    return points;
+}
+
+Result<std::vector<GeodeticKey>> keys_along(const std::vector<TrackPoint>& points,
+                                            double metres_a_second, const std::string& name) {
+    std::vector<GeodeticKey> keys;
+    for (const TrackPoint& point : points) {
+        if (!(std::abs(point.place.y) <= 90.0 && std::abs(point.place.x) <= 720.0)) {
+            return Error{fmt::format("{}: its line has a point at {},{}, latitudes from -90 to 90 "
+                                     "and longitudes in degrees were expected",
+                                     name, point.place.y, point.place.x)};
+        }
+        GeodeticKey key;
+        key.latitude = point.place.y;
+        key.longitude = point.place.x;
+        key.height = point.height;
+        if (!keys.empty()) {
+            const double way =
+                geo::geodesic_distance({keys.back().latitude, keys.back().longitude, 0.0},
+                                       {key.latitude, key.longitude, 0.0});
+            if (way < least_way) {
+                continue;
+            }
+            key.time = keys.back().time + way / metres_a_second;
+        }
+        keys.push_back(key);
+    }
+    return keys;
+}
+
+/// The first feature of a file with a line of two points or more.
+struct FoundTrack {
+    OGRFeatureUniquePtr feature; ///< the segments are parts of it
+    Segments segments;
+    int tracks = 0; ///< so many such features are in the file
+};
+
+FoundTrack find_track(GDALDataset& dataset) {
+    FoundTrack found;
+    for (OGRLayer* layer : dataset.GetLayers()) {
+        while (OGRFeatureUniquePtr feature{layer->GetNextFeature()}) {
+            Segments segments = segments_in(feature->GetGeometryRef());
+            if (points_in(segments) >= 2 && found.tracks++ == 0) {
+                found.feature = std::move(feature);
+                found.segments = std::move(segments);
+            }
+        }
+    }
+    return found;
+}
+
+} // namespace
+
+Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second) {
+    check(metres_a_second > 0.0, "read_track needs a speed");
+    const std::string name = path.string();
+    register_drivers();
+    const GdalMessages messages;
+    const CPLConfigOptionSetter heights("GPX_ELE_AS_25D", "YES", false);
+    const Dataset dataset(
+        GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+    if (dataset == nullptr) {
+        return Error{fmt::format("{}: cannot be opened as a path{}, a path file (TOML) or a file "
+                                 "with a line (GPX, KML, GeoJSON) was expected",
+                                 name, messages.reason())};
+    }
+    const FoundTrack track = find_track(*dataset);
+    if (track.tracks == 0) {
+        return Error{fmt::format("{}: holds no line of two points or more{}, one was expected",
+                                 name, messages.reason())};
+    }
+    if (const std::size_t count = points_in(track.segments); count > most_track_points) {
+        return Error{fmt::format("{}: its line has {} points, at most {} were expected", name,
+                                 count, most_track_points)};
+    }
+    const auto points = points_of(track.segments);
+    if (!points) {
+        return Error{fmt::format("{}: its coordinate system does not lead to WGS 84, one that does "
+                                 "was expected",
+                                 name)};
+    }
+    auto keys = keys_along(*points, metres_a_second, name);
+    if (!keys) {
+        return keys.error();
+    }
+    Flight flight{std::move(*keys), {}};
+    if (track.tracks > 1) {
+        flight.notes.push_back(
+            fmt::format("{}: holds {} lines, the first is flown", name, track.tracks));
+    }
+    return flight;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,127 @@
+#include "engine/io/image/channels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "engine/io/image/image_encoder.h"
+#include "engine/io/image/image_limits.h"
+#include "engine/io/image/picture_file.h"
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<Channels> read_open_channels(OIIO::ImageInput& input, const fs::path& path) {
+    const OIIO::ImageSpec& spec = input.spec();
+    if (auto size = check_image_size(path, spec); !size) {
+        return size.error();
+    }
+    Channels channels = make_channels(spec.width, spec.height, spec.nchannels);
+    channels.bits = static_cast<int>(8 * spec.format.basesize());
+    if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data())) {
+        return Error{fmt::format("{}: cannot be read ({}), a whole picture was expected",
+                                 path.string(), input.geterror())};
+    }
+    return channels;
+}
+
+bool is_map_file(const fs::path& path) {
+    constexpr std::array extensions{".png", ".tif", ".tiff", ".exr"};
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const char* extension) { return path.extension() == extension; });
+}
+
+Error no_map_file(const fs::path& path) {
+    return {fmt::format("{}: cannot be written: {:?} names no format of maps, .png, .tif or .exr "
+                        "was expected",
+                        path.string(), path.extension().string())};
+}
+
+std::vector<std::uint16_t> whole_numbers(const std::vector<float>& values) {
+    constexpr float most = 65535.0F;
+    std::vector<std::uint16_t> whole;
+    whole.reserve(values.size());
+    for (const float value : values) {
+        whole.push_back(
+            static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * most)));
+    }
+    return whole;
+}
+
+OIIO::ImageSpec map_spec(const Channels& channels, OIIO::TypeDesc type) {
+    OIIO::ImageSpec spec(channels.cols, channels.rows, channels.count, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("compression", "zip");
+    return spec;
+}
+
+} // namespace
+
+Channels make_channels(int cols, int rows, int count) {
+    Channels channels{cols, rows, count, 0, {}};
+    channels.values.resize(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows) *
+                           static_cast<std::size_t>(count));
+    return channels;
+}
+
+Result<Channels> read_channels(const fs::path& path) {
+    return read_picture<Channels>(
+        path, [&](OIIO::ImageInput& input) { return read_open_channels(input, path); });
+}
+
+Grid<float> channel_of(const Channels& channels, int channel) {
+    Grid<float> grid(channels.cols, channels.rows);
+    for (int row = 0; row < grid.rows(); ++row) {
+        for (int col = 0; col < grid.cols(); ++col) {
+            grid(col, row) = channels.at(col, row, channel);
+        }
+    }
+    return grid;
+}
+
+Result<void> check_finite(const Channels& channels, int count, const fs::path& path,
+                          std::string_view what) {
+    for (int row = 0; row < channels.rows; ++row) {
+        for (int col = 0; col < channels.cols; ++col) {
+            for (int i = 0; i < std::min(count, channels.count); ++i) {
+                const float value = channels.at(col, row, i);
+                if (!std::isfinite(value)) {
+                    return Error{fmt::format("{}: {} of {} found at column {}, row {}, finite "
+                                             "numbers were expected",
+                                             path.string(), what, value, col, row)};
+                }
+            }
+        }
+    }
+    return {};
+}
+
+Result<std::vector<std::byte>> encode_channels(const fs::path& path, const Channels& channels) {
+    auto output = is_map_file(path) ? OIIO::ImageOutput::create(path.string()) : nullptr;
+    if (output == nullptr) {
+        return no_map_file(path);
+    }
+    const auto count = static_cast<std::size_t>(channels.count);
+    if (path.extension() == ".exr") {
+        return encoded(std::move(output), map_spec(channels, OIIO::TypeDesc::FLOAT),
+                       channels.values.data(), count * sizeof(float));
+    }
+    const std::vector<std::uint16_t> whole = whole_numbers(channels.values);
+    return encoded(std::move(output), map_spec(channels, OIIO::TypeDesc::UINT16), whole.data(),
+                   count * sizeof(std::uint16_t));
+}
+
+Result<void> check_map_name(const fs::path& path) {
+    return is_map_file(path) ? Result<void>() : no_map_file(path);
+}
+
+} // namespace reljef::io

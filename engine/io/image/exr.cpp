@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "engine/io/image/image.h"
+#include "engine/io/image/image_encoder.h"
+#include "engine/io/image/image_limits.h"
+
+namespace reljef::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<const char*, 4> channel_names{"col", "row", "height", "depth"};
+constexpr std::array<std::size_t, 4> channel_offsets{offsetof(Hit, col), offsetof(Hit, row),
+                                                     offsetof(Hit, height), offsetof(Hit, depth)};
+
+OIIO::ImageSpec spec_of(const HitBuffer& hits) {
+    OIIO::ImageSpec spec(hits.cols(), hits.rows(), 4, OIIO::TypeDesc::FLOAT);
+    spec.channelnames.assign(channel_names.begin(), channel_names.end());
+    spec.attribute("compression", "zip");
+    return spec;
+}
+
+Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& path) {
+    const OIIO::ImageSpec& spec = input.spec();
+    if (auto size = check_image_size(path, spec); !size) {
+        return size.error();
+    }
+    HitBuffer hits(spec.width, spec.height);
+    auto* bytes = reinterpret_cast<std::byte*>(hits.samples().data());
+    for (std::size_t i = 0; i < channel_names.size(); ++i) {
+        const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(),
+                                     std::string(channel_names[i]));
+        const int channel = static_cast<int>(found - spec.channelnames.begin());
+        if (found == spec.channelnames.end() ||
+            spec.channelformat(channel) != OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)) {
+            return Error{
+                fmt::format("{}: has no float32 channel {}, the channels col, row, height and "
+                            "depth were expected",
+                            path.string(), channel_names[i])};
+        }
+        if (!input.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT,
+                              bytes + channel_offsets[i], sizeof(Hit))) {
+            return Error{fmt::format("{}: cannot be read ({}), a whole OpenEXR file was expected",
+                                     path.string(), input.geterror())};
+        }
+    }
+    return hits;
+}
+
+} // namespace
+
+Result<void> check_hits_name(const fs::path& path) {
+    if (path.extension() == ".exr") {
+        return {};
+    }
+    return Error{fmt::format("{}: cannot be written: hits go to an OpenEXR file, the extension "
+                             ".exr was expected",
+                             path.string())};
+}
+
+Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
+    if (hits.empty()) {
+        return Error{fmt::format(
+            "{}: cannot be written: no hits were given, at least 1×1 was expected", path.string())};
+    }
+    if (auto named = check_hits_name(path); !named) {
+        return named;
+    }
+    auto output = OIIO::ImageOutput::create("openexr");
+    if (output == nullptr) {
+        return Error{
+            fmt::format("{}: cannot be written: OpenImageIO has no OpenEXR", path.string())};
+    }
+    return write_encoded(std::move(output), spec_of(hits), hits.samples().data(), sizeof(Hit),
+                         path);
+}
+
+Result<HitBuffer> read_hits(const fs::path& path) {
+    if (auto file = check_image_file(path); !file) {
+        return file.error();
+    }
+    try {
+        const auto input = OIIO::ImageInput::open(path.string());
+        if (input == nullptr) {
+            return Error{fmt::format("{}: cannot be read ({}), an OpenEXR file was expected",
+                                     path.string(), OIIO::geterror())};
+        }
+        return read_hit_channels(*input, path);
+    } catch (const std::exception& problem) {
+        return Error{fmt::format("{}: cannot be read ({}), an OpenEXR file was expected",
+                                 path.string(), problem.what())};
+    }
+}
+
+} // namespace reljef::io

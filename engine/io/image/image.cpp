@@ -1,0 +1,182 @@
+#include "engine/io/image/image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "engine/io/image/image_encoder.h"
+#include "engine/io/image/image_limits.h"
+#include "engine/io/image/picture_file.h"
+
+namespace reljef::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int jpeg_quality = 95;
+constexpr int rows_at_a_time = 64;
+constexpr int sheet_gap = 4; // pixels
+constexpr Rgba8 sheet_background{24, 24, 24, 255};
+
+std::uint8_t rounded(float value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
+}
+
+/// A row of `channels` values in [0,1] each pixel: grey, grey and alpha, RGB, or RGBA and more.
+void store_row(std::span<const float> values, int channels, bool linear, std::span<Rgba8> row) {
+    const auto stride = static_cast<std::size_t>(channels);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const float* pixel = &values[i * stride];
+        const bool grey = channels < 3;
+        const glm::vec3 color =
+            grey ? glm::vec3(pixel[0]) : glm::vec3(pixel[0], pixel[1], pixel[2]);
+        const float alpha = channels == 2 ? pixel[1] : channels >= 4 ? pixel[3] : 1.0F;
+        row[i] = linear
+                     ? rgba8_from_linear(color, rounded(alpha))
+                     : Rgba8{rounded(color.r), rounded(color.g), rounded(color.b), rounded(alpha)};
+    }
+}
+
+Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
+    const OIIO::ImageSpec& spec = input.spec();
+    if (auto size = check_image_size(path, spec); !size) {
+        return size.error();
+    }
+    Image image(spec.width, spec.height);
+    const bool linear = spec.format.is_floating_point();
+    const int channels = std::min(spec.nchannels, 4);
+    const std::size_t row_values =
+        static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
+    std::vector<float> values(row_values * rows_at_a_time);
+    for (int begin = 0; begin < spec.height; begin += rows_at_a_time) {
+        const int end = std::min(begin + rows_at_a_time, spec.height);
+        if (!input.read_scanlines(0, 0, spec.y + begin, spec.y + end, 0, 0, channels,
+                                  OIIO::TypeDesc::FLOAT, values.data())) {
+            return Error{
+                fmt::format("{}: cannot be read at row {} ({}), a whole picture was expected",
+                            path.string(), begin, input.geterror())};
+        }
+        for (int row = begin; row < end; ++row) {
+            const auto first = static_cast<std::size_t>(row - begin) * row_values;
+            store_row(std::span(values).subspan(first, row_values), channels, linear,
+                      image.row(row));
+        }
+    }
+    return image;
+}
+
+std::unique_ptr<OIIO::ImageOutput> output_for(const fs::path& path) {
+    auto output = OIIO::ImageOutput::create(path.string());
+    static_cast<void>(OIIO::geterror());
+    // Its encoder goes by the extension of the file it writes to, and one in memory has none.
+    if (output != nullptr && std::string_view(output->format_name()) == "jpeg2000") {
+        output.reset();
+    }
+    return output;
+}
+
+Error unknown_format(const fs::path& path) {
+    return {fmt::format("{}: cannot be written: {:?} names no format of pictures, .png or .jpg "
+                        "was expected",
+                        path.string(), path.extension().string())};
+}
+
+Error no_pixels(const fs::path& path, const Image& image) {
+    return {fmt::format("{}: cannot be written: a picture of {}×{} pixels was given, at least "
+                        "1×1 was expected",
+                        path.string(), image.cols(), image.rows())};
+}
+
+OIIO::ImageSpec spec_of(const Image& image) {
+    OIIO::ImageSpec spec(image.cols(), image.rows(), 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("Compression", fmt::format("jpeg:{}", jpeg_quality));
+    return spec;
+}
+
+Image resized(const Image& picture, int width) {
+    const double scale = static_cast<double>(width) / picture.cols();
+    Image result(width, std::max(1, static_cast<int>(std::lround(picture.rows() * scale))));
+    const OIIO::ImageSpec from(picture.cols(), picture.rows(), 4, OIIO::TypeDesc::UINT8);
+    const OIIO::ImageSpec to(result.cols(), result.rows(), 4, OIIO::TypeDesc::UINT8);
+    // OpenImageIO only reads what is behind this pointer
+    const OIIO::ImageBuf source(from, const_cast<Rgba8*>(picture.samples().data()));
+    OIIO::ImageBuf target(to, result.samples().data());
+    OIIO::ImageBufAlgo::resize(target, source);
+    return result;
+}
+
+void paste(const Image& picture, int col, int row, Image& sheet) {
+    for (int i = 0; i < picture.rows(); ++i) {
+        const auto from = picture.row(i);
+        std::copy(from.begin(), from.end(), sheet.row(row + i).begin() + col);
+    }
+}
+
+} // namespace
+
+Result<Image> read_image(const fs::path& path) {
+    return read_picture<Image>(
+        path, [&](OIIO::ImageInput& input) { return read_open_image(input, path); });
+}
+
+Result<void> check_image_name(const fs::path& path) {
+    return output_for(path) != nullptr ? Result<void>() : unknown_format(path);
+}
+
+Result<void> write_image(const fs::path& path, const Image& image) {
+    if (image.empty()) {
+        return no_pixels(path, image);
+    }
+    auto output = output_for(path);
+    if (output == nullptr) {
+        return unknown_format(path);
+    }
+    return write_encoded(std::move(output), spec_of(image), image.samples().data(), sizeof(Rgba8),
+                         path);
+}
+
+Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image) {
+    const fs::path path = "a picture in memory" + extension;
+    if (image.empty()) {
+        return no_pixels(path, image);
+    }
+    auto output = output_for(path);
+    if (output == nullptr) {
+        return unknown_format(path);
+    }
+    return encoded(std::move(output), spec_of(image), image.samples().data(), sizeof(Rgba8));
+}
+
+Image contact_sheet(std::span<const Image> pictures, int columns, int width) {
+    check(columns > 0 && width > 0, "contact_sheet needs columns and a width");
+    std::vector<Image> small;
+    int height = 0;
+    for (const Image& picture : pictures) {
+        check(!picture.empty(), "contact_sheet of an empty picture");
+        small.push_back(resized(picture, width));
+        height = std::max(height, small.back().rows());
+    }
+    if (small.empty()) {
+        return {};
+    }
+    const int count = static_cast<int>(small.size());
+    const int across = std::min(columns, count);
+    const int down = (count + columns - 1) / columns;
+    Image sheet(sheet_gap + across * (width + sheet_gap), sheet_gap + down * (height + sheet_gap),
+                sheet_background);
+    for (int i = 0; i < count; ++i) {
+        paste(small[static_cast<std::size_t>(i)], sheet_gap + (i % columns) * (width + sheet_gap),
+              sheet_gap + (i / columns) * (height + sheet_gap), sheet);
+    }
+    return sheet;
+}
+
+} // namespace reljef::io

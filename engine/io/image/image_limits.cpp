@@ -1,0 +1,88 @@
+#include "engine/io/image/image_limits.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace reljef::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int longest_side = 1 << 16;
+constexpr double most_pixels = 1 << 28;
+constexpr double always_allowed = 1 << 24; // pixels
+constexpr double pixels_per_byte = 2000.0; // no format of ours packs tighter
+
+constexpr std::array<unsigned char, 8> png_signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+
+bool is_png(std::istream& stream) {
+    std::array<char, png_signature.size()> head{};
+    stream.read(head.data(), head.size());
+    return stream &&
+           std::equal(head.begin(), head.end(), png_signature.begin(),
+                      [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
+}
+
+/// Whether a PNG's chunks lead to its last one, IEND (PNG specification, 5.3).
+bool has_all_chunks(std::istream& stream) {
+    constexpr std::streamoff checksum = 4;
+    std::array<char, 8> head{};
+    while (stream.read(head.data(), head.size())) {
+        if (std::string_view(head.data() + 4, 4) == "IEND") {
+            return true;
+        }
+        std::streamoff length = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            length = length * 256 + static_cast<unsigned char>(head[i]);
+        }
+        stream.seekg(length + checksum, std::ios::cur);
+    }
+    return false;
+}
+
+} // namespace
+
+Result<void> check_image_file(const fs::path& path) {
+    std::error_code code;
+    const fs::file_status status = fs::status(path, code);
+    if (!fs::exists(status)) {
+        return Error{fmt::format("{}: does not exist, a picture was expected", path.string())};
+    }
+    if (!fs::is_regular_file(status)) {
+        return Error{fmt::format("{}: is no file, a picture was expected", path.string())};
+    }
+    if (fs::file_size(path, code) == 0) {
+        return Error{fmt::format("{}: is empty, a picture was expected", path.string())};
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (is_png(stream) && !has_all_chunks(stream)) {
+        return Error{
+            fmt::format("{}: cannot be read (it is a PNG without its end), a whole picture "
+                        "was expected",
+                        path.string())};
+    }
+    return {};
+}
+
+Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec) {
+    std::error_code code;
+    const double bytes = static_cast<double>(fs::file_size(path, code));
+    const double pixels = static_cast<double>(spec.width) * spec.height;
+    const double most = std::min(most_pixels, std::max(always_allowed, bytes * pixels_per_byte));
+    const bool good = spec.width > 0 && spec.height > 0 && spec.width <= longest_side &&
+                      spec.height <= longest_side && spec.depth <= 1 && spec.nchannels > 0 &&
+                      pixels <= most;
+    if (!good) {
+        return Error{
+            fmt::format("{}: claims {}×{} pixels of {} channels in {} bytes, at most {:.0f} "
+                        "pixels were expected",
+                        path.string(), spec.width, spec.height, spec.nchannels, bytes, most)};
+    }
+    return {};
+}
+
+} // namespace reljef::io

@@ -1,0 +1,96 @@
+#include "engine/io/imagery/image_files.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/io/imagery/rgb_image.h"
+#include "engine/io/raster/sample_decoder.h"
+#include "engine/io/tile_index.h"
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
+                std::vector<std::string>& faults) {
+    std::vector<std::string> ignored;
+    const auto index = index_tiles(folder, {}, ignored);
+    if (!index) {
+        faults.push_back(index.error().message);
+        return;
+    }
+    const std::size_t before = paths.size();
+    for (const IndexedFile& file : index->files) {
+        if (file.use == TileUse::fault) {
+            faults.push_back(file.fault);
+        } else if (file.use == TileUse::picture || file.type == "Byte" || file.type == "UInt16") {
+            paths.push_back(folder / file.path);
+        }
+    }
+    if (paths.size() == before) {
+        faults.push_back(
+            fmt::format("{}: holds no image, at least one was expected", folder.string()));
+    }
+}
+
+/// One band of what only heights are stored as is no grey picture.
+bool is_image(GDALDataset& dataset) {
+    const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+    return dataset.GetRasterCount() >= 3 || kind_of_values(dataset) != ValueKind::plain ||
+           type == GDT_Byte || type == GDT_UInt16;
+}
+
+Error no_image(const fs::path& path, GDALDataset& dataset) {
+    const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+    return {fmt::format("{}: holds {}, as heights are stored, an image (grey of Byte or UInt16, "
+                        "palette or RGB(A)) was expected",
+                        path.string(), GDALGetDataTypeName(type))};
+}
+
+fs::file_time_type changed_at(const fs::path& path) {
+    std::error_code ignored;
+    return fs::last_write_time(path, ignored);
+}
+
+} // namespace
+
+ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults,
+                       const std::stop_token& stop, std::optional<double> white) {
+    register_drivers();
+    std::vector<fs::path> paths;
+    for (const fs::path& name : names) {
+        std::error_code ignored;
+        if (fs::is_directory(name, ignored)) {
+            add_folder(name, paths, faults);
+        } else {
+            paths.push_back(name);
+        }
+    }
+    ImageFiles files;
+    files.white = white.value_or(0.0);
+    for (fs::path& path : paths) {
+        if (stop.stop_requested()) {
+            break;
+        }
+        const GdalMessages messages;
+        const auto image = open_raster(path, messages);
+        if (!image) {
+            faults.push_back(image.error().message);
+        } else if (!is_image(**image)) {
+            faults.push_back(no_image(path, **image).message);
+        } else {
+            if (!white) {
+                files.white = std::max(files.white, white_of(**image, stop));
+            }
+            files.paths.push_back(std::move(path));
+        }
+    }
+    std::stable_sort(
+        files.paths.begin(), files.paths.end(),
+        [](const fs::path& a, const fs::path& b) { return changed_at(a) > changed_at(b); });
+    return files;
+}
+
+} // namespace reljef::io

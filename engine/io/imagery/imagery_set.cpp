@@ -1,0 +1,332 @@
+#include "engine/io/imagery/imagery_set.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/core/worker_pool.h"
+#include "engine/io/dataset_pool.h"
+#include "engine/io/failing_files.h"
+#include "engine/io/imagery/degree_box.h"
+#include "engine/io/imagery/image_files.h"
+#include "engine/io/imagery/rgb_image.h"
+#include "engine/io/raster/crs_transform.h"
+#include "engine/io/raster/georeferencing.h"
+#include "engine/io/tile_placing.h"
+
+namespace reljef::io {
+/// What is known of an image without reading it.
+struct KnownImage {
+    std::filesystem::path path;
+    glm::ivec2 size{0};
+    glm::dvec2 pixel{1.0}; ///< metres
+    DegreeBox box{};       ///< around it
+    struct Overview {
+        int index = 0;
+        double factor = 1.0; ///< pixels a side in one of its
+    };
+    std::vector<Overview> overviews; ///< that can be read
+};
+
+namespace {
+
+/// Metres a pixel at the middle of (8+1)² places over `size` pixels.
+glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
+    constexpr std::size_t middle = middle_of_places;
+    const double across = metres_between(degrees[middle - 1], degrees[middle + 1]);
+    const double down = metres_between(degrees[middle - 9], degrees[middle + 9]);
+    return 4.0 * glm::dvec2(across, down) / glm::dvec2(size);
+}
+
+std::vector<KnownImage::Overview> overviews_of(GDALDataset& rgb) {
+    std::vector<KnownImage::Overview> found;
+    GDALRasterBand& band = *rgb.GetRasterBand(1);
+    found.reserve(static_cast<std::size_t>(std::max(band.GetOverviewCount(), 0)));
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+        GDALRasterBand* reduced = band.GetOverview(i);
+        if (reduced != nullptr && reduced->GetXSize() >= 1) {
+            found.push_back({i, static_cast<double>(band.GetXSize()) / reduced->GetXSize()});
+        }
+    }
+    return found;
+}
+
+bool has_place(GDALDataset& image) {
+    return affine_of(image).has_value();
+}
+
+/// Opens an image as RGB, in `crs` where it names no coordinate system of its own.
+Result<Dataset> open_rgb(const std::filesystem::path& path, double white, const std::string& crs,
+                         const GdalMessages& messages) {
+    auto image = open_raster(path, messages);
+    if (!image) {
+        return image.error();
+    }
+    Dataset rgb = as_rgb(std::move(*image), white);
+    if (rgb == nullptr) {
+        return Error{fmt::format("{}: cannot be read as an image{}, a whole grey, palette or "
+                                 "RGB(A) image was expected",
+                                 path.string(), messages.reason())};
+    }
+    if (rgb->GetSpatialRef() == nullptr) {
+        const OGRSpatialReference own = crs_from_text(crs);
+        rgb->SetSpatialRef(&own);
+    }
+    return rgb;
+}
+
+std::optional<KnownImage> known(const std::filesystem::path& path, GDALDataset& rgb) {
+    std::vector<std::string> ignored;
+    const auto affine = has_place(rgb) ? affine_of(rgb) : std::nullopt;
+    const auto crs = affine ? horizontal_crs(rgb, ignored) : std::nullopt;
+    if (!crs || crs->IsLocal() != 0) {
+        return std::nullopt;
+    }
+    KnownImage image{path, {rgb.GetRasterXSize(), rgb.GetRasterYSize()}, {}, {}, overviews_of(rgb)};
+    const auto degrees = places_over(
+        [&](glm::dvec2 part) { return affine->crs_from_pixel(part * glm::dvec2(image.size)); },
+        wkt_of(*crs));
+    if (degrees.empty() || std::isnan(degrees[middle_of_places].x)) {
+        return std::nullopt;
+    }
+    image.box = padded_box(degrees);
+    image.pixel = pixel_size(degrees, image.size);
+    return std::isfinite(image.pixel.x * image.pixel.y) ? std::optional(image) : std::nullopt;
+}
+
+double side_of(const KnownImage& image) {
+    return std::sqrt(image.pixel.x * image.pixel.y);
+}
+
+/// Which of an image is read for texels so far apart, and how many of its pixels, each way.
+struct Choice {
+    int overview = -1; ///< -1: the image itself
+    double pixels = 0.0;
+    double scale = 1.0; ///< texels to a pixel that is read
+};
+
+Choice choice_for(const KnownImage& image, double spacing, double texels) {
+    const double wanted = spacing / std::max(image.pixel.x, image.pixel.y);
+    Choice choice;
+    double factor = 1.0;
+    constexpr double near = 1.0 + 1e-6; // sizes are rounded
+    for (const KnownImage::Overview& overview : image.overviews) {
+        if (overview.factor <= wanted * near && overview.factor > factor) {
+            choice.overview = overview.index;
+            factor = overview.factor;
+        }
+    }
+    const double there = static_cast<double>(image.size.x) * image.size.y / (factor * factor);
+    const double shown =
+        texels * spacing * spacing / (image.pixel.x * image.pixel.y * factor * factor);
+    choice.pixels = std::min(there, shown);
+    choice.scale = side_of(image) * factor / spacing;
+    return choice;
+}
+
+bool shows_something(std::span<const Rgba8> texels) {
+    return std::any_of(texels.begin(), texels.end(), [](Rgba8 texel) { return texel.a != 0; });
+}
+
+/// So small that it may lie between the texels.
+bool is_tiny(const KnownImage& image, double spacing) {
+    const glm::dvec2 sides = image.pixel * glm::dvec2(image.size);
+    return std::min(sides.x, sides.y) < 2.0 * spacing;
+}
+
+bool is_full(const Image& image) {
+    const auto texels = image.samples();
+    return std::all_of(texels.begin(), texels.end(), [](Rgba8 texel) { return texel.a == 255; });
+}
+
+/// Centres of texels on the places of the grid.
+bool place_raster(GDALDataset& raster, const TileGrid& grid, const OGRSpatialReference& crs) {
+    const glm::dvec2 corner = grid.first - 0.5 * grid.step;
+    std::array<double, 6> affine{corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
+    return raster.SetSpatialRef(&crs) == CE_None &&
+           raster.SetGeoTransform(affine.data()) == CE_None;
+}
+
+double units_in_degree(const std::string& crs) {
+    const OGRSpatialReference reference = crs_from_text(crs);
+    return reference.IsGeographic() != 0 ? 1.0 / glm::degrees(reference.GetAngularUnits()) : 0.0;
+}
+
+} // namespace
+
+struct ImagerySet::State {
+    State(std::string grid_crs, double white_of_all, const ImagerySetOptions& options)
+        : crs(std::move(grid_crs)), turn(units_in_degree(crs)),
+          reading_memory(options.reading_memory), white(white_of_all),
+          pool([this](const std::filesystem::path& path, const GdalMessages& messages) {
+              return open_rgb(path, white, crs, messages);
+          }),
+          failing(options.first_pause) {}
+
+    std::string crs;                ///< WKT of what is asked for
+    double turn;                    ///< units of x in a degree; 0: no degrees
+    std::size_t reading_memory;     ///< bytes, for each that reads
+    double white;                   ///< see white_of
+    std::vector<KnownImage> images; ///< finest first
+    bool complete = true;           ///< all that could be opened are among them
+    mutable DatasetPool pool;
+    mutable FailingFiles failing;
+
+    /// Draws what an image shows into an empty picture. Fails where it cannot be read.
+    Result<void> draw(const KnownImage& image, const Choice& choice, const TileGrid& grid,
+                      Image& texels, const std::stop_token& stop) const {
+        const GdalMessages messages;
+        auto rgb = pool.borrow(image.path, messages);
+        if (!rgb) {
+            return rgb.error();
+        }
+        const Dataset raster = raster_over(texels);
+        const WarpOptions options{.overview = choice.overview,
+                                  .scale = choice.scale,
+                                  .memory = reading_memory,
+                                  .progress = {},
+                                  .stop = stop};
+        // Its own: these objects are not for several threads at a time.
+        const OGRSpatialReference reference = crs_from_text(crs);
+        if (raster == nullptr || !place_raster(*raster, grid, reference) ||
+            !warp(**rgb, *raster, options) || messages.has_lost_blocks()) {
+            if (!stop.stop_requested()) {
+                rgb->spoil();
+            }
+            return Error{fmt::format("{}: cannot be read{}, a whole image was expected",
+                                     image.path.string(), messages.reason())};
+        }
+        return {};
+    }
+
+    /// Adds what an image shows beneath the others; `turns`: see turns_to_meet. Whether there is
+    /// something of it, or may be.
+    bool add(const KnownImage& image, const Choice& choice, const TileGrid& grid,
+             std::span<const double> turns, ImageryWindow& window,
+             const std::stop_token& stop) const {
+        if (choice.pixels > ImagerySet::most_pixels_read || failing.given_up(image.path)) {
+            window.whole = false;
+            return true;
+        }
+        bool shows = false;
+        for (const double degrees : turns) {
+            TileGrid moved = grid;
+            moved.first.x += degrees * turn;
+            Image drawn(grid.cols, grid.rows, Rgba8{0, 0, 0, 0});
+            const auto done = draw(image, choice, moved, drawn, stop);
+            if (!done) {
+                window.whole = false;
+                if (!stop.stop_requested()) {
+                    failing.note(image.path, done.error().message);
+                    window.faults.push_back({image.path, done.error().message});
+                }
+                return true;
+            }
+            shows = shows || shows_something(drawn.samples());
+            lay_under(window.texels, drawn);
+            if (turn == 0.0) {
+                break; // a turn more is the same place
+            }
+        }
+        failing.forget(image.path);
+        return shows;
+    }
+};
+
+Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names,
+                                    const std::string& crs, const ImagerySetOptions& options) {
+    std::vector<std::string> faults;
+    const ImageFiles files = image_files(names, faults, options.stop);
+    auto state = std::make_shared<State>(crs, files.white, options);
+    std::vector<std::optional<KnownImage>> found(files.paths.size());
+    const auto look = [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        const GdalMessages messages;
+        const auto rgb = open_rgb(files.paths[index], files.white, crs, messages);
+        found[index] = rgb ? known(files.paths[index], **rgb) : std::nullopt;
+    };
+    parallel_for(static_cast<int>(found.size()), look,
+                 {.threads = 0, .stop = options.stop, .progress = {}});
+    if (options.stop.stop_requested()) {
+        return Error{"the images: reading was stopped"};
+    }
+    for (std::optional<KnownImage>& image : found) {
+        if (image) {
+            state->images.push_back(std::move(*image));
+        }
+    }
+    if (state->images.empty()) {
+        return Error{faults.empty() ? "the images name no place on Earth, at least one was "
+                                      "expected to"
+                                    : faults.front()};
+    }
+    state->complete = state->images.size() == found.size();
+    std::stable_sort(state->images.begin(), state->images.end(),
+                     [](const KnownImage& a, const KnownImage& b) {
+                         return fineness(a.pixel) < fineness(b.pixel);
+                     });
+    return ImagerySet(std::move(state));
+}
+
+std::size_t ImagerySet::size() const {
+    return state_->images.size();
+}
+
+double ImagerySet::white() const {
+    return state_->white;
+}
+
+double ImagerySet::finest_pixel() const {
+    return side_of(state_->images.front());
+}
+
+ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
+                               const std::stop_token& stop) const {
+    check(grid.cols >= 1 && grid.rows >= 1, "ImagerySet::read of an empty grid");
+    ImageryWindow window{
+        Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), state_->complete, false, {}};
+    const GdalMessages unheard; // of places that a projection does not have
+    const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
+    const auto degrees = places_over(
+        [&](glm::dvec2 part) { return grid.first + grid.step * (part * last); }, state_->crs);
+    if (degrees.empty()) {
+        return window;
+    }
+    const DegreeBox box = padded_box(degrees);
+    const double texels = static_cast<double>(grid.cols) * grid.rows;
+    for (const KnownImage& image : state_->images) {
+        if (is_full(window.texels) || stop.stop_requested()) {
+            break;
+        }
+        const std::vector<double> turns = turns_to_meet(box, image.box);
+        if (turns.empty()) {
+            continue;
+        }
+        const Choice choice = choice_for(image, spacing, texels);
+        const bool shows = state_->add(image, choice, grid, turns, window, stop);
+        window.has_more = window.has_more ||
+                          (side_of(image) < 0.999 * spacing && (shows || is_tiny(image, spacing)));
+    }
+    return window;
+}
+
+std::optional<std::string> ImagerySet::missing_overviews() const {
+    for (const KnownImage& image : state_->images) {
+        const double pixels = static_cast<double>(image.size.x) * image.size.y;
+        if (image.overviews.empty() && pixels > most_pixels_read) {
+            return fmt::format("{0}: {1}×{2} pixels without overviews, so that views from afar "
+                               "show it as coarse as it was read at the start; 'gdaladdo -r "
+                               "average {0} 2 4 8 16 32 64' adds them",
+                               image.path.string(), image.size.x, image.size.y);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace reljef::io

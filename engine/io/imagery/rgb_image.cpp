@@ -1,0 +1,285 @@
+#include "engine/io/imagery/rgb_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal_utils.h>
+
+#include "engine/io/imagery/sampled_windows.h"
+
+namespace reljef::io {
+namespace {
+
+std::optional<int> band_of(GDALDataset& image, GDALColorInterp wanted) {
+    for (int i = 1; i <= image.GetRasterCount(); ++i) {
+        if (image.GetRasterBand(i)->GetColorInterpretation() == wanted) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+struct ColorBands {
+    bool palette = false;
+    std::array<int, 3> color{1, 1, 1};
+    std::optional<int> alpha;
+};
+
+ColorBands color_bands(GDALDataset& image) {
+    ColorBands bands;
+    bands.palette = image.GetRasterBand(1)->GetColorTable() != nullptr;
+    bands.alpha = band_of(image, GCI_AlphaBand);
+    const auto red = band_of(image, GCI_RedBand);
+    const auto green = band_of(image, GCI_GreenBand);
+    const auto blue = band_of(image, GCI_BlueBand);
+    if (red && green && blue) {
+        bands.color = {*red, *green, *blue};
+    } else if (image.GetRasterCount() - (bands.alpha ? 1 : 0) >= 3) {
+        bands.color = {1, 2, 3};
+    }
+    return bands;
+}
+
+double opaque_of(GDALDataType type) {
+    return type == GDT_Byte ? 255.0 : type == GDT_UInt16 ? 65535.0 : 1.0;
+}
+
+void add(CPLStringList& list, std::initializer_list<std::string> words) {
+    for (const std::string& word : words) {
+        list.AddString(word.c_str());
+    }
+}
+
+// A file cut short is found by its last block, before all the others are read.
+bool has_last_block(GDALDataset& image) {
+    GDALRasterBand& band = *image.GetRasterBand(1);
+    int cols = 0;
+    int rows = 0;
+    band.GetBlockSize(&cols, &rows);
+    GDALRasterBlock* block =
+        band.GetLockedBlockRef((band.GetXSize() - 1) / cols, (band.GetYSize() - 1) / rows);
+    if (block != nullptr) {
+        block->DropLock();
+    }
+    return block != nullptr;
+}
+
+/// At least 0; 0 where it cannot be read.
+double highest_in(GDALRasterBand& band, const PixelWindow& window) {
+    std::vector<double> values(static_cast<std::size_t>(window.size.x) *
+                               static_cast<std::size_t>(window.size.y));
+    if (band.RasterIO(GF_Read, window.first.x, window.first.y, window.size.x, window.size.y,
+                      values.data(), window.size.x, window.size.y, GDT_Float64, 0, 0,
+                      nullptr) != CE_None) {
+        return 0.0;
+    }
+    int declares = 0;
+    const double nodata = band.GetNoDataValue(&declares);
+    double highest = 0.0;
+    for (const double value : values) {
+        const bool counts = std::isfinite(value) && (declares == 0 || value != nodata);
+        highest = counts ? std::max(highest, value) : highest;
+    }
+    return highest;
+}
+
+double highest_of(GDALRasterBand& band, const std::stop_token& stop) {
+    glm::ivec2 block(1);
+    band.GetBlockSize(&block.x, &block.y);
+    double highest = 0.0;
+    for (const PixelWindow& window : sampled_windows({band.GetXSize(), band.GetYSize()}, block)) {
+        if (stop.stop_requested()) {
+            break;
+        }
+        highest = std::max(highest, highest_in(band, window));
+    }
+    return highest;
+}
+
+CPLStringList words_for_rgb(GDALDataset& image, double white) {
+    const ColorBands bands = color_bands(image);
+    CPLStringList words;
+    add(words, {"-of", "VRT"});
+    if (bands.palette) {
+        add(words, {"-b", "1", "-expand", "rgba"});
+        return words;
+    }
+    for (const int band : bands.color) {
+        add(words, {"-b", std::to_string(band)});
+    }
+    if (bands.alpha) {
+        add(words, {"-b", std::to_string(*bands.alpha)});
+    }
+    add(words, {"-colorinterp", bands.alpha ? "red,green,blue,alpha" : "red,green,blue"});
+    const GDALDataType type = image.GetRasterBand(bands.color[0])->GetRasterDataType();
+    if (type == GDT_Byte) {
+        return words;
+    }
+    add(words, {"-ot", "Byte"});
+    const std::string most = fmt::format("{}", white > 0.0 ? white : 1.0);
+    for (const char* option : {"-scale_1", "-scale_2", "-scale_3"}) {
+        add(words, {option, "0", most, "0", "255"});
+    }
+    if (bands.alpha) {
+        add(words, {"-scale_4", "0", fmt::format("{}", opaque_of(type)), "0", "255"});
+    }
+    return words;
+}
+
+Dataset translated(GDALDataset& image, CPLStringList words) {
+    const std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> options(
+        GDALTranslateOptionsNew(words.List(), nullptr), &GDALTranslateOptionsFree);
+    if (options == nullptr) {
+        return nullptr;
+    }
+    return Dataset(GDALDataset::FromHandle(
+        GDALTranslate("", GDALDataset::ToHandle(&image), options.get(), nullptr)));
+}
+
+// The VRT made of a dataset holds a reference to it: ours goes, the dataset stays.
+Dataset keeping_open(Dataset made, Dataset source) {
+    if (made != nullptr) {
+        source.release()->ReleaseRef();
+    }
+    return made;
+}
+
+int progress_step(double fraction, const char* /*message*/, void* options) {
+    const auto* warping = static_cast<const WarpOptions*>(options);
+    if (warping->progress) {
+        warping->progress(fraction);
+    }
+    return warping->stop.stop_requested() ? FALSE : TRUE;
+}
+
+std::string overview_word(int overview) {
+    return overview == automatic_overview ? "AUTO"
+           : overview < 0                 ? "NONE"
+                                          : std::to_string(overview);
+}
+
+std::uint8_t mixed(double top, double beneath, double share) {
+    return static_cast<std::uint8_t>(std::lround(share * top + (1.0 - share) * beneath));
+}
+
+Rgba8 over(Rgba8 top, Rgba8 beneath) {
+    if (top.a == 255 || beneath.a == 0) {
+        return top;
+    }
+    const double shown = top.a / 255.0;
+    const double alpha = shown + (1.0 - shown) * beneath.a / 255.0;
+    const double share = shown / alpha;
+    return {mixed(top.r, beneath.r, share), mixed(top.g, beneath.g, share),
+            mixed(top.b, beneath.b, share), static_cast<std::uint8_t>(std::lround(255.0 * alpha))};
+}
+
+} // namespace
+
+double white_of(GDALDataset& image, const std::stop_token& stop) {
+    const ColorBands bands = color_bands(image);
+    const GDALDataType type = image.GetRasterBand(bands.color[0])->GetRasterDataType();
+    if (bands.palette || type == GDT_Byte) {
+        return 0.0;
+    }
+    double white = 0.0;
+    for (const int index : bands.color) {
+        white = std::max(white, highest_of(*image.GetRasterBand(index), stop));
+    }
+    if (GDALDataTypeIsFloating(type) != 0 && white <= 1.0) {
+        return 1.0;
+    }
+    return white > 0.0 ? white : 1.0;
+}
+
+Dataset as_rgb(Dataset image, double white) {
+    if (!has_last_block(*image)) {
+        return nullptr;
+    }
+    Dataset made = translated(*image, words_for_rgb(*image, white));
+    return keeping_open(std::move(made), std::move(image));
+}
+
+int thinning_of(GDALDataset& image) {
+    constexpr double most_pixels_read = 1U << 29U;
+    const double pixels = static_cast<double>(image.GetRasterXSize()) * image.GetRasterYSize();
+    return static_cast<int>(std::ceil(std::sqrt(pixels / most_pixels_read)));
+}
+
+Dataset thinned(Dataset rgb, int thinning) {
+    CPLStringList words;
+    add(words, {"-of", "VRT", "-outsize", std::to_string(rgb->GetRasterXSize() / thinning),
+                std::to_string(rgb->GetRasterYSize() / thinning)});
+    Dataset made = translated(*rgb, std::move(words));
+    return keeping_open(std::move(made), std::move(rgb));
+}
+
+Dataset raster_over(Image& image) {
+    auto* driver = GetGDALDriverManager()->GetDriverByName("MEM");
+    Dataset raster(driver->Create("", image.cols(), image.rows(), 0, GDT_Byte, nullptr));
+    if (raster == nullptr) {
+        return raster;
+    }
+    auto* bytes = reinterpret_cast<GByte*>(image.samples().data());
+    constexpr std::array interpretations{GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand};
+    for (std::size_t i = 0; i < interpretations.size(); ++i) {
+        CPLStringList options;
+        std::array<char, 64> pointer{};
+        pointer.at(static_cast<std::size_t>(CPLPrintPointer(
+            pointer.data(), bytes + i, static_cast<int>(pointer.size()) - 1))) = '\0';
+        options.SetNameValue("DATAPOINTER", pointer.data());
+        options.SetNameValue("PIXELOFFSET", "4");
+        options.SetNameValue(
+            "LINEOFFSET",
+            std::to_string(std::size_t{4} * static_cast<std::size_t>(image.cols())).c_str());
+        raster->AddBand(GDT_Byte, options.List());
+        raster->GetRasterBand(static_cast<int>(i) + 1)->SetColorInterpretation(interpretations[i]);
+    }
+    return raster;
+}
+
+bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
+    CPLStringList words;
+    add(words, {"-r", "bilinear", "-et", fmt::format("{}", most_warp_error), "-ovr",
+                overview_word(options.overview)});
+    if (options.scale > 0.0) {
+        add(words, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",
+                    fmt::format("YSCALE={}", options.scale)});
+    }
+    if (options.memory > 0) {
+        constexpr std::size_t least = std::size_t{1}
+                                      << 20U; // what is small GDAL takes for megabytes
+        add(words, {"-wm", std::to_string(std::max(options.memory, least))});
+    }
+    const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> warping(
+        GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
+    if (warping == nullptr) {
+        return false;
+    }
+    GDALWarpAppOptionsSetProgress(warping.get(), &progress_step,
+                                  const_cast<WarpOptions*>(&options));
+    GDALDatasetH source = GDALDataset::ToHandle(&rgb);
+    int misused = FALSE;
+    const bool drawn = GDALWarp(nullptr, GDALDataset::ToHandle(&target), 1, &source, warping.get(),
+                                &misused) != nullptr &&
+                       misused == FALSE;
+    target.FlushCache();
+    return drawn;
+}
+
+void lay_under(Image& top, const Image& beneath) {
+    check(top.cols() == beneath.cols() && top.rows() == beneath.rows(),
+          "images of the same size were expected");
+    std::transform(top.samples().begin(), top.samples().end(), beneath.samples().begin(),
+                   top.samples().begin(), over);
+}
+
+} // namespace reljef::io

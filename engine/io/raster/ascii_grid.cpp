@@ -1,0 +1,137 @@
+#include "engine/io/raster/ascii_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+
+namespace reljef::io {
+namespace {
+
+constexpr std::size_t bytes_at_a_time = std::size_t{1} << 20;
+
+struct FileCloser {
+    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
+};
+
+bool is_space(char c) {
+    return c == ' ' || c == '\n' || c == '\r' || c == '\t';
+}
+
+/// A word that no number begins with.
+bool is_name(std::string_view word) {
+    const bool begins_with_letter =
+        !word.empty() && ((word[0] >= 'a' && word[0] <= 'z') || (word[0] >= 'A' && word[0] <= 'Z'));
+    return begins_with_letter && word != "nan" && word != "NaN" && word != "NAN" && word != "inf" &&
+           word != "Inf";
+}
+
+/// Counts the words of a text that comes in pieces, but for its header: names with a value each.
+class ValueCount {
+public:
+    void add(std::string_view piece) {
+        for (const char c : piece) {
+            if (!is_space(c)) {
+                begin_of_word_[std::min(length_, begin_of_word_.size() - 1)] = c;
+                ++length_;
+            } else if (length_ > 0) {
+                end_word();
+            }
+        }
+    }
+    /// With the word that the text ends with.
+    [[nodiscard]] std::uint64_t values() const { return values_ + (length_ > 0 ? 1 : 0); }
+
+private:
+    void end_word() {
+        const std::string_view word(begin_of_word_.data(),
+                                    std::min(length_, begin_of_word_.size()));
+        length_ = 0;
+        if (in_header_ && std::exchange(value_follows_, false)) {
+            return;
+        }
+        in_header_ = in_header_ && is_name(word);
+        value_follows_ = in_header_;
+        values_ += in_header_ ? 0 : 1;
+    }
+
+    std::array<char, 8> begin_of_word_{};
+    std::size_t length_ = 0;
+    bool in_header_ = true;
+    bool value_follows_ = false;
+    std::uint64_t values_ = 0;
+};
+
+bool is_ascii_grid(GDALDataset& dataset) {
+    constexpr std::array<std::string_view, 3> drivers{"AAIGrid", "GRASSASCIIGrid", "ISG"};
+    const std::string_view driver = dataset.GetDriver()->GetDescription();
+    return std::find(drivers.begin(), drivers.end(), driver) != drivers.end();
+}
+
+/// Stops where there are `enough`.
+std::uint64_t count_values(const char* name, std::uint64_t enough) {
+    const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(name, "rb"));
+    ValueCount count;
+    std::vector<char> piece(bytes_at_a_time);
+    std::size_t read = file != nullptr ? piece.size() : 0;
+    while (read == piece.size() && count.values() < enough) {
+        read = VSIFReadL(piece.data(), 1, piece.size(), file.get());
+        count.add({piece.data(), read});
+    }
+    return count.values();
+}
+
+Result<void> check_is_whole(GDALDataset& dataset, const std::filesystem::path& path) {
+    const int cols = dataset.GetRasterXSize();
+    const int rows = dataset.GetRasterYSize();
+    const auto expected = static_cast<std::uint64_t>(cols) * static_cast<std::uint64_t>(rows);
+    const std::uint64_t found = count_values(dataset.GetDescription(), expected);
+    if (found < expected) {
+        return Error{fmt::format("{}: cannot be read: {} values found, {}×{} were expected",
+                                 path.string(), found, cols, rows)};
+    }
+    return {};
+}
+
+std::filesystem::file_time_type time_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::last_write_time(path, ignored);
+}
+
+} // namespace
+
+Result<Dataset> open_whole_raster(const std::filesystem::path& path, const GdalMessages& messages) {
+    auto dataset = open_raster(path, messages);
+    if (!dataset || !is_ascii_grid(**dataset)) {
+        return dataset;
+    }
+    const auto whole = check_is_whole(**dataset, path);
+    return whole ? std::move(dataset) : whole.error();
+}
+
+Result<Dataset> WholeRasters::open(const std::filesystem::path& path,
+                                   const GdalMessages& messages) {
+    const auto changed = time_of(path);
+    {
+        const std::lock_guard lock(mutex_);
+        const auto known = whole_.find(path);
+        if (known != whole_.end() && known->second == changed) {
+            return open_raster(path, messages);
+        }
+    }
+    auto dataset = open_whole_raster(path, messages);
+    if (dataset && is_ascii_grid(**dataset)) {
+        const std::lock_guard lock(mutex_);
+        whole_[path] = changed;
+    }
+    return dataset;
+}
+
+} // namespace reljef::io

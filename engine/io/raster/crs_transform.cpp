@@ -1,0 +1,46 @@
+#include "engine/io/raster/crs_transform.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace reljef::io {
+
+OGRSpatialReference crs_from_text(const std::string& text) {
+    OGRSpatialReference crs;
+    crs.SetFromUserInput(text.c_str());
+    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return crs;
+}
+
+std::optional<CrsTransform> CrsTransform::create(const std::string& from, const std::string& to,
+                                                 const std::optional<DegreeBox>& area) {
+    const OGRSpatialReference source = crs_from_text(from);
+    const OGRSpatialReference target = crs_from_text(to);
+    OGRCoordinateTransformationOptions options;
+    if (area) {
+        const auto& [west, south, east, north] = *area;
+        options.SetAreaOfInterest(west, south, east, north);
+    }
+    Transformation transform(OGRCreateCoordinateTransformation(&source, &target, options));
+    return transform != nullptr ? std::optional(CrsTransform(std::move(transform))) : std::nullopt;
+}
+
+void CrsTransform::apply(std::span<glm::dvec2> points) const {
+    std::vector<double> x(points.size());
+    std::vector<double> y(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        x[i] = points[i].x;
+        y[i] = points[i].y;
+    }
+    std::vector<int> done(points.size(), 0);
+    transform_->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr,
+                          done.data());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool good = done[i] != 0 && std::isfinite(x[i]) && std::isfinite(y[i]);
+        points[i] =
+            good ? glm::dvec2(x[i], y[i]) : glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+    }
+}
+
+} // namespace reljef::io

@@ -1,0 +1,215 @@
+#include "engine/io/raster/sample_decoder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "engine/io/raster/height_unit.h"
+
+namespace reljef::io {
+namespace {
+
+/// Rec. 601 luma in thousandths: exact for greys.
+double luminance(double red, double green, double blue) {
+    return (299.0 * red + 587.0 * green + 114.0 * blue) / 1000.0;
+}
+
+const GDALColorTable* palette_of(GDALRasterBand& band) {
+    const bool indexed =
+        band.GetColorInterpretation() == GCI_PaletteIndex && band.GetRasterDataType() == GDT_Byte;
+    return indexed ? band.GetColorTable() : nullptr;
+}
+
+std::array<double, 256> palette_values(const GDALColorTable& table) {
+    std::array<double, 256> values{};
+    const int count = std::min(table.GetColorEntryCount(), 256);
+    for (int i = 0; i < count; ++i) {
+        const GDALColorEntry* entry = table.GetColorEntry(i);
+        values[static_cast<std::size_t>(i)] = luminance(entry->c1, entry->c2, entry->c3);
+    }
+    return values;
+}
+
+// Metres: nothing solid reaches further from its middle by far.
+constexpr double highest_height = 1e8;
+// What many programs write for voids; but the sea is as deep, too.
+constexpr double usual_void = -9999.0;
+
+bool is_grey_ramp(const GDALColorTable& table) {
+    const std::array<double, 256> values = palette_values(table);
+    for (int i = 0; i < std::min(table.GetColorEntryCount(), 256); ++i) {
+        if (values[static_cast<std::size_t>(i)] != i) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool is_picture(GDALRasterBand& band) {
+    const GDALDataType type = band.GetRasterDataType();
+    return type == GDT_Byte || type == GDT_UInt16;
+}
+
+bool can_be_negative(GDALDataType type) {
+    return GDALDataTypeIsFloating(type) != 0 || GDALDataTypeIsSigned(type) != 0;
+}
+
+/// The declared void as a value of the band's type reads back, absent where there is none.
+std::optional<double> declared_void(GDALRasterBand& band) {
+    int has = 0;
+    const double value = band.GetNoDataValue(&has);
+    if (has == 0 || std::isnan(value)) {
+        return std::nullopt;
+    }
+    if (band.GetRasterDataType() != GDT_Float32) {
+        return value;
+    }
+    constexpr double most = std::numeric_limits<float>::max();
+    return static_cast<double>(static_cast<float>(std::clamp(value, -most, most)));
+}
+
+bool declares_not_finite(GDALRasterBand& band) {
+    int has = 0;
+    return std::isnan(band.GetNoDataValue(&has)) && has != 0;
+}
+
+void note_kind(ValueKind kind, GDALDataset& dataset, std::vector<std::string>& notes) {
+    if (kind == ValueKind::palette) {
+        notes.emplace_back("palette image: the luminance of its colours is taken for heights");
+    } else if (kind == ValueKind::color) {
+        notes.emplace_back("colour image: its luminance is taken for heights");
+    } else if (dataset.GetRasterCount() > 1 &&
+               dataset.GetRasterBand(2)->GetColorInterpretation() != GCI_AlphaBand) {
+        notes.push_back(
+            fmt::format("has {} bands: the first is taken for heights", dataset.GetRasterCount()));
+    }
+}
+
+} // namespace
+
+ValueKind kind_of_values(GDALDataset& dataset) {
+    GDALRasterBand& first = *dataset.GetRasterBand(1);
+    if (const GDALColorTable* table = palette_of(first)) {
+        return is_grey_ramp(*table) ? ValueKind::plain : ValueKind::palette;
+    }
+    const bool color = dataset.GetRasterCount() >= 3 && is_picture(first) &&
+                       first.GetColorInterpretation() == GCI_RedBand;
+    return color ? ValueKind::color : ValueKind::plain;
+}
+
+Result<SampleDecoder> SampleDecoder::create(GDALDataset& dataset, const std::string& name,
+                                            const RasterOptions& options,
+                                            std::vector<std::string>& notes) {
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    const GDALDataType type = band.GetRasterDataType();
+    if (type == GDT_Unknown || GDALDataTypeIsComplex(type) != 0) {
+        return Error{fmt::format("{}: holds values of type {}, real numbers were expected", name,
+                                 GDALGetDataTypeName(type))};
+    }
+    SampleDecoder decoder;
+    decoder.kind_ = kind_of_values(dataset);
+    decoder.encoding_ = height_encoding_of(name);
+    if (decoder.encoding_ == HeightEncoding::none) {
+        note_kind(decoder.kind_, dataset, notes);
+    }
+    if (decoder.kind_ == ValueKind::palette) {
+        decoder.palette_ = palette_values(*band.GetColorTable());
+    }
+    decoder.nodata_ = declared_void(band);
+    const double scale = band.GetScale();
+    const double offset = band.GetOffset();
+    decoder.sentinels_ = can_be_negative(type) && scale == 1.0 && offset == 0.0;
+    decoder.not_finite_declared_ = declares_not_finite(band);
+    const HeightUnit unit = height_unit_of(dataset, band);
+    if (!unit.known) {
+        notes.push_back(
+            fmt::format("its unit of height \"{}\" is unknown: metres are assumed", unit.name));
+    } else if (!unit.named && is_picture(band) && dataset.GetSpatialRef() == nullptr) {
+        notes.emplace_back("names no unit of height: its values are taken for metres");
+    }
+    decoder.scale_ = scale * unit.metres * options.height_scale;
+    decoder.offset_ = offset * unit.metres * options.height_scale + options.height_offset;
+    return decoder;
+}
+
+double SampleDecoder::metres(double value) {
+    if (nodata_ && value == *nodata_) {
+        return void_value;
+    }
+    if (!std::isfinite(value)) {
+        found_not_finite_ += not_finite_declared_ && std::isnan(value) ? 0U : 1U;
+        return void_value;
+    }
+    if (sentinels_ && (value == -32768.0 || value == -32767.0)) {
+        ++found_sentinels_;
+        return void_value;
+    }
+    return bounded(scale_ * value + offset_);
+}
+
+double SampleDecoder::of_color(double red, double green, double blue) {
+    if (encoding_ == HeightEncoding::none) {
+        return metres(luminance(red, green, blue));
+    }
+    const double height = encoded_height(encoding_, red, green, blue);
+    return std::isnan(height) ? void_value : metres(height);
+}
+
+double SampleDecoder::bounded(double height) {
+    if (std::abs(height) > highest_height) {
+        ++found_absurd_;
+        return void_value;
+    }
+    found_usual_voids_ += height == usual_void ? 1U : 0U;
+    return height;
+}
+
+bool SampleDecoder::fits(std::span<const double> first, std::span<const double> others) const {
+    return encoding_ == HeightEncoding::none || kind_ != ValueKind::color ||
+           may_be_heights(first, others.first(first.size()), others.subspan(first.size()));
+}
+
+void SampleDecoder::decode(std::span<double> first, std::span<const double> others,
+                           std::span<const unsigned char> mask) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const double value = first[i];
+        if (!mask.empty() && mask[i] == 0) {
+            first[i] = void_value;
+        } else if (kind_ == ValueKind::color) {
+            first[i] = of_color(value, others[i], others[first.size() + i]);
+        } else if (kind_ == ValueKind::palette) {
+            const auto index = static_cast<std::size_t>(std::clamp(value, 0.0, 255.0));
+            first[i] = nodata_ == value ? void_value : bounded(scale_ * palette_[index] + offset_);
+        } else {
+            first[i] = metres(value);
+        }
+    }
+}
+
+std::string SampleDecoder::undeclared_voids_note() const {
+    std::vector<std::string> found;
+    if (found_sentinels_ > 0) {
+        found.push_back(fmt::format("{} samples are -32768 or -32767", found_sentinels_));
+    }
+    if (found_not_finite_ > 0) {
+        found.push_back(fmt::format("{} samples are NaN or infinite", found_not_finite_));
+    }
+    if (found_absurd_ > 0) {
+        found.push_back(fmt::format("{} samples are beyond ±{} m", found_absurd_, highest_height));
+    }
+    return found.empty() ? ""
+                         : fmt::format("{}, which the file does not declare: taken for voids",
+                                       fmt::join(found, " and "));
+}
+
+std::string SampleDecoder::doubtful_heights_note() const {
+    return found_usual_voids_ == 0
+               ? ""
+               : fmt::format("{} samples are {}, which the file does not declare as void: taken "
+                             "for heights",
+                             found_usual_voids_, usual_void);
+}
+
+} // namespace reljef::io

@@ -1,0 +1,249 @@
+#include "engine/io/raster/tile_pyramid.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view terrarium_name = "terrarium+";
+constexpr std::string_view terrain_rgb_name = "terrain-rgb+";
+constexpr int usual_levels = 15; // of the public sets
+constexpr int most_levels = 22;  // 2^30 samples a side
+// Half the side of web mercator's square, metres: π times the equator's radius.
+constexpr double half_side = std::numbers::pi * 6378137.0;
+
+/// What follows the name of the encoding.
+std::string address_of(const fs::path& path) {
+    const std::string name = path.string();
+    return name.substr(name.find('+') + 1);
+}
+
+bool is_address(const std::string& address) {
+    return address.find("://") != std::string::npos;
+}
+
+std::optional<int> whole_number(const std::string& text) {
+    int number = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = code == std::errc{} && end == text.data() + text.size() && number >= 0;
+    return whole ? std::optional<int>(number) : std::nullopt;
+}
+
+/// The least and greatest numbers of tiles.
+struct TileNumbers {
+    int low = std::numeric_limits<int>::max();
+    int high = -1;
+
+    void add(int number) {
+        low = std::min(low, number);
+        high = std::max(high, number);
+    }
+};
+
+/// An entry of a folder whose name, without its extension, is a number.
+struct NumberedEntry {
+    int number = 0;
+    fs::path path;
+};
+
+/// Those with numbers under `end`, in any order; none where there is no such folder.
+std::vector<NumberedEntry> numbered_entries(const fs::path& folder, int end) {
+    std::vector<NumberedEntry> entries;
+    std::error_code code;
+    for (fs::directory_iterator entry(folder, code); !code && entry != fs::directory_iterator();
+         entry.increment(code)) {
+        const auto number = whole_number(entry->path().stem().string());
+        if (number && *number < end) {
+            entries.push_back({*number, entry->path()});
+        }
+    }
+    return entries;
+}
+
+TileNumbers numbers_in(const fs::path& folder, int end) {
+    TileNumbers range;
+    for (const NumberedEntry& entry : numbered_entries(folder, end)) {
+        range.add(entry.number);
+    }
+    return range;
+}
+
+/// The tiles that a folder has of a level.
+struct FolderLevel {
+    int level = -1; ///< −1: none
+    TileNumbers x;
+    TileNumbers y;
+};
+
+FolderLevel finest_level(const fs::path& folder) {
+    FolderLevel found;
+    const int level = numbers_in(folder, most_levels + 1).high;
+    const int count = level < 0 ? 0 : 1 << level; // tiles a side
+    for (const NumberedEntry& column : numbered_entries(folder / std::to_string(level), count)) {
+        const TileNumbers rows = numbers_in(column.path, count);
+        if (rows.high >= 0) {
+            found.level = level;
+            found.x.add(column.number);
+            found.y.add(rows.low);
+            found.y.add(rows.high);
+        }
+    }
+    return found;
+}
+
+/// A text with one part of it replaced; nothing where it has no such part.
+std::optional<std::string> with(std::string text, std::string_view part, std::string_view by) {
+    const auto at = text.find(part);
+    if (at == std::string::npos) {
+        return std::nullopt;
+    }
+    return text.replace(at, part.size(), by);
+}
+
+/// The address with the placeholders of GDAL, and the finest level.
+struct TileSource {
+    std::string url;
+    int level = usual_levels;
+};
+
+Result<TileSource> source_of_address(const std::string& address) {
+    TileSource source;
+    std::string text = address;
+    const auto at = text.find("{z:");
+    if (at != std::string::npos) {
+        const auto end = text.find('}', at);
+        const auto level = whole_number(text.substr(at + 3, end - at - 3));
+        source.level = level && *level <= most_levels ? *level : -1;
+        text.erase(at + 2, end - at - 2);
+    }
+    auto url = with(text, "{z}", "${z}");
+    url = url ? with(*url, "{x}", "${x}") : url;
+    url = url ? with(*url, "{y}", "${y}") : url;
+    if (!url || source.level < 0) {
+        return Error{fmt::format("{}: found as the address of tiles, one with {{z}} (or {{z:15}}, "
+                                 "at most {{z:{}}}), {{x}} and {{y}} was expected",
+                                 address, most_levels)};
+    }
+    source.url = std::move(*url);
+    return source;
+}
+
+Result<TileSource> source_of(const fs::path& path) {
+    const std::string address = address_of(path);
+    if (is_address(address)) {
+        return source_of_address(address);
+    }
+    std::error_code ignored;
+    if (!fs::is_directory(address, ignored)) {
+        return Error{
+            fmt::format("{}: is no folder, one of tiles as z/x/y.png was expected", address)};
+    }
+    const FolderLevel finest = finest_level(address);
+    if (finest.level < 0) {
+        return Error{
+            fmt::format("{}: holds no tiles, a folder of them as z/x/y.png was expected", address)};
+    }
+    return TileSource{"file://" + fs::absolute(address).string() + "/${z}/${x}/${y}.png",
+                      finest.level};
+}
+
+std::string escaped(const std::string& text) {
+    char* made = CPLEscapeString(text.c_str(), -1, CPLES_XML);
+    std::string result = made;
+    CPLFree(made);
+    return result;
+}
+
+/// Degrees north of a place in tiles from the north, of `count` tiles.
+double latitude_at(double y, double count) {
+    return std::atan(std::sinh(std::numbers::pi * (1.0 - 2.0 * y / count))) * 180.0 /
+           std::numbers::pi;
+}
+
+} // namespace
+
+double encoded_height(HeightEncoding encoding, double red, double green, double blue) {
+    if (red == 0.0 && green == 0.0 && blue == 0.0) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    return encoding == HeightEncoding::terrarium
+               ? red * 256.0 + green + blue / 256.0 - 32768.0
+               : (red * 65536.0 + green * 256.0 + blue) / 10.0 - 10000.0;
+}
+
+bool may_be_heights(std::span<const double> red, std::span<const double> green,
+                    std::span<const double> blue) {
+    // Heights of so many neighbours are grey only where the ground is level.
+    constexpr int most_grey = 32;
+    constexpr int most_steps = 2;
+    int grey = 0;
+    int steps = 0;
+    for (std::size_t i = 0; i < red.size(); ++i) {
+        const bool is_grey = red[i] == green[i] && red[i] == blue[i] && red[i] > 0.0;
+        steps = is_grey && grey > 0 ? steps + (red[i] == red[i - 1] ? 0 : 1) : 0;
+        grey = is_grey ? grey + 1 : 0;
+        if (grey > most_grey && steps > most_steps) {
+            return false;
+        }
+    }
+    return true;
+}
+
+TileFault tile_pyramid_fault(const fs::path& path, glm::ivec2 tile, int level) {
+    const std::string name = fmt::format("{}/{}/{}", level, tile.x, tile.y);
+    return {path / name, fmt::format("{}: its tile {} cannot be read, a whole picture of heights "
+                                     "in red, green and blue was expected",
+                                     path.string(), name)};
+}
+
+HeightEncoding height_encoding_of(std::string_view name) {
+    return name.starts_with(terrarium_name)     ? HeightEncoding::terrarium
+           : name.starts_with(terrain_rgb_name) ? HeightEncoding::terrain_rgb
+                                                : HeightEncoding::none;
+}
+
+Result<std::string> tile_pyramid_description(const fs::path& path) {
+    const auto source = source_of(path);
+    if (!source) {
+        return source.error();
+    }
+    return fmt::format(
+        "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>{0}</ServerUrl></Service><DataWindow>"
+        "<UpperLeftX>-{1:.17g}</UpperLeftX><UpperLeftY>{1:.17g}</UpperLeftY>"
+        "<LowerRightX>{1:.17g}</LowerRightX><LowerRightY>-{1:.17g}</LowerRightY>"
+        "<TileLevel>{2}</TileLevel><TileCountX>1</TileCountX><TileCountY>1</TileCountY>"
+        "<YOrigin>top</YOrigin></DataWindow><Projection>EPSG:3857</Projection>"
+        "<BlockSizeX>256</BlockSizeX><BlockSizeY>256</BlockSizeY><BandsCount>3</BandsCount>"
+        "<Timeout>60</Timeout><ZeroBlockHttpCodes>204,404</ZeroBlockHttpCodes></GDAL_WMS>",
+        escaped(source->url), half_side, source->level);
+}
+
+std::optional<geo::GeodeticArea> tile_pyramid_area(const fs::path& path) {
+    const std::string address = address_of(path);
+    if (is_address(address)) {
+        return std::nullopt;
+    }
+    const FolderLevel finest = finest_level(address);
+    if (finest.level < 0) {
+        return std::nullopt;
+    }
+    const double count = std::ldexp(1.0, finest.level);
+    constexpr double half_pixel = 0.5 / 256.0; // of a tile
+    return geo::GeodeticArea{latitude_at(finest.y.high + 1 - half_pixel, count),
+                             360.0 * (finest.x.low + half_pixel) / count - 180.0,
+                             latitude_at(finest.y.low + half_pixel, count),
+                             360.0 * (finest.x.high + 1 - half_pixel) / count - 180.0};
+}
+
+} // namespace reljef::io

@@ -1,0 +1,128 @@
+#include "engine/io/terrain_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/io/imagery/imagery.h"
+#include "engine/io/raster/ascii_grid.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/georeferencing.h"
+#include "engine/io/raster/height_unit.h"
+#include "engine/io/raster/placed_heightfield.h"
+#include "engine/io/raster/sample_reader.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr std::size_t most_gdal_notes = 3;
+
+/// Part of a longer progress.
+Progress part(const Progress& whole, double begin, double end) {
+    if (!whole) {
+        return {};
+    }
+    return [whole, begin, end](double fraction) { whole(begin + (end - begin) * fraction); };
+}
+
+Result<void> check_options(const RasterOptions& options, const std::string& name) {
+    if (!std::isfinite(options.height_scale) || options.height_scale == 0.0 ||
+        !std::isfinite(options.height_offset)) {
+        return Error{
+            fmt::format("{}: height scale {} and offset {} were asked for, finite numbers and a "
+                        "scale other than 0 were expected",
+                        name, options.height_scale, options.height_offset)};
+    }
+    return {};
+}
+
+// Samples that nobody says how far apart they are: 1 m, or where the relief would then be higher
+// than half the width, what makes it a tenth, to two digits.
+double assumed_spacing(const terrain::Heightfield& heightfield, glm::dvec2 step,
+                       std::vector<std::string>& notes) {
+    const double relief = heightfield.range.high - heightfield.range.low;
+    const double width = std::max((heightfield.heights.cols() - 1) * std::abs(step.x),
+                                  (heightfield.heights.rows() - 1) * std::abs(step.y));
+    if (relief <= 0.5 * width) {
+        notes.emplace_back("no coordinate system: 1 m spacing assumed");
+        return 1.0;
+    }
+    const double exact = 10.0 * relief / width;
+    const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
+    const double spacing = digit * std::round(exact / digit);
+    notes.push_back(fmt::format("no coordinate system: {:.6g} m spacing assumed, which makes the "
+                                "relief of {:.6g} m a tenth of the width",
+                                spacing, relief));
+    return spacing;
+}
+
+Result<Samples> samples_with_heights(GDALDataset& dataset, const ReadPlan& plan,
+                                     const std::string& name, const RasterOptions& options,
+                                     const GdalMessages& messages,
+                                     std::vector<std::string>& notes) {
+    auto samples = read_samples(dataset, plan, name, options, messages, notes);
+    if (samples && samples->void_count == samples->heights.size()) {
+        return Error{
+            fmt::format("{}: all {}×{} samples are voids, at least one height was expected", name,
+                        plan.grid.cols, plan.grid.rows)};
+    }
+    return samples;
+}
+
+void note_messages(const GdalMessages& messages, std::vector<std::string>& notes) {
+    const std::size_t count = std::min(messages.all().size(), most_gdal_notes);
+    for (std::size_t i = 0; i < count; ++i) {
+        notes.push_back("GDAL says: " + messages.all()[i]);
+    }
+}
+
+} // namespace
+
+Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
+                                      const RasterOptions& options) {
+    const std::string name = path.string();
+    if (auto good = check_options(options, name); !good) {
+        return good.error();
+    }
+    GdalMessages messages;
+    auto dataset = open_whole_raster(path, messages);
+    if (!dataset) {
+        return dataset.error();
+    }
+    terrain::Terrain terrain;
+    terrain.name = path.filename().string();
+    const auto plan = plan_reading(**dataset, name, options, terrain.notes);
+    if (!plan) {
+        return plan.error();
+    }
+    auto place = place_of(**dataset, plan->grid, name, options, terrain.notes);
+    if (!place) {
+        return place.error();
+    }
+    note_messages(messages, terrain.notes);
+    RasterOptions reading = options;
+    reading.progress = part(options.progress, 0.0, options.imagery.empty() ? 1.0 : 0.5);
+    auto samples = samples_with_heights(**dataset, *plan, name, reading, messages, terrain.notes);
+    if (!samples) {
+        return samples.error();
+    }
+    terrain.heightfield = heightfield_of(std::move(*samples), *place);
+    if (place->spacing_assumed) {
+        terrain.heightfield.spacing *=
+            assumed_spacing(terrain.heightfield, place->grid.step, terrain.notes);
+    }
+    if (!options.imagery.empty()) {
+        reading.progress = part(options.progress, 0.5, 1.0);
+        auto color = read_imagery(**dataset, *place, reading, terrain.notes, terrain.faults);
+        if (!color) {
+            return color.error();
+        }
+        terrain.color = std::move(*color);
+    }
+    return terrain;
+}
+
+} // namespace reljef::io

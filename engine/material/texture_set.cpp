@@ -1,0 +1,168 @@
+#include "engine/material/texture_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/material/normal_map.h"
+
+namespace reljef::material {
+namespace {
+
+template <class T> std::string size_text(const Grid<T>& grid) {
+    return fmt::format("{} x {}", grid.cols(), grid.rows());
+}
+
+std::optional<Error> fault_of(const TextureSet& set) {
+    const auto fault = [&](const std::string& found, const char* expected) {
+        return Error{
+            fmt::format("texture set {}: {} found, {} expected", set.name, found, expected)};
+    };
+    if (set.color.empty()) {
+        return fault("no colours", "a map of colours was");
+    }
+    if (set.heights.empty()) {
+        return fault("no heights", "a map of heights was");
+    }
+    if (!(std::isfinite(set.scale) && set.scale > 0.0F)) {
+        return fault(fmt::format("a scale of {}", set.scale), "a number above 0 was");
+    }
+    for (const Grid<float>* const heights : {&set.heights, &set.back_heights}) {
+        for (const float height : heights->samples()) {
+            if (!(height >= 0.0F && height <= 1.0F)) {
+                return fault(fmt::format("a height of {}", height), "heights in [0, 1] were");
+            }
+        }
+    }
+    if (!set.back_heights.empty() && size_text(set.back_heights) != size_text(set.heights)) {
+        return fault(fmt::format("heights of {} and of the back of {} texels",
+                                 size_text(set.heights), size_text(set.back_heights)),
+                     "one size was");
+    }
+    return std::nullopt;
+}
+
+void note_sizes(TextureSet& set) {
+    const auto note = [&](const char* what, const auto& map) {
+        if (map.cols() != set.heights.cols() || map.rows() != set.heights.rows()) {
+            set.notes.push_back(fmt::format("{}: {} of {} and heights of {} texels; each is used "
+                                            "as it is",
+                                            set.name, what, size_text(map),
+                                            size_text(set.heights)));
+        }
+    };
+    note("colours", set.color);
+    note("normals", set.normals);
+}
+
+// Unit vectors in eight bits are good to a few hundredths: half the length is none.
+bool is_normal(glm::vec3 normal) {
+    constexpr float least_length = 0.5F;
+    const float length = glm::length(normal);
+    return length >= least_length && std::isfinite(length) && normal.z > 0.0F;
+}
+
+void mend_normals(TextureSet& set) {
+    std::size_t mended = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < set.normals.size(); ++i) {
+        glm::vec3& normal = set.normals.samples()[i];
+        const bool is_good = is_normal(normal);
+        first = mended == 0 && !is_good ? i : first;
+        mended += is_good ? 0U : 1U;
+        normal = is_good ? glm::normalize(normal) : glm::vec3(0.0F, 0.0F, 1.0F);
+    }
+    if (mended > 0) {
+        const auto cols = static_cast<std::size_t>(set.normals.cols());
+        set.notes.push_back(fmt::format("{}: {} of {} normals are zero or point into the surface, "
+                                        "the first at column {}, row {}; they stand upright now",
+                                        set.name, mended, set.normals.size(), first % cols,
+                                        first / cols));
+    }
+}
+
+// Whether the last line and the first fit as two neighbours do. `at(line, i)`.
+template <class At> bool has_seam_along(int lines, int length, const At& at) {
+    double within = 0.0;
+    for (int line = 0; line + 1 < lines; ++line) {
+        for (int i = 0; i < length; ++i) {
+            within += std::abs(static_cast<double>(at(line, i)) - at(line + 1, i));
+        }
+    }
+    double across = 0.0;
+    for (int i = 0; i < length; ++i) {
+        across += std::abs(static_cast<double>(at(lines - 1, i)) - at(0, i));
+    }
+    return lines > 1 && across * (lines - 1) > seam_limit * within;
+}
+
+} // namespace
+
+Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, TileBorder border) {
+    check(!heights.empty(), "normals of an empty tile");
+    NormalOptions options;
+    options.spacing =
+        1.0 / (static_cast<double>(scale) * glm::dvec2(heights.cols(), heights.rows()));
+    options.border = border;
+    Grid<glm::vec3> normals = normals_from_heights(heights, options);
+    for (glm::vec3& normal : normals.samples()) {
+        normal.y = -normal.y; // v grows along the rows, north against them
+    }
+    return normals;
+}
+
+Grid<float> seen_heights(const Grid<float>& heights, bool from_behind) {
+    Grid<float> seen = heights;
+    if (from_behind) {
+        for (float& height : seen.samples()) {
+            height = 1.0F - height;
+        }
+    }
+    return seen;
+}
+
+bool has_seam(GridView<const float> heights) {
+    check(!heights.empty(), "seam of an empty tile");
+    return has_seam_along(heights.cols(), heights.rows(),
+                          [&](int line, int i) { return heights(line, i); }) ||
+           has_seam_along(heights.rows(), heights.cols(),
+                          [&](int line, int i) { return heights(i, line); });
+}
+
+Result<TextureSet> completed(TextureSet set, TileBorder border) {
+    if (auto fault = fault_of(set)) {
+        return *fault;
+    }
+    if (set.normals.empty()) {
+        set.normals = tile_normals(set.heights.view(), set.scale, border);
+    }
+    mend_normals(set);
+    note_sizes(set);
+    if (border == TileBorder::wrap && has_seam(set.heights.view())) {
+        set.notes.push_back(fmt::format("{}: opposite borders do not fit together; where the tile "
+                                        "repeats, a seam shows",
+                                        set.name));
+    }
+    return set;
+}
+
+LayerMap layers_of(const TextureSet& set, LayerKind kind) {
+    switch (kind) {
+    case LayerKind::symmetric:
+        return symmetric_layers(set.heights.view());
+    case LayerKind::dual: {
+        const Grid<float> flat(set.heights.cols(), set.heights.rows(), 0.0F);
+        const Grid<float>& back = set.back_heights.empty() ? flat : set.back_heights;
+        return dual_layers(set.heights.view(), back.view()).value();
+    }
+    case LayerKind::multi:
+        return set.layers ? *set.layers : filled_layers(set.heights.view());
+    }
+    abort_with("an unknown kind of layers");
+}
+
+} // namespace reljef::material

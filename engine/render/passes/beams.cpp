@@ -1,0 +1,64 @@
+#include "engine/render/passes/beams.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/view_values.h"
+
+namespace reljef::render {
+
+PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const ReliefSpace& space,
+                         const glm::dmat4& local_from_world) {
+    const glm::dmat3 turned = space.space_from_local * glm::dmat3(local_from_world);
+    const auto ray_at = [&](glm::dvec2 pixel) {
+        const Ray ray = scene::view_ray(camera, size, pixel);
+        const glm::dvec3 local(local_from_world * glm::dvec4(ray.origin, 1.0));
+        return Ray{space.space_from_local * local + space.space_of_origin, turned * ray.direction};
+    };
+    const glm::dvec2 extent(size);
+    const Ray corner = ray_at({0.0, extent.y});
+    const Ray right = ray_at(extent);
+    const Ray top = ray_at({0.0, 0.0});
+    const auto of_ray = [&](glm::dvec3 Ray::*part) {
+        return glm::mat3(corner.*part, (right.*part - corner.*part) / extent.x,
+                         (top.*part - corner.*part) / extent.y);
+    };
+    const double highest = space.box.high.z;
+    return {
+        of_ray(&Ray::origin), of_ray(&Ray::direction),
+        static_cast<float>(is_perspective(camera) ? std::min(highest, corner.origin.z) : highest)};
+}
+
+Result<void> BeamTarget::prepare(const view::DrawList& list) {
+    const bool needed =
+        std::any_of(list.reliefs.begin(), list.reliefs.end(), [](const view::ReliefDraw& draw) {
+            return has_beams(draw.terrain->material.technique);
+        });
+    if (!needed || picture_size_ == list.size) {
+        return {};
+    }
+    auto made = gl::Framebuffer::create({.size = (list.size + pixels_a_beam - 1) / pixels_a_beam,
+                                         .colors = {gl::Format::r32f},
+                                         .depth = false});
+    if (!made) {
+        return made.error();
+    }
+    framebuffer_ = std::move(*made);
+    picture_size_ = list.size;
+    return {};
+}
+
+void set_beams(gl::Program& program, const ResidentRelief& relief, const PictureRays& rays) {
+    check(relief.greatest.has_value(), "beams over a relief without its greatest heights");
+    relief.greatest->bind(2);
+    program.set_uniform("last_cell", relief.heights.size() - 2);
+    program.set_uniform("top_level", relief.greatest->levels() - 1);
+    program.set_uniform("pixels_a_block", static_cast<float>(pixels_a_beam));
+    program.set_uniform("origin_of_ray", rays.origin_of_ray);
+    program.set_uniform("direction_of_ray", rays.direction_of_ray);
+    program.set_uniform("begin_height", rays.begin_height);
+    program.set_uniform("lift", static_cast<float>(relief.space.box.high.z - 1.0));
+}
+
+} // namespace reljef::render

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include "engine/gl/program.h"
+#include "engine/render/residency/tile_residency.h"
+#include "engine/render/shaders/shader_library.h"
+#include "engine/view/ground_view.h"
+
+namespace reljef::render {
+
+/// The variant that draws a terrain with its tile of detail. `features` are the scene's.
+/// Precondition: something is seen of it.
+ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLevel level,
+                             std::uint32_t features);
+
+/// What these programs ask for beside the terrain's maps and its place.
+void set_ground(gl::Program& program, const scene::TerrainNode& terrain,
+                const glm::dmat4& world_from_local, const scene::Camera& camera, glm::ivec2 size,
+                const TileResidency& tiles);
+
+} // namespace reljef::render

@@ -1,0 +1,121 @@
+#include "engine/render/passes/mesh_painter.h"
+
+#include <glm/matrix.hpp>
+
+#include "engine/render/passes/tile_painter.h"
+#include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/view_values.h"
+#include "engine/scene/graph/texture_plane.h"
+
+namespace reljef::render {
+namespace {
+
+// Of the heights in [0,1] as they are seen: where the mesh lies.
+float mesh_height(const view::MeshDraw& draw) {
+    const float offset = draw.mesh->material.detail.offset;
+    return draw.from_behind ? 1.0F + offset : -offset;
+}
+
+// From the tile's coordinates over the mesh to the warp's own, which go from 0 to 1 over it.
+void bind_warp(gl::Program& program, const view::MeshDraw& draw, const gl::Texture2D& warp) {
+    warp.bind(6);
+    const auto plane = scene::texture_plane(*draw.mesh->mesh);
+    const glm::dvec2 size = plane->high - plane->low;
+    const glm::dvec2 per_tile = 1.0 / (size * glm::dvec2(draw.mesh->material.detail.repeats));
+    program.set_uniform("warp_from_tile", glm::vec4(per_tile, -plane->low / size));
+}
+
+// `features` are the scene's.
+ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
+    if (material.detail.set == nullptr) {
+        return {ShaderKind::mesh, features};
+    }
+    const bool wraps = scene::shown_detail(material).border == material::TileBorder::wrap;
+    features |= wraps ? feature_wrap : 0U;
+    const bool in_hull = material.technique.options.true_silhouettes;
+    return scene::looks_for_surface(material.technique.id)
+               ? ShaderVariant{in_hull ? ShaderKind::relief_hull : ShaderKind::relief_mesh,
+                               features | relief_features(material.technique)}
+               : ShaderVariant{ShaderKind::textured_mesh,
+                               features | look_features(material.technique.id)};
+}
+
+// What the programs of meshes with a tile ask for, beside the transform.
+void set_tile(gl::Program& program, const view::MeshDraw& draw, const MeshResidency& residency,
+              const scene::Camera& camera) {
+    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    bind_tile(program, residency.tile(draw), residency.surface(draw));
+    if (const gl::Texture2D* const warp = residency.warp(draw)) {
+        bind_warp(program, draw, *warp);
+    }
+    const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
+    program.set_uniform("local_from_relative", glm::mat3(local_from_world));
+    program.set_uniform("perspective", is_perspective(camera) ? 1.0F : 0.0F);
+    program.set_uniform("near_depth", static_cast<float>(camera.near));
+    program.set_uniform("repeats", detail.repeats);
+    set_tile_look(program, *detail.set,
+                  static_cast<float>(scene::relief_height(*draw.mesh->mesh, detail)),
+                  mesh_height(draw));
+    program.set_uniform("side", draw.from_behind ? -1.0F : 1.0F);
+    program.set_uniform("bounded", detail.border == material::TileBorder::discard ? 1.0F : 0.0F);
+    set_relief_options(program, over_mesh(draw.mesh->material.technique, mesh_height(draw)),
+                       static_cast<double>(mesh_height(draw)));
+}
+
+void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull) {
+    if (hull.count == 0) {
+        return;
+    }
+    program.set_uniform("coordinate_range", hull.coordinate_range);
+    constexpr int strip_vertices = 6; // relief_hull.vert
+    hull.vertex_array.bind();
+    gl::draw_arrays(gl::Primitive::triangle_strip, 0, strip_vertices, hull.count);
+    view::FrameStats& stats = state.stats();
+    stats.triangles += 4U * static_cast<std::size_t>(hull.count);
+    ++stats.draws;
+    ++stats.state_changes;
+}
+
+Result<void> paint_mesh(const Painting& painting, const view::MeshDraw& draw) {
+    const scene::Material& material = draw.mesh->material;
+    const scene::Camera& camera = painting.list.camera;
+    const MeshResidency& residency = painting.residency.meshes();
+    DrawState& state = painting.state;
+    auto program = state.use(mesh_variant(material, painting.features));
+    if (!program) {
+        return program.error();
+    }
+    state.set_culling(draw.from_behind ? gl::Culling::front : gl::Culling::back);
+    state.set_wireframe(material.wireframe);
+    (*program)->set_uniform("relative_from_local",
+                            relative_from_local(camera, draw.world_from_local));
+    (*program)->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
+    (*program)->set_uniform("albedo", material.color);
+    const bool has_tile = material.detail.set != nullptr;
+    if (has_tile) {
+        set_tile(**program, draw, residency, camera);
+        ++state.stats().state_changes;
+    }
+    if (has_tile && material.technique.options.true_silhouettes) {
+        draw_hull(state, **program, residency.hull(draw));
+    } else {
+        state.draw(residency.mesh(draw), gl::IndexType::uint32);
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> paint_meshes(const Painting& painting) {
+    for (const view::MeshDraw& draw : painting.list.meshes) {
+        if (draw.mesh->mesh->indices.empty()) {
+            continue;
+        }
+        if (auto painted = paint_mesh(painting, draw); !painted) {
+            return painted;
+        }
+    }
+    return {};
+}
+
+} // namespace reljef::render

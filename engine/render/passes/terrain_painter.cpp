@@ -1,0 +1,186 @@
+#include "engine/render/passes/terrain_painter.h"
+
+#include <algorithm>
+
+#include "engine/core/geometry.h"
+#include "engine/render/passes/ground_painter.h"
+#include "engine/render/shaders/view_values.h"
+
+namespace reljef::render {
+namespace {
+
+bool is_warped(const scene::TerrainNode& terrain) {
+    return terrain.material.technique.id == scene::TechniqueId::prewarp;
+}
+
+void bind_ground(gl::Program& program, const ResidentGround& ground) {
+    ground.albedo.bind(7);
+    ground.surface.bind(8);
+    program.set_uniform("ground_from_sample", ground.ground_from_sample);
+}
+
+// What a terrain's tiles share is set once for all that follow each other.
+class TerrainPainter {
+public:
+    explicit TerrainPainter(const Painting& painting)
+        : painting_(painting), state_(painting.state) {
+        state_.set_culling(gl::Culling::back);
+    }
+
+    Result<void> draw(const view::TileDraw& draw) {
+        const view::DetailLevel detail = shown(draw.detail);
+        const glm::dmat4& world_from_local = painting_.list.world_from_local(draw);
+        if (!is_set_for(*draw.terrain, detail)) {
+            if (auto set = set_for(*draw.terrain, detail, world_from_local); !set) {
+                return set;
+            }
+            bind_maps(*draw.terrain);
+        }
+        set_place(world_from_local);
+        draw_samples(draw);
+        return {};
+    }
+
+    Result<void> draw(const view::StreamedDraw& draw) {
+        const view::DetailLevel detail = shown(draw.detail);
+        if (!is_set_for(*draw.terrain, detail)) {
+            if (auto set = set_for(*draw.terrain, detail, draw.world_from_local); !set) {
+                return set;
+            }
+        }
+        set_place(draw.world_from_local);
+        draw_streamed(draw);
+        return {};
+    }
+
+private:
+    // A hit is the terrain's own.
+    [[nodiscard]] view::DetailLevel shown(view::DetailLevel detail) const {
+        return painting_.hits ? view::DetailLevel::none : detail;
+    }
+
+    [[nodiscard]] bool has_ground() const { return detail_ != view::DetailLevel::none; }
+    [[nodiscard]] unsigned lit_unit() const { return has_ground() ? 3U : 0U; }
+
+    [[nodiscard]] bool is_set_for(const scene::TerrainNode& terrain,
+                                  view::DetailLevel detail) const {
+        return terrain_ == &terrain && detail_ == detail;
+    }
+
+    Result<void> set_for(const scene::TerrainNode& terrain, view::DetailLevel detail,
+                         const glm::dmat4& world_from_local) {
+        auto program = state_.use(variant_for(terrain, detail));
+        if (!program) {
+            return program.error();
+        }
+        program_ = *program;
+        terrain_ = &terrain;
+        detail_ = detail;
+        state_.set_wireframe(terrain.material.wireframe);
+        if (has_ground()) {
+            set_ground(*program_, terrain, world_from_local, painting_.list.camera,
+                       painting_.list.size, painting_.residency.ground().tiles());
+        } else if (is_warped(terrain)) {
+            painting_.residency.warped(terrain).bind(4);
+        }
+        return {};
+    }
+
+    [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
+                                            view::DetailLevel detail) const {
+        if (detail != view::DetailLevel::none) {
+            return ground_variant(*terrain.detail, detail, painting_.features);
+        }
+        return {ShaderKind::terrain,
+                painting_.features | (is_warped(terrain) ? feature_warped : 0U)};
+    }
+
+    void bind_maps(const scene::TerrainNode& terrain) {
+        if (painting_.hits) {
+            return;
+        }
+        const ResidentMaps& maps = painting_.residency.maps(terrain);
+        maps.lit.bind(lit_unit());
+        program_->set_uniform("lit_from_sample", maps.lit_from_sample);
+        if (has_ground()) {
+            bind_ground(*program_, painting_.residency.ground().ground(terrain));
+        }
+        ++state_.stats().state_changes;
+    }
+
+    void set_place(const glm::dmat4& world_from_local) {
+        const SplitPoint eye =
+            split_into_floats(local_eye(painting_.list.camera, world_from_local));
+        program_->set_uniform("eye", eye.rounded);
+        program_->set_uniform("eye_rest", eye.rest);
+        program_->set_uniform("world_from_local", glm::mat3(glm::dmat3(world_from_local)));
+    }
+
+    void draw_samples(const view::TileDraw& draw) {
+        const auto& tile = draw.terrain->surface->tiles()[static_cast<std::size_t>(draw.tile)];
+        view::FrameStats& stats = state_.stats();
+        program_->set_uniform("tile_sample", glm::vec2(tile.col, tile.row));
+        const std::size_t before = stats.triangles;
+        for (const ResidentMesh& mesh : painting_.residency.tile(draw)) {
+            state_.draw(mesh, gl::IndexType::uint16);
+        }
+        if (draw.coarse) {
+            const std::size_t all =
+                2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
+            stats.skipped.triangles_under_error += all - std::min(all, stats.triangles - before);
+        }
+        ++stats.tiles;
+    }
+
+    void draw_streamed(const view::StreamedDraw& draw) {
+        const ResidentStreamed& resident = painting_.residency.streamed().tile(draw);
+        if (painting_.hits) {
+            program_->set_uniform("tile_sample",
+                                  glm::vec2(draw.terrain->stream->maker().first(draw.tile->id)));
+        } else {
+            bind_maps(resident);
+        }
+        state_.draw(resident.mesh, gl::IndexType::uint16);
+        ++state_.stats().tiles;
+    }
+
+    // A streamed tile has maps of its own.
+    void bind_maps(const ResidentStreamed& resident) {
+        resident.lit->bind(lit_unit());
+        program_->set_uniform("tile_sample", glm::vec2(0.0F));
+        program_->set_uniform("lit_from_sample", resident.lit_from_sample);
+        if (has_ground()) {
+            bind_ground(*program_, *resident.ground);
+        }
+        ++state_.stats().state_changes;
+    }
+
+    const Painting& painting_;
+    DrawState& state_;
+    gl::Program* program_ = nullptr;
+    const scene::TerrainNode* terrain_ = nullptr;        // that the program is set for
+    view::DetailLevel detail_ = view::DetailLevel::none; // likewise
+};
+
+template <class Draw>
+Result<void> paint_all(const Painting& painting, const std::vector<Draw>& draws) {
+    TerrainPainter painter(painting);
+    for (const Draw& draw : draws) {
+        if (auto drawn = painter.draw(draw); !drawn) {
+            return drawn;
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> paint_terrain_tiles(const Painting& painting) {
+    return paint_all(painting, painting.list.tiles);
+}
+
+Result<void> paint_streamed_tiles(const Painting& painting) {
+    return paint_all(painting, painting.list.streamed_tiles);
+}
+
+} // namespace reljef::render

@@ -1,0 +1,108 @@
+#include "engine/render/residency/ground_residency.h"
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_precision.hpp>
+
+#include "engine/gl/limits.h"
+#include "engine/render/residency/resident_mesh.h"
+#include "engine/render/residency/uploads.h"
+
+namespace reljef::render {
+namespace {
+
+// As rgba16_snorm has them.
+std::vector<glm::i16vec4> packed_ground(const Grid<glm::vec4>& surface) {
+    constexpr float unit = 32767.0F;
+    std::vector<glm::i16vec4> packed;
+    packed.reserve(surface.size());
+    for (const glm::vec4& texel : surface.samples()) {
+        packed.emplace_back(glm::round(texel * unit));
+    }
+    return packed;
+}
+
+// Of each terrain whose detail is seen, one draw.
+template <class Draw> std::vector<const Draw*> first_detailed(const std::vector<Draw>& draws) {
+    std::vector<const Draw*> first;
+    std::set<const scene::TerrainNode*> found;
+    for (const Draw& draw : draws) {
+        if (draw.detail != view::DetailLevel::none && found.insert(draw.terrain).second) {
+            first.push_back(&draw);
+        }
+    }
+    return first;
+}
+
+} // namespace
+
+Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_from_sample,
+                                       view::FrameStats& stats) {
+    auto albedo = mipmapped({map.albedo.cols(), map.albedo.rows()}, gl::Format::rgba8_srgb,
+                            std::as_bytes(map.albedo.samples()), stats);
+    if (!albedo) {
+        return albedo.error();
+    }
+    auto surface = mipmapped({map.surface.cols(), map.surface.rows()}, gl::Format::rgba16_snorm,
+                             bytes_of(packed_ground(map.surface)), stats);
+    if (!surface) {
+        return surface.error();
+    }
+    return ResidentGround{std::move(*albedo), std::move(*surface), ground_from_sample};
+}
+
+Result<void> GroundResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
+    tiles_.forget_unused();
+    std::erase_if(grounds_, [](const auto& entry) { return entry.second.owner.expired(); });
+    for (const view::StreamedDraw* const draw : first_detailed(list.streamed_tiles)) {
+        if (auto done = prepare_tile(*draw->terrain->detail, stats); !done) {
+            return done;
+        }
+    }
+    for (const view::TileDraw* const draw : first_detailed(list.tiles)) {
+        if (auto done = prepare_ground(list, *draw, stats); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+Result<void> GroundResidency::prepare_tile(const scene::GroundDetail& detail,
+                                           view::FrameStats& stats) {
+    return tiles_.prepare(detail.set, ground_side(), detail.technique.id, stats);
+}
+
+Result<void> GroundResidency::prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
+                                             view::FrameStats& stats) {
+    const scene::TerrainNode& terrain = *draw.terrain;
+    if (auto done = prepare_tile(*terrain.detail, stats); !done) {
+        return done;
+    }
+    const auto light = view::light_on(list, list.world_from_local(draw));
+    const auto found = grounds_.find(&terrain);
+    if (found != grounds_.end() && found->second.owner.lock() == terrain.surface &&
+        found->second.light == light) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const GroundMap map = ground_map(*terrain.surface, light, gl::query_limits().max_texture_size);
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    auto resident = resident_ground(map,
+                                    texture_from_sample({heights.cols(), heights.rows()},
+                                                        {map.albedo.cols(), map.albedo.rows()}),
+                                    stats);
+    if (!resident) {
+        return resident.error();
+    }
+    grounds_.insert_or_assign(&terrain, Ground{terrain.surface, light, std::move(*resident)});
+    return {};
+}
+
+const ResidentGround& GroundResidency::ground(const scene::TerrainNode& terrain) const {
+    return grounds_.at(&terrain).resident;
+}
+
+} // namespace reljef::render

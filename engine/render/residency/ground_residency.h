@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <glm/vec4.hpp>
+
+#include "engine/core/result.h"
+#include "engine/gl/texture.h"
+#include "engine/render/residency/terrain_maps.h"
+#include "engine/render/residency/tile_residency.h"
+#include "engine/view/draw_list.h"
+#include "engine/view/frame_stats.h"
+
+namespace reljef::render {
+
+/// A terrain's ground_map, and how sample coordinates become texture coordinates: sample · xy + zw.
+struct ResidentGround {
+    gl::Texture2D albedo;
+    gl::Texture2D surface;
+    glm::vec4 ground_from_sample{0.0F};
+};
+/// Fails when the driver has no memory left.
+Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_from_sample,
+                                       view::FrameStats& stats);
+
+/// What of the tiles of detail on terrains is in the driver's memory: the tiles, and the maps of
+/// the ground below them, once more when the sun moves. Needs a current context; destroy while it
+/// is current.
+class GroundResidency {
+public:
+    /// Fails when the driver has no memory left.
+    Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
+
+    /// Precondition: prepared, and the list shows a detail on the terrain.
+    [[nodiscard]] const TileResidency& tiles() const { return tiles_; }
+    [[nodiscard]] const ResidentGround& ground(const scene::TerrainNode& terrain) const;
+
+private:
+    struct Ground {
+        std::weak_ptr<const scene::TerrainSurface> owner;
+        std::optional<scene::TerrainLight> light;
+        ResidentGround resident;
+    };
+    Result<void> prepare_tile(const scene::GroundDetail& detail, view::FrameStats& stats);
+    Result<void> prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
+                                view::FrameStats& stats);
+
+    TileResidency tiles_;
+    std::map<const scene::TerrainNode*, Ground> grounds_;
+};
+
+} // namespace reljef::render

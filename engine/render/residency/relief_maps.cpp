@@ -1,0 +1,93 @@
+#include "engine/render/residency/relief_maps.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace reljef::render {
+namespace {
+
+// Of the range of heights: how far the box reaches beyond them, so that a ray begins above and ends
+// below them whatever rounding says. Floats near 1 are good to 2^-24, and a ray adds a few of them.
+constexpr double margin = 1.0 / 4096.0;
+
+Grid<float> cell_maxima(GridView<const float> heights) {
+    const int cols = heights.cols() - 1;
+    const int rows = heights.rows() - 1;
+    const auto side_for = [](int cells) {
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(cells)));
+    };
+    Grid<float> maxima(side_for(cols), side_for(rows), 0.0F);
+    for (int row = 0; row < rows; ++row) {
+        for (int col = 0; col < cols; ++col) {
+            maxima(col, row) = std::max({heights(col, row), heights(col + 1, row),
+                                         heights(col, row + 1), heights(col + 1, row + 1)});
+        }
+    }
+    return maxima;
+}
+
+Grid<float> halved(const Grid<float>& fine) {
+    Grid<float> coarse(std::max(fine.cols() / 2, 1), std::max(fine.rows() / 2, 1));
+    for (int row = 0; row < coarse.rows(); ++row) {
+        for (int col = 0; col < coarse.cols(); ++col) {
+            coarse(col, row) = std::max(
+                {fine.clamped(2 * col, 2 * row), fine.clamped(2 * col + 1, 2 * row),
+                 fine.clamped(2 * col, 2 * row + 1), fine.clamped(2 * col + 1, 2 * row + 1)});
+        }
+    }
+    return coarse;
+}
+
+} // namespace
+
+ReliefSpace relief_space(const scene::TerrainSurface& surface) {
+    const terrain::Placement& placement = surface.placement();
+    check(placement.kind() == terrain::PlacementKind::plane, "a relief over the curved Earth");
+    const Grid<float>& heights = surface.heightfield().heights;
+    const terrain::MinMax total = surface.pyramid().total();
+    ReliefSpace space;
+    space.lowest = total.low;
+    space.range = total.high > total.low ? static_cast<double>(total.high) - total.low : 1.0;
+    const auto local = [&](glm::dvec3 place) {
+        return placement.world_from_sample(
+            {place.x, place.y, space.lowest + space.range * place.z});
+    };
+    const glm::dvec3 origin = local(glm::dvec3(0.0));
+    const glm::dmat3 local_from_space(local({1.0, 0.0, 0.0}) - origin,
+                                      local({0.0, 1.0, 0.0}) - origin,
+                                      local({0.0, 0.0, 1.0}) - origin);
+    space.space_from_local = glm::inverse(local_from_space);
+    space.space_of_origin = -(space.space_from_local * origin);
+    space.metres_per_unit =
+        glm::vec3(glm::length(local_from_space[0]), glm::length(local_from_space[1]),
+                  glm::length(local_from_space[2]));
+    space.box.low = {0.0, 0.0, -margin};
+    space.box.high = {heights.cols() - 1.0, heights.rows() - 1.0, 1.0 + margin};
+    space.local_box.add(local(space.box.low));
+    space.local_box.add(local(space.box.high));
+    return space;
+}
+
+Grid<glm::vec2> cone_texels(const material::ConeMaps& cones) {
+    Grid<glm::vec2> texels(cones.plain.cols() + 1, cones.plain.rows() + 1);
+    for (int row = 0; row < texels.rows(); ++row) {
+        for (int col = 0; col < texels.cols(); ++col) {
+            texels(col, row) = {cones.plain.clamped(col, row), cones.relaxed.clamped(col, row)};
+        }
+    }
+    return texels;
+}
+
+std::vector<Grid<float>> greatest_heights(GridView<const float> relief_heights) {
+    std::vector<Grid<float>> levels;
+    levels.push_back(cell_maxima(relief_heights));
+    while (levels.back().cols() > 1 || levels.back().rows() > 1) {
+        levels.push_back(halved(levels.back()));
+    }
+    return levels;
+}
+
+} // namespace reljef::render

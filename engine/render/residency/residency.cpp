@@ -1,0 +1,324 @@
+#include "engine/render/residency/residency.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <glm/matrix.hpp>
+
+#include "engine/core/grid_triangles.h"
+#include "engine/core/worker_pool.h"
+#include "engine/gl/limits.h"
+#include "engine/render/residency/prewarp.h"
+#include "engine/render/residency/terrain_maps.h"
+#include "engine/render/residency/uploads.h"
+#include "engine/render/shaders/relief_options.h"
+
+namespace reljef::render {
+namespace {
+
+Result<gl::Texture2D> map_texture(const Image& map, view::FrameStats& stats) {
+    return mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb, std::as_bytes(map.samples()),
+                     stats);
+}
+
+Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Texture2D lit,
+                                std::optional<gl::Texture2D> sun) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    const glm::vec4 lit_from_sample =
+        texture_from_sample({heights.cols(), heights.rows()}, lit.size());
+    return ResidentMaps{std::move(lit), std::move(sun), lit_from_sample};
+}
+
+Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
+                               const std::optional<scene::TerrainLight>& light,
+                               view::FrameStats& stats) {
+    auto lit = map_texture(lit_map(surface, light, gl::query_limits().max_texture_size), stats);
+    return lit ? with_place(surface, std::move(*lit), std::nullopt) : lit.error();
+}
+
+Result<ResidentMaps> make_light_parts(const scene::TerrainSurface& surface,
+                                      const scene::TerrainLight& light, view::FrameStats& stats) {
+    const LightParts parts = light_parts(surface, light, gl::query_limits().max_texture_size);
+    auto sky = map_texture(parts.sky, stats);
+    if (!sky) {
+        return sky.error();
+    }
+    auto sun = map_texture(parts.sun, stats);
+    return sun ? with_place(surface, std::move(*sky), std::move(*sun)) : sun.error();
+}
+
+Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<float>& heights,
+                                   view::FrameStats& stats) {
+    const Grid<glm::vec2> texels =
+        cone_texels(terrain.cones ? *terrain.cones : *material::cone_maps(heights.view()));
+    auto texture = gl::Texture2D::create({.size = {texels.cols(), texels.rows()},
+                                          .format = gl::Format::rg32f,
+                                          .filter = gl::Filter::nearest});
+    if (texture) {
+        texture->upload(0, texels);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+} // namespace
+
+Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
+                                view::FrameStats& stats) {
+    forget_unused();
+    if (auto done = prepare_tiles(list, stats); !done) {
+        return done;
+    }
+    if (auto done = coarse_tiles_.prepare(list, stats); !done) {
+        return done;
+    }
+    if (auto done = streamed_tiles_.prepare(list, with_maps, stats); !done) {
+        return done;
+    }
+    if (with_maps) {
+        if (auto done = prepare_all_maps(list, stats); !done) {
+            return done;
+        }
+        if (auto done = ground_.prepare(list, stats); !done) {
+            return done;
+        }
+    }
+    if (auto done = prepare_warped(list, stats); !done) {
+        return done;
+    }
+    for (const view::ReliefDraw& draw : list.reliefs) {
+        if (auto done = prepare_relief(draw, stats); !done) {
+            return done;
+        }
+    }
+    return meshes_.prepare(list.meshes, list.camera, stats);
+}
+
+void Residency::forget_unused() {
+    std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
+    coarse_tiles_.forget_unused();
+}
+
+Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
+    const auto& surface = terrain.surface;
+    auto [entry, is_new] = surfaces_.try_emplace(surface.get());
+    if (is_new) {
+        entry->second.owner = surface;
+        entry->second.tiles.resize(surface->tiles().size());
+        entry->second.flat_tiles.resize(surface->flat_tiles().size());
+    }
+    return entry->second;
+}
+
+std::vector<const view::TileDraw*> Residency::missing_tiles(const view::DrawList& list,
+                                                            view::FrameStats& stats) {
+    std::vector<const view::TileDraw*> missing;
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.coarse) {
+            continue;
+        }
+        Surface& surface = surface_of(*draw.terrain);
+        const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
+        if (slots[static_cast<std::size_t>(draw.tile)]) {
+            ++stats.skipped.uploads_unchanged;
+        } else {
+            missing.push_back(&draw);
+        }
+    }
+    return missing;
+}
+
+Result<void> Residency::prepare_tiles(const view::DrawList& list, view::FrameStats& stats) {
+    const std::vector<const view::TileDraw*> missing = missing_tiles(list, stats);
+    // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the
+    // driver's.
+    constexpr std::size_t batch = 32;
+    for (std::size_t first = 0; first < missing.size(); first += batch) {
+        const std::size_t count = std::min(batch, missing.size() - first);
+        std::vector<view::GridMesh> grids(count);
+        parallel_for(static_cast<int>(count), [&](int i) {
+            const view::TileDraw& draw = *missing[first + static_cast<std::size_t>(i)];
+            const scene::TerrainSurface& surface = *draw.terrain->surface;
+            const auto index = static_cast<std::size_t>(draw.tile);
+            grids[static_cast<std::size_t>(i)] =
+                draw.flat ? view::flat_mesh(surface.placement(), surface.flat_tiles()[index],
+                                            terrain::reference_height(surface.heightfield()))
+                          : view::full_mesh(surface.heightfield(), surface.placement(),
+                                            surface.tiles()[index]);
+        });
+        for (std::size_t i = 0; i < count; ++i) {
+            if (auto done = upload_tile(*missing[first + i], grids[i], stats); !done) {
+                return done;
+            }
+        }
+    }
+    return {};
+}
+
+Result<void> Residency::upload_tile(const view::TileDraw& draw, const view::GridMesh& grid,
+                                    view::FrameStats& stats) {
+    auto indices = indices_for(grid.cols, grid.rows, stats);
+    if (!indices) {
+        return indices.error();
+    }
+    auto vertices = gl::Buffer::create(bytes_of(grid.vertices));
+    if (!vertices) {
+        return vertices.error();
+    }
+    count_upload(stats, vertices->size());
+    ResidentMesh mesh = resident_grid(std::move(*vertices), 6 * grid.cols * grid.rows);
+    mesh.vertex_array.set_indices(**indices);
+    Surface& resident = surface_of(*draw.terrain);
+    auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
+    slots[static_cast<std::size_t>(draw.tile)] = std::move(mesh);
+    return {};
+}
+
+Result<void> Residency::prepare_all_maps(const view::DrawList& list, view::FrameStats& stats) {
+    maps_.clear();
+    for (const view::TileDraw& draw : list.tiles) {
+        if (auto done = prepare_maps(list, *draw.terrain, list.world_from_local(draw), stats);
+            !done) {
+            return done;
+        }
+    }
+    for (const view::ReliefDraw& draw : list.reliefs) {
+        if (auto done = prepare_maps(list, *draw.terrain, draw.world_from_local, stats); !done) {
+            return done;
+        }
+    }
+    for (const auto& [terrain, maps] : maps_) {
+        std::erase_if(surface_of(*terrain).maps,
+                      [](const LitMaps& entry) { return entry.maps.use_count() == 1; });
+    }
+    return {};
+}
+
+Result<void> Residency::prepare_maps(const view::DrawList& list, const scene::TerrainNode& terrain,
+                                     const glm::dmat4& world_from_local, view::FrameStats& stats) {
+    if (maps_.contains(&terrain)) {
+        return {};
+    }
+    auto maps = maps_for(terrain, view::light_on(list, world_from_local), stats);
+    if (!maps) {
+        return maps.error();
+    }
+    maps_.emplace(&terrain, std::move(*maps));
+    return {};
+}
+
+Result<std::shared_ptr<const ResidentMaps>>
+Residency::maps_for(const scene::TerrainNode& terrain,
+                    const std::optional<scene::TerrainLight>& light, view::FrameStats& stats) {
+    std::vector<LitMaps>& there = surface_of(terrain).maps;
+    const bool in_parts = light && terrain.material.technique.options.shadow;
+    const auto found = std::find_if(there.begin(), there.end(), [&](const LitMaps& entry) {
+        return entry.light == light && entry.in_parts == in_parts;
+    });
+    if (found != there.end()) {
+        ++stats.skipped.uploads_unchanged;
+        return found->maps;
+    }
+    auto maps = in_parts ? make_light_parts(*terrain.surface, *light, stats)
+                         : make_maps(*terrain.surface, light, stats);
+    if (!maps) {
+        return maps.error();
+    }
+    there.push_back({light, in_parts, std::make_shared<const ResidentMaps>(std::move(*maps))});
+    return there.back().maps;
+}
+
+Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::FrameStats& stats) {
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    const scene::Technique& technique = draw.terrain->material.technique;
+    std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
+    const bool looks_in_pyramid = technique.id == scene::TechniqueId::exact || has_beams(technique);
+    const bool needs_greatest = looks_in_pyramid && !(relief && relief->greatest);
+    const bool needs_cones = technique.id == scene::TechniqueId::cone && !(relief && relief->cones);
+    if (relief && !needs_greatest && !needs_cones) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const Grid<float> heights = terrain::unit_heights(surface.heightfield().heights.view());
+    if (!relief) {
+        auto texture = height_texture(heights, stats);
+        if (!texture) {
+            return texture.error();
+        }
+        relief.emplace();
+        relief->space = relief_space(surface);
+        relief->heights = std::move(*texture);
+    }
+    if (needs_greatest) {
+        auto kept =
+            keep(pyramid_texture(greatest_heights(heights.view()), stats), relief->greatest);
+        if (!kept) {
+            return kept;
+        }
+    }
+    return needs_cones ? keep(cone_texture(surface.terrain(), heights, stats), relief->cones)
+                       : Result<void>();
+}
+
+Result<void> Residency::prepare_warped(const view::DrawList& list, view::FrameStats& stats) {
+    std::map<const scene::TerrainNode*, gl::Texture2D> before = std::exchange(warped_, {});
+    for (const view::TileDraw& draw : list.tiles) {
+        const scene::TerrainNode& terrain = *draw.terrain;
+        if (terrain.material.technique.id != scene::TechniqueId::prewarp ||
+            warped_.contains(&terrain)) {
+            continue;
+        }
+        const Grid<glm::vec4> places =
+            warped_places(*terrain.surface, warp_eye(list.camera, list.world_from_local(draw)));
+        auto texture = place_texture({places.cols(), places.rows()}, before[&terrain]);
+        if (!texture) {
+            return texture.error();
+        }
+        texture->upload(0, places);
+        count_upload(stats, texture->bytes());
+        warped_.emplace(&terrain, std::move(*texture));
+    }
+    return {};
+}
+
+Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, view::FrameStats& stats) {
+    const auto found = grid_indices_.find({cols, rows});
+    if (found != grid_indices_.end()) {
+        return &found->second;
+    }
+    auto buffer = gl::Buffer::create(bytes_of(grid_triangles<std::uint16_t>(cols, rows)));
+    if (!buffer) {
+        return buffer.error();
+    }
+    count_upload(stats, buffer->size());
+    return &grid_indices_.emplace(std::pair{cols, rows}, std::move(*buffer)).first->second;
+}
+
+std::span<const ResidentMesh> Residency::tile(const view::TileDraw& draw) const {
+    if (draw.coarse) {
+        return coarse_tiles_.tile(draw);
+    }
+    const Surface& surface = surfaces_.at(draw.terrain->surface.get());
+    const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
+    const auto& slot = slots[static_cast<std::size_t>(draw.tile)];
+    check(slot.has_value(), "a tile that was not prepared");
+    return {&*slot, 1};
+}
+
+const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {
+    return *maps_.at(&terrain);
+}
+
+const ResidentRelief& Residency::relief(const view::ReliefDraw& draw) const {
+    const auto& relief = surfaces_.at(draw.terrain->surface.get()).relief;
+    check(relief.has_value(), "a relief that was not prepared");
+    return *relief;
+}
+
+const gl::Texture2D& Residency::warped(const scene::TerrainNode& terrain) const {
+    return warped_.at(&terrain);
+}
+
+} // namespace reljef::render

@@ -1,0 +1,207 @@
+#include "engine/render/residency/resident_tile.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_precision.hpp>
+
+#include "engine/material/tile_cones.h"
+#include "engine/render/residency/relief_maps.h"
+#include "engine/render/residency/resident_mesh.h"
+#include "engine/render/residency/uploads.h"
+
+namespace reljef::render {
+namespace {
+
+constexpr float snorm_unit = 32767.0F;
+
+gl::Wrap wrap_of(bool wraps) {
+    return wraps ? gl::Wrap::repeat : gl::Wrap::clamp;
+}
+
+material::TileBorder border_as(bool wraps) {
+    return wraps ? material::TileBorder::wrap : material::TileBorder::clamp;
+}
+
+// Linear.
+glm::vec3 mean_of(const Image& picture) {
+    glm::dvec3 sum(0.0);
+    for (const Rgba8 texel : picture.samples()) {
+        sum += glm::dvec3(linear_from_rgba8(texel));
+    }
+    return glm::vec3(sum / static_cast<double>(picture.size()));
+}
+
+// x and y of the normals, as rg16_snorm has them.
+std::vector<glm::i16vec2> packed_normals(const Grid<glm::vec3>& normals) {
+    std::vector<glm::i16vec2> packed;
+    packed.reserve(normals.size());
+    for (const glm::vec3& normal : normals.samples()) {
+        packed.emplace_back(glm::round(glm::vec2(normal) * snorm_unit));
+    }
+    return packed;
+}
+
+// One component of the layers' normals, as rgba16_snorm has them.
+std::vector<glm::i16vec4> packed_layers(const Grid<glm::vec4>& component) {
+    std::vector<glm::i16vec4> packed;
+    packed.reserve(component.size());
+    for (const glm::vec4& layers : component.samples()) {
+        packed.emplace_back(glm::round(layers * snorm_unit));
+    }
+    return packed;
+}
+
+// The heights with those that lie between the tile and its next copies; at least one cell.
+Grid<float> with_next_copies(const Grid<float>& heights, bool wraps) {
+    const int more = wraps ? 1 : 0;
+    Grid<float> all(std::max(heights.cols() + more, 2), std::max(heights.rows() + more, 2));
+    for (int row = 0; row < all.rows(); ++row) {
+        for (int col = 0; col < all.cols(); ++col) {
+            all(col, row) = wraps ? heights(col % heights.cols(), row % heights.rows())
+                                  : heights.clamped(col, row);
+        }
+    }
+    return all;
+}
+
+glm::ivec2 cells_of(int cols, int rows, bool wraps) {
+    return wraps ? glm::ivec2(cols, rows)
+                 : glm::ivec2(std::max(cols, 2) - 1, std::max(rows, 2) - 1);
+}
+
+glm::vec2 rms_rise(const Grid<float>& heights, bool wraps) {
+    const Grid<float> all = with_next_copies(heights, wraps);
+    glm::dvec2 sum(0.0);
+    for (int row = 0; row + 1 < all.rows(); ++row) {
+        for (int col = 0; col + 1 < all.cols(); ++col) {
+            const glm::dvec2 rise(all(col + 1, row) - all(col, row),
+                                  all(col, row + 1) - all(col, row));
+            sum += rise * rise;
+        }
+    }
+    return glm::vec2(glm::sqrt(sum / static_cast<double>((all.cols() - 1) * (all.rows() - 1))));
+}
+
+// Null where they were not made beforehand.
+std::shared_ptr<const material::ConeMaps> known_cones(const material::TextureSet& set,
+                                                      const TileSide& side) {
+    const auto found =
+        std::find_if(set.cones.begin(), set.cones.end(), [&](const material::KnownCones& known) {
+            return known.border == border_as(side.wraps) && known.from_behind == side.from_behind;
+        });
+    return found == set.cones.end() ? nullptr : found->of_field;
+}
+
+Result<gl::Texture2D> layer_texture(const Grid<glm::vec4>& heights, bool wraps,
+                                    view::FrameStats& stats) {
+    auto texture = gl::Texture2D::create({.size = {heights.cols(), heights.rows()},
+                                          .format = gl::Format::rgba32f,
+                                          .wrap = wrap_of(wraps)});
+    if (texture) {
+        texture->upload(0, heights);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+Result<gl::Texture2D> layer_normal_texture(const Grid<glm::vec4>& component, bool wraps,
+                                           view::FrameStats& stats) {
+    return mipmapped({component.cols(), component.rows()}, gl::Format::rgba16_snorm,
+                     bytes_of(packed_layers(component)), stats, wrap_of(wraps));
+}
+
+Result<ResidentSurface> resident_layers(const material::TextureSet& set, const TileSide& side,
+                                        view::FrameStats& stats) {
+    material::LayerMap layers = material::layers_of(set, *side.layers);
+    if (side.from_behind) {
+        layers = material::seen_from_behind(layers);
+    }
+    const auto normals = material::layer_normals(layers, set.scale, border_as(side.wraps));
+    auto heights = layer_texture(layers.heights(), side.wraps, stats);
+    if (!heights) {
+        return heights.error();
+    }
+    auto along_u = layer_normal_texture(normals.along_u, side.wraps, stats);
+    if (!along_u) {
+        return along_u.error();
+    }
+    auto along_v = layer_normal_texture(normals.along_v, side.wraps, stats);
+    if (!along_v) {
+        return along_v.error();
+    }
+    const glm::ivec2 cells = cells_of(layers.heights().cols(), layers.heights().rows(), side.wraps);
+    return ResidentSurface{
+        std::move(*heights), cells,
+        glm::vec2(0.0F),     LayerTextures{std::move(*along_u), std::move(*along_v)},
+        std::nullopt,        std::nullopt};
+}
+
+} // namespace
+
+Result<ResidentTile> resident_tile(const material::TextureSet& set, bool wraps,
+                                   view::FrameStats& stats) {
+    auto color = mipmapped({set.color.cols(), set.color.rows()}, gl::Format::rgba8_srgb,
+                           std::as_bytes(set.color.samples()), stats, wrap_of(wraps));
+    if (!color) {
+        return color.error();
+    }
+    auto normals = mipmapped({set.normals.cols(), set.normals.rows()}, gl::Format::rg16_snorm,
+                             bytes_of(packed_normals(set.normals)), stats, wrap_of(wraps));
+    if (!normals) {
+        return normals.error();
+    }
+    return ResidentTile{std::move(*color), std::move(*normals), mean_of(set.color)};
+}
+
+Result<ResidentSurface> resident_surface(const material::TextureSet& set, const TileSide& side,
+                                         view::FrameStats& stats) {
+    if (side.layers) {
+        return resident_layers(set, side, stats);
+    }
+    const Grid<float> shown = material::seen_heights(set.heights, side.from_behind);
+    auto heights = tile_height_texture(shown, wrap_of(side.wraps), stats);
+    if (!heights) {
+        return heights.error();
+    }
+    return ResidentSurface{std::move(*heights),
+                           cells_of(shown.cols(), shown.rows(), side.wraps),
+                           rms_rise(shown, side.wraps),
+                           std::nullopt,
+                           std::nullopt,
+                           std::nullopt};
+}
+
+Result<gl::Texture2D> greatest_texture(const material::TextureSet& set, const TileSide& side,
+                                       view::FrameStats& stats) {
+    const Grid<float> heights =
+        with_next_copies(material::seen_heights(set.heights, side.from_behind), side.wraps);
+    return pyramid_texture(greatest_heights(heights.view()), stats);
+}
+
+Result<gl::Texture2D> tile_cone_texture(const material::TextureSet& set, const TileSide& side,
+                                        view::FrameStats& stats) {
+    const material::TileBorder border = border_as(side.wraps);
+    const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
+    const Grid<float> field = material::cone_field(heights.view(), border);
+    const auto known = known_cones(set, side);
+    const material::ConeMaps cones =
+        material::tile_cones(known ? *known : *material::cone_maps(field.view()), heights.cols(),
+                             heights.rows(), border);
+    auto texture = gl::Texture2D::create({.size = {cones.plain.cols(), cones.plain.rows()},
+                                          .format = gl::Format::rg32f,
+                                          .filter = gl::Filter::nearest});
+    if (texture) {
+        Grid<glm::vec2> texels(cones.plain.cols(), cones.plain.rows());
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            texels.samples()[i] = {cones.plain.samples()[i], cones.relaxed.samples()[i]};
+        }
+        texture->upload(0, texels);
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+} // namespace reljef::render

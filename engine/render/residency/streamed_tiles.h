@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gl/texture.h"
+#include "engine/render/residency/ground_residency.h"
+#include "engine/render/residency/resident_mesh.h"
+#include "engine/terrain/tree/tile_cover.h"
+#include "engine/view/draw_list.h"
+#include "engine/view/grid_mesh.h"
+#include "engine/view/streamed_cut.h"
+
+namespace reljef::render {
+
+using StreamedByTile = std::map<terrain::TreeTile, const view::StreamedDraw*>;
+
+/// A streamed tile in the driver's memory.
+struct ResidentStreamed {
+    ResidentMesh mesh;
+    std::optional<gl::Texture2D> lit;
+    glm::vec4 lit_from_sample{0.0F}; ///< texture coordinate = samples from the first · xy + zw
+    std::optional<ResidentGround> ground; ///< there where a detail is seen on it
+};
+
+/// The tiles of streamed terrains: uploaded when they are first drawn, again where a neighbour of
+/// another level moves their border, or has other heights than before, or the sun moves. They go
+/// when the stream lets go of them, and when they have not been drawn for some frames: most tiles
+/// of a stream stand above those drawn. Needs a current context; destroy while it is current.
+class StreamedTiles {
+public:
+    /// Fails when the driver has no memory left.
+    Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
+
+    /// Precondition: `draw` is of the list that was prepared.
+    [[nodiscard]] const ResidentStreamed& tile(const view::StreamedDraw& draw) const;
+
+private:
+    using Key = std::pair<const scene::TileStream*, terrain::TreeTile>;
+    struct Entry {
+        std::weak_ptr<const scene::StreamedTile> owner;
+        std::uint64_t drawn = 0;    // frame that drew it last
+        std::uint64_t since = 0;    // frame that drew it first
+        std::uint64_t uploaded = 0; // frame that made its vertices
+        bool flat = false;
+        std::vector<terrain::EdgeMove> moves;
+        std::set<terrain::TreeTile> moved_to; // the tiles that they name
+        std::optional<scene::TerrainLight> light;
+        std::optional<ResidentStreamed> resident;
+        bool is_whole = false;                  // the resident mesh has all triangles
+        std::vector<view::GridVertex> vertices; // where it has fewer: all that they are chosen from
+        view::StreamedCut cut;
+    };
+    // The tiles of a stream that were drawn last.
+    struct Cover {
+        std::weak_ptr<const scene::TileStream> owner;
+        terrain::TileCover tiles;
+        bool is_new = true; // its tiles' triangles are those of another
+    };
+    struct SharedLight {
+        std::weak_ptr<scene::TileStream> owner;
+        std::optional<scene::TerrainLight> light;
+        std::unique_ptr<const scene::TerrainIrradiance> irradiance;
+    };
+
+    struct ChangedMesh {
+        const view::StreamedDraw* draw = nullptr;
+        const std::vector<terrain::EdgeMove>* moves = nullptr;
+    };
+
+    void forget_unused(const view::DrawList& list);
+    Result<void> prepare_meshes(const terrain::TileCover& cover, const StreamedByTile& drawn,
+                                view::FrameStats& stats);
+    Result<void> prepare_cuts(const view::DrawList& list, Cover& cover, const StreamedByTile& drawn,
+                              view::FrameStats& stats);
+    Cover& cover_of(const StreamedByTile& drawn);
+    Result<void> set_triangles(const view::StreamedDraw& draw, const view::CutTriangles& triangles,
+                               view::FrameStats& stats);
+    void set_mesh(const view::StreamedDraw& draw, ResidentMesh mesh);
+    Result<void> upload_all(std::span<const ChangedMesh> changed, const StreamedByTile& drawn,
+                            view::FrameStats& stats);
+    Result<void> prepare_light(const view::DrawList& list, const view::StreamedDraw& draw,
+                               view::FrameStats& stats);
+    Result<void> prepare_ground(const view::StreamedDraw& draw, view::FrameStats& stats);
+    Result<void> upload(const view::StreamedDraw& draw, const view::GridMesh& mesh,
+                        view::FrameStats& stats);
+    const scene::TerrainIrradiance& irradiance_of(const view::StreamedDraw& draw,
+                                                  const scene::TerrainLight& light);
+    Result<const gl::Buffer*> indices_for(glm::ivec2 cells, view::FrameStats& stats);
+    static Key key_of(const view::StreamedDraw& draw) {
+        return {draw.terrain->stream.get(), draw.tile->id};
+    }
+    Entry& entry_of(const view::StreamedDraw& draw);
+    [[nodiscard]] bool is_moved_as(const view::StreamedDraw& draw,
+                                   const std::vector<terrain::EdgeMove>& moves) const;
+
+    std::uint64_t frame_ = 0;
+    std::map<Key, Entry> entries_;
+    std::map<const scene::TileStream*, Cover> covers_;
+    std::map<const scene::TileStream*, SharedLight> lights_;
+    std::map<std::pair<int, int>, gl::Buffer> indices_; // by cells along a row, and a column
+};
+
+/// The vertices of a tile, with its border where the moves put it. `drawn` holds the tiles that
+/// they name.
+view::GridMesh streamed_mesh(const view::StreamedDraw& draw,
+                             const std::vector<terrain::EdgeMove>& moves,
+                             const StreamedByTile& drawn);
+
+} // namespace reljef::render

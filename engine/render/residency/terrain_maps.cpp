@@ -1,0 +1,127 @@
+#include "engine/render/residency/terrain_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/core/bilinear.h"
+#include "engine/core/worker_pool.h"
+#include "engine/terrain/field/gradient.h"
+
+namespace reljef::render {
+namespace {
+
+// Every k-th sample, the last ones kept, so that no side is longer than `largest`.
+template <class T> Grid<T> thinned(Grid<T> grid, int largest) {
+    const int cols = std::min(grid.cols(), largest);
+    const int rows = std::min(grid.rows(), largest);
+    if (cols == grid.cols() && rows == grid.rows()) {
+        return grid;
+    }
+    const auto place = [](int index, int from, int to) {
+        return from > 1 ? static_cast<int>(
+                              std::lround(static_cast<double>(index) * (to - 1) / (from - 1)))
+                        : 0;
+    };
+    Grid<T> thin(cols, rows);
+    for (int row = 0; row < rows; ++row) {
+        for (int col = 0; col < cols; ++col) {
+            thin(col, row) = grid(place(col, cols, grid.cols()), place(row, rows, grid.rows()));
+        }
+    }
+    return thin;
+}
+
+// Where a texel lies on a grid that covers the same ground, corner on corner.
+glm::dvec2 place_on(glm::ivec2 texel, glm::ivec2 texels, glm::ivec2 grid) {
+    const glm::dvec2 steps(glm::max(texels - 1, glm::ivec2(1)));
+    return glm::dvec2(texel) * glm::dvec2(grid - 1) / steps;
+}
+
+template <class T> glm::ivec2 size_of(const Grid<T>& grid) {
+    return {grid.cols(), grid.rows()};
+}
+
+// Visits every texel of a map of the surface: `visit(texel, sample, albedo)`, albedo linear.
+template <class Visit>
+void for_each_texel(const scene::TerrainSurface& surface, const Image& albedo, glm::ivec2 size,
+                    const Visit& visit) {
+    const glm::ivec2 samples = size_of(surface.heightfield().heights);
+    parallel_for(size.y, [&](int row) {
+        for (int col = 0; col < size.x; ++col) {
+            const glm::dvec2 texel = place_on({col, row}, size, size_of(albedo));
+            visit(glm::ivec2(col, row), place_on({col, row}, size, samples),
+                  bilinear(albedo, texel, linear_from_rgba8));
+        }
+    });
+}
+
+glm::ivec2 map_size(const scene::TerrainSurface& surface, const Image& albedo, int largest_side) {
+    return glm::min(glm::max(size_of(albedo), size_of(surface.heightfield().heights)),
+                    glm::ivec2(largest_side));
+}
+
+} // namespace
+
+Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::TerrainLight>& light,
+              int largest_side) {
+    Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    if (!light) {
+        return albedo;
+    }
+    const scene::TerrainIrradiance irradiance(surface, *light);
+    const glm::ivec2 size = map_size(surface, albedo, largest_side);
+    Image lit(size.x, size.y);
+    for_each_texel(surface, albedo, size,
+                   [&](glm::ivec2 texel, glm::dvec2 sample, glm::vec3 reflected) {
+                       lit(texel.x, texel.y) = rgba8_from_linear(reflected * irradiance.at(sample));
+                   });
+    return lit;
+}
+
+LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
+                       int largest_side) {
+    const Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    const scene::TerrainIrradiance irradiance(surface, light);
+    const glm::ivec2 size = map_size(surface, albedo, largest_side);
+    LightParts parts{Image(size.x, size.y), Image(size.x, size.y)};
+    for_each_texel(surface, albedo, size,
+                   [&](glm::ivec2 texel, glm::dvec2 sample, glm::vec3 reflected) {
+                       const scene::IrradianceParts found = irradiance.parts_at(sample);
+                       parts.sky(texel.x, texel.y) = rgba8_from_linear(reflected * found.sky);
+                       parts.sun(texel.x, texel.y) = rgba8_from_linear(reflected * found.sun);
+                   });
+    return parts;
+}
+
+GroundMap ground_map(const scene::TerrainSurface& surface,
+                     const std::optional<scene::TerrainLight>& light, int largest_side) {
+    const Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    const Grid<glm::vec2> gradients =
+        terrain::scene_gradients(surface.heightfield(), surface.placement());
+    std::optional<scene::TerrainIrradiance> irradiance;
+    if (light) {
+        irradiance.emplace(surface, *light);
+    }
+    const glm::ivec2 size = map_size(surface, albedo, largest_side);
+    GroundMap map{Image(size.x, size.y), Grid<glm::vec4>(size.x, size.y)};
+    for_each_texel(surface, albedo, size,
+                   [&](glm::ivec2 texel, glm::dvec2 sample, glm::vec3 reflected) {
+                       const glm::vec2 gradient = bilinear(gradients, sample, std::identity());
+                       const glm::vec3 normal = glm::normalize(glm::vec3(-gradient, 1.0F));
+                       const float sun = irradiance ? irradiance->visibility(sample) : 1.0F;
+                       map.albedo(texel.x, texel.y) = rgba8_from_linear(reflected);
+                       map.surface(texel.x, texel.y) = glm::vec4(normal, sun);
+                   });
+    return map;
+}
+
+glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
+    const glm::vec2 scale = glm::vec2(texels - 1) / (glm::vec2(samples - 1) * glm::vec2(texels));
+    return {scale, 0.5F / glm::vec2(texels)};
+}
+
+} // namespace reljef::render

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "engine/core/result.h"
+#include "engine/render/residency/resident_tile.h"
+#include "engine/scene/technique/technique.h"
+#include "engine/view/frame_stats.h"
+
+namespace reljef::render {
+
+/// The layers of a tile that a technique looks for; none: its heights.
+std::optional<material::LayerKind> layers_for(scene::TechniqueId id);
+
+/// Which tiles of detail are in the driver's memory. They stay while the scene holds them. Needs a
+/// current context; destroy while it is current.
+class TileResidency {
+public:
+    using Set = std::shared_ptr<const material::TextureSet>;
+
+    /// Puts the maps of a tile and that side of it into the driver's memory, with what the
+    /// technique needs besides. Fails when the driver has no memory left.
+    Result<void> prepare(const Set& set, const TileSide& side, scene::TechniqueId technique,
+                         view::FrameStats& stats);
+    void forget_unused();
+
+    /// Precondition: prepared.
+    [[nodiscard]] const ResidentTile& tile(const Set& set, const TileSide& side) const;
+    [[nodiscard]] const ResidentSurface& surface(const Set& set, const TileSide& side) const;
+
+private:
+    struct Tile {
+        std::weak_ptr<const material::TextureSet> owner;
+        ResidentTile resident;
+    };
+    struct Surface {
+        std::weak_ptr<const material::TextureSet> owner;
+        ResidentSurface resident;
+    };
+    using TileKey = std::pair<const material::TextureSet*, bool>; // whether it wraps
+    using SurfaceKey = std::pair<const material::TextureSet*, TileSide>;
+
+    Result<void> prepare_tile(const Set& set, bool wraps, view::FrameStats& stats);
+    Result<void> prepare_surface(const Set& set, const TileSide& side, scene::TechniqueId technique,
+                                 view::FrameStats& stats);
+
+    std::map<TileKey, Tile> tiles_;
+    std::map<SurfaceKey, Surface> surfaces_;
+};
+
+} // namespace reljef::render

@@ -1,0 +1,28 @@
+#include "engine/render/shaders/frame_block.h"
+
+#include "engine/render/shaders/view_values.h"
+#include "engine/view/error_view.h"
+
+namespace reljef::render {
+
+FrameBlock frame_block(const view::DrawList& list) {
+    FrameBlock block{};
+    block.clip_from_relative = glm::mat4(scene::clip_from_view(list.camera, list.size) *
+                                         scene::view_from_world_rotation(list.camera));
+    block.view_forward = glm::vec4(glm::vec3(scene::view_axes(list.camera).forward), 0.0F);
+    block.vertex_grid = glm::vec4(glm::vec2(list.size) * (0.5F * view::vertex_steps), 0.0F, 0.0F);
+    block.ray_from_pixel = ray_from_pixel(list.camera, list.size);
+    if (list.sun) {
+        block.to_sun = glm::vec4(glm::vec3(scene::to_light(*list.sun)), 0.0F);
+        block.sun_color = glm::vec4(list.sun->color, 0.0F);
+        block.ambient_color = glm::vec4(list.sun->ambient, 0.0F);
+    }
+    if (list.sky) {
+        block.sky_zenith = glm::vec4(list.sky->zenith, 0.0F);
+        block.sky_horizon =
+            glm::vec4(list.sky->horizon, static_cast<float>(scene::extinction(*list.sky)));
+    }
+    return block;
+}
+
+} // namespace reljef::render

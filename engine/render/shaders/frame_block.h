@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/view/draw_list.h"
+
+namespace reljef::render {
+
+/// The uniform block `FrameBlock` of every shader, std140. Its members stand in
+/// shaders/frame_block.inc.
+struct FrameBlock {
+    using mat4 = glm::mat4;
+    using vec4 = glm::vec4;
+#include "shaders/frame/frame_block.inc"
+};
+static_assert(offsetof(FrameBlock, clip_from_relative) == 0);
+static_assert(offsetof(FrameBlock, view_forward) == 64);
+static_assert(offsetof(FrameBlock, sky_horizon) == 64 + 5 * 16);
+static_assert(offsetof(FrameBlock, ray_from_pixel) == 64 + 6 * 16);
+static_assert(offsetof(FrameBlock, vertex_grid) == 64 + 7 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 8 * 16);
+
+/// What all of the list's programs read.
+FrameBlock frame_block(const view::DrawList& list);
+
+} // namespace reljef::render

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/gl/program.h"
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::render {
+
+/// The shader features that a relief technique asks for: how it searches, and its options
+/// (shader_library.h).
+std::uint32_t relief_features(const scene::Technique& technique);
+
+/// The height in [0,1] that stays where it is when heights fade: of parallax its reference plane,
+/// else the middle.
+double reference_height(const scene::Technique& technique);
+
+/// Sets the uniforms that say a relief's parameters and options. `reference` is the height in [0,1]
+/// that stays where it is when heights fade.
+void set_relief_options(gl::Program& program, const scene::Technique& technique, double reference);
+
+/// Whether the rays of a terrain's relief begin where their beam may meet something (beams.h):
+/// those whose result does not hang on where they begin, and interval, whose steps are then
+/// shorter.
+bool has_beams(const scene::Technique& technique);
+
+bool is_parallax(scene::TechniqueId id);
+
+} // namespace reljef::render

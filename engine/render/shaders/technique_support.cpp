@@ -1,0 +1,151 @@
+#include "engine/render/shaders/technique_support.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace reljef::render {
+namespace {
+
+struct GlVersion {
+    int major = 0;
+    int minor = 0;
+    friend auto operator<=>(const GlVersion&, const GlVersion&) = default;
+};
+constexpr GlVersion shader_version{4, 5};
+
+// "4.5 (Core Profile) Mesa 22.3.6"; 0.0 where it is none such.
+GlVersion version_of(const std::string& text) {
+    GlVersion version;
+    const char* const end = text.data() + text.size();
+    const auto major = std::from_chars(text.data(), end, version.major);
+    if (major.ptr != end && *major.ptr == '.') {
+        std::from_chars(major.ptr + 1, end, version.minor);
+    }
+    return version;
+}
+
+bool uses_pyramid(scene::TechniqueId id) {
+    return id == scene::TechniqueId::exact;
+}
+
+// One more than the highest binding in its shaders: relief*.glsl, tile_light.glsl, terrain.frag.
+int texture_units(scene::TechniqueId id, bool is_mesh) {
+    if (id == scene::TechniqueId::prewarp || id == scene::TechniqueId::cone) {
+        return is_mesh ? 7 : 5;
+    }
+    if (scene::looks_for_layers(id) || (uses_pyramid(id) && !is_mesh)) {
+        return 6;
+    }
+    if (is_mesh) {
+        return id == scene::TechniqueId::texture || id == scene::TechniqueId::polygons ? 2 : 5;
+    }
+    return scene::geometry_of(id) == scene::Geometry::box ? 4 : 1;
+}
+
+// Of the maps that hold the heights, which may not be made smaller. Triangles have none.
+int widest_map(scene::TechniqueId id, const DrawnSurface& surface) {
+    const bool has_map = surface.is_mesh || scene::geometry_of(id) == scene::Geometry::box ||
+                         id == scene::TechniqueId::prewarp;
+    const int side = has_map ? std::max(surface.samples.x, surface.samples.y) : 0;
+    return uses_pyramid(id) ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(side))) : side;
+}
+
+bool draws(scene::TechniqueId id, bool is_mesh) {
+    return is_mesh ? scene::draws_any_mesh(id) : scene::draws_terrain(id);
+}
+
+Result<void> check_surface(const scene::Technique& technique, const DrawnSurface& surface,
+                           const gl::Limits& limits) {
+    const auto lack = lack_of(technique.id, surface, limits);
+    if (!lack) {
+        return {};
+    }
+    const auto nearest = nearest_technique(technique.id, surface, limits);
+    return Error{
+        fmt::format("technique {}: {}; {}", scene::technique_info(technique.id).name, *lack,
+                    nearest ? fmt::format("{} works here", scene::technique_info(*nearest).name)
+                            : std::string("no technique works here"))};
+}
+
+DrawnSurface surface_of(const scene::TerrainNode& terrain) {
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    return {false, {heights.cols(), heights.rows()}};
+}
+
+} // namespace
+
+std::optional<std::string> lack_of(scene::TechniqueId id, const DrawnSurface& surface,
+                                   const gl::Limits& limits) {
+    if (version_of(limits.version) < shader_version) {
+        return fmt::format("OpenGL {} found, 4.5 was expected", limits.version);
+    }
+    const int units = texture_units(id, surface.is_mesh);
+    const int units_there = std::min(limits.max_texture_units, limits.max_fragment_texture_units);
+    if (units > units_there) {
+        return fmt::format("{} texture units found, {} were expected", units_there, units);
+    }
+    const int side = widest_map(id, surface);
+    if (side > limits.max_texture_size) {
+        return fmt::format("heights of {} x {} samples found, which take a texture {} wide, at "
+                           "most {} was expected",
+                           surface.samples.x, surface.samples.y, side, limits.max_texture_size);
+    }
+    return std::nullopt;
+}
+
+std::optional<scene::TechniqueId>
+nearest_technique(scene::TechniqueId id, const DrawnSurface& surface, const gl::Limits& limits) {
+    const auto catalogue = scene::technique_catalogue();
+    const auto own = std::find_if(catalogue.begin(), catalogue.end(),
+                                  [&](const scene::TechniqueInfo& info) { return info.id == id; }) -
+                     catalogue.begin();
+    const auto count = static_cast<std::ptrdiff_t>(catalogue.size());
+    for (std::ptrdiff_t away = 1; away < count; ++away) {
+        for (const std::ptrdiff_t place : {own - away, own + away}) {
+            if (place < 0 || place >= count) {
+                continue;
+            }
+            const scene::TechniqueId other = catalogue[static_cast<std::size_t>(place)].id;
+            if (draws(other, surface.is_mesh) && !lack_of(other, surface, limits)) {
+                return other;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+Result<void> check_support(const view::DrawList& list, const gl::Limits& limits) {
+    for (const view::TileDraw& draw : list.tiles) {
+        const auto& terrain = *draw.terrain;
+        if (auto good = check_surface(terrain.material.technique, surface_of(terrain), limits);
+            !good) {
+            return good;
+        }
+    }
+    for (const view::ReliefDraw& draw : list.reliefs) {
+        const auto& terrain = *draw.terrain;
+        if (auto good = check_surface(terrain.material.technique, surface_of(terrain), limits);
+            !good) {
+            return good;
+        }
+    }
+    for (const view::MeshDraw& draw : list.meshes) {
+        const scene::Material& material = draw.mesh->material;
+        if (material.detail.set == nullptr) {
+            continue;
+        }
+        const Grid<float>& heights = material.detail.set->heights;
+        if (auto good =
+                check_surface(material.technique, {true, {heights.cols(), heights.rows()}}, limits);
+            !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+} // namespace reljef::render

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/scene/graph/camera.h"
+
+namespace reljef::render {
+
+/// What programs ask for of a view, and of where a thing lies in it: doubles until what remains is
+/// small enough for floats.
+
+bool is_perspective(const scene::Camera& camera);
+
+/// The view ray at depth 1 of a place on the picture: gl_FragCoord · xy + zw. `size` in pixels.
+glm::vec4 ray_from_pixel(const scene::Camera& camera, glm::ivec2 size);
+
+/// The eye in the local frame, metres.
+glm::dvec3 local_eye(const scene::Camera& camera, const glm::dmat4& world_from_local);
+
+/// From the local frame to places relative to the eye, along the world's axes.
+glm::mat4 relative_from_local(const scene::Camera& camera, const glm::dmat4& world_from_local);
+
+glm::mat3 world_from_normal(const glm::dmat4& world_from_local);
+
+} // namespace reljef::render

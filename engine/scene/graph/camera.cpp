@@ -1,0 +1,123 @@
+#include "engine/scene/graph/camera.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace reljef::scene {
+namespace {
+
+// The vector's direction, or `otherwise` where it has none (zero length, not finite).
+glm::dvec3 direction_or(glm::dvec3 vector, glm::dvec3 otherwise) {
+    const double length = glm::length(vector);
+    return std::isfinite(length) && length > 0.0 ? vector / length : otherwise;
+}
+
+// Sine of the angle below which a view counts as looking along its up vector: there the cross
+// product keeps fewer than half of a double's 53 bits.
+constexpr double parallel_sine = 0x1p-26;
+
+} // namespace
+
+ViewAxes view_axes(const Camera& camera) {
+    const glm::dvec3 forward = direction_or(camera.look - camera.eye, {0.0, 1.0, 0.0});
+    const glm::dvec3 upward = direction_or(camera.up, {0.0, 0.0, 1.0});
+    glm::dvec3 right = glm::cross(forward, upward);
+    if (glm::length(right) < parallel_sine) {
+        right = glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0));
+    }
+    if (glm::length(right) < parallel_sine) {
+        right = glm::cross(forward, glm::dvec3(1.0, 0.0, 0.0));
+    }
+    right = glm::normalize(right);
+    return {right, glm::cross(right, forward), forward};
+}
+
+glm::dmat4 view_from_world_rotation(const Camera& camera) {
+    const ViewAxes axes = view_axes(camera);
+    return glm::transpose(glm::dmat4(glm::dvec4(axes.right, 0.0), glm::dvec4(axes.up, 0.0),
+                                     glm::dvec4(-axes.forward, 0.0),
+                                     glm::dvec4(0.0, 0.0, 0.0, 1.0)));
+}
+
+glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size) {
+    const double aspect = static_cast<double>(size.x) / size.y;
+    glm::dmat4 clip(0.0);
+    if (camera.projection == ProjectionKind::perspective) {
+        const double scale = 1.0 / std::tan(0.5 * glm::radians(camera.vertical_fov));
+        clip[0][0] = scale / aspect;
+        clip[1][1] = scale;
+        clip[3][2] = camera.near;
+        clip[2][3] = -1.0;
+        return clip;
+    }
+    const double depth = camera.orthographic_far - camera.orthographic_near;
+    clip[0][0] = 2.0 / (camera.view_height * aspect);
+    clip[1][1] = 2.0 / camera.view_height;
+    clip[2][2] = 1.0 / depth;
+    clip[3][2] = camera.orthographic_far / depth;
+    clip[3][3] = 1.0;
+    return clip;
+}
+
+Camera with_fitted_depth(Camera camera, const Box& bounds) {
+    if (!bounds.empty()) {
+        const glm::dvec3 forward = view_axes(camera).forward;
+        const double middle = glm::dot(bounds.center() - camera.eye, forward);
+        const double reach = 0.5 * glm::length(bounds.size()) + 1.0;
+        camera.orthographic_near = middle - reach;
+        camera.orthographic_far = middle + reach;
+    }
+    return camera;
+}
+
+glm::dmat4 clip_from_world(const Camera& camera, glm::ivec2 size) {
+    glm::dmat4 relative_from_world(1.0);
+    relative_from_world[3] = glm::dvec4(-camera.eye, 1.0);
+    return clip_from_view(camera, size) * view_from_world_rotation(camera) * relative_from_world;
+}
+
+Ray view_ray(const Camera& camera, glm::ivec2 size, glm::dvec2 pixel) {
+    const ViewAxes axes = view_axes(camera);
+    const double x = 2.0 * pixel.x / size.x - 1.0;
+    const double y = 1.0 - 2.0 * pixel.y / size.y;
+    const double aspect = static_cast<double>(size.x) / size.y;
+    if (camera.projection == ProjectionKind::perspective) {
+        const double half = std::tan(0.5 * glm::radians(camera.vertical_fov));
+        return {camera.eye, axes.forward + half * (aspect * x * axes.right + y * axes.up)};
+    }
+    const double half = 0.5 * camera.view_height;
+    return {camera.eye + half * (aspect * x * axes.right + y * axes.up), axes.forward};
+}
+
+Projected project(const Camera& camera, glm::ivec2 size, glm::dvec3 world) {
+    const ViewAxes axes = view_axes(camera);
+    const glm::dvec3 relative = world - camera.eye;
+    const double depth = glm::dot(relative, axes.forward);
+    const double half = camera.projection == ProjectionKind::perspective
+                            ? depth * std::tan(0.5 * glm::radians(camera.vertical_fov))
+                            : 0.5 * camera.view_height;
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const double x = glm::dot(relative, axes.right) / (half * aspect);
+    const double y = glm::dot(relative, axes.up) / half;
+    return {{0.5 * (x + 1.0) * size.x, 0.5 * (1.0 - y) * size.y}, depth};
+}
+
+Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Compass& compass) {
+    const glm::dvec3 upward = direction_or(compass.up, {0.0, 0.0, 1.0});
+    glm::dvec3 east = glm::cross(compass.north, upward);
+    east = direction_or(east, {1.0, 0.0, 0.0});
+    const glm::dvec3 north = glm::cross(upward, east);
+    const double h = glm::radians(heading);
+    const double p = glm::radians(pitch);
+    const glm::dvec3 ahead = std::sin(h) * east + std::cos(h) * north;
+    Camera camera;
+    camera.eye = eye;
+    camera.look = eye + std::cos(p) * ahead + std::sin(p) * upward;
+    // Straight up or down, the heading still says what is up in the picture.
+    camera.up = std::cos(p) * upward - std::sin(p) * ahead;
+    return camera;
+}
+
+} // namespace reljef::scene

@@ -1,0 +1,281 @@
+#include "engine/scene/graph/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/scene/graph/texture_plane.h"
+#include "engine/scene/tile_stream.h"
+
+namespace reljef::scene {
+namespace {
+
+void visit_below(const Node& node, const glm::dmat4& world_from_parent,
+                 const std::function<void(const Node&, const glm::dmat4&)>& visit) {
+    if (!node.visible()) {
+        return;
+    }
+    const glm::dmat4 world_from_local = world_from_parent * node.parent_from_local();
+    visit(node, world_from_local);
+    for (const auto& child : node.children()) {
+        visit_below(*child, world_from_local, visit);
+    }
+}
+
+Ray transformed(const glm::dmat4& to_from_from, const Ray& ray) {
+    return {glm::dvec3(to_from_from * glm::dvec4(ray.origin, 1.0)),
+            glm::dvec3(to_from_from * glm::dvec4(ray.direction, 0.0))};
+}
+
+// z of a terrain straight below `above`, world metres. A turned terrain has no height at x, y of
+// its own: the ray down finds it.
+std::optional<double> height_of(const TerrainNode& terrain, const glm::dmat4& world_from_local,
+                                glm::dvec3 above) {
+    const glm::dvec3 origin(world_from_local[3]);
+    if (glm::dmat3(world_from_local) == glm::dmat3(1.0)) {
+        const auto z = reljef::scene::height_at(terrain, above.x - origin.x, above.y - origin.y);
+        return z ? std::optional(*z + origin.z) : std::nullopt;
+    }
+    const auto hit = terrain.surface->pick(
+        transformed(glm::inverse(world_from_local), {above, {0.0, 0.0, -1.0}}));
+    return hit ? std::optional(above.z - hit->t) : std::nullopt;
+}
+
+// A node may have been taken out of the tree and be gone.
+bool holds(const Node& node, const Node* sought) {
+    return &node == sought || std::any_of(node.children().begin(), node.children().end(),
+                                          [&](const auto& child) { return holds(*child, sought); });
+}
+
+// The option that does not go with them, and why; empty: none.
+std::string_view reason_against_silhouettes(const TechniqueOptions& options) {
+    if (!options.true_silhouettes) {
+        return {};
+    }
+    if (options.fade) {
+        return "fade, which was not expected: heights that change with the view have no outline";
+    }
+    if (options.smooth_edges) {
+        return "edges, which was not expected: what a ray misses in one part of the hull it may "
+               "meet in the next";
+    }
+    return options.two_sided ? "sides=two, which was not expected: a hull is seen from outside"
+                             : std::string_view();
+}
+
+} // namespace
+
+glm::dvec3 to_light(const Light& light) {
+    const double azimuth = glm::radians(light.azimuth);
+    const double altitude = glm::radians(light.altitude);
+    return {std::sin(azimuth) * std::cos(altitude), std::cos(azimuth) * std::cos(altitude),
+            std::sin(altitude)};
+}
+
+Light turned(Light light, const glm::dmat4& world_from_local) {
+    const glm::dmat3 axes(world_from_local);
+    if (axes != glm::dmat3(1.0)) {
+        const glm::dvec3 direction = glm::normalize(axes * to_light(light));
+        light.azimuth = glm::degrees(std::atan2(direction.x, direction.y));
+        light.altitude = glm::degrees(std::asin(std::clamp(direction.z, -1.0, 1.0)));
+    }
+    return light;
+}
+
+Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
+    const std::string_view name = technique_info(technique.id).name;
+    if (mesh.material.detail.set == nullptr) {
+        return {};
+    }
+    if (const auto reason = reason_against_silhouettes(technique.options); !reason.empty()) {
+        return Error{fmt::format("technique {}: silhouettes=true found beside {}", name, reason)};
+    }
+    if (!draws_any_mesh(technique.id) && !texture_plane(*mesh.mesh)) {
+        return Error{fmt::format("technique {}: a mesh that is not flat found, one plane was "
+                                 "expected; relief draws both",
+                                 name)};
+    }
+    return {};
+}
+
+double extinction(const Sky& sky) {
+    constexpr double contrast_left = 0.02;
+    return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
+}
+
+Node::Node(std::string name, Content content)
+    : name_(std::move(name)), content_(std::move(content)) {}
+
+Node& Node::add(std::unique_ptr<Node> child) {
+    check(child != nullptr, "a node was expected");
+    child->parent_ = this;
+    children_.push_back(std::move(child));
+    return *children_.back();
+}
+
+Node& Node::add(std::string name, Content content) {
+    return add(std::make_unique<Node>(std::move(name), std::move(content)));
+}
+
+std::unique_ptr<Node> Node::remove(const Node& child) {
+    const auto found = std::find_if(children_.begin(), children_.end(),
+                                    [&](const auto& entry) { return entry.get() == &child; });
+    if (found == children_.end()) {
+        return nullptr;
+    }
+    std::unique_ptr<Node> taken = std::move(*found);
+    children_.erase(found);
+    taken->parent_ = nullptr;
+    return taken;
+}
+
+glm::dmat4 Node::world_from_local() const {
+    return parent_ != nullptr ? parent_->world_from_local() * parent_from_local_
+                              : parent_from_local_;
+}
+
+Box Node::local_bounds() const {
+    if (const auto* terrain = get<TerrainNode>()) {
+        return terrain->surface->bounds();
+    }
+    if (const auto* mesh = get<MeshNode>()) {
+        Box bounds = bounds_of(*mesh->mesh);
+        if (mesh->material.detail.set != nullptr && !bounds.empty()) {
+            const double reach = mesh->material.technique.options.true_silhouettes
+                                     ? hull_reach(*mesh->mesh, mesh->material.detail)
+                                     : raised_above(*mesh->mesh, mesh->material.detail);
+            bounds = {bounds.low - reach, bounds.high + reach};
+        }
+        return bounds;
+    }
+    return {};
+}
+
+Box Node::world_bounds() const {
+    Box bounds;
+    const glm::dmat4 world_from_parent =
+        parent_ != nullptr ? parent_->world_from_local() : glm::dmat4(1.0);
+    visit_below(*this, world_from_parent,
+                [&](const Node& node, const glm::dmat4& world_from_local) {
+                    bounds.add(reljef::transformed(world_from_local, node.local_bounds()));
+                });
+    return bounds;
+}
+
+void Node::animate(double time) {
+    for (const Animator& animator : animators_) {
+        animator(*this, time);
+    }
+    for (const auto& child : children_) {
+        child->animate(time);
+    }
+}
+
+Scene::Scene() : root_(std::make_unique<Node>("root")) {}
+
+Result<Node*> Scene::add_terrain(terrain::Terrain terrain, const TerrainOptions& options) {
+    std::string name = terrain.name;
+    auto surface = TerrainSurface::create(
+        std::make_shared<const terrain::Terrain>(std::move(terrain)), options);
+    if (!surface) {
+        return surface.error();
+    }
+    return &root_->add(
+        std::move(name),
+        TerrainNode{std::make_shared<const TerrainSurface>(std::move(*surface)), {}});
+}
+
+Node& Scene::add_mesh(Mesh mesh, const Material& material) {
+    return root_->add("mesh", MeshNode{std::make_shared<const Mesh>(std::move(mesh)), material});
+}
+
+Node& Scene::add_light(const Light& light) {
+    return root_->add("light", light);
+}
+
+Node& Scene::add_camera(const Camera& camera) {
+    Node& node = root_->add("camera", camera);
+    if (active_camera_ == nullptr) {
+        active_camera_ = &node;
+    }
+    return node;
+}
+
+void Scene::set_active_camera(Node& node) {
+    check(node.get<Camera>() != nullptr, "a camera node was expected");
+    active_camera_ = &node;
+}
+
+Camera Scene::camera() const {
+    if (active_camera_ == nullptr || !holds(*root_, active_camera_)) {
+        return {};
+    }
+    Camera camera = *active_camera_->get<Camera>();
+    const glm::dmat4 world_from_local = active_camera_->world_from_local();
+    const auto place = [&](glm::dvec3 p) {
+        return glm::dvec3(world_from_local * glm::dvec4(p, 1.0));
+    };
+    camera.up = glm::dvec3(world_from_local * glm::dvec4(camera.up, 0.0));
+    camera.eye = place(camera.eye);
+    camera.look = place(camera.look);
+    return camera;
+}
+
+std::optional<Light> Scene::sun() const {
+    std::optional<Light> first;
+    visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_local) {
+        if (const auto* light = node.get<Light>(); light != nullptr && !first) {
+            first = turned(*light, world_from_local);
+        }
+    });
+    return first;
+}
+
+std::optional<double> Scene::height_at(double x, double y) const {
+    const Box bounds = root_->world_bounds();
+    if (bounds.empty()) {
+        return std::nullopt;
+    }
+    std::optional<double> highest;
+    visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_local) {
+        if (const auto* terrain = node.get<TerrainNode>()) {
+            const auto z = height_of(*terrain, world_from_local, {x, y, bounds.high.z + 1.0});
+            highest = z ? std::max(*z, highest.value_or(*z)) : highest;
+        }
+    });
+    return highest;
+}
+
+std::optional<Scene::Pick> Scene::pick(const Ray& ray) const {
+    std::optional<Pick> first;
+    visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_local) {
+        if (const auto* terrain = node.get<TerrainNode>()) {
+            const auto hit =
+                terrain->surface->pick(transformed(glm::inverse(world_from_local), ray));
+            if (hit && (!first || hit->t < first->hit.t)) {
+                first = Pick{&node, *hit, ray.at(hit->t)};
+            }
+        }
+    });
+    return first;
+}
+
+bool Scene::dispatch(const Event& event) const {
+    return std::any_of(receivers_.rbegin(), receivers_.rend(),
+                       [&](const EventReceiver& receiver) { return receiver(event); });
+}
+
+void visit_visible(
+    const Node& root,
+    const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit) {
+    visit_below(root,
+                root.parent() != nullptr ? root.parent()->world_from_local() : glm::dmat4(1.0),
+                visit);
+}
+
+} // namespace reljef::scene

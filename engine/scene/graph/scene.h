@@ -1,0 +1,177 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "engine/core/event.h"
+#include "engine/core/geometry.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/scene/graph/mesh.h"
+#include "engine/scene/graph/terrain_node.h"
+
+namespace reljef::scene {
+
+/// A light so far away that its rays are parallel.
+struct Light {
+    double azimuth = 300.0; ///< degrees clockwise from north, where it comes from
+    double altitude = 40.0; ///< degrees above the horizon
+    glm::vec3 color{1.70F, 1.60F,
+                    1.43F}; ///< linear, what a surface that faces it reflects at albedo 1
+    glm::vec3 ambient{0.30F, 0.35F,
+                      0.44F}; ///< linear, what a level surface reflects from the sky at albedo 1
+
+    friend bool operator==(const Light&, const Light&) = default;
+};
+
+/// Unit vector towards the light.
+glm::dvec3 to_light(const Light& light);
+
+/// The light as its node's transform turns it.
+Light turned(Light light, const glm::dmat4& world_from_local);
+
+/// What is behind everything, and the air in between.
+struct Sky {
+    glm::vec3 zenith{0.13F, 0.30F, 0.62F};  ///< linear
+    glm::vec3 horizon{0.62F, 0.74F, 0.87F}; ///< linear
+    /// Metres at which 2 % of the contrast is left (Koschmieder); 0: no fog.
+    double visibility = 0.0;
+
+    friend bool operator==(const Sky&, const Sky&) = default;
+};
+
+/// Share of the light that a metre of the air takes, 1/metre; 0 without fog.
+double extinction(const Sky& sky);
+
+struct MeshNode {
+    std::shared_ptr<const Mesh> mesh;
+    Material material;
+
+    friend bool operator==(const MeshNode&, const MeshNode&) = default;
+};
+
+/// Whether the technique can draw the mesh; one of a single colour is drawn by any. Fails, with the
+/// reason and the name of what works, where it is one for terrains.
+Result<void> check_technique(const Technique& technique, const MeshNode& mesh);
+
+class Node;
+
+/// Changes a node as time goes by; `time` in seconds since the scene began.
+using Animator = std::function<void(Node& node, double time)>;
+
+/// Looks at an event and says whether it took it; the next receiver is asked only if not.
+using EventReceiver = std::function<bool(const Event& event)>;
+
+/// A place in the scene: a transform, perhaps something to draw, and children that move along.
+/// Owned by its parent.
+class Node {
+public:
+    using Content = std::variant<std::monostate, TerrainNode, MeshNode, Light, Camera>;
+
+    explicit Node(std::string name, Content content = {});
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] Node* parent() const { return parent_; }
+    [[nodiscard]] const std::vector<std::unique_ptr<Node>>& children() const { return children_; }
+
+    /// Precondition: `child` is not null.
+    Node& add(std::unique_ptr<Node> child);
+    Node& add(std::string name, Content content = {});
+    /// Takes a child out of the tree; null when it is none of this node's.
+    std::unique_ptr<Node> remove(const Node& child);
+
+    /// The content, if it is a T.
+    template <class T> [[nodiscard]] T* get() { return std::get_if<T>(&content_); }
+    template <class T> [[nodiscard]] const T* get() const { return std::get_if<T>(&content_); }
+    [[nodiscard]] const Content& content() const { return content_; }
+
+    [[nodiscard]] bool visible() const { return visible_; }
+    /// An invisible node hides its children too.
+    void set_visible(bool visible) { visible_ = visible; }
+
+    [[nodiscard]] const glm::dmat4& parent_from_local() const { return parent_from_local_; }
+    /// Precondition: affine.
+    void set_parent_from_local(const glm::dmat4& transform) { parent_from_local_ = transform; }
+    void set_position(glm::dvec3 position) { parent_from_local_[3] = glm::dvec4(position, 1.0); }
+    [[nodiscard]] glm::dmat4 world_from_local() const;
+
+    /// Of the content, local metres; empty where there is nothing to draw.
+    [[nodiscard]] Box local_bounds() const;
+    /// Of the content and all visible children, world metres.
+    [[nodiscard]] Box world_bounds() const;
+
+    void add_animator(Animator animator) { animators_.push_back(std::move(animator)); }
+    /// Runs this node's animators and its children's.
+    void animate(double time);
+
+private:
+    std::string name_;
+    Content content_;
+    Node* parent_ = nullptr;
+    std::vector<std::unique_ptr<Node>> children_;
+    std::vector<Animator> animators_;
+    glm::dmat4 parent_from_local_{1.0};
+    bool visible_ = true;
+};
+
+/// The tree of nodes, what is around it, and who listens.
+class Scene {
+public:
+    Scene();
+
+    [[nodiscard]] Node& root() { return *root_; }
+    [[nodiscard]] const Node& root() const { return *root_; }
+
+    /// Places the terrain; fails as TerrainSurface::create.
+    Result<Node*> add_terrain(terrain::Terrain terrain, const TerrainOptions& options = {});
+    Node& add_mesh(Mesh mesh, const Material& material = {});
+    Node& add_light(const Light& light = {});
+    /// Adds a camera; the first one becomes the active one.
+    Node& add_camera(const Camera& camera = {});
+
+    void set_sky(const Sky& sky) { sky_ = sky; }
+    void remove_sky() { sky_.reset(); }
+    [[nodiscard]] const std::optional<Sky>& sky() const { return sky_; }
+
+    /// Precondition: `node` holds a Camera and is in the tree as long as it is active.
+    void set_active_camera(Node& node);
+    /// The active camera in world metres; the default one when there is none.
+    [[nodiscard]] Camera camera() const;
+
+    /// The first visible light, as its node turns it.
+    [[nodiscard]] std::optional<Light> sun() const;
+
+    /// z of the highest terrain surface at world (x, y) below any of the visible terrain nodes.
+    [[nodiscard]] std::optional<double> height_at(double x, double y) const;
+    /// The first terrain that a world ray meets.
+    struct Pick {
+        const Node* node = nullptr;
+        terrain::SurfaceHit hit;
+        glm::dvec3 world{0.0};
+    };
+    [[nodiscard]] std::optional<Pick> pick(const Ray& ray) const;
+
+    void add_event_receiver(EventReceiver receiver) { receivers_.push_back(std::move(receiver)); }
+    /// Asks the receivers, the latest first, until one takes the event.
+    bool dispatch(const Event& event) const;
+
+private:
+    std::unique_ptr<Node> root_;
+    std::optional<Sky> sky_;
+    Node* active_camera_ = nullptr;
+    std::vector<EventReceiver> receivers_;
+};
+
+/// Calls `visit(node, world_from_local)` for every node of the tree that is visible, parents first.
+void visit_visible(
+    const Node& root,
+    const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit);
+
+} // namespace reljef::scene

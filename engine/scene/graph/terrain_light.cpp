@@ -1,0 +1,77 @@
+#include "engine/scene/graph/terrain_light.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include "engine/core/bilinear.h"
+#include "engine/terrain/field/gradient.h"
+#include "engine/terrain/field/sun_visibility.h"
+#include "engine/terrain/field/tint.h"
+
+namespace reljef::scene {
+namespace {
+
+Grid<std::uint8_t> visibility_of_sun(const TerrainSurface& surface, const TerrainLight& light) {
+    const terrain::Heightfield& heightfield = surface.heightfield();
+    const glm::dvec2 middle =
+        0.5 * glm::dvec2(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    // How far the sun lies along each axis of the grid (a vector times a matrix: its columns).
+    const glm::dvec3 to_sun_on_grid = glm::inverse(light.world_from_local) * to_light(light.sun) *
+                                      terrain::grid_axes(heightfield, surface.placement(), middle);
+    return terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,
+                                   surface.placement().exaggeration(), to_sun_on_grid,
+                                   heightfield.georeference &&
+                                       heightfield.georeference->geodetic.rows().closing().around);
+}
+
+} // namespace
+
+Image albedo_map(const TerrainSurface& surface) {
+    const terrain::Terrain& terrain = surface.terrain();
+    const bool opaque = !terrain.color.empty() &&
+                        std::all_of(terrain.color.samples().begin(), terrain.color.samples().end(),
+                                    [](Rgba8 pixel) { return pixel.a == 255; });
+    return opaque
+               ? terrain.color
+               : terrain::composite(terrain.color, terrain::hypsometric_tint(terrain.heightfield));
+}
+
+TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light)
+    : gradients_(terrain::scene_gradients(surface.heightfield(), surface.placement())),
+      visibility_(visibility_of_sun(surface, light)),
+      world_from_normal_(glm::inverseTranspose(light.world_from_local)),
+      to_sun_(to_light(light.sun)), sun_(light.sun.color), sky_(light.sun.ambient),
+      is_day_((glm::inverse(light.world_from_local) * to_light(light.sun)).z > 0.0) {}
+
+glm::vec3 TerrainIrradiance::normal_at(glm::dvec2 sample) const {
+    const glm::vec2 gradient = bilinear(gradients_, sample, std::identity());
+    return glm::normalize(world_from_normal_ * glm::vec3(-gradient.x, -gradient.y, 1.0F));
+}
+
+float TerrainIrradiance::visibility(glm::dvec2 sample) const {
+    return bilinear(visibility_, sample, [](std::uint8_t share) { return share / 255.0F; });
+}
+
+glm::vec3 TerrainIrradiance::at(glm::dvec2 sample) const {
+    const glm::vec3 normal = normal_at(sample);
+    const float sun = std::max(glm::dot(normal, to_sun_), 0.0F) * visibility(sample);
+    return sun_ * sun + sky_ * (0.5F + 0.5F * normal.z);
+}
+
+glm::vec3 TerrainIrradiance::at(glm::vec3 normal, glm::vec3 up, float visibility) const {
+    const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
+    const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
+    const float sun = std::max(glm::dot(turned, to_sun_), 0.0F) * visibility;
+    return sun_ * sun + sky_ * (0.5F + 0.5F * glm::dot(turned, turned_up));
+}
+
+IrradianceParts TerrainIrradiance::parts_at(glm::dvec2 sample) const {
+    const glm::vec3 normal = normal_at(sample);
+    const float sun = is_day_ ? std::max(glm::dot(normal, to_sun_), 0.0F) : 0.0F;
+    return {sky_ * (0.5F + 0.5F * normal.z), sun_ * sun};
+}
+
+} // namespace reljef::scene

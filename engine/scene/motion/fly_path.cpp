@@ -1,0 +1,146 @@
+#include "engine/scene/motion/fly_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace reljef::scene {
+namespace {
+
+bool is_finite(glm::dvec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Slope at the middle of three values: zero at an extremum, else the harmonic mean of the two
+// secants, which keeps both pieces monotone. A secant may be infinite: the other one then limits
+// it.
+double limited_slope(double before, double after) {
+    const bool same_way = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
+    return same_way ? 2.0 / (1.0 / before + 1.0 / after) : 0.0;
+}
+
+struct Knot {
+    double time;
+    double value;
+};
+
+// The piece between b and c, with neighbours a and d; times ascend, a may equal b and c equal d.
+double hermite(Knot a, Knot b, Knot c, Knot d, double time) {
+    const double length = c.time - b.time;
+    const double rise = c.value - b.value;
+    // Slopes are per length of the piece: all are finite, however close its neighbours' times.
+    const auto secant = [&](Knot from, Knot to) {
+        const double share = (to.time - from.time) / length;
+        return share > 0.0 ? (to.value - from.value) / share : 0.0;
+    };
+    const double slope_b = limited_slope(secant(a, b), rise);
+    const double slope_c = limited_slope(rise, secant(c, d));
+    const double t = (time - b.time) / length;
+    const double value = b.value + t * (slope_b + t * (3.0 * rise - 2.0 * slope_b - slope_c +
+                                                       t * (slope_b + slope_c - 2.0 * rise)));
+    return std::clamp(value, std::min(b.value, c.value), std::max(b.value, c.value));
+}
+
+} // namespace
+
+Result<FlyPath> FlyPath::create(std::vector<FlyKey> keys) {
+    if (keys.empty()) {
+        return Error{"fly path: no key found, at least one was expected"};
+    }
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (!std::isfinite(keys[i].time) || !is_finite(keys[i].eye) || !is_finite(keys[i].look)) {
+            return Error{fmt::format("fly path: key {} is not finite", i + 1)};
+        }
+    }
+    std::stable_sort(keys.begin(), keys.end(),
+                     [](const FlyKey& a, const FlyKey& b) { return a.time < b.time; });
+    std::vector<FlyKey> distinct;
+    for (const FlyKey& key : keys) {
+        if (!distinct.empty() && distinct.back().time == key.time) {
+            distinct.back() = key;
+        } else {
+            distinct.push_back(key);
+        }
+    }
+    return FlyPath(std::move(distinct));
+}
+
+FlyKey FlyPath::at(double time) const {
+    if (!(time > begin())) {
+        return keys_.front();
+    }
+    if (time >= end()) {
+        return keys_.back();
+    }
+    const auto next = std::upper_bound(keys_.begin(), keys_.end(), time,
+                                       [](double t, const FlyKey& key) { return t < key.time; });
+    const FlyKey& b = *(next - 1);
+    const FlyKey& c = *next;
+    const FlyKey& a = next - 1 == keys_.begin() ? b : *(next - 2);
+    const FlyKey& d = next + 1 == keys_.end() ? c : *(next + 1);
+    FlyKey key{time, {}, {}};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto along = [&](glm::dvec3 FlyKey::*place) {
+            const auto knot = [&](const FlyKey& k) { return Knot{k.time, (k.*place)[axis]}; };
+            return hermite(knot(a), knot(b), knot(c), knot(d), time);
+        };
+        key.eye[axis] = along(&FlyKey::eye);
+        key.look[axis] = along(&FlyKey::look);
+    }
+    return key;
+}
+
+FlyPath orbit_path(const Box& bounds, double seconds) {
+    constexpr int steps = 64;
+    const glm::dvec3 middle = bounds.center();
+    const double radius = 0.62 * std::max(bounds.size().x, bounds.size().y);
+    std::vector<FlyKey> keys;
+    for (int i = 0; i <= steps; ++i) {
+        const double angle = glm::radians(360.0 * i / steps - 90.0);
+        const glm::dvec3 eye{middle.x + radius * std::cos(angle),
+                             middle.y + radius * std::sin(angle), bounds.high.z + 0.45 * radius};
+        keys.push_back({seconds * i / steps, eye, {middle.x, middle.y, bounds.low.z}});
+    }
+    return FlyPath::create(std::move(keys)).value();
+}
+
+FlyPath flyover_path(const Box& bounds, const std::function<double(double, double)>& ground,
+                     double seconds) {
+    constexpr int steps = 48;
+    const glm::dvec3 size = bounds.size();
+    const glm::dvec3 middle = bounds.center();
+    const double width = std::max(size.x, size.y);
+    const auto track = [&](double share) {
+        const double bend = std::sin(share * 3.14159265358979323846);
+        return glm::dvec2(middle.x + size.x * (-0.18 + 0.5 * share * share - 0.12 * bend),
+                          middle.y + size.y * (-0.62 + 0.95 * share));
+    };
+    // The flight stands off the highest ground near it, so that it clears ridges in good time.
+    const auto altitude = [&](glm::dvec2 at, double above) {
+        double highest = bounds.low.z;
+        for (int j = -2; j <= 2; ++j) {
+            for (int i = -2; i <= 2; ++i) {
+                highest =
+                    std::max(highest, ground(at.x + 0.02 * width * i, at.y + 0.02 * width * j));
+            }
+        }
+        return highest + above;
+    };
+    std::vector<FlyKey> keys;
+    for (int i = 0; i <= steps; ++i) {
+        const double share = static_cast<double>(i) / steps;
+        const glm::dvec2 at = track(share);
+        const glm::dvec2 ahead = track(share + 0.2);
+        const double above = std::lerp(0.16, 0.05, std::min(1.0, 1.6 * share)) * width;
+        const double eye_z = altitude(at, above);
+        keys.push_back({seconds * share,
+                        {at.x, at.y, eye_z},
+                        {ahead.x, ahead.y, eye_z - 0.32 * 0.2 * width - 0.5 * above}});
+    }
+    return FlyPath::create(std::move(keys)).value();
+}
+
+} // namespace reljef::scene

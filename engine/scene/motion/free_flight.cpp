@@ -1,0 +1,235 @@
+#include "engine/scene/motion/free_flight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace reljef::scene {
+namespace {
+
+constexpr double degrees_per_pixel = 0.15;
+constexpr double steepest_pitch = 89.9; // degrees
+constexpr double speed_per_wheel_step = 1.25;
+constexpr double slowest = 1e-2; // metres a second
+constexpr double fastest = 1e7;
+constexpr double shift_factor = 4.0;
+constexpr double longest_step = 0.25; // seconds
+
+// Where a key steers: to the right, ahead, up.
+struct Steering {
+    Key key;
+    glm::dvec3 direction;
+};
+constexpr std::array<Steering, 12> steerings{{{Key::w, {0.0, 1.0, 0.0}},
+                                              {Key::up, {0.0, 1.0, 0.0}},
+                                              {Key::s, {0.0, -1.0, 0.0}},
+                                              {Key::down, {0.0, -1.0, 0.0}},
+                                              {Key::d, {1.0, 0.0, 0.0}},
+                                              {Key::right, {1.0, 0.0, 0.0}},
+                                              {Key::a, {-1.0, 0.0, 0.0}},
+                                              {Key::left, {-1.0, 0.0, 0.0}},
+                                              {Key::e, {0.0, 0.0, 1.0}},
+                                              {Key::page_up, {0.0, 0.0, 1.0}},
+                                              {Key::q, {0.0, 0.0, -1.0}},
+                                              {Key::page_down, {0.0, 0.0, -1.0}}}};
+
+bool is_steering_key(Key key) {
+    return key == Key::shift ||
+           std::any_of(steerings.begin(), steerings.end(),
+                       [&](const Steering& steering) { return steering.key == key; });
+}
+
+bool is_finite(glm::dvec2 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y);
+}
+
+} // namespace
+
+bool SteeringKeys::receive(const KeyEvent& event) {
+    if (!is_steering_key(event.key)) {
+        return false;
+    }
+    if (!event.pressed) {
+        held_.erase(event.key);
+        return true;
+    }
+    if (event.modifiers.control || event.modifiers.alt || event.modifiers.super) {
+        return false;
+    }
+    held_.insert(event.key);
+    tapped_.insert(event.key);
+    return true;
+}
+
+void SteeringKeys::release_all() {
+    held_.clear();
+    tapped_.clear();
+}
+
+glm::dvec3 SteeringKeys::direction() const {
+    glm::dvec3 wanted{0.0};
+    for (const Steering& steering : steerings) {
+        if (is_down(steering.key)) {
+            wanted += steering.direction;
+        }
+    }
+    const double length = glm::length(wanted);
+    return length > 0.0 ? wanted / length : wanted;
+}
+
+FreeFlight::FreeFlight(const Camera& start, FreeFlightOptions options)
+    : options_(std::move(options)), speed_(std::clamp(options_.speed, slowest, fastest)) {
+    set_camera(start);
+}
+
+glm::dvec3 FreeFlight::up() const {
+    return options_.up ? options_.up(camera_.eye) : glm::dvec3(0.0, 0.0, 1.0);
+}
+
+Compass FreeFlight::compass() const {
+    Compass compass;
+    compass.up = up();
+    if (options_.north) {
+        compass.north = options_.north(camera_.eye);
+    }
+    return compass;
+}
+
+// Degrees; of a direction what is level of it counts.
+double FreeFlight::heading_of(glm::dvec3 direction) const {
+    const ViewAxes north = view_axes(camera_from_angles(camera_.eye, 0.0, 0.0, compass()));
+    return glm::degrees(
+        std::atan2(glm::dot(direction, north.right), glm::dot(direction, north.forward)));
+}
+
+void FreeFlight::set_camera(const Camera& camera) {
+    camera_ = camera;
+    const ViewAxes axes = view_axes(camera);
+    const glm::dvec3 upward = up();
+    const double rise = std::clamp(glm::dot(axes.forward, upward), -1.0, 1.0);
+    pitch_ = std::clamp(glm::degrees(std::asin(rise)), -steepest_pitch, steepest_pitch);
+    // Straight down, what is up in the picture says where it heads.
+    const bool is_steep = std::abs(rise) > 1.0 - 1e-12;
+    const glm::dvec3 level = is_steep ? -std::copysign(1.0, rise) * axes.up : axes.forward;
+    heading_ = heading_of(level);
+    height_.reset();
+    turned_ = false;
+    keep_above_ground();
+}
+
+Camera FreeFlight::camera() const {
+    const Camera turned = camera_from_angles(camera_.eye, heading_, pitch_, compass());
+    Camera camera = camera_;
+    camera.look = turned.look;
+    camera.up = turned.up;
+    return camera;
+}
+
+void FreeFlight::set_mouse_look(bool on) {
+    mouse_look_ = on;
+    pointer_.reset();
+}
+
+void FreeFlight::set_follow_ground(bool on) {
+    follows_ground_ = on;
+}
+
+bool FreeFlight::is_steered() const {
+    return turned_ || keys_.direction() != glm::dvec3(0.0);
+}
+
+void FreeFlight::let_go() {
+    keys_.release_all();
+    button_held_ = false;
+    pointer_.reset();
+}
+
+bool FreeFlight::receive(const Event& event) {
+    if (const auto* key = std::get_if<KeyEvent>(&event)) {
+        return keys_.receive(*key);
+    }
+    if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
+        return receive_move(*move);
+    }
+    if (const auto* button = std::get_if<MouseButtonEvent>(&event);
+        button != nullptr && button->button == MouseButton::left) {
+        button_held_ = button->pressed;
+        pointer_ = pointer_.value_or(button->position);
+        return true;
+    }
+    if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {
+        return receive_scroll(*scroll);
+    }
+    if (const auto* focus = std::get_if<FocusEvent>(&event); focus != nullptr && !focus->focused) {
+        let_go();
+    }
+    return false;
+}
+
+bool FreeFlight::receive_scroll(const ScrollEvent& event) {
+    const double speed = speed_ * std::pow(speed_per_wheel_step, event.offset.y);
+    if (!std::isnan(speed)) {
+        speed_ = std::clamp(speed, slowest, fastest);
+    }
+    return true;
+}
+
+bool FreeFlight::receive_move(const MouseMoveEvent& event) {
+    const auto before = std::exchange(pointer_, event.position);
+    if (!before || !(mouse_look_ || button_held_)) {
+        return false;
+    }
+    const glm::dvec2 moved = event.position - *before;
+    if (!is_finite(moved)) {
+        return true;
+    }
+    heading_ = std::fmod(heading_ + degrees_per_pixel * moved.x, 360.0);
+    pitch_ = std::clamp(pitch_ - degrees_per_pixel * moved.y, -steepest_pitch, steepest_pitch);
+    turned_ = turned_ || moved != glm::dvec2(0.0);
+    return true;
+}
+
+bool FreeFlight::advance(double seconds) {
+    const double step = seconds > 0.0 ? std::min(seconds, longest_step) : 0.0;
+    const double way = step * speed_ * (keys_.is_fast() ? shift_factor : 1.0);
+    const glm::dvec3 wanted = way * keys_.direction();
+    const glm::dvec3 from = camera_.eye;
+    if (wanted != glm::dvec3(0.0)) {
+        const double pitch = follows_ground_ ? 0.0 : pitch_;
+        const ViewAxes axes = view_axes(camera_from_angles(from, heading_, pitch, compass()));
+        const glm::dvec3 ahead =
+            view_axes(camera_from_angles(from, heading_, 0.0, compass())).forward;
+        camera_.eye += wanted.x * axes.right + wanted.y * axes.forward + wanted.z * up();
+        if (height_) {
+            *height_ = std::max(*height_ + wanted.z, options_.clearance);
+        }
+        keep_above_ground();
+        if (options_.north && camera_.eye != from) {
+            heading_ = heading_of(ahead);
+        }
+    }
+    if (step > 0.0) {
+        keys_.forget_taps();
+    }
+    const bool turned = std::exchange(turned_, false);
+    return turned || camera_.eye != from;
+}
+
+void FreeFlight::keep_above_ground() {
+    const auto ground =
+        options_.ground ? options_.ground(camera_.eye.x, camera_.eye.y) : std::nullopt;
+    if (!ground) {
+        height_.reset();
+        return;
+    }
+    if (!follows_ground_ || !height_) {
+        height_ = std::max(camera_.eye.z - ground->height, options_.clearance);
+    }
+    camera_.eye.z = std::max(ground->height + *height_, ground->highest + options_.clearance);
+}
+
+} // namespace reljef::scene

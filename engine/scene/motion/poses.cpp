@@ -1,0 +1,71 @@
+#include "engine/scene/motion/poses.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace reljef::scene {
+namespace {
+
+constexpr std::array<std::pair<Pose, std::string_view>, 5> names{{{Pose::overview, "overview"},
+                                                                  {Pose::oblique, "oblique"},
+                                                                  {Pose::low, "low"},
+                                                                  {Pose::grazing, "grazing"},
+                                                                  {Pose::map, "map"}}};
+
+Camera map_camera(const Box& bounds) {
+    Camera camera;
+    camera.projection = ProjectionKind::orthographic;
+    camera.look = bounds.center();
+    camera.eye = {camera.look.x, camera.look.y, bounds.high.z + 1.0};
+    camera.up = {0.0, 1.0, 0.0};
+    camera.view_height = 1.02 * std::max(bounds.size().y, 0.75 * bounds.size().x);
+    return camera;
+}
+
+} // namespace
+
+std::string_view to_string(Pose pose) {
+    return std::find_if(names.begin(), names.end(),
+                        [&](const auto& entry) { return entry.first == pose; })
+        ->second;
+}
+
+std::optional<Pose> pose_from_string(std::string_view text) {
+    const auto* const found = std::find_if(names.begin(), names.end(),
+                                           [&](const auto& entry) { return entry.second == text; });
+    return found == names.end() ? std::nullopt : std::optional(found->first);
+}
+
+Camera pose_camera(Pose pose, const Box& bounds,
+                   const std::function<double(double x, double y)>& ground) {
+    const double w = bounds.size().x;
+    const double h0 = bounds.low.z;
+    const double h1 = bounds.high.z;
+    const glm::dvec3 middle{bounds.center().x, bounds.center().y, 0.0};
+    Camera camera;
+    switch (pose) {
+    case Pose::overview:
+        camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
+        camera.look = middle + glm::dvec3(0.0, -0.05 * w, h0);
+        return camera;
+    case Pose::oblique:
+        camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
+        camera.look = middle + glm::dvec3(0.0, -0.05 * w, h1);
+        return camera;
+    case Pose::low:
+        camera.eye = middle + glm::dvec3(0.0, -0.3 * w, 0.0);
+        camera.eye.z = ground(camera.eye.x, camera.eye.y) + 0.15 * (h1 - h0);
+        camera.look = middle + glm::dvec3(0.05 * w, 0.4 * w, h0);
+        return camera;
+    case Pose::grazing:
+        camera.eye = middle + glm::dvec3(0.0, -0.6 * w, h1 + 0.03 * w);
+        camera.look = middle + glm::dvec3(0.0, 0.0, h1);
+        return camera;
+    case Pose::map:
+        return map_camera(bounds);
+    }
+    return camera;
+}
+
+} // namespace reljef::scene

@@ -1,0 +1,203 @@
+#include "engine/session/flight_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/geo/place.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/terrain/field/heightfield.h"
+
+namespace reljef::session {
+namespace {
+
+constexpr double height_over_ground = 300.0; // metres, where the file tells no heights
+constexpr double look_ahead = 1000.0;        // metres
+// From key to key at a steady pace; at most twice that where it changes, of which a chord is 0.7 m
+// below its arc.
+constexpr double most_metres_a_step = 3000.0;
+constexpr double most_steps = 1e6;
+
+// A place of the flight: a key's own, or so far on the way to the next key.
+struct Waypoint {
+    double time = 0.0;
+    std::size_t key = 0;
+    double share = 0.0; // of the time to the next key, [0, 1)
+    glm::dvec3 eye{0.0};
+};
+
+// True metres; nothing outside the terrain.
+std::optional<double> ground_height(const terrain::Heightfield& heightfield,
+                                    const geo::Geodetic& place) {
+    if (!heightfield.georeference) {
+        return std::nullopt;
+    }
+    const auto sample = heightfield.georeference->geodetic.sample(place.latitude, place.longitude);
+    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    const bool inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
+                        sample->y <= last.y;
+    return inside ? std::optional(terrain::bilinear_height(heightfield.heights.view(), *sample))
+                  : std::nullopt;
+}
+
+double height_over(const scene::TerrainSurface& surface, const geo::Geodetic& place) {
+    return ground_height(surface.heightfield(), place).value_or(0.0) + height_over_ground;
+}
+
+void sort_by_time(std::vector<io::GeodeticKey>& keys) {
+    std::stable_sort(keys.begin(), keys.end(),
+                     [](const auto& a, const auto& b) { return a.time < b.time; });
+    std::vector<io::GeodeticKey> distinct;
+    for (const io::GeodeticKey& key : keys) {
+        if (!distinct.empty() && distinct.back().time == key.time) {
+            distinct.pop_back();
+        }
+        distinct.push_back(key);
+    }
+    keys = std::move(distinct);
+}
+
+// The places of a flight, found one after the other.
+class Route {
+public:
+    Route(const scene::TerrainSurface& surface, std::span<const io::GeodeticKey> keys)
+        : surface_(surface), keys_(keys) {
+        for (const io::GeodeticKey& key : keys) {
+            const geo::Geodetic place{key.latitude, key.longitude, 0.0};
+            places_.push_back(place);
+            places_.back().height = key.height.value_or(height_over(surface, place));
+            if (places_.size() > 1) {
+                ways_.push_back(geo::geodesic_between(places_[places_.size() - 2], place));
+                way_ += ways_.back().distance;
+            }
+            profile_.push_back({key.time, {way_, places_.back().height, 0.0}, {}});
+        }
+    }
+
+    /// Fails where a key has no place in the scene; places between keys that have none are left
+    /// out.
+    [[nodiscard]] Result<std::vector<Waypoint>> waypoints(const std::string& name) const {
+        const auto profile = scene::FlyPath::create(profile_);
+        if (!profile) {
+            return Error{fmt::format("{}: {}", name, profile.error().message)};
+        }
+        std::vector<Waypoint> found;
+        for (std::size_t key = 0; key < keys_.size(); ++key) {
+            const auto eye = surface_.placement().world_from_geodetic(places_[key]);
+            if (!eye) {
+                return Error{fmt::format("{}: a key at {},{} found, places near {} and a terrain "
+                                         "with a place on Earth were expected",
+                                         name, keys_[key].latitude, keys_[key].longitude,
+                                         surface_.terrain().name)};
+            }
+            found.push_back({keys_[key].time, key, 0.0, *eye});
+            const auto between = places_after(key, *profile);
+            found.insert(found.end(), between.begin(), between.end());
+        }
+        return found;
+    }
+
+private:
+    [[nodiscard]] std::vector<Waypoint> places_after(std::size_t key,
+                                                     const scene::FlyPath& profile) const {
+        std::vector<Waypoint> found;
+        if (key + 1 == keys_.size()) {
+            return found;
+        }
+        const double step = std::max(most_metres_a_step, way_ / most_steps);
+        const int steps = static_cast<int>(std::ceil(ways_[key].distance / step));
+        for (int i = 1; i < steps; ++i) {
+            const double share = static_cast<double>(i) / steps;
+            const double time = std::lerp(keys_[key].time, keys_[key + 1].time, share);
+            const glm::dvec3 on_profile = profile.at(time).eye;
+            geo::Geodetic place = geo::geodesic_end(places_[key], ways_[key].azimuth_start,
+                                                    on_profile.x - profile_[key].eye.x);
+            place.height = !keys_[key].height && !keys_[key + 1].height
+                               ? height_over(surface_, place)
+                               : on_profile.y;
+            if (const auto eye = surface_.placement().world_from_geodetic(place)) {
+                found.push_back({time, key, share, *eye});
+            }
+        }
+        return found;
+    }
+
+    const scene::TerrainSurface& surface_;
+    std::span<const io::GeodeticKey> keys_;
+    std::vector<geo::Geodetic> places_;
+    std::vector<geo::Geodesic> ways_;    // from each key to the next
+    std::vector<scene::FlyKey> profile_; // x: metres since the first key, y: the height there
+    double way_ = 0.0;
+};
+
+// By the key's angles, else to the next place, else as before; of length look_ahead.
+glm::dvec3 look_of_key(const terrain::Placement& placement, const io::GeodeticKey& key,
+                       std::span<const Waypoint> places, std::size_t index) {
+    const glm::dvec3 eye = places[index].eye;
+    if (key.heading) {
+        const auto camera = scene::camera_from_angles(eye, *key.heading, key.pitch.value_or(0.0),
+                                                      {placement.up(eye), placement.north(eye)});
+        return look_ahead * glm::normalize(camera.look - camera.eye);
+    }
+    const std::size_t from =
+        index + 1 < places.size() ? index : index - std::min<std::size_t>(index, 1);
+    const std::size_t to = std::min(from + 1, places.size() - 1);
+    const glm::dvec3 way = places[to].eye - places[from].eye;
+    const double length = glm::length(way);
+    return length > 0.0 ? way * (look_ahead / length) : glm::dvec3(0.0, look_ahead, 0.0);
+}
+
+// A direction taken along the Earth to where up is another (Rodrigues' formula).
+glm::dvec3 carried(glm::dvec3 direction, glm::dvec3 from_up, glm::dvec3 to_up) {
+    const glm::dvec3 axis = glm::cross(from_up, to_up);
+    const glm::dvec3 turned = glm::cross(axis, direction);
+    const double whole = std::max(1.0 + glm::dot(from_up, to_up), 1e-12);
+    return direction + turned + glm::cross(axis, turned) / whole;
+}
+
+// Of all places: keys look as they say, those between turn from one to the next.
+std::vector<scene::FlyKey> with_looks(const terrain::Placement& placement,
+                                      std::span<const io::GeodeticKey> keys,
+                                      std::span<const Waypoint> places) {
+    struct KeyLook {
+        glm::dvec3 look{0.0};
+        glm::dvec3 up{0.0};
+    };
+    std::vector<KeyLook> looks;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (places[i].share == 0.0) {
+            looks.push_back({look_of_key(placement, keys[places[i].key], places, i),
+                             placement.up(places[i].eye)});
+        }
+    }
+    std::vector<scene::FlyKey> fly_keys;
+    for (const Waypoint& place : places) {
+        glm::dvec3 look = looks[place.key].look;
+        if (place.share > 0.0) {
+            const glm::dvec3 up = placement.up(place.eye);
+            const KeyLook& next = looks[place.key + 1];
+            look = glm::mix(carried(look, looks[place.key].up, up), carried(next.look, next.up, up),
+                            place.share);
+        }
+        fly_keys.push_back({place.time, place.eye, place.eye + look});
+    }
+    return fly_keys;
+}
+
+} // namespace
+
+Result<std::vector<scene::FlyKey>> flight_keys(const scene::TerrainSurface& surface,
+                                               std::vector<io::GeodeticKey> keys,
+                                               const std::string& name) {
+    sort_by_time(keys);
+    const auto places = Route(surface, keys).waypoints(name);
+    if (!places) {
+        return places.error();
+    }
+    return with_looks(surface.placement(), keys, *places);
+}
+
+} // namespace reljef::session

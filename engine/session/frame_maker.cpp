@@ -1,0 +1,188 @@
+#include "engine/session/frame_maker.h"
+
+#include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/cli/process_memory.h"
+#include "engine/core/statistics.h"
+#include "engine/session/ground.h"
+#include "engine/session/streaming.h"
+
+namespace reljef::session {
+namespace {
+
+class Stopwatch {
+public:
+    [[nodiscard]] double ms() const {
+        const auto gone = std::chrono::steady_clock::now() - start_;
+        return std::chrono::duration<double, std::milli>(gone).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+constexpr double megabyte = 1e6;
+constexpr int most_rises =
+    4; // of a frame: what a raised camera shows may be higher once it is there
+
+// As many triangles as a view of a terrain has, of few vertices: software renderers keep what they
+// are about to draw, tens of megabytes, whatever draws with them.
+scene::Scene busy_scene() {
+    scene::Mesh mesh = scene::plane_mesh(glm::vec2(0.01F));
+    const std::vector<std::uint32_t> once = mesh.indices;
+    constexpr int times = 200'000;
+    mesh.indices.reserve(times * once.size());
+    for (int i = 1; i < times; ++i) {
+        mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
+    }
+    scene::Scene scene;
+    scene.add_mesh(std::move(mesh));
+    scene::Camera above;
+    above.eye = {0.0, 0.0, 1.0};
+    scene.add_camera(above);
+    return scene;
+}
+
+std::string times_text(const FrameTimes& times) {
+    const Summary drawing = summarize(times.drawing_ms);
+    const Summary waiting = summarize(times.waiting_ms);
+    return fmt::format("frames: {}, half drawn within {:.2f} ms, 99 % within {:.2f} ms; waited for "
+                       "tiles: half {:.2f} ms, 99 % at most {:.2f} ms\n",
+                       times.drawing_ms.size(), drawing.median, drawing.p99, waiting.median,
+                       waiting.p99);
+}
+
+std::string memory_text(std::size_t before) {
+    return fmt::format("memory: {:.1f} MB of the process at most, {:.1f} MB before the terrain was "
+                       "read\n",
+                       static_cast<double>(cli::process_memory().most) / megabyte,
+                       static_cast<double>(before) / megabyte);
+}
+
+} // namespace
+
+DeviceFrames::DeviceFrames(Device device, const DeviceFramesOptions& options)
+    : device_(std::move(device)), options_(options) {
+    if (options_.timed) {
+        static_cast<void>(device_.driver().draw(busy_scene(), true));
+        static_cast<void>(device_.driver().draw(scene::Scene(), true)); // the other's mesh is gone
+        times_.memory_before = cli::process_memory().most;
+    }
+}
+
+void DeviceFrames::bring(const scene::Scene& scene, const std::stop_token& stop) {
+    if (brought_for_ == scene.camera()) {
+        return;
+    }
+    const Stopwatch waiting;
+    bring_tiles(scene, device_.driver().size(), stop, options_.quiet);
+    waited_ms_ += waiting.ms();
+    brought_for_ = scene.camera();
+}
+
+Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
+    bring(scene, parallel.stop);
+    times_.waiting_ms.push_back(std::exchange(waited_ms_, 0.0));
+    brought_for_.reset();
+    stream_stats_ = stream_stats(scene);
+    const auto stats = device_.driver().draw(scene, options_.timed);
+    if (!stats) {
+        return stats.error();
+    }
+    times_.drawing_ms.push_back(stats->cpu_ms + stats->gpu_ms);
+    stats_ = *stats;
+    return device_.driver().read_color();
+}
+
+Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
+                                          const ParallelOptions& parallel) {
+    bring_tiles(scene, device_.driver().size(), parallel.stop, options_.quiet);
+    return device_.driver().draw_hits(scene);
+}
+
+std::string DeviceFrames::stats() const {
+    return stream_stats_ + times_text(times_) + memory_text(times_.memory_before) +
+           fmt::format(
+               "renderer: {}\n"
+               "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
+               "uploads: {} ({:.1f} MB)\n"
+               "tiles cut: {}\n"
+               "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
+               "frustum, {} tiles behind nearer ground, {} "
+               "triangles under the error, {} details too small, {} selections, {} cuts and {} "
+               "uploads that were there\n"
+               "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
+               device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles,
+               stats_.draws, stats_.state_changes, stats_.uploads,
+               static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
+               stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
+               stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
+               stats_.skipped.tiles_occluded, stats_.skipped.triangles_under_error,
+               stats_.skipped.details_too_small, stats_.skipped.selections_unchanged,
+               stats_.skipped.cuts_unchanged, stats_.skipped.uploads_unchanged, stats_.cpu_ms,
+               stats_.gpu_ms);
+}
+
+Result<void> TruthFrames::prepare(const scene::Scene& scene) {
+    if (caster_) {
+        return {};
+    }
+    auto caster = truth::SceneCaster::create(scene);
+    if (!caster) {
+        return caster.error();
+    }
+    caster_ = std::move(*caster);
+    return {};
+}
+
+Result<Image> TruthFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
+    const Stopwatch preparing;
+    if (auto prepared = prepare(scene); !prepared) {
+        return prepared.error();
+    }
+    if (!shading_) {
+        shading_.emplace(scene, *caster_);
+        prepare_ms_ = preparing.ms();
+    }
+    const Stopwatch drawing;
+    auto picture = truth::draw(*caster_, *shading_, scene.camera(), size_,
+                               {.rays_per_side = rays_per_side_, .parallel = parallel});
+    draw_ms_ = drawing.ms();
+    return picture ? Result<Image>(std::move(picture->image)) : picture.error();
+}
+
+Result<HitBuffer> TruthFrames::draw_hits(const scene::Scene& scene,
+                                         const ParallelOptions& parallel) {
+    if (auto prepared = prepare(scene); !prepared) {
+        return prepared.error();
+    }
+    return truth::draw_hits(*caster_, scene.camera(), size_, parallel);
+}
+
+std::string TruthFrames::stats() const {
+    return fmt::format("renderer: exact rays on the CPU\n"
+                       "rays: {} a frame\n"
+                       "once: {:.2f} ms, frame: {:.2f} ms\n",
+                       static_cast<long long>(size_.x) * size_.y * rays_per_side_ * rays_per_side_,
+                       prepare_ms_, draw_ms_);
+}
+
+double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+                        FrameMaker& maker, const std::stop_token& stop) {
+    fly_to(scene, path, index, frames);
+    double raised = 0.0;
+    for (int i = 0; i < most_rises; ++i) {
+        maker.bring(scene.scene, stop);
+        const double rise = keep_above_ground(scene);
+        if (rise == 0.0) {
+            break;
+        }
+        raised += rise;
+    }
+    return raised;
+}
+
+} // namespace reljef::session

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/color.h"
+#include "engine/core/hit.h"
+#include "engine/core/worker_pool.h"
+#include "engine/scene/graph/scene.h"
+#include "engine/session/device.h"
+#include "engine/session/scene_setup.h"
+#include "engine/truth/draw.h"
+
+namespace reljef::session {
+
+/// What draws the frames of one scene, of which only the camera moves from frame to frame.
+class FrameMaker {
+public:
+    virtual ~FrameMaker() = default;
+    /// Waits for what is read part by part of what the next frame shows; drawing it does so too.
+    virtual void bring(const scene::Scene& scene, const std::stop_token& stop) = 0;
+    /// Progress is that of this frame.
+    virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
+    virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
+                                        const ParallelOptions& parallel) = 0;
+    /// What the last frame took and skipped, as lines.
+    [[nodiscard]] virtual std::string stats() const = 0;
+};
+
+/// What frames took; nothing of it before the first one.
+struct FrameTimes {
+    std::vector<double> waiting_ms; ///< of each, for tiles that are read part by part
+    std::vector<double> drawing_ms; ///< of each, until it is there
+    std::size_t memory_before = 0;  ///< that the process had at most before the terrain was read
+};
+
+struct DeviceFramesOptions {
+    bool timed = false; ///< waits for each frame's end, too
+    bool quiet = false; ///< faults of what is read meanwhile are not told
+};
+
+/// Draws with OpenGL.
+class DeviceFrames : public FrameMaker {
+public:
+    DeviceFrames(Device device, const DeviceFramesOptions& options);
+    void bring(const scene::Scene& scene, const std::stop_token& stop) override;
+    Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
+    Result<HitBuffer> draw_hits(const scene::Scene& scene,
+                                const ParallelOptions& parallel) override;
+    [[nodiscard]] std::string stats() const override;
+    [[nodiscard]] const FrameTimes& times() const { return times_; }
+    [[nodiscard]] const platform::Context& context() const { return device_.context(); }
+
+private:
+    Device device_;
+    DeviceFramesOptions options_;
+    FrameTimes times_;
+    std::optional<scene::Camera> brought_for_; // since the last frame
+    double waited_ms_ = 0.0;                   // the same
+    view::FrameStats stats_;
+    std::string stream_stats_; // after the last frame
+};
+
+/// Draws with exact rays on the CPU.
+class TruthFrames : public FrameMaker {
+public:
+    TruthFrames(glm::ivec2 size, int rays_per_side) : size_(size), rays_per_side_(rays_per_side) {}
+    void bring(const scene::Scene& /*scene*/, const std::stop_token& /*stop*/) override {}
+    Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
+    Result<HitBuffer> draw_hits(const scene::Scene& scene,
+                                const ParallelOptions& parallel) override;
+    [[nodiscard]] std::string stats() const override;
+
+private:
+    Result<void> prepare(const scene::Scene& scene);
+
+    glm::ivec2 size_;
+    int rays_per_side_;
+    std::optional<truth::SceneCaster> caster_; // made for the first frame
+    std::optional<truth::Shading> shading_;    // made for the first picture
+    double prepare_ms_ = 0.0;
+    double draw_ms_ = 0.0;
+};
+
+/// As fly_to, above the ground that the frame shows (see keep_above_ground in ground.h): waits for
+/// it before. Returns by how many metres the camera was raised.
+double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+                        FrameMaker& maker, const std::stop_token& stop);
+
+} // namespace reljef::session

@@ -1,0 +1,152 @@
+#include "engine/session/gallery.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/cli/misuse.h"
+#include "engine/session/texture_sets.h"
+#include "terrains/gallery/gallery.h"
+
+namespace reljef::session {
+namespace {
+
+using Set = std::shared_ptr<const material::TextureSet>;
+
+// As the models show it: more of a tile than a fine material needs.
+constexpr double file_tile_width = 1.5; // metres
+
+scene::Mesh mesh_of(const terrains::GalleryModel& model) {
+    const glm::vec3 size = model.size;
+    switch (model.shape) {
+    case terrains::GalleryShape::plane:
+    case terrains::GalleryShape::sheet:
+        return scene::plane_mesh({size.x, size.y});
+    case terrains::GalleryShape::box:
+        return scene::box_mesh(size);
+    case terrains::GalleryShape::sphere:
+        return scene::sphere_mesh(size.x, 96);
+    case terrains::GalleryShape::torus:
+        return scene::torus_mesh(size.x, size.y, 96);
+    case terrains::GalleryShape::cylinder:
+        return scene::cylinder_mesh(size.x, size.y, 96);
+    case terrains::GalleryShape::bowl:
+        return scene::bowl_mesh(size.x, 96);
+    }
+    abort_with("a model without a shape");
+}
+
+// Planes stand as walls that look south.
+glm::dmat4 place_of(const terrains::GalleryModel& model) {
+    glm::dmat4 place = glm::translate(glm::dmat4(1.0), model.center);
+    place = glm::rotate(place, glm::radians(-model.heading), {0.0, 0.0, 1.0});
+    const bool stands = model.shape == terrains::GalleryShape::plane ||
+                        model.shape == terrains::GalleryShape::sheet;
+    return stands ? glm::rotate(place, glm::radians(90.0), {1.0, 0.0, 0.0}) : place;
+}
+
+// The texture sets that were asked for, each made or read once.
+class Sets {
+public:
+    Sets(std::string asked_for, const io::SceneDescription& description,
+         const cli::TerrainChoice& terrain, std::optional<scene::Technique> technique,
+         std::stop_token stop)
+        : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
+          technique_(std::move(technique)), stop_(std::move(stop)) {}
+
+    Result<Set> of(const terrains::GalleryModel& model) {
+        const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
+        if (const auto found = sets_.find(name); found != sets_.end()) {
+            return found->second;
+        }
+        auto set = open_textures(
+            {name, terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder,
+             terrain_.textures ? "--textures" : terrain_.terrain, description_.seed,
+             file_tile_width, std::nullopt, "mixed, "},
+            terrain_);
+        if (!set) {
+            return set.error();
+        }
+        if (technique_) {
+            if (auto made = add_cones(*set, *technique_, terrain_, stop_); !made) {
+                return made.error();
+            }
+        }
+        tell_texture_notes(*set, terrain_);
+        return sets_.emplace(name, std::make_shared<const material::TextureSet>(std::move(*set)))
+            .first->second;
+    }
+
+private:
+    std::string asked_for_;
+    const io::SceneDescription& description_;
+    const cli::TerrainChoice& terrain_;
+    std::optional<scene::Technique> technique_; // of all models; none: each its own, without cones
+    std::stop_token stop_;
+    std::map<std::string, Set> sets_;
+};
+
+// None: each model's own.
+Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescription& description,
+                                                         const std::string& file,
+                                                         const cli::ViewChoice& view) {
+    using Choice = std::optional<scene::Technique>;
+    if (view.max_error) {
+        cli::refuse(
+            fmt::format("--max-error: {} found, a terrain was expected: its models are drawn as "
+                        "they are",
+                        file));
+    }
+    if (view.technique || view.mixed || description.gallery_technique == "mixed") {
+        return Choice(view.technique);
+    }
+    auto technique = scene::parse_technique(description.gallery_technique);
+    return technique ? Result<Choice>(Choice(std::move(*technique)))
+                     : Error{fmt::format("{}: [gallery] {}", file, technique.error().message)};
+}
+
+scene::Material material_of(const terrains::GalleryModel& model, Set set,
+                            const std::optional<scene::Technique>& technique, bool wireframe) {
+    scene::Material material;
+    material.technique = technique ? *technique : scene::parse_technique(model.technique).value();
+    material.wireframe = wireframe;
+    material.detail.scale = set->scale;
+    material.detail.offset = model.offset;
+    material.detail.repeats = model.repeats;
+    material.detail.set = std::move(set);
+    return material;
+}
+
+} // namespace
+
+Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
+                                              const io::SceneDescription& description,
+                                              const cli::TerrainChoice& terrain,
+                                              const cli::ViewChoice& view,
+                                              const std::stop_token& stop) {
+    const auto technique = chosen_technique(description, terrain.terrain, view);
+    if (!technique) {
+        return technique.error();
+    }
+    Sets sets(terrain.textures.value_or(description.gallery_textures), description, terrain,
+              *technique, stop);
+    std::vector<scene::Node*> nodes;
+    for (const terrains::GalleryModel& model : terrains::gallery_models()) {
+        const auto set = sets.of(model);
+        if (!set) {
+            return set.error();
+        }
+        const scene::MeshNode mesh{std::make_shared<const scene::Mesh>(mesh_of(model)),
+                                   material_of(model, *set, *technique, view.wireframe)};
+        scene::Node& node = scene.root().add(std::string(model.name), mesh);
+        node.set_parent_from_local(place_of(model));
+        nodes.push_back(&node);
+    }
+    return nodes;
+}
+
+} // namespace reljef::session

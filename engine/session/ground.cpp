@@ -1,0 +1,191 @@
+#include "engine/session/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/scene/tile_stream.h"
+
+namespace reljef::session {
+namespace {
+
+constexpr double clearance_in_widths = 1e-3;
+constexpr double most_clearance = 0.5; // metres: a flight a metre above the ground is none too low
+
+// The sample below or above a place; nothing beside the terrain.
+std::optional<glm::dvec3> sample_of(const scene::TerrainSurface& surface, glm::dvec3 world) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    const auto sample = surface.placement().sample_from_world(world);
+    const bool inside = sample && sample->x >= 0.0 && sample->y >= 0.0 &&
+                        sample->x <= heights.cols() - 1 && sample->y <= heights.rows() - 1;
+    return inside ? sample : std::nullopt;
+}
+
+// The highest that any triangulation of a cell and the bilinear surface have at a sample.
+double highest_of(GridView<const float> heights, glm::dvec2 sample) {
+    const int col = std::clamp(static_cast<int>(sample.x), 0, heights.cols() - 2);
+    const int row = std::clamp(static_cast<int>(sample.y), 0, heights.rows() - 2);
+    const double u = std::clamp(sample.x - col, 0.0, 1.0);
+    const double v = std::clamp(sample.y - row, 0.0, 1.0);
+    const double h00 = heights(col, row);
+    const double h10 = heights(col + 1, row);
+    const double h01 = heights(col, row + 1);
+    const double h11 = heights(col + 1, row + 1);
+    const double falling =
+        u > v ? h00 + u * (h10 - h00) + v * (h11 - h10) : h00 + v * (h01 - h00) + u * (h11 - h01);
+    const double rising = u + v < 1.0 ? h00 + u * (h10 - h00) + v * (h01 - h00)
+                                      : h11 + (1.0 - u) * (h01 - h11) + (1.0 - v) * (h10 - h11);
+    return std::max({falling, rising, terrain::bilinear_height(heights, sample)});
+}
+
+// Heights around a place, and the place on them.
+struct Around {
+    std::shared_ptr<const scene::StreamedTile> tile; // null: of the whole terrain
+    GridView<const float> heights;
+    glm::dvec2 place;
+};
+
+Around heights_around(const scene::TerrainNode& terrain, glm::dvec2 sample) {
+    auto found = terrain.stream != nullptr ? terrain.stream->finest_at(sample) : std::nullopt;
+    if (!found) {
+        return {{}, terrain.surface->heightfield().heights.view(), sample};
+    }
+    const auto heights = found->tile->heights.view();
+    return {std::move(found->tile), heights, found->place};
+}
+
+double highest_at(const scene::TerrainNode& terrain, glm::dvec2 sample) {
+    const Around there = heights_around(terrain, sample);
+    return highest_of(there.heights, there.place);
+}
+
+constexpr double largest_share = 0.25; // of the height above the ground, for a step along a ray
+constexpr double least_share = 1e-3;   // of the way so far
+constexpr double step_in_sides = 1e-3; // of the box that holds the ground, where none is below
+constexpr int most_steps_of_ray = 4096;
+constexpr int halvings = 30;
+
+double longest_side(const Box& box) {
+    const glm::dvec3 size = box.size();
+    return std::max({size.x, size.y, size.z});
+}
+
+// Of all that is read part by part, which may rise above its averages in the overview.
+Box box_of_tiles(const scene::TerrainSurface& surface) {
+    const terrain::HeightRange& range = surface.heightfield().range;
+    Box box = surface.bounds();
+    const glm::dvec3 margin(surface.placement().exaggeration() * (range.high - range.low) +
+                            step_in_sides * longest_side(box));
+    box.low -= margin;
+    box.high += margin;
+    return box;
+}
+
+bool is_under_ground(const scene::TerrainNode& terrain, glm::dvec3 place) {
+    const auto height = height_above_ground(terrain, place);
+    return height && *height <= 0.0;
+}
+
+// Where a ray goes under the ground, between a place over or beside it and one under it.
+double distance_between(const scene::TerrainNode& terrain, const Ray& ray, double over,
+                        double under) {
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (over + under);
+        (is_under_ground(terrain, ray.at(middle)) ? under : over) = middle;
+    }
+    return under;
+}
+
+// Along a ray of unit length, to a thousandth: where the terrain is read part by part, by what is
+// there of it.
+std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const Ray& ray) {
+    const Box box = box_of_tiles(*terrain.surface);
+    const auto part = intersect(ray, box);
+    if (!part) {
+        return std::nullopt;
+    }
+    const double beside = step_in_sides * longest_side(box);
+    double before = part->begin;
+    double distance = part->begin;
+    for (int i = 0; i < most_steps_of_ray && before <= part->end; ++i) {
+        const auto height = height_above_ground(terrain, ray.at(distance));
+        if (height && *height <= 0.0) {
+            return distance_between(terrain, ray, before, distance);
+        }
+        before = distance;
+        const double least = std::max(std::min(least_share * distance, beside), 1e-3);
+        distance += height ? std::max(largest_share * *height, least) : std::max(beside, least);
+    }
+    return std::nullopt;
+}
+
+std::optional<double> distance_to_ground(const scene::TerrainNode& terrain, const Ray& ray) {
+    if (terrain.stream != nullptr) {
+        return distance_to_tiles(terrain, ray);
+    }
+    const auto hit = terrain.surface->pick(ray);
+    return hit ? std::optional(hit->t) : std::nullopt;
+}
+
+} // namespace
+
+std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye) {
+    const auto sample = sample_of(*terrain.surface, eye);
+    if (!sample) {
+        return std::nullopt;
+    }
+    const Around there = heights_around(terrain, glm::dvec2(*sample));
+    return sample->z - terrain::bilinear_height(there.heights, there.place);
+}
+
+std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y) {
+    const terrain::Placement& placement = terrain.surface->placement();
+    const auto height = scene::height_at(terrain, x, y);
+    const auto sample = height ? placement.sample_from_world({x, y, *height}) : std::nullopt;
+    if (!sample) {
+        return std::nullopt;
+    }
+    const double highest = highest_at(terrain, glm::dvec2(*sample));
+    const double z = placement.world_from_sample({sample->x, sample->y, highest}).z;
+    return scene::GroundAt{*height, std::max(*height, z)};
+}
+
+std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
+                                       const scene::Camera& camera, int pixels_high) {
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        return camera.view_height / pixels_high;
+    }
+    const auto distance =
+        distance_to_ground(terrain, {camera.eye, scene::view_axes(camera).forward});
+    return distance ? std::optional(2.0 * *distance *
+                                    std::tan(0.5 * glm::radians(camera.vertical_fov)) / pixels_high)
+                    : std::nullopt;
+}
+
+double least_clearance(const TerrainScene& scene) {
+    const glm::dvec3 size = scene.bounds.size();
+    return std::min(most_clearance, clearance_in_widths * std::max(size.x, size.y));
+}
+
+double keep_above_ground(TerrainScene& scene) {
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const terrain::Placement& placement = terrain.surface->placement();
+    auto& camera = *scene.camera->get<scene::Camera>();
+    const auto sample = sample_of(*terrain.surface, camera.eye);
+    if (!sample) {
+        return 0.0;
+    }
+    const double least = highest_at(terrain, glm::dvec2(*sample)) +
+                         least_clearance(scene) / placement.exaggeration();
+    if (!(sample->z < least)) {
+        return 0.0;
+    }
+    const glm::dvec3 rise = placement.world_from_sample({sample->x, sample->y, least}) - camera.eye;
+    camera.eye += rise;
+    camera.look += rise;
+    return glm::length(rise);
+}
+
+} // namespace reljef::session

@@ -1,0 +1,73 @@
+#include "engine/session/ground_detail.h"
+
+#include <fmt/format.h>
+
+#include "app/cli/misuse.h"
+#include "engine/session/texture_sets.h"
+
+namespace reljef::session {
+namespace {
+
+// The command line's word comes before the scene file's.
+std::optional<io::DetailDescription> asked_for(const io::SceneDescription& description,
+                                               const cli::ViewChoice& view) {
+    std::optional<io::DetailDescription> detail = description.detail;
+    if (view.detail) {
+        detail = detail.value_or(io::DetailDescription{});
+        detail->textures = view.detail->textures;
+        detail->folder = view.detail->textures;
+        detail->width = view.detail->width.value_or(detail->width);
+        detail->scale = view.detail->scale ? view.detail->scale : detail->scale;
+    }
+    return detail;
+}
+
+Result<scene::Technique> technique_for(const io::DetailDescription& detail,
+                                       const std::string& scene_name, const cli::ViewChoice& view) {
+    if (view.detail_technique) {
+        return *view.detail_technique;
+    }
+    auto technique = scene::parse_technique(detail.technique);
+    const auto good =
+        technique ? scene::check_ground_technique(*technique) : Result<void>(technique.error());
+    return good ? technique
+                : Error{fmt::format("{}: [detail] {}", scene_name, good.error().message)};
+}
+
+} // namespace
+
+Result<std::shared_ptr<const scene::GroundDetail>>
+open_detail(const io::SceneDescription& description, const cli::TerrainChoice& terrain,
+            const cli::ViewChoice& view, const std::stop_token& stop) {
+    using Detail = std::shared_ptr<const scene::GroundDetail>;
+    const auto asked = asked_for(description, view);
+    if (!asked) {
+        if (view.detail_technique) {
+            cli::refuse("--detail-technique: found without --detail, whose tile it draws");
+        }
+        return Detail();
+    }
+    auto technique = technique_for(*asked, description.name, view);
+    if (!technique) {
+        return technique.error();
+    }
+    auto set =
+        open_textures({asked->textures, asked->folder, view.detail ? "--detail" : terrain.terrain,
+                       description.seed, asked->width, asked->scale},
+                      terrain);
+    if (!set) {
+        return set.error();
+    }
+    if (auto made = add_cones(*set, *technique, terrain, stop); !made) {
+        return made.error();
+    }
+    tell_texture_notes(*set, terrain);
+    scene::GroundDetail detail;
+    detail.width = asked->width;
+    detail.scale = asked->scale ? static_cast<float>(*asked->scale) : set->scale;
+    detail.technique = std::move(*technique);
+    detail.set = std::make_shared<const material::TextureSet>(std::move(*set));
+    return Detail(std::make_shared<const scene::GroundDetail>(std::move(detail)));
+}
+
+} // namespace reljef::session

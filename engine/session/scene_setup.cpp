@@ -1,0 +1,302 @@
+#include "engine/session/scene_setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/cli/message.h"
+#include "app/cli/misuse.h"
+#include "app/cli/progress_line.h"
+#include "engine/io/cache/bisection_cache.h"
+#include "engine/io/cache/cone_cache.h"
+#include "engine/io/formats/flight_file.h"
+#include "engine/scene/motion/animators.h"
+#include "engine/session/flight_keys.h"
+#include "engine/session/gallery.h"
+#include "engine/session/ground_detail.h"
+#include "engine/session/streaming.h"
+
+namespace reljef::session {
+namespace {
+
+// The air of a clear day over a scene: a fifth of the contrast is gone after one and a half widths.
+constexpr double visibility_in_widths = 25.0;
+
+scene::TerrainOptions terrain_options(const cli::TerrainChoice& choice, const cli::ViewChoice& view,
+                                      const io::SceneDescription& description) {
+    scene::TerrainOptions options;
+    options.exaggeration = choice.exaggeration.value_or(description.exaggeration);
+    options.placement = choice.placement;
+    if (!options.placement && description.placement) {
+        options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
+                                                              : terrain::PlacementKind::ellipsoid;
+    }
+    if (!options.placement && view.technique && scene::needs_plane(view.technique->id)) {
+        options.placement = terrain::PlacementKind::plane; // the only one it draws
+    }
+    return options;
+}
+
+scene::Compass compass_at(const terrain::Placement& placement, glm::dvec3 eye) {
+    return {placement.up(eye), placement.north(eye)};
+}
+
+Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
+                                      const cli::GeodeticView& view) {
+    const terrain::Placement& placement = surface.placement();
+    const auto eye = placement.world_from_geodetic({view.latitude, view.longitude, view.height});
+    if (!eye) {
+        return Error{
+            fmt::format("--camera: {} is not georeferenced, --eye and --look were expected",
+                        surface.terrain().name)};
+    }
+    return scene::camera_from_angles(*eye, view.heading, view.pitch, compass_at(placement, *eye));
+}
+
+Result<scene::Camera> choose_camera(const TerrainScene& scene,
+                                    const io::SceneDescription& description,
+                                    const cli::ViewChoice& view) {
+    scene::Camera camera;
+    if (view.geodetic) {
+        return geodetic_camera(*scene.terrain->get<scene::TerrainNode>()->surface, *view.geodetic);
+    }
+    if (view.eye) {
+        camera.eye = *view.eye;
+        camera.look = *view.look;
+        return camera;
+    }
+    const bool is_map = view.projection == scene::ProjectionKind::orthographic;
+    if (!view.pose && !is_map && description.eye && description.look) {
+        camera.eye = *description.eye;
+        camera.look = *description.look;
+        return camera;
+    }
+    const auto ground = [&](double x, double y) { return scene.ground(x, y); };
+    return scene::pose_camera(view.pose.value_or(is_map ? scene::Pose::map : scene::Pose::overview),
+                              scene.bounds, ground);
+}
+
+Result<std::vector<scene::FlyKey>> fly_keys_of(const TerrainScene& scene, const io::Flight& flight,
+                                               const std::string& name) {
+    if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight.keys)) {
+        return flight_keys(*scene.terrain->get<scene::TerrainNode>()->surface, *on_earth, name);
+    }
+    std::vector<scene::FlyKey> fly_keys;
+    for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight.keys)) {
+        fly_keys.push_back({key.time, key.eye, key.look});
+    }
+    return fly_keys;
+}
+
+// The nearest depth drawn: so close that nothing in reach of the eye is cut, and far above the
+// smallest normal float.
+constexpr double near_in_widths = 1e-6;
+
+void set_projection(scene::Camera& camera, const Box& bounds, const cli::ViewChoice& view) {
+    camera.vertical_fov = view.vertical_fov;
+    camera.near = std::clamp(near_in_widths * bounds.size().x, 1e-3, 0.1);
+    if (view.projection == scene::ProjectionKind::orthographic &&
+        camera.projection == scene::ProjectionKind::perspective) {
+        camera.projection = scene::ProjectionKind::orthographic;
+        camera.view_height = 2.0 * glm::distance(camera.eye, camera.look) *
+                             std::tan(0.5 * glm::radians(view.vertical_fov));
+    }
+}
+
+// What draws nothing of the kind is a mistake where an option names it.
+Error refused_technique(const Error& reason, const cli::ViewChoice& view) {
+    if (view.technique) {
+        cli::refuse(reason.message);
+    }
+    return reason;
+}
+
+// How the terrain is drawn.
+Result<void> choose_look(TerrainScene& scene, const cli::ViewChoice& view) {
+    if (view.mixed) {
+        cli::refuse(
+            "--technique: mixed found, the gallery was expected: a terrain is drawn with one "
+            "technique");
+    }
+    const scene::Technique technique = cli::technique_of(view);
+    if (auto good = scene.check(technique); !good) {
+        return refused_technique(good.error(), view);
+    }
+    auto& material = scene.terrain->get<scene::TerrainNode>()->material;
+    material.technique = technique;
+    material.wireframe = view.wireframe;
+    return {};
+}
+
+} // namespace
+
+double TerrainScene::ground(double x, double y) const {
+    return scene.height_at(x, y).value_or(bounds.low.z);
+}
+
+std::vector<scene::Material*> TerrainScene::materials() const {
+    std::vector<scene::Material*> materials;
+    for (scene::Node* const model : models) {
+        materials.push_back(&model->get<scene::MeshNode>()->material);
+    }
+    if (materials.empty()) {
+        materials.push_back(&terrain->get<scene::TerrainNode>()->material);
+    }
+    return materials;
+}
+
+Result<void> TerrainScene::check(const scene::Technique& technique) const {
+    if (models.empty()) {
+        return scene::check_technique(technique, *terrain->get<scene::TerrainNode>()->surface);
+    }
+    for (const scene::Node* const model : models) {
+        if (auto good = scene::check_technique(technique, *model->get<scene::MeshNode>()); !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+Result<TerrainScene> make_scene(TerrainSource source, const cli::TerrainChoice& terrain,
+                                const cli::ViewChoice& view, const std::stop_token& stop) {
+    TerrainScene result;
+    const auto options = terrain_options(terrain, view, source.description);
+    auto node = result.scene.add_terrain(std::move(source.terrain), options);
+    if (!node) {
+        return node.error();
+    }
+    result.terrain = *node;
+    auto& shown = *result.terrain->get<scene::TerrainNode>();
+    shown.stream = make_stream(source, shown.surface);
+    result.bounds = result.terrain->world_bounds();
+    if (source.description.generator == "gallery") {
+        auto models = add_gallery(result.scene, source.description, terrain, view, stop);
+        if (!models) {
+            return models.error();
+        }
+        result.models = std::move(*models);
+        for (const scene::Node* const model : result.models) {
+            const auto* const mesh = model->get<scene::MeshNode>();
+            if (auto good = scene::check_technique(mesh->material.technique, *mesh); !good) {
+                return refused_technique(good.error(), view);
+            }
+        }
+    } else if (auto done = choose_look(result, view); !done) {
+        return done.error();
+    }
+
+    auto detail = open_detail(source.description, terrain, view, stop);
+    if (!detail) {
+        return detail.error();
+    }
+    shown.detail = std::move(*detail);
+
+    scene::Light sun;
+    sun.azimuth = view.sun ? view.sun->x : source.description.sun_azimuth;
+    sun.altitude = view.sun ? view.sun->y : source.description.sun_altitude;
+    result.light = &result.scene.add_light(sun);
+    scene::Sky sky;
+    const glm::dvec3 size = result.bounds.size();
+    sky.visibility = source.description.visibility.value_or(visibility_in_widths *
+                                                            std::max({size.x, size.y, size.z}));
+    result.scene.set_sky(sky);
+
+    auto camera = choose_camera(result, source.description, view);
+    if (!camera) {
+        return camera.error();
+    }
+    set_projection(*camera, result.bounds, view);
+    result.camera = &result.scene.add_camera(*camera);
+    return result;
+}
+
+std::optional<std::string> missing_geoid(const TerrainScene& scene,
+                                         const cli::TerrainChoice& terrain) {
+    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const auto& georeference = surface.heightfield().georeference;
+    const bool on_ellipsoid = surface.placement().kind() == terrain::PlacementKind::ellipsoid;
+    if (terrain.geoid == "none" || !on_ellipsoid || !georeference || georeference->geoid ||
+        geo::is_ellipsoidal(georeference->vertical_datum)) {
+        return std::nullopt;
+    }
+    const std::string& datum = georeference->vertical_datum;
+    return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
+                       "from the ellipsoid on; --geoid FILE names one",
+                       surface.terrain().name,
+                       datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
+}
+
+Result<void> prepare_bisection(TerrainScene& scene, const cli::TerrainChoice& terrain,
+                               const std::stop_token& stop) {
+    auto& shown = *scene.terrain->get<scene::TerrainNode>();
+    const scene::Technique& technique = shown.material.technique;
+    if (technique.id != scene::TechniqueId::polygons || shown.stream != nullptr ||
+        scene::parameter(technique, "error") <= 0.0) {
+        return {};
+    }
+    const std::string& name = shown.surface->terrain().name;
+    cli::ProgressLine line("bounding the errors of " + name, terrain.quiet);
+    io::BisectionCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    options.parallel = {static_cast<unsigned>(terrain.threads), stop, line.callback()};
+    auto cached =
+        io::cached_bisection(shown.surface->heightfield(), shown.surface->placement(), options);
+    if (!cached) {
+        return Error{fmt::format("{}: stopped while its errors were bounded", name)};
+    }
+    if (!terrain.quiet && !cached->note.empty()) {
+        cli::tell(fmt::format("reljef: note: {}\n", cached->note));
+    }
+    shown.bisection = std::move(cached->bisection);
+    return {};
+}
+
+Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene,
+                                                const cli::ViewChoice& view,
+                                                const cli::TerrainChoice& terrain) {
+    using Path = std::optional<scene::FlyPath>;
+    if (view.path.empty()) {
+        return Path();
+    }
+    if (view.path == "orbit") {
+        return Path(scene::orbit_path(scene.bounds));
+    }
+    if (view.path == "flyover") {
+        return Path(scene::flyover_path(scene.bounds,
+                                        [&](double x, double y) { return scene.ground(x, y); }));
+    }
+    std::error_code ignored;
+    if (!std::filesystem::exists(view.path, ignored)) {
+        return Error{fmt::format("--path: '{}' found, orbit, flyover or a path file was expected",
+                                 view.path)};
+    }
+    const auto flight = io::read_flight(view.path);
+    if (!flight) {
+        return flight.error();
+    }
+    for (const std::string& note : flight->notes) {
+        if (!terrain.quiet) {
+            cli::tell(fmt::format("reljef: note: {}\n", note));
+        }
+    }
+    auto fly_keys = fly_keys_of(scene, *flight, view.path);
+    if (!fly_keys) {
+        return fly_keys.error();
+    }
+    auto path = scene::FlyPath::create(std::move(*fly_keys));
+    if (!path) {
+        return path.error();
+    }
+    return Path(std::move(*path));
+}
+
+void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
+    const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
+    auto& camera = *scene.camera->get<scene::Camera>();
+    camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
+    camera.up = scene.terrain->get<scene::TerrainNode>()->surface->placement().up(camera.eye);
+}
+
+} // namespace reljef::session

@@ -1,0 +1,163 @@
+#include "engine/session/stream_source.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "engine/core/worker_pool.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/tree_tile.h"
+#include "engine/scene/tile_stream.h"
+
+namespace reljef::session {
+namespace {
+
+// Shares of the memory where not all of a terrain fits: an eighth each for its overview, for GDAL's
+// blocks, and for what is being read or uploaded; the rest is for tiles.
+constexpr std::size_t overview_part = 8;
+constexpr std::size_t blocks_part = 8;
+constexpr std::size_t work_part = 8;
+// Where only images do not fit the heights may take up to a half with the overview's picture, which
+// takes a quarter of that.
+constexpr std::size_t whole_part = 2;
+
+std::size_t bytes_of(const io::TileGrid& grid) {
+    return io::bytes_per_sample * static_cast<std::size_t>(grid.cols) *
+           static_cast<std::size_t>(grid.rows);
+}
+
+std::size_t with_picture(std::size_t bytes_of_heights) {
+    return bytes_of_heights / 3 * 4;
+}
+
+// Files halve their samples again and again for their own overviews: of the next such reduction
+// there is least to be read before the first picture.
+std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
+    const auto reduction = std::bit_ceil(static_cast<unsigned>(plan.reduction));
+    return bytes_of(io::TileSet::reduced(plan.grid, static_cast<int>(reduction)));
+}
+
+// What a thread takes to read a tile of heights, and one with a picture, bytes.
+constexpr std::size_t bytes_of_reader = std::size_t{4} << 20U;
+constexpr std::size_t bytes_of_picture_reader = std::size_t{8} << 20U;
+
+// No more threads than fit what is for reading.
+unsigned readers_within(const io::TileTerrainOptions& options) {
+    const std::size_t each =
+        options.raster.imagery.empty() ? bytes_of_reader : bytes_of_picture_reader;
+    const std::size_t most =
+        std::max<std::size_t>(1, options.raster.memory_budget / work_part / each);
+    return static_cast<unsigned>(std::min<std::size_t>(thread_count(options.threads), most));
+}
+
+bool fits(const Result<io::TileSet::TerrainPlan>& plan) {
+    return plan && plan->reduction == 1;
+}
+
+// The terrain's overview and what it may take, bytes.
+struct OverviewPlan {
+    io::TileSet::TerrainPlan plan;
+    std::size_t budget = 0;
+    std::size_t share = 0; // of the memory
+};
+
+std::optional<OverviewPlan> overview_plan(const io::TileSet& tiles, io::TileTerrainOptions options,
+                                          const Result<io::TileSet::TerrainPlan>& whole) {
+    const std::size_t memory = options.raster.memory_budget;
+    if (fits(whole)) {
+        const std::size_t bytes = with_picture(bytes_of(whole->grid));
+        if (bytes <= memory / whole_part) {
+            return OverviewPlan{*whole, bytes, bytes};
+        }
+    }
+    options.raster.memory_budget = memory / overview_part;
+    auto plan = tiles.plan(options);
+    if (plan) {
+        options.raster.memory_budget = budget_of_halves(*plan);
+        plan = tiles.plan(options);
+    }
+    return plan ? std::optional(
+                      OverviewPlan{*plan, options.raster.memory_budget, memory / overview_part})
+                : std::nullopt;
+}
+
+// So that a texel of the finest tiles is no larger than a pixel of the finest image.
+int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double texel) {
+    constexpr int most_refinement = 64;
+    const int most =
+        std::min(most_refinement, terrain::most_tree_samples /
+                                      std::max(stream.plan.grid.cols, stream.plan.grid.rows));
+    int refinement = 1;
+    while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
+        refinement *= 2;
+    }
+    return refinement;
+}
+
+} // namespace
+
+OpenImagery open_imagery(const io::TileSet& tiles, const cli::TerrainChoice& choice,
+                         const io::TileTerrainOptions& options) {
+    const bool shown = choice.pictures_streamed || !fits(tiles.plan(options));
+    if (!choice.streamed || options.raster.imagery.empty() || !shown) {
+        return {};
+    }
+    io::ImagerySetOptions opening;
+    opening.reading_memory = options.raster.memory_budget / work_part / readers_within(options);
+    opening.stop = options.raster.stop;
+    auto imagery = io::ImagerySet::open(options.raster.imagery, tiles.crs(), opening);
+    if (!imagery) {
+        return {nullptr, imagery.error().message};
+    }
+    return {std::make_shared<const io::ImagerySet>(std::move(*imagery)), {}};
+}
+
+bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& options,
+                        const OpenImagery& imagery) {
+    const auto plan = tiles.plan(options);
+    if (!plan || imagery.set == nullptr) {
+        return false;
+    }
+    const io::TileFile& finest = tiles.files().front();
+    const double side =
+        std::max(plan->grid.cols * finest.spacing.x, plan->grid.rows * finest.spacing.y);
+    return side > io::longest_image_side * imagery.set->finest_pixel();
+}
+
+std::optional<StreamSource> stream_source(const io::TileSet& tiles,
+                                          const cli::TerrainChoice& choice,
+                                          io::TileTerrainOptions options,
+                                          const OpenImagery& imagery) {
+    const auto whole = tiles.plan(options);
+    if (!choice.streamed || (fits(whole) && !has_finer_pictures(tiles, options, imagery)) ||
+        std::max(tiles.grid().cols, tiles.grid().rows) > terrain::most_tree_samples) {
+        return std::nullopt;
+    }
+    const auto overview = overview_plan(tiles, options, whole);
+    if (!overview) {
+        return std::nullopt;
+    }
+    const std::size_t memory = options.raster.memory_budget;
+    io::limit_block_cache(memory / blocks_part);
+    StreamSource stream;
+    stream.plan = overview->plan;
+    stream.overview_budget = overview->budget;
+    stream.gaps = options.gaps;
+    stream.memory_budget = memory - overview->share - memory / blocks_part - memory / work_part;
+    stream.threads = readers_within(options);
+    if (fits(whole)) {
+        const std::size_t needed = whole_part * with_picture(bytes_of(whole->grid));
+        stream.megabytes_for_all_heights = (needed >> 20U) + 1;
+    }
+    return stream;
+}
+
+scene::ImageryDetail imagery_detail(const io::ImagerySet& imagery, const StreamSource& stream,
+                                    double spacing) {
+    scene::ImageryDetail detail;
+    detail.most_texels = scene::TileStream::texels_within(stream.memory_budget);
+    detail.finest_pixel = imagery.finest_pixel();
+    detail.refinement = refinement_for(imagery, stream, spacing / detail.most_texels);
+    return detail;
+}
+
+} // namespace reljef::session

@@ -1,0 +1,256 @@
+#include "engine/session/streaming.h"
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <fmt/format.h>
+
+#include "app/cli/message.h"
+#include "engine/io/imagery/closed_picture.h"
+#include "engine/io/tree_tile.h"
+#include "engine/view/tile_choice.h"
+
+namespace reljef::session {
+namespace {
+
+using Visit = std::function<void(scene::TileStream&)>;
+
+void for_each_stream(const scene::Scene& scene, const Visit& visit) {
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4&) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        if (terrain != nullptr && terrain->stream != nullptr) {
+            visit(*terrain->stream);
+        }
+    });
+}
+
+// glibc takes freed blocks for the size that is worth a mapping of its own, and so keeps more and
+// more of what tiles leave behind: a flight would take half as much again as its tiles.
+void return_freed_blocks() {
+#ifdef __GLIBC__
+    // The smallest array of a tile, bytes: not the blocks of 64 kB that a software renderer takes
+    // and frees with each frame.
+    constexpr int vertices_a_side = terrain::tile_cells + 1;
+    constexpr int mapped_from = vertices_a_side * vertices_a_side * int{sizeof(float)};
+    ::mallopt(M_MMAP_THRESHOLD, mapped_from);
+#endif
+}
+
+scene::TileReading reading_of(const io::TileWindow& window) {
+    scene::TileReading reading;
+    reading.bytes_read = window.bytes_read;
+    reading.heights = Grid<float>(window.heights.cols(), window.heights.rows());
+    for (std::size_t i = 0; i < window.heights.size(); ++i) {
+        reading.heights.samples()[i] = static_cast<float>(window.heights.samples()[i]);
+    }
+    for (const io::TileFault& fault : window.faults) {
+        reading.faults.push_back({fault.file.string(), fault.message});
+    }
+    return reading;
+}
+
+scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::TreeTile tile) {
+    scene::TileReading reading;
+    reading.heights = maker.overview_heights(tile);
+    reading.of_overview = true;
+    return reading;
+}
+
+// Where its files fail, a tile that is no finer than the overview is made of it, and read again: no
+// file keeps those of others from being drawn. What fails is told as faults of the picture: those
+// are of tiles that are drawn as they are.
+scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduction,
+                                       terrain::TreeTile tile, scene::TileReading reading) {
+    if (reading.faults.empty() || maker.step(tile) < reduction) {
+        return reading;
+    }
+    scene::TileReading coarse = overview_reading(maker, tile);
+    coarse.bytes_read = reading.bytes_read;
+    coarse.notes = std::move(reading.notes);
+    coarse.picture_faults = std::move(reading.faults);
+    return coarse;
+}
+
+// Adds what images show of a tile.
+void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
+                 const scene::TileMaker& maker, terrain::TreeTile tile, const std::stop_token& stop,
+                 scene::TileReading& reading) {
+    const glm::ivec2 cells = maker.tree().cells(tile);
+    io::ImageryWindow window =
+        images.read(io::picture_grid(grid, tile, cells, maker.picture_size(tile)),
+                    maker.texel(tile.level), stop);
+    io::close_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
+    reading.picture = {std::move(window.texels), window.whole, window.has_more};
+    for (const io::TileFault& fault : window.faults) {
+        reading.picture_faults.push_back({fault.file.string(), fault.message});
+    }
+}
+
+void tell_faults(scene::TileStream& stream, bool quiet) {
+    const auto tell_each = [&](const char* what, const std::vector<std::string>& sentences) {
+        for (const std::string& sentence : sentences) {
+            if (!quiet) {
+                cli::tell(fmt::format("reljef: {}: {}\n", what, sentence));
+            }
+        }
+    };
+    tell_each("shown coarser", stream.take_faults());
+    tell_each("note", stream.take_notes());
+}
+
+bool wait_and_tell(scene::TileStream& stream, const std::stop_token& stop, bool quiet) {
+    constexpr std::chrono::milliseconds before_telling{500};
+    bool is_there = false;
+    while (!is_there && !stop.stop_requested()) {
+        is_there = stream.wait_for(stop, before_telling);
+        tell_faults(stream, quiet);
+    }
+    return is_there;
+}
+
+// The mean of a row: of a pole's the height that it has everywhere.
+double mean_of_row(const Grid<float>& heights, int row) {
+    const auto values = heights.row(row);
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Of a pole, as the file has it; where it has a void or cannot be read, as the overview.
+double pole_height(const io::HeightAnswer& answer, const Grid<float>& overview, int row) {
+    return answer.kind == io::HeightAnswer::Kind::height ? answer.height
+                                                         : mean_of_row(overview, row);
+}
+
+// The samples that tiles are of.
+io::ClosedGrid ground_of(const io::TileSet& tiles, const StreamSource& stream,
+                         const Grid<float>& overview) {
+    io::ClosedGrid ground = io::closed_grid(stream.plan.grid, tiles.closing(stream.plan.grid),
+                                            stream.imagery.refinement);
+    if (ground.closing.rows() > 0) {
+        const auto poles = tiles.heights(std::array{glm::dvec2(90.0, 0.0), glm::dvec2(-90.0, 0.0)});
+        ground.north_height = pole_height(poles.answers[0], overview, 0);
+        ground.south_height = pole_height(poles.answers[1], overview, overview.rows() - 1);
+    }
+    return ground;
+}
+
+} // namespace
+
+std::shared_ptr<scene::TileStream>
+make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSurface> overview) {
+    if (!source.stream || !source.tiles) {
+        return nullptr;
+    }
+    return_freed_blocks();
+    const scene::ImageryDetail imagery = source.stream->imagery;
+    const io::ClosedGrid ground =
+        ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
+    // On a plane the two ends of a globe are far apart.
+    const bool is_around =
+        ground.closing.around && overview->placement().kind() == terrain::PlacementKind::ellipsoid;
+    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, is_around);
+    scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
+                           ground.closing);
+    const auto read = [tiles = *source.tiles, images = source.imagery, ground, maker,
+                       reduction = source.stream->plan.reduction,
+                       step_of_overview = source.stream->step_of_overview,
+                       gaps = source.stream->gaps](terrain::TreeTile tile,
+                                                   const std::stop_token& stop) {
+        scene::TileReading reading =
+            step_of_overview > 0 && maker.step(tile) >= step_of_overview
+                ? overview_reading(maker, tile)
+                : reading_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));
+        reading.notes = tiles.take_new_notes();
+        if (stop.stop_requested()) {
+            return reading;
+        }
+        reading = reading_or_overview(maker, reduction, tile, std::move(reading));
+        if (images && reading.faults.empty()) {
+            add_picture(*images, ground.grid, maker, tile, stop, reading);
+        }
+        return reading;
+    };
+    scene::TileStreamOptions options;
+    options.memory_budget = source.stream->memory_budget;
+    options.threads = source.stream->threads;
+    return std::make_shared<scene::TileStream>(std::move(maker), read, options);
+}
+
+void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop,
+                 bool quiet) {
+    const std::array views{scene.camera()};
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        const auto readings = [&] { return stream.stats().read + stream.stats().failed; };
+        int before = -1;
+        while (!stop.stop_requested() && readings() != before) {
+            before = readings();
+            const auto wanted = view::wanted_tiles(scene, stream, views, size);
+            stream.want(wanted);
+            if (wanted.empty() || !wait_and_tell(stream, stop, quiet)) {
+                return;
+            }
+        }
+    });
+}
+
+void ask_for_tiles(const scene::Scene& scene, std::span<const scene::Camera> views,
+                   glm::ivec2 size) {
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        stream.want(view::wanted_tiles(scene, stream, views, size));
+    });
+}
+
+scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
+                           double ahead) {
+    scene::Camera later = now;
+    if (seconds > 0.0) {
+        const glm::dvec3 way = (now.eye - before.eye) * (ahead / seconds);
+        later.eye += way;
+        later.look += way;
+    }
+    return later;
+}
+
+bool take_new_tiles(const scene::Scene& scene) {
+    bool news = false;
+    for_each_stream(scene, [&](scene::TileStream& stream) { news = stream.take_news() || news; });
+    return news;
+}
+
+bool awaits_tiles(const scene::Scene& scene) {
+    bool busy = false;
+    for_each_stream(scene, [&](scene::TileStream& stream) { busy = stream.is_busy() || busy; });
+    return busy;
+}
+
+void tell_stream_faults(const scene::Scene& scene, bool quiet) {
+    for_each_stream(scene, [&](scene::TileStream& stream) { tell_faults(stream, quiet); });
+}
+
+std::size_t faulty_files(const scene::Scene& scene) {
+    std::size_t count = 0;
+    for_each_stream(scene, [&](scene::TileStream& stream) { count += stream.faulty_files(); });
+    return count;
+}
+
+std::string stream_stats(const scene::Scene& scene) {
+    std::string text;
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        const scene::TileStreamStats stats = stream.stats();
+        text += fmt::format(
+            "streamed: {} tiles read ({:.1f} MB of files), {} failed, {} cancelled, "
+            "{} evicted; {} kept ({:.1f} MB, at most {:.1f} MB)\n",
+            stats.read, static_cast<double>(stats.bytes_read) * 1e-6, stats.failed, stats.cancelled,
+            stats.evicted, stats.tiles, static_cast<double>(stats.bytes) * 1e-6,
+            static_cast<double>(stats.most_bytes) * 1e-6);
+    });
+    return text;
+}
+
+} // namespace reljef::session

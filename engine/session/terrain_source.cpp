@@ -1,0 +1,444 @@
+#include "engine/session/terrain_source.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "app/cli/message.h"
+#include "app/cli/misuse.h"
+#include "app/cli/progress_line.h"
+#include "engine/io/cache/cone_cache.h"
+#include "engine/io/formats/geoid_file.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/terrain_file.h"
+#include "engine/io/tree_tile.h"
+#include "engine/session/stream_source.h"
+#include "terrains/built_in.h"
+#include "terrains/gallery/gallery.h"
+#include "terrains/generators.h"
+
+namespace reljef::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<io::SceneDescription> describe(const std::string& terrain) {
+    for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
+        if (scene.name == terrain) {
+            return io::parse_scene(scene.text, std::string(scene.name), fs::current_path());
+        }
+    }
+    const fs::path path(terrain);
+    if (path.extension() == ".toml") {
+        return io::read_scene_file(path);
+    }
+    std::error_code ignored;
+    if (!fs::exists(path, ignored) && !path.has_extension() && !path.has_parent_path() &&
+        !io::is_tile_pyramid(path)) {
+        std::string names;
+        for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
+            names += std::string(scene.name) + ", ";
+        }
+        return Error{
+            fmt::format("{}: no such terrain; one of {}a scene file or a DEM file was expected",
+                        terrain, names)};
+    }
+    io::SceneDescription description;
+    description.name = (path.has_filename() ? path : path.parent_path()).filename().string();
+    description.heights = path;
+    return description;
+}
+
+Result<terrain::Terrain> generate(const cli::TerrainChoice& choice,
+                                  const io::SceneDescription& description,
+                                  const std::stop_token& stop) {
+    cli::ProgressLine line("generating " + description.name, choice.quiet);
+    const terrains::GeneratorOptions options{.size = description.size,
+                                             .seed = description.seed,
+                                             .spacing = description.spacing.value_or(0.0),
+                                             .tileable = description.tileable,
+                                             .threads = static_cast<unsigned>(choice.threads),
+                                             .progress = line.callback(),
+                                             .stop = stop};
+    if (!choice.imagery.empty()) {
+        cli::refuse(fmt::format("--imagery: {} found, but {} brings its own colours",
+                                choice.imagery.front().string(), description.name));
+    }
+    if (description.generator == "gallery") {
+        return terrains::generate_gallery(options);
+    }
+    return description.generator == "natural" ? terrains::generate_natural(options)
+                                              : terrains::generate_urban(options);
+}
+
+io::RasterOptions raster_options(const cli::TerrainChoice& choice,
+                                 const io::SceneDescription& description,
+                                 const std::stop_token& stop) {
+    io::RasterOptions options;
+    options.memory_budget = static_cast<std::size_t>(choice.memory_megabytes) << 20U;
+    options.spacing = description.spacing;
+    options.height_scale = description.height_scale;
+    options.height_offset = description.height_offset;
+    options.imagery = choice.imagery.empty() ? description.imagery : choice.imagery;
+    options.stop = stop;
+    return options;
+}
+
+// Where the indexes of folders are kept, by the XDG base directory specification; empty where the
+// user has no home.
+fs::path cache_folder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return fs::path(value != nullptr ? value : "");
+    };
+    const fs::path cache = variable("XDG_CACHE_HOME");
+    if (cache.is_absolute()) {
+        return cache / "reljef";
+    }
+    const fs::path home = variable("HOME");
+    return home.is_absolute() ? home / ".cache" / "reljef" : fs::path();
+}
+
+Result<io::TileSet> open_set(const cli::TerrainChoice& choice,
+                             const io::SceneDescription& description, const std::stop_token& stop) {
+    io::TileSetOptions options;
+    options.cache_folder = cache_folder();
+    options.threads = static_cast<unsigned>(choice.threads);
+    options.height_scale = description.height_scale;
+    options.height_offset = description.height_offset;
+    options.stop = stop;
+    return io::TileSet::open(description.heights, options);
+}
+
+io::TileTerrainOptions tile_options(const cli::TerrainChoice& choice,
+                                    const io::SceneDescription& description,
+                                    const std::stop_token& stop) {
+    io::TileTerrainOptions options;
+    options.raster = raster_options(choice, description, stop);
+    options.area = area_of(choice, description);
+    options.gaps =
+        choice.gaps.value_or(description.gaps == "sea" ? io::Gaps::sea : io::Gaps::holes);
+    options.threads = static_cast<unsigned>(choice.threads);
+    return options;
+}
+
+// Files of heights as tiles, and the images over them.
+struct SetToRead {
+    io::TileSet tiles;
+    OpenImagery imagery;
+};
+struct SetOrImagery {
+    std::optional<SetToRead> set;
+    std::optional<double> imagery_white; // where it is known
+};
+
+// What the coarsest views of a terrain that is read part by part take, beside the libraries.
+constexpr int least_megabytes = 64;
+
+// Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
+// side.
+constexpr int most_step_read = 4096 / terrain::tile_cells;
+
+// Of which heights tiles are made of the overview, and what is to be told of all that.
+void set_heights_of_tiles(const io::TileSet& tiles, const cli::TerrainChoice& choice,
+                          StreamSource& stream, std::vector<std::string>& notes) {
+    const bool is_whole = stream.plan.reduction == 1;
+    notes.emplace_back(is_whole ? "finer parts of the images are read where the view needs them"
+                                : "finer tiles are read where the view needs them");
+    if (const auto megabytes = stream.megabytes_for_all_heights; megabytes && !is_whole) {
+        notes.push_back(fmt::format("--memory {}: beside the images, which are finer than one "
+                                    "picture may be, shadows and far ground are of averages; {} "
+                                    "keeps all samples",
+                                    choice.memory_megabytes, *megabytes));
+    }
+    if (choice.memory_megabytes < least_megabytes) {
+        notes.push_back(fmt::format("--memory {}: the tiles of a view take up to {}",
+                                    choice.memory_megabytes, least_megabytes));
+    }
+    if (is_whole) {
+        stream.step_of_overview = 1;
+    } else if (auto missing = io::missing_overviews(tiles)) {
+        notes.push_back(std::move(*missing));
+        stream.step_of_overview = std::min(2 * stream.plan.reduction, most_step_read + 1);
+    }
+}
+
+// The images of a streamed terrain, of which the overview has coarse colours already.
+void add_imagery(const OpenImagery& imagery, TerrainSource& source) {
+    std::vector<std::string>& notes = source.terrain.notes;
+    if (imagery.set == nullptr) {
+        notes.push_back(fmt::format("finer tiles show the imagery coarsely: {}", imagery.fault));
+        return;
+    }
+    if (auto missing = imagery.set->missing_overviews()) {
+        notes.push_back(std::move(*missing));
+    }
+    const glm::dvec2 spacing = source.terrain.heightfield.spacing;
+    source.stream->imagery =
+        imagery_detail(*imagery.set, *source.stream,
+                       std::max(spacing.x, spacing.y) / source.stream->plan.reduction);
+    source.imagery = imagery.set;
+}
+
+Result<TerrainSource> read_tiles(SetToRead set, const cli::TerrainChoice& choice,
+                                 io::SceneDescription description, const std::stop_token& stop) {
+    cli::ProgressLine line("reading " + description.name, choice.quiet);
+    io::TileTerrainOptions options = tile_options(choice, description, stop);
+    options.raster.progress = line.callback();
+    options.raster.imagery_white = set.imagery.white();
+    std::optional<StreamSource> stream = stream_source(set.tiles, choice, options, set.imagery);
+    if (stream) {
+        options.raster.memory_budget = stream->overview_budget;
+        options.threads = stream->threads;
+    }
+    auto terrain = set.tiles.terrain(options);
+    if (!terrain) {
+        return terrain.error();
+    }
+    if (stream) {
+        set_heights_of_tiles(set.tiles, choice, *stream, terrain->notes);
+    }
+    TerrainSource source{
+        std::move(*terrain), std::move(description), std::move(set.tiles), stream, {}};
+    if (stream && !options.raster.imagery.empty()) {
+        add_imagery(set.imagery, source);
+    }
+    return source;
+}
+
+// A single file that does not fit the memory, or whose images do not, is read as a set of one, if
+// it can be; what is known of its images else.
+SetOrImagery set_to_stream(const cli::TerrainChoice& choice,
+                           const io::SceneDescription& description, const std::stop_token& stop) {
+    if (!choice.streamed || !description.generator.empty() || description.spacing) {
+        return {};
+    }
+    const auto info = io::read_raster_info(description.heights);
+    if (!info || info->crs_name.empty()) {
+        return {};
+    }
+    const bool fits = static_cast<double>(info->cols) * info->rows * io::bytes_per_sample <=
+                      static_cast<double>(choice.memory_megabytes) * (1U << 20U);
+    const io::TileTerrainOptions options = tile_options(choice, description, stop);
+    if (fits && (options.raster.imagery.empty() || !choice.pictures_streamed)) {
+        return {};
+    }
+    auto tiles = open_set(choice, description, stop);
+    if (!tiles) {
+        return {};
+    }
+    OpenImagery imagery = open_imagery(*tiles, choice, options);
+    if (fits && !has_finer_pictures(*tiles, options, imagery)) {
+        return {{}, imagery.white()};
+    }
+    return {SetToRead{std::move(*tiles), std::move(imagery)}, {}};
+}
+
+Result<terrain::Terrain> read(const cli::TerrainChoice& choice,
+                              const io::SceneDescription& description,
+                              std::optional<double> imagery_white, const std::stop_token& stop) {
+    cli::ProgressLine line("reading " + description.name, choice.quiet);
+    io::RasterOptions options = raster_options(choice, description, stop);
+    options.imagery_white = imagery_white;
+    options.progress = line.callback();
+    return io::read_terrain(description.heights, options);
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+// Whether its heights are many files.
+bool is_set(const io::SceneDescription& description) {
+    return is_folder(description.heights) || io::is_tile_pyramid(description.heights);
+}
+
+Result<void> refuse_folder_options(const cli::TerrainChoice& choice,
+                                   const io::SceneDescription& description) {
+    const char* option = choice.area ? "--area" : choice.gaps ? "--gaps" : nullptr;
+    if (option == nullptr && !description.area) {
+        return {};
+    }
+    const std::string message =
+        fmt::format("{}: {} found, but it is no folder of tiles, for which alone that was expected",
+                    description.name, option != nullptr ? option : "[area]");
+    if (option != nullptr) {
+        cli::refuse(message);
+    }
+    return Error{message};
+}
+
+Result<TerrainSource> read_source(const cli::TerrainChoice& choice,
+                                  io::SceneDescription description, const std::stop_token& stop) {
+    if (is_set(description)) {
+        auto tiles = open_set(choice, description, stop);
+        if (!tiles) {
+            return tiles.error();
+        }
+        OpenImagery imagery = open_imagery(*tiles, choice, tile_options(choice, description, stop));
+        return read_tiles({std::move(*tiles), std::move(imagery)}, choice, std::move(description),
+                          stop);
+    }
+    if (auto fits = refuse_folder_options(choice, description); !fits) {
+        return fits.error();
+    }
+    SetOrImagery found = set_to_stream(choice, description, stop);
+    if (found.set) {
+        return read_tiles(std::move(*found.set), choice, std::move(description), stop);
+    }
+    auto terrain = description.generator.empty()
+                       ? read(choice, description, found.imagery_white, stop)
+                       : generate(choice, description, stop);
+    return terrain ? Result<TerrainSource>(
+                         TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})
+                   : terrain.error();
+}
+
+bool is_egm96(const std::string& datum) {
+    return datum.find("EGM96") != std::string::npos;
+}
+
+// The geoid that the user names, or the installed one where it is the terrain's own.
+std::optional<fs::path> geoid_file(const cli::TerrainChoice& choice, const std::string& datum) {
+    if (choice.geoid == "none") {
+        return std::nullopt;
+    }
+    if (!choice.geoid.empty()) {
+        return fs::path(choice.geoid);
+    }
+    return is_egm96(datum) ? io::installed_geoid() : std::nullopt;
+}
+
+// Heights above sea level become heights above the ellipsoid.
+Result<void> set_geoid(const cli::TerrainChoice& choice, terrain::Terrain& terrain) {
+    auto& georeference = terrain.heightfield.georeference;
+    if (!georeference) {
+        return {};
+    }
+    const std::string& datum = georeference->vertical_datum;
+    const auto file = geoid_file(choice, datum);
+    if (!file) {
+        return {};
+    }
+    if (geo::is_ellipsoidal(datum)) {
+        cli::refuse(fmt::format("--geoid: {} found, but the heights of {} count from the ellipsoid "
+                                "({}): none was expected",
+                                choice.geoid, terrain.name, datum));
+    }
+    auto geoid = io::read_geoid(*file);
+    if (!geoid) {
+        return geoid.error();
+    }
+    georeference->geoid = std::move(*geoid);
+    if (!datum.empty() && !is_egm96(datum)) {
+        terrain.notes.push_back(fmt::format("its heights count from \"{}\": taken as from the "
+                                            "geoid {}, whatever lies between",
+                                            datum, georeference->geoid->name()));
+    }
+    return {};
+}
+
+void tell_notes(const TerrainSource& source) {
+    for (const std::string& note : source.terrain.notes) {
+        cli::tell(fmt::format("reljef: note: {}\n", note));
+    }
+    for (const std::string& fault : source.terrain.faults) {
+        cli::tell(fmt::format("reljef: left out: {}\n", fault));
+    }
+}
+
+} // namespace
+
+std::optional<geo::GeodeticArea> area_of(const cli::TerrainChoice& choice,
+                                         const io::SceneDescription& description) {
+    if (choice.area || description.area) {
+        return choice.area ? choice.area : description.area;
+    }
+    return io::is_tile_pyramid(description.heights) ? io::tile_pyramid_area(description.heights)
+                                                    : std::nullopt;
+}
+
+Result<TerrainSource> open_terrain(const cli::TerrainChoice& choice, const std::stop_token& stop,
+                                   Notes notes) {
+    auto description = describe(choice.terrain);
+    if (!description) {
+        return description.error();
+    }
+    return open_terrain(std::move(*description), choice, stop, notes);
+}
+
+Result<TerrainSource> open_terrain(io::SceneDescription description,
+                                   const cli::TerrainChoice& choice, const std::stop_token& stop,
+                                   Notes notes) {
+    if (choice.textures && description.generator != "gallery") {
+        cli::refuse(fmt::format("--textures: {} found, but only the gallery shows tiles, not {}; "
+                                "--detail lays one over a terrain",
+                                *choice.textures, description.name));
+    }
+    auto source = read_source(choice, std::move(description), stop);
+    if (!source) {
+        return source.error();
+    }
+    if (auto set = set_geoid(choice, source->terrain); !set) {
+        return set.error();
+    }
+    if (!choice.quiet && notes == Notes::told) {
+        tell_notes(*source);
+    }
+    return source;
+}
+
+Result<HeightSource> open_heights(const cli::TerrainChoice& choice, const std::stop_token& stop) {
+    const auto description = describe(choice.terrain);
+    if (!description) {
+        return description.error();
+    }
+    if (!description->generator.empty()) {
+        return Error{fmt::format("{}: has no coordinate system, one was expected for places on "
+                                 "Earth",
+                                 description->name)};
+    }
+    if (!is_set(*description)) {
+        if (auto fits = refuse_folder_options(choice, *description); !fits) {
+            return fits.error();
+        }
+    }
+    io::limit_block_cache((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / 2);
+    auto tiles = open_set(choice, *description, stop);
+    if (!tiles) {
+        return tiles.error();
+    }
+    return HeightSource{std::move(*tiles), choice.area ? choice.area : description->area};
+}
+
+Result<void> report_faults(const std::string& terrain, std::size_t faults) {
+    return faults == 0 ? Result<void>()
+                       : Error{fmt::format("{}: {} of the files asked for could not be read and {} "
+                                           "left out",
+                                           terrain, faults, faults == 1 ? "is" : "are")};
+}
+
+Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
+                               const cli::TerrainChoice& choice, const std::stop_token& stop) {
+    const Grid<float>& heights = source.terrain.heightfield.heights;
+    if (technique.id != scene::TechniqueId::cone || heights.cols() < 2 || heights.rows() < 2) {
+        return {};
+    }
+    cli::ProgressLine line("cones of " + source.description.name, choice.quiet);
+    io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    options.parallel = {static_cast<unsigned>(choice.threads), stop, line.callback()};
+    auto cached = io::cached_cones(terrain::unit_heights(heights.view()).view(), options);
+    if (!cached) {
+        return Error{fmt::format("{}: stopped while its cones were made", source.terrain.name)};
+    }
+    if (!choice.quiet && !cached->note.empty()) {
+        cli::tell(fmt::format("reljef: note: {}\n", cached->note));
+    }
+    source.terrain.cones = std::move(cached->cones);
+    return {};
+}
+
+} // namespace reljef::session

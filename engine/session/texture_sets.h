@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "app/cli/options.h"
+#include "engine/core/result.h"
+#include "engine/material/texture_set.h"
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::session {
+
+/// Which maps of a tile of detail.
+struct TextureRequest {
+    std::string name;                 ///< as the user said it: a built-in one, or a folder
+    std::filesystem::path folder;     ///< of pictures, where it is none that is built in
+    std::string asked_by;             ///< the option or the scene file
+    std::uint32_t seed = 1;           ///< of a built-in one
+    double width = 1.0;               ///< metres that the tile covers
+    std::optional<double> scale = {}; ///< of the heights, in widths; absent: as pictures have it
+    std::string also = {};            ///< what else the user might have said: "NAME, "
+};
+
+/// Makes or reads them. Fails on a name that is neither built in nor a folder, with those that are
+/// (misuse.h, where an option asked), and where pictures cannot be read.
+Result<material::TextureSet> open_textures(const TextureRequest& request,
+                                           const cli::TerrainChoice& choice);
+
+/// Makes the cones over the sides of a tile that the technique sees, with the border it asks for,
+/// or reads them from the cache; none where the technique needs none. Fails when it was stopped.
+Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique,
+                       const cli::TerrainChoice& choice, const std::stop_token& stop);
+
+/// What is odd about the maps, on stderr.
+void tell_texture_notes(const material::TextureSet& set, const cli::TerrainChoice& choice);
+
+} // namespace reljef::session

@@ -1,0 +1,158 @@
+#include "engine/terrain/field/gradient.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/core/worker_pool.h"
+
+namespace reljef::terrain {
+namespace {
+
+// The ground at a place of the heightfield, in the scene frame: the way from one sample to the next
+// one along the columns (east) and against the rows (north), metres, and the unit vector up.
+struct Axes {
+    glm::dvec3 east{1.0, 0.0, 0.0};
+    glm::dvec3 north{0.0, 1.0, 0.0};
+    glm::dvec3 up{0.0, 0.0, 1.0};
+};
+
+// Which samples of a heightfield are the source's own, and how its ends meet.
+class Border {
+public:
+    explicit Border(const Heightfield& heightfield)
+        : last_(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1) {
+        if (heightfield.georeference) {
+            rows_ = heightfield.georeference->geodetic.rows();
+        }
+    }
+
+    [[nodiscard]] bool is_pole(int row) const {
+        return row < closing().north_rows() || row > last_.y - closing().south_rows();
+    }
+    // A place moved to where there is one half a sample to each side that exists.
+    [[nodiscard]] glm::dvec2 low() const { return {closing().around ? -1.0 : 0.0, first_row()}; }
+    [[nodiscard]] glm::dvec2 high() const {
+        return {last_.x + (closing().around ? 1 : 0), last_.y - closing().south_rows()};
+    }
+
+    // Rise per sample along the columns (east) and against the rows (north), metres, from
+    // neighbours that exist.
+    [[nodiscard]] glm::dvec2 rise(const Grid<float>& heights, int col, int row) const {
+        const bool around = closing().around;
+        const int west = col > 0 ? col - 1 : around ? last_.x - 1 : 0;
+        const int east = col < last_.x ? col + 1 : around ? 1 : last_.x;
+        const int north = std::max(row - 1, 0);
+        const int south = std::min(row + 1, last_.y);
+        const auto height = [&](int c, int r) { return static_cast<double>(heights(c, r)); };
+        return {(height(east, row) - height(west, row)) / (around ? 2 : east - west),
+                (height(col, north) - height(col, south)) /
+                    (rows_.source_row(south) - rows_.source_row(north))};
+    }
+
+private:
+    [[nodiscard]] const geo::Closing& closing() const { return rows_.closing(); }
+    [[nodiscard]] int first_row() const { return closing().north_rows(); }
+
+    glm::ivec2 last_;
+    geo::ClosedRows rows_;
+};
+
+// By differences over a sample, or half of one at the border: beyond it there may be no place on
+// Earth.
+Axes axes_at(const Placement& placement, glm::dvec2 sample, const Border& border) {
+    const auto place = [&](double col, double row) {
+        return placement.world_from_sample({col, row, 0.0});
+    };
+    const glm::dvec2 inside = glm::clamp(sample, border.low(), border.high());
+    const glm::dvec2 from = glm::max(inside - 0.5, border.low());
+    const glm::dvec2 to = glm::min(inside + 0.5, border.high());
+    Axes axes;
+    axes.up = placement.up(place(sample.x, sample.y));
+    axes.east = (place(to.x, inside.y) - place(from.x, inside.y)) / (to.x - from.x);
+    axes.north = (place(inside.x, from.y) - place(inside.x, to.y)) / (to.y - from.y);
+    return axes;
+}
+
+Axes between(const Axes& a, const Axes& b, double t) {
+    return {a.east + t * (b.east - a.east), a.north + t * (b.north - a.north),
+            a.up + t * (b.up - a.up)};
+}
+
+// The ground axes at most 32 samples apart, border to border; they turn so slowly that between them
+// linear is enough.
+class AxesGrid {
+public:
+    AxesGrid(const Placement& placement, int cols, int rows, const Border& border)
+        : axes_((cols - 2) / widest_step + 2, (rows - 2) / widest_step + 2),
+          step_(glm::dvec2(cols - 1, rows - 1) / glm::dvec2(axes_.cols() - 1, axes_.rows() - 1)) {
+        for (int row = 0; row < axes_.rows(); ++row) {
+            for (int col = 0; col < axes_.cols(); ++col) {
+                axes_(col, row) = axes_at(placement, glm::dvec2(col, row) * step_, border);
+            }
+        }
+    }
+
+    [[nodiscard]] Axes at(int col, int row) const {
+        const glm::dvec2 place = glm::dvec2(col, row) / step_;
+        const int c = std::min(static_cast<int>(place.x), axes_.cols() - 2);
+        const int r = std::min(static_cast<int>(place.y), axes_.rows() - 2);
+        return between(between(axes_(c, r), axes_(c + 1, r), place.x - c),
+                       between(axes_(c, r + 1), axes_(c + 1, r + 1), place.x - c), place.y - r);
+    }
+
+private:
+    static constexpr int widest_step = 32;
+    Grid<Axes> axes_;
+    glm::dvec2 step_;
+};
+
+// Ground beyond the horizon of a whole Earth leans over; it counts as upright.
+constexpr double least_upright = 1e-6;
+// Of the way to the north: shorter ways to the east are at a pole.
+constexpr double least_east = 1e-6;
+
+glm::vec2 slope_of(glm::dvec3 normal) {
+    return glm::vec2(glm::dvec2(-normal.x, -normal.y) / std::max(normal.z, least_upright));
+}
+
+glm::vec2 scene_slope(const Axes& axes, glm::dvec2 rise_per_sample) {
+    if (glm::length(axes.east) <= least_east * glm::length(axes.north)) {
+        return slope_of(axes.up);
+    }
+    const glm::dvec3 cross = glm::cross(axes.east + rise_per_sample.x * axes.up,
+                                        axes.north + rise_per_sample.y * axes.up);
+    const double area = glm::length(cross);
+    return slope_of(area > 0.0 ? cross / area : axes.up);
+}
+
+} // namespace
+
+Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement& placement) {
+    const Grid<float>& heights = heightfield.heights;
+    check(heights.cols() >= 2 && heights.rows() >= 2, "gradients need at least 2x2 samples");
+    Grid<glm::vec2> gradients(heights.cols(), heights.rows());
+    const Border border(heightfield);
+    std::optional<AxesGrid> axes;
+    if (placement.kind() == PlacementKind::ellipsoid) {
+        axes.emplace(placement, heights.cols(), heights.rows(), border);
+    }
+    parallel_for(heights.rows(), [&](int row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            const glm::dvec2 slope = placement.exaggeration() * border.rise(heights, col, row);
+            gradients(col, row) = !axes                 ? glm::vec2(slope / heightfield.spacing)
+                                  : border.is_pole(row) ? slope_of(axes->at(col, row).up)
+                                                        : scene_slope(axes->at(col, row), slope);
+        }
+    });
+    return gradients;
+}
+
+glm::dmat3 grid_axes(const Heightfield& heightfield, const Placement& placement,
+                     glm::dvec2 sample) {
+    const Axes axes = axes_at(placement, sample, Border(heightfield));
+    return {glm::normalize(axes.east), glm::normalize(axes.north), glm::normalize(axes.up)};
+}
+
+} // namespace reljef::terrain

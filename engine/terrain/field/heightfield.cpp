@@ -1,0 +1,177 @@
+#include "engine/terrain/field/heightfield.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/core/check.h"
+
+namespace reljef::terrain {
+namespace {
+
+/// The samples around a position and how far it lies between them.
+struct Cell {
+    int col = 0;
+    int row = 0;
+    int next_col = 0;
+    int next_row = 0;
+    double u = 0.0;
+    double v = 0.0;
+};
+
+Cell cell_at(int cols, int rows, glm::dvec2 sample) {
+    const double x = sample.x > 0.0 ? std::min(sample.x, cols - 1.0) : 0.0; // NaN gives 0
+    const double y = sample.y > 0.0 ? std::min(sample.y, rows - 1.0) : 0.0;
+    Cell cell;
+    cell.col = std::clamp(static_cast<int>(x), 0, std::max(cols - 2, 0));
+    cell.row = std::clamp(static_cast<int>(y), 0, std::max(rows - 2, 0));
+    cell.next_col = std::min(cell.col + 1, cols - 1);
+    cell.next_row = std::min(cell.row + 1, rows - 1);
+    cell.u = x - cell.col;
+    cell.v = y - cell.row;
+    return cell;
+}
+
+/// Averages and how much each rests on: 0 nothing known, 1 all.
+struct Level {
+    Grid<float> average;
+    Grid<float> weight;
+};
+
+/// One level coarser: weighted averages of 2×2, each weight the sum of the four up to 1.
+template <class Average, class Weight>
+Level pulled(int cols, int rows, const Average& average, const Weight& weight) {
+    Level level{Grid<float>((cols + 1) / 2, (rows + 1) / 2),
+                Grid<float>((cols + 1) / 2, (rows + 1) / 2)};
+    for (int row = 0; row < rows; ++row) {
+        for (int col = 0; col < cols; ++col) {
+            const float w = weight(col, row);
+            if (w > 0.0F) {
+                level.average(col / 2, row / 2) += w * average(col, row);
+                level.weight(col / 2, row / 2) += w;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < level.weight.size(); ++i) {
+        float& w = level.weight.samples()[i];
+        level.average.samples()[i] /= w > 0.0F ? w : 1.0F;
+        w = std::min(w, 1.0F);
+    }
+    return level;
+}
+
+/// The coarser level's value at a finer sample: bilinear between the centres of its 2×2 blocks.
+float value_from(const Level& coarse, int col, int row) {
+    const glm::dvec2 sample(0.5 * col - 0.25, 0.5 * row - 0.25);
+    return static_cast<float>(bilinear_height(coarse.average.view(), sample));
+}
+
+void push(const Level& coarse, Level& fine) {
+    for (int row = 0; row < fine.average.rows(); ++row) {
+        for (int col = 0; col < fine.average.cols(); ++col) {
+            const float w = fine.weight(col, row);
+            if (w < 1.0F) {
+                float& value = fine.average(col, row);
+                value = w * value + (1.0F - w) * value_from(coarse, col, row);
+            }
+        }
+    }
+}
+
+std::vector<Level> pyramid_of(const Grid<float>& heights, const Grid<std::uint8_t>& void_mask) {
+    std::vector<Level> levels;
+    levels.push_back(pulled(heights.cols(), heights.rows(), heights, [&](int col, int row) {
+        return void_mask(col, row) != 0 ? 0.0F : 1.0F;
+    }));
+    while (levels.back().average.cols() > 1 || levels.back().average.rows() > 1) {
+        const Level& last = levels.back();
+        levels.push_back(
+            pulled(last.average.cols(), last.average.rows(), last.average, last.weight));
+    }
+    return levels;
+}
+
+} // namespace
+
+HeightRange height_range(const Grid<float>& heights, const Grid<std::uint8_t>& void_mask) {
+    check(void_mask.empty() || void_mask.size() == heights.size(), "void mask of another size");
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        if (void_mask.empty() || void_mask.samples()[i] == 0) {
+            low = std::min(low, heights.samples()[i]);
+            high = std::max(high, heights.samples()[i]);
+        }
+    }
+    return low <= high ? HeightRange{low, high} : HeightRange{};
+}
+
+Grid<float> unit_heights(GridView<const float> heights) {
+    Grid<float> unit(heights.cols(), heights.rows());
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (const float height : heights.row(row)) {
+            low = std::min(low, height);
+            high = std::max(high, height);
+        }
+    }
+    const double range = high > low ? static_cast<double>(high) - low : 1.0;
+    for (int row = 0; row < heights.rows(); ++row) {
+        std::transform(heights.row(row).begin(), heights.row(row).end(), unit.row(row).begin(),
+                       [&](float height) {
+                           return static_cast<float>((static_cast<double>(height) - low) / range);
+                       });
+    }
+    return unit;
+}
+
+double bilinear_height(GridView<const float> heights, glm::dvec2 sample) {
+    check(!heights.empty(), "bilinear_height of an empty grid");
+    const Cell cell = cell_at(heights.cols(), heights.rows(), sample);
+    const double top =
+        (1.0 - cell.u) * heights(cell.col, cell.row) + cell.u * heights(cell.next_col, cell.row);
+    const double bottom = (1.0 - cell.u) * heights(cell.col, cell.next_row) +
+                          cell.u * heights(cell.next_col, cell.next_row);
+    return (1.0 - cell.v) * top + cell.v * bottom;
+}
+
+bool touches_void(const Heightfield& heightfield, glm::dvec2 sample) {
+    const Grid<std::uint8_t>& mask = heightfield.void_mask;
+    if (mask.empty()) {
+        return false;
+    }
+    const Cell cell = cell_at(mask.cols(), mask.rows(), sample);
+    const bool left = cell.u < 1.0;
+    const bool right = cell.u > 0.0;
+    const bool top = cell.v < 1.0;
+    const bool bottom = cell.v > 0.0;
+    return (left && top && mask(cell.col, cell.row) != 0) ||
+           (right && top && mask(cell.next_col, cell.row) != 0) ||
+           (left && bottom && mask(cell.col, cell.next_row) != 0) ||
+           (right && bottom && mask(cell.next_col, cell.next_row) != 0);
+}
+
+void fill_voids(Grid<float>& heights, const Grid<std::uint8_t>& void_mask) {
+    check(void_mask.empty() ||
+              (void_mask.cols() == heights.cols() && void_mask.rows() == heights.rows()),
+          "void mask of another size");
+    const auto mask = void_mask.samples();
+    if (std::all_of(mask.begin(), mask.end(), [](std::uint8_t is_void) { return is_void == 0; })) {
+        return;
+    }
+    std::vector<Level> levels = pyramid_of(heights, void_mask);
+    for (std::size_t i = levels.size() - 1; i > 0; --i) {
+        push(levels[i], levels[i - 1]);
+    }
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            if (void_mask(col, row) != 0) {
+                heights(col, row) = value_from(levels.front(), col, row);
+            }
+        }
+    }
+}
+
+} // namespace reljef::terrain

@@ -1,0 +1,141 @@
+#include "engine/terrain/field/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+namespace reljef::terrain {
+
+Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKind kind,
+                                    double exaggeration) {
+    const Grid<float>& heights = heightfield.heights;
+    check(!heights.empty(), "placement of an empty heightfield");
+    if (!(exaggeration > 0.0 && exaggeration <= largest_exaggeration)) {
+        return Error{fmt::format("exaggeration {}: a number above 0 and at most {} was expected",
+                                 exaggeration, largest_exaggeration)};
+    }
+    if (kind == PlacementKind::ellipsoid && !heightfield.georeference) {
+        return Error{
+            "placement ellipsoid: the terrain names no place on Earth, a georeferenced one "
+            "or placement plane was expected"};
+    }
+    Placement placement;
+    placement.center_ = 0.5 * glm::dvec2(heights.cols() - 1, heights.rows() - 1);
+    placement.spacing_ = heightfield.spacing;
+    placement.exaggeration_ = exaggeration;
+    if (heightfield.georeference) {
+        placement.geodetic_ = heightfield.georeference->geodetic;
+    }
+    if (kind == PlacementKind::ellipsoid) {
+        const glm::dvec2 origin = placement.geodetic_->latitude_longitude(placement.center_);
+        placement.geoid_ = heightfield.georeference->geoid;
+        placement.frame_ =
+            geo::LocalFrame({origin.x, origin.y, placement.zero_at({origin.x, origin.y})});
+    }
+    return placement;
+}
+
+double Placement::zero_at(glm::dvec2 latitude_longitude) const {
+    if (!geoid_) {
+        return 0.0;
+    }
+    const double latitude = std::clamp(latitude_longitude.x, -90.0, 90.0);
+    const double above = geoid_->undulation(latitude, latitude_longitude.y);
+    return std::isnan(above) ? 0.0 : above;
+}
+
+PlacementKind Placement::kind() const {
+    return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
+}
+
+glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
+    if (!frame_) {
+        return {(sample.x - center_.x) * spacing_.x, (center_.y - sample.y) * spacing_.y,
+                sample.z * exaggeration_};
+    }
+    const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(sample));
+    return frame_->local_from_geodetic(
+        {position.x, position.y, zero_at(position) + sample.z * exaggeration_});
+}
+
+std::optional<glm::dvec3> Placement::sample_from_world(glm::dvec3 world) const {
+    if (!frame_) {
+        return glm::dvec3(center_.x + world.x / spacing_.x, center_.y - world.y / spacing_.y,
+                          world.z / exaggeration_);
+    }
+    const geo::Geodetic position = frame_->geodetic_from_local(world);
+    const Result<glm::dvec2> sample = geodetic_->sample(position.latitude, position.longitude);
+    if (!sample) {
+        return std::nullopt;
+    }
+    const double zero = zero_at({position.latitude, position.longitude});
+    return glm::dvec3(*sample, (position.height - zero) / exaggeration_);
+}
+
+glm::dvec3 Placement::up(glm::dvec3 world) const {
+    if (!frame_) {
+        return {0.0, 0.0, 1.0};
+    }
+    const geo::Geodetic position = frame_->geodetic_from_local(world);
+    return frame_->local_direction(
+        geo::normal_from_geodetic(position.latitude, position.longitude));
+}
+
+glm::dvec3 Placement::north(glm::dvec3 world) const {
+    const auto position = geodetic_from_world(world);
+    if (!position) {
+        return {0.0, 1.0, 0.0};
+    }
+    if (frame_) {
+        return frame_->local_direction(
+            geo::north_from_geodetic(position->latitude, position->longitude));
+    }
+    // Degrees: metres on the ground, and never across a pole.
+    constexpr double step = 1e-5;
+    const double toward = position->latitude > 0.0 ? -step : step;
+    const auto beside =
+        world_from_geodetic({position->latitude + toward, position->longitude, position->height});
+    const glm::dvec3 way = beside ? (*beside - world) / toward : glm::dvec3(0.0);
+    const double length = std::hypot(way.x, way.y);
+    return length > 0.0 ? glm::dvec3(way.x / length, way.y / length, 0.0)
+                        : glm::dvec3(0.0, 1.0, 0.0);
+}
+
+std::optional<geo::Geodetic> Placement::geodetic_from_world(glm::dvec3 world) const {
+    if (!geodetic_) {
+        return std::nullopt;
+    }
+    if (frame_) {
+        geo::Geodetic position = frame_->geodetic_from_local(world);
+        const double zero = zero_at({position.latitude, position.longitude});
+        position.height = (position.height - zero) / exaggeration_;
+        return position;
+    }
+    const std::optional<glm::dvec3> sample = sample_from_world(world);
+    const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(*sample));
+    if (geodetic_->is_past_pole(glm::dvec2(*sample)) || std::isnan(position.x) ||
+        !std::isfinite(position.y)) {
+        return std::nullopt;
+    }
+    return geo::Geodetic{position.x, position.y, sample->z};
+}
+
+std::optional<glm::dvec3> Placement::world_from_geodetic(geo::Geodetic position) const {
+    if (!geodetic_) {
+        return std::nullopt;
+    }
+    if (frame_) {
+        position.height =
+            zero_at({position.latitude, position.longitude}) + position.height * exaggeration_;
+        return frame_->local_from_geodetic(position);
+    }
+    const Result<glm::dvec2> sample = geodetic_->sample(position.latitude, position.longitude);
+    if (!sample) {
+        return std::nullopt;
+    }
+    return world_from_sample(glm::dvec3(*sample, position.height));
+}
+
+} // namespace reljef::terrain

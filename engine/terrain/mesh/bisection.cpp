@@ -1,0 +1,419 @@
+#include "engine/terrain/mesh/bisection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/terrain/mesh/tile_layout.h"
+#include "engine/terrain/mesh/triangle_error.h"
+
+// The error of a triangle. On a plane a point of it is vertically off by what triangle_error()
+// gives, times the exaggeration X. On an ellipsoid a sample lies at G + X h N with the ground G and
+// the vertical N at its place, and a point that is the mean of the corners with the weights w is
+// off by
+//   (Σ w G - G) + X Σ w (h - m) (N_corner - N) + X m (Σ w N - N) + X (Σ w h - h) N
+// for any height m. The first and third are a mean less the value of G + X m N, at most H² C / 8
+// for a longest edge of H samples and second derivatives up to C (the corners of a right triangle
+// lie on a circle of radius H/2 around its middle, and a linear interpolant is off by at most half
+// its square times C). With m in the middle of the corners' heights, which span R, and verticals
+// that turn by T a sample, the second is at most X R/2 · T · H/2, since Σ w |corner - point| <= H/2
+// (its square is at most Σ w |corner - point|² = (H/2)² - |point - middle|²).
+//
+// Inside a cell with twist t, half a square of size s <= 1 is off by X |t| s²/4 (the parabola along
+// its diagonal), and halved once more by a quarter of that. Heights in a square of size s span at
+// most g s, g the greatest differences of the cell along columns plus along rows. That makes
+//   s²/4 (X |t|   + C   + √2 X g T) before the split at its middle (H = √2 s) and
+//   s²/4 (X |t|/4 + C/2 +    X g T) before those on its sides (H = s).
+//
+// What is below a split: splits below that in the middle of a square of size s lie within 1.5 s of
+// it in col and row, below that on a side within 1 s (s/2 + s/4 + s/4 + s/8 + …). So inside cells
+// the greatest over the cells in that reach bounds all below; at samples the greatest of the four
+// splits that need it.
+
+namespace reljef::terrain {
+namespace {
+
+constexpr double must_split = std::numeric_limits<double>::infinity();
+
+// Above the rounding of the sums in doubles and of the places in floats, and below all that counts:
+// balls grow by so much of their radius from one split to the one it needs.
+constexpr double ball_growth = 1.0 + 0x1p-20;
+
+float rounded_up(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest >= value ? nearest
+                            : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+// Calls `body(first, last)` for runs of `at_once` of [0, count), from several threads.
+template <class Body>
+void for_runs(int count, int at_once, const ParallelOptions& parallel, const Body& body) {
+    parallel_for((count + at_once - 1) / at_once,
+                 [&](int index) { body(index * at_once, std::min(count, (index + 1) * at_once)); },
+                 {parallel.threads, parallel.stop, {}});
+}
+
+// Rows of samples that a thread does at a time.
+constexpr int samples_at_once = 16;
+
+int floor_div(int value, int by) {
+    return value >= 0 ? value / by : -((by - 1 - value) / by);
+}
+
+// Derivatives of the placement are differences over this part of the heightfield. They change
+// little over it; so much is added for what lies between.
+constexpr int lattice = 16;
+constexpr double first_margin = 1.0 + 0x1p-4;
+constexpr double second_margin = 2.0;
+
+struct Derivatives {
+    double first = 0.0;
+    double second = 0.0;
+    double turn = 0.0;
+
+    void add(const Derivatives& other) {
+        first = std::max(first, other.first);
+        second = std::max(second, other.second);
+        turn = std::max(turn, other.turn);
+    }
+};
+
+Derivatives derivatives_at(const Placement& placement, glm::dvec2 from, glm::dvec2 step,
+                           double height) {
+    const auto at = [&](double i, double j) {
+        return placement.world_from_sample({from.x + i * step.x, from.y + j * step.y, height});
+    };
+    const glm::dvec3 here = at(0, 0);
+    const glm::dvec3 east = at(1, 0);
+    const glm::dvec3 south = at(0, 1);
+    const glm::dvec3 up = placement.up(here);
+    Derivatives found;
+    found.first = glm::distance(here, east) / step.x + glm::distance(here, south) / step.y;
+    found.second = glm::length(here - 2.0 * east + at(2, 0)) / (step.x * step.x) +
+                   glm::length(here - 2.0 * south + at(0, 2)) / (step.y * step.y) +
+                   glm::length(here - east - south + at(1, 1)) / (step.x * step.y);
+    found.turn = glm::distance(up, placement.up(east)) / step.x +
+                 glm::distance(up, placement.up(south)) / step.y;
+    return found;
+}
+
+bool is_inside(GridView<const float> heights, glm::ivec2 sample) {
+    return sample.x >= 0 && sample.y >= 0 && sample.x < heights.cols() && sample.y < heights.rows();
+}
+
+// Whether a part of the triangle lies on the heightfield, judged by the box around it: triangles
+// that end at a cell's border are never cut.
+bool reaches_in(GridView<const float> heights, const SampleTriangle& triangle) {
+    const glm::ivec2 low = glm::min(triangle[0], glm::min(triangle[1], triangle[2]));
+    const glm::ivec2 high = glm::max(triangle[0], glm::max(triangle[1], triangle[2]));
+    return high.x > 0 && high.y > 0 && low.x < heights.cols() - 1 && low.y < heights.rows() - 1;
+}
+
+// The two triangles that a split at a sample halves; apexes first.
+std::array<SampleTriangle, 2> halved_at(glm::ivec2 place, int size, bool on_side) {
+    const auto [along, across] = halving_at(place, size, on_side);
+    return {SampleTriangle{place + across, place - along, place + along},
+            SampleTriangle{place - across, place - along, place + along}};
+}
+
+} // namespace
+
+Halving halving_at(glm::ivec2 place, int size, bool on_side) {
+    const int half = size / 2;
+    if (on_side) {
+        const glm::ivec2 along = place.y % size == 0 ? glm::ivec2(half, 0) : glm::ivec2(0, half);
+        return {along, {along.y, along.x}};
+    }
+    // The diagonal of a square comes from the middle of the square around it and its three
+    // neighbours.
+    const bool falls = (place.x / size + place.y / size) % 2 == 0;
+    const int down = falls ? half : -half;
+    return {{half, down}, {half, -down}};
+}
+
+// Finds the errors and balls of one level of splits from those of the level below.
+class Bisection::LevelBuilder {
+public:
+    LevelBuilder(Bisection& bisection, int size, bool on_side)
+        : bisection_(bisection), size_(size), on_side_(on_side) {}
+
+    void build(const ParallelOptions& parallel) {
+        const int half = size_ / 2;
+        const int first_row = on_side_ ? 0 : half;
+        const int step = on_side_ ? half : size_;
+        const int rows = bisection_.heights_.rows();
+        const int count = rows > first_row ? (rows - 1 - first_row) / step + 1 : 0;
+        for_runs(count, std::max(samples_at_once / step, 1), parallel, [&](int first, int last) {
+            for (int i = first; i < last; ++i) {
+                build_row(first_row + i * step);
+            }
+        });
+    }
+
+private:
+    void build_row(int row) {
+        const bool begins_at_corner = on_side_ && row % size_ != 0;
+        for (int col = begins_at_corner ? 0 : size_ / 2; col < bisection_.heights_.cols();
+             col += size_) {
+            build_split({col, row});
+        }
+    }
+
+    void build_split(glm::ivec2 place) {
+        double error = own_error(place);
+        double radius = 0.0;
+        const glm::dvec3 center = bisection_.place_of(place.x, place.y);
+        for_each_below(place, [&](const Split& below) {
+            error = std::max(error, below.error);
+            radius = std::max(radius, glm::distance(center, below.center) + below.radius);
+        });
+        bisection_.kept(place, size_, on_side_) = {rounded_up(error),
+                                                   rounded_up(radius * ball_growth),
+                                                   bisection_.heights_(place.x, place.y)};
+    }
+
+    double own_error(glm::ivec2 place) const {
+        double error = 0.0;
+        for (const SampleTriangle& triangle : halved_at(place, size_, on_side_)) {
+            error = std::max(error, error_of(triangle));
+        }
+        return error;
+    }
+
+    double error_of(const SampleTriangle& triangle) const {
+        const GridView<const float> heights = bisection_.heights_;
+        if (!std::all_of(triangle.begin(), triangle.end(),
+                         [&](glm::ivec2 corner) { return is_inside(heights, corner); })) {
+            return reaches_in(heights, triangle) ? must_split : 0.0;
+        }
+        const double exaggeration = bisection_.placement_->exaggeration();
+        double error = exaggeration * triangle_error(heights, triangle);
+        if (bisection_.bending_.curvature > 0.0) {
+            const auto at = [&](std::size_t i) { return heights(triangle[i].x, triangle[i].y); };
+            const auto [low, high] = std::minmax({at(0), at(1), at(2)});
+            const double longest = glm::length(glm::dvec2(triangle[2] - triangle[1]));
+            error += 0.125 * longest * longest * bisection_.bending_.curvature +
+                     0.25 * exaggeration * (static_cast<double>(high) - low) * longest *
+                         bisection_.bending_.turn;
+        }
+        return error;
+    }
+
+    // The four that need this one, those beyond the border left out.
+    template <class Visit> void for_each_below(glm::ivec2 place, const Visit& visit) const {
+        const int reach = steps_per_sample * size_ / (on_side_ ? 4 : 2);
+        const int size = steps_per_sample * size_ / (on_side_ ? 2 : 1);
+        for (int i = 0; i < 4; ++i) {
+            const glm::ivec2 offset = on_side_ ? glm::ivec2(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1)
+                                               : glm::ivec2((i - 1) % 2, (i - 2) % 2);
+            const glm::ivec2 below = steps_per_sample * place + reach * offset;
+            if (below.x >= 0 && below.y >= 0 && below.x <= bisection_.end_.x &&
+                below.y <= bisection_.end_.y) {
+                visit(bisection_.split(below, size, !on_side_));
+            }
+        }
+    }
+
+    Bisection& bisection_;
+    int size_; // samples
+    bool on_side_;
+};
+
+Bisection::Bisection(const Heightfield& heightfield, const Placement& placement, Empty)
+    : heights_(heightfield.heights.view()), placement_(&placement),
+      end_(steps_per_sample * glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
+      middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
+      metres_(heightfield.spacing, placement.exaggeration()),
+      bending_(bending_of(heightfield, placement)) {
+    check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
+    make_levels();
+}
+
+Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
+                     const ParallelOptions& parallel)
+    : Bisection(heightfield, placement, Empty{}) {
+    keep_places(parallel);
+    keep_cells(parallel);
+    double done = 0.0;
+    for (int size = 2; size <= tile_cells; size *= 2) {
+        LevelBuilder(*this, size, true).build(parallel);
+        if (size < tile_cells) {
+            LevelBuilder(*this, size, false).build(parallel);
+        }
+        if (parallel.progress) {
+            parallel.progress(++done / (levels - 1.0)); // each takes about as long
+        }
+    }
+}
+
+Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
+                                         const Placement& placement) {
+    if (placement.kind() == PlacementKind::plane) {
+        return {glm::length(heightfield.spacing), 0.0, 0.0};
+    }
+    const glm::dvec2 step =
+        glm::dvec2(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1) /
+        static_cast<double>(lattice);
+    Derivatives most;
+    for (int j = 0; j <= lattice - 2; ++j) {
+        for (int i = 0; i <= lattice - 2; ++i) {
+            for (const double height : {heightfield.range.low, heightfield.range.high}) {
+                most.add(derivatives_at(placement, {i * step.x, j * step.y}, step, height));
+            }
+        }
+    }
+    return {first_margin * most.first, second_margin * most.second, first_margin * most.turn};
+}
+
+void Bisection::keep_places(const ParallelOptions& parallel) {
+    if (placement_->kind() == PlacementKind::plane) {
+        return;
+    }
+    const glm::ivec2 tiles((heights_.cols() + tile_cells - 1) / tile_cells,
+                           (heights_.rows() + tile_cells - 1) / tile_cells);
+    origins_ = Grid<glm::dvec3>(tiles.x, tiles.y);
+    offsets_ = Grid<glm::vec3>(heights_.cols(), heights_.rows());
+    for (int j = 0; j < tiles.y; ++j) {
+        for (int i = 0; i < tiles.x; ++i) {
+            origins_(i, j) = placement_->world_from_sample(
+                {(i + 0.5) * tile_cells, (j + 0.5) * tile_cells, 0.0});
+        }
+    }
+    parallel_for(heights_.rows(),
+                 [&](int row) {
+                     for (int col = 0; col < heights_.cols(); ++col) {
+                         const glm::dvec3 world =
+                             placement_->world_from_sample({col, row, heights_(col, row)});
+                         offsets_(col, row) =
+                             glm::vec3(world - origins_(col / tile_cells, row / tile_cells));
+                     }
+                 },
+                 {parallel.threads, parallel.stop, {}});
+}
+
+void Bisection::make_levels() {
+    const glm::ivec2 samples(heights_.cols(), heights_.rows());
+    for (std::size_t level = 0; level < levels; ++level) {
+        const glm::ivec2 middles = splits_in_middles(samples, level);
+        in_middles_[level] = Grid<KeptSplit>(middles.x, middles.y);
+        if (level > 0) {
+            const glm::ivec2 sides = splits_on_sides(samples, level);
+            on_sides_[level] = Grid<KeptSplit>(sides.x, sides.y);
+        }
+    }
+}
+
+void Bisection::keep_cells(const ParallelOptions& parallel) {
+    for_runs(in_middles_[0].rows(), samples_at_once, parallel,
+             [&](int first, int last) { keep_cell_rows(first, last); });
+}
+
+void Bisection::keep_cell_rows(int first, int last) {
+    const int low = std::max(first - 1, 0);
+    Grid<KeptSplit>& cells = in_middles_[0];
+    const int high = std::min(last + 1, cells.rows());
+    Grid<CellBend> bends(cells.cols(), high - low);
+    for (int row = low; row < high; ++row) {
+        for (int col = 0; col < cells.cols(); ++col) {
+            bends(col, row - low) = bend_of_cell(col, row);
+        }
+    }
+    for (int row = first; row < last; ++row) {
+        for (int col = 0; col < cells.cols(); ++col) {
+            CellBend most = bends(col, row - low);
+            for (int i = 0; i < 9; ++i) {
+                const CellBend& near = bends.clamped(col + i % 3 - 1, row - low + i / 3 - 1);
+                most.side = std::max(most.side, near.side);
+                most.reach = std::max(most.reach, near.reach);
+            }
+            cells(col, row) = {rounded_up(0.25 * std::max(most.middle, most.side)),
+                               rounded_up(1.5 * most.reach * ball_growth + bending_.curvature),
+                               0.0F};
+        }
+    }
+}
+
+glm::dvec3 Bisection::place_of(int col, int row) const {
+    return offsets_.empty()
+               ? placement_->world_from_sample({col, row, heights_(col, row)})
+               : origins_(col / tile_cells, row / tile_cells) + glm::dvec3(offsets_(col, row));
+}
+
+// Bilinear between the cell's corners: on an ellipsoid off by less than its curvature.
+glm::dvec3 Bisection::place_in_cell(glm::ivec2 place) const {
+    const glm::ivec2 cell = glm::min(place, end_ - 1) / steps_per_sample;
+    const glm::dvec2 part =
+        glm::dvec2(place - steps_per_sample * cell) / static_cast<double>(steps_per_sample);
+    const glm::dvec3 north =
+        glm::mix(place_of(cell.x, cell.y), place_of(cell.x + 1, cell.y), part.x);
+    const glm::dvec3 south =
+        glm::mix(place_of(cell.x, cell.y + 1), place_of(cell.x + 1, cell.y + 1), part.x);
+    return glm::mix(north, south, part.y);
+}
+
+Bisection::CellBend Bisection::bend_of_cell(int col, int row) const {
+    const double h00 = heights_(col, row);
+    const double h10 = heights_(col + 1, row);
+    const double h01 = heights_(col, row + 1);
+    const double h11 = heights_(col + 1, row + 1);
+    const double exaggeration = placement_->exaggeration();
+    const double twist = exaggeration * std::abs(h00 - h10 - h01 + h11);
+    const double steepness = exaggeration * (std::max(std::abs(h10 - h00), std::abs(h11 - h01)) +
+                                             std::max(std::abs(h01 - h00), std::abs(h11 - h10)));
+    const double leaning = steepness * bending_.turn;
+    return {twist + bending_.curvature + std::sqrt(2.0) * leaning,
+            0.25 * twist + 0.5 * bending_.curvature + leaning,
+            offsets_.empty()
+                ? std::sqrt(bending_.stretch * bending_.stretch + steepness * steepness)
+                : bending_.stretch + steepness};
+}
+
+Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
+    if (size == steps_per_sample && !on_side) {
+        const KeptSplit& cell = kept(place / steps_per_sample, 1, false);
+        return {cell.error, place_in_cell(place), cell.radius};
+    }
+    const int reach = on_side ? size : 3 * size / 2;
+    const glm::ivec2 last_cell = end_ / steps_per_sample - 1;
+    const auto cell_before = [&](int step) { return floor_div(step - 1, steps_per_sample); };
+    const int last_col = std::min(cell_before(place.x + reach), last_cell.x);
+    const int last_row = std::min(cell_before(place.y + reach), last_cell.y);
+    double bend = 0.0;
+    double longest = 0.0;
+    for (int row = std::max(floor_div(place.y - reach, steps_per_sample), 0); row <= last_row;
+         ++row) {
+        for (int col = std::max(floor_div(place.x - reach, steps_per_sample), 0); col <= last_col;
+             ++col) {
+            const CellBend cell = bend_of_cell(col, row);
+            const bool is_own =
+                !on_side && col == place.x / steps_per_sample && row == place.y / steps_per_sample;
+            bend = std::max(bend, is_own ? std::max(cell.middle, cell.side) : cell.side);
+            longest = std::max(longest, cell.reach);
+        }
+    }
+    const double samples = static_cast<double>(size) / steps_per_sample;
+    return {0.25 * samples * samples * bend, place_in_cell(place),
+            longest * reach / steps_per_sample * ball_growth + bending_.curvature};
+}
+
+double Bisection::height(glm::ivec2 place) const {
+    const glm::ivec2 sample = place / steps_per_sample;
+    return steps_per_sample * sample == place
+               ? static_cast<double>(heights_(sample.x, sample.y))
+               : bilinear_height(heights_,
+                                 glm::dvec2(place) / static_cast<double>(steps_per_sample));
+}
+
+glm::dvec3 Bisection::world(glm::ivec2 place) const {
+    const glm::ivec2 sample = place / steps_per_sample;
+    return steps_per_sample * sample == place
+               ? place_of(sample.x, sample.y)
+               : placement_->world_from_sample(
+                     {glm::dvec2(place) / static_cast<double>(steps_per_sample), height(place)});
+}
+
+} // namespace reljef::terrain

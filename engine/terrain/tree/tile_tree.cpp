@@ -1,0 +1,60 @@
+#include "engine/terrain/tree/tile_tree.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+
+#include "engine/core/check.h"
+
+namespace reljef::terrain {
+
+TileTree::TileTree(int cols, int rows, bool is_around)
+    : last_(cols - 1, rows - 1), is_around_(is_around) {
+    check(std::min(cols, rows) >= 2 && std::max(cols, rows) <= most_tree_samples,
+          "a tile tree needs 2 to 2^30 samples a side");
+    while (tile_cells * step({levels_ - 1, 0, 0}) < std::max(last_.x, last_.y)) {
+        ++levels_;
+    }
+}
+
+int TileTree::other_end(int col) const {
+    const bool is_end = is_around_ && (col == 0 || col == last_.x);
+    return is_end ? last_.x - col : col;
+}
+
+int TileTree::tile_cols(int level) const {
+    const int size = tile_cells * step({level, 0, 0});
+    return (last_.x + size - 1) / size;
+}
+
+std::vector<TreeTile> TileTree::children(TreeTile tile) const {
+    std::vector<TreeTile> found;
+    if (tile.level == 0) {
+        return found;
+    }
+    for (const int row : {2 * tile.row, 2 * tile.row + 1}) {
+        for (const int col : {2 * tile.col, 2 * tile.col + 1}) {
+            const TreeTile child{tile.level - 1, col, row};
+            const glm::ivec2 corner = first(child);
+            if (corner.x < last_.x && corner.y < last_.y) {
+                found.push_back(child);
+            }
+        }
+    }
+    return found;
+}
+
+glm::ivec2 TileTree::first(TreeTile tile) {
+    return glm::ivec2(tile.col, tile.row) * tile_cells * step(tile);
+}
+
+glm::ivec2 TileTree::cells(TreeTile tile) const {
+    const glm::ivec2 left = last_ - first(tile);
+    return glm::clamp((left + step(tile) - 1) / step(tile), glm::ivec2(0), glm::ivec2(tile_cells));
+}
+
+glm::ivec2 TileTree::sample(TreeTile tile, glm::ivec2 vertex) const {
+    return glm::clamp(first(tile) + vertex * step(tile), glm::ivec2(0), last_);
+}
+
+} // namespace reljef::terrain

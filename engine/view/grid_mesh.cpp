@@ -1,0 +1,95 @@
+#include "engine/view/grid_mesh.h"
+
+#include "engine/core/geometry.h"
+
+namespace reljef::view {
+namespace {
+
+// Quads along the side of a flat tile on an ellipsoid: over a tile of 128 samples 3″ apart (12 km)
+// the chord of an eighth stays within 5 cm of the arc.
+constexpr int flat_ellipsoid_quads = 8;
+
+template <class HeightAt>
+GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& tile, glm::ivec2 quads,
+                   const HeightAt& height_at) {
+    GridMesh mesh{quads.x, quads.y, {}};
+    mesh.vertices.reserve(static_cast<std::size_t>(quads.x + 1) *
+                          static_cast<std::size_t>(quads.y + 1));
+    const glm::dvec2 step = glm::dvec2(tile.cols, tile.rows) / glm::dvec2(quads);
+    for (int row = 0; row <= quads.y; ++row) {
+        for (int col = 0; col <= quads.x; ++col) {
+            const glm::dvec2 sample{tile.col + col * step.x, tile.row + row * step.y};
+            const double height = height_at(sample);
+            mesh.vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}),
+                                                height, sample - glm::dvec2(tile.col, tile.row)));
+        }
+    }
+    return mesh;
+}
+
+} // namespace
+
+GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place) {
+    const SplitPoint position = split_into_floats(local);
+    return {position.rounded, static_cast<float>(height), glm::vec2(place), position.rest};
+}
+
+GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
+                   const terrain::Tile& tile) {
+    return grid_mesh(placement, tile, {tile.cols, tile.rows}, [&](glm::dvec2 sample) {
+        return static_cast<double>(
+            heightfield.heights(static_cast<int>(sample.x), static_cast<int>(sample.y)));
+    });
+}
+
+void VertexPlacer::know(const terrain::Triangulation& part, std::span<const GridVertex> vertices) {
+    check(vertices.size() == part.vertices.size(), "a triangulation and the vertices of another");
+    if (!part.moves.empty()) {
+        return; // on their way, not at their places
+    }
+    if (at_samples_.empty()) {
+        at_samples_ = Grid<const GridVertex*>(tile_.cols + 1, tile_.rows + 1, nullptr);
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const glm::ivec2 sample = part.vertices[i] / terrain::steps_per_sample;
+        if (sample * terrain::steps_per_sample == part.vertices[i]) {
+            at_samples_(sample.x - tile_.col, sample.y - tile_.row) = &vertices[i];
+        }
+    }
+}
+
+const GridVertex* VertexPlacer::known(glm::ivec2 steps) const {
+    const glm::ivec2 sample = steps / terrain::steps_per_sample;
+    return at_samples_.empty() || sample * terrain::steps_per_sample != steps
+               ? nullptr
+               : at_samples_(sample.x - tile_.col, sample.y - tile_.row);
+}
+
+GridVertex VertexPlacer::placed(glm::ivec2 steps, const terrain::VertexMove& move) const {
+    const glm::dvec2 sample = glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
+    const double height = terrain::bilinear_height(heightfield_.heights.view(), sample);
+    return grid_vertex(placement_.world_from_sample({sample, height}) + move.offset,
+                       height + move.height, sample - glm::dvec2(tile_.col, tile_.row));
+}
+
+std::vector<GridVertex> VertexPlacer::place(const terrain::Triangulation& part) const {
+    std::vector<GridVertex> vertices;
+    vertices.reserve(part.vertices.size());
+    for (std::size_t i = 0; i < part.vertices.size(); ++i) {
+        const terrain::VertexMove move = part.moves.empty() ? terrain::VertexMove{} : part.moves[i];
+        const GridVertex* const there = part.moves.empty() ? known(part.vertices[i]) : nullptr;
+        vertices.push_back(there != nullptr ? *there : placed(part.vertices[i], move));
+    }
+    return vertices;
+}
+
+int flat_quads(terrain::PlacementKind kind) {
+    return kind == terrain::PlacementKind::plane ? 1 : flat_ellipsoid_quads;
+}
+
+GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height) {
+    const int quads = flat_quads(placement.kind());
+    return grid_mesh(placement, tile, {quads, quads}, [&](glm::dvec2) { return height; });
+}
+
+} // namespace reljef::view

@@ -1,0 +1,221 @@
+#include "engine/view/streamed_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/core/worker_pool.h"
+#include "engine/scene/tile_stream.h"
+#include "engine/terrain/mesh/bisection.h"
+#include "engine/terrain/tree/shared_splits.h"
+#include "engine/view/error_view.h"
+
+namespace reljef::view {
+namespace {
+
+constexpr double least_share_of_triangles = 0.5; // of the error
+
+// Errors of vertices and of triangles are seldom the most at the same place: they add up to less
+// than their sum (which 1 would be), if not as little as independent ones do (2, which over the
+// Alps from far above makes the error that 99 of 100 pixels keep a quarter larger). Measured.
+constexpr double addition_power = 1.25;
+
+// Of the error, what is left for triangles where vertices take a share.
+double share_beside(double share_of_vertices) {
+    const double taken = std::pow(std::min(share_of_vertices, 1.0), addition_power);
+    return std::max(std::pow(1.0 - taken, 1.0 / addition_power), least_share_of_triangles);
+}
+
+glm::dvec3 place_of(const scene::StreamedTile& tile, glm::ivec2 vertex) {
+    return tile.place(vertex);
+}
+
+// East, north and up of the plane, and the middle of the tile's corners.
+glm::dmat4 plane_of(const scene::StreamedTile& tile) {
+    const glm::dvec3 north_west = place_of(tile, {0, 0});
+    const glm::dvec3 north_east = place_of(tile, {tile.cells.x, 0});
+    const glm::dvec3 south_west = place_of(tile, {0, tile.cells.y});
+    const glm::dvec3 south_east = place_of(tile, tile.cells);
+    const glm::dvec3 up(tile.up);
+    const glm::dvec3 along = north_east - north_west + south_east - south_west;
+    const glm::dvec3 east = glm::normalize(along - up * glm::dot(along, up));
+    const glm::dvec3 middle = 0.25 * (north_west + north_east + south_west + south_east);
+    return {glm::dvec4(east, 0.0), glm::dvec4(glm::cross(up, east), 0.0), glm::dvec4(up, 0.0),
+            glm::dvec4(middle, 1.0)};
+}
+
+terrain::Heightfield heights_over(const glm::dmat4& local_from_plane,
+                                  const scene::StreamedTile& tile) {
+    const glm::dmat4 plane_from_local = glm::inverse(local_from_plane);
+    const auto at = [&](glm::ivec2 vertex) {
+        return glm::dvec3(plane_from_local * glm::dvec4(place_of(tile, vertex), 1.0));
+    };
+    terrain::Heightfield heightfield;
+    heightfield.heights = Grid<float>(tile.cells.x + 1, tile.cells.y + 1);
+    for (int row = 0; row <= tile.cells.y; ++row) {
+        for (int col = 0; col <= tile.cells.x; ++col) {
+            heightfield.heights(col, row) = static_cast<float>(at({col, row}).z);
+        }
+    }
+    heightfield.range = terrain::height_range(heightfield.heights, {});
+    const glm::dvec2 diagonal(at({tile.cells.x, 0}) - at({0, tile.cells.y}));
+    heightfield.spacing = glm::abs(diagonal) / glm::dvec2(tile.cells);
+    return heightfield;
+}
+
+} // namespace
+
+struct StreamedShape::Data {
+    explicit Data(terrain::Heightfield made)
+        : heightfield(std::move(made)),
+          placement(terrain::Placement::create(heightfield, terrain::PlacementKind::plane).value()),
+          bisection(heightfield, placement, {.threads = 1, .stop = {}, .progress = {}}) {}
+
+    terrain::Heightfield heightfield;
+    terrain::Placement placement;
+    terrain::Bisection bisection;
+};
+
+StreamedShape::StreamedShape(const scene::StreamedTile& tile)
+    : local_from_plane_(plane_of(tile)),
+      data_(std::make_unique<const Data>(heights_over(local_from_plane_, tile))) {}
+StreamedShape::~StreamedShape() = default;
+StreamedShape::StreamedShape(StreamedShape&&) noexcept = default;
+StreamedShape& StreamedShape::operator=(StreamedShape&&) noexcept = default;
+
+std::vector<glm::ivec2> StreamedShape::border_splits(const terrain::ErrorView& view) const {
+    return terrain::border_splits(data_->bisection, view);
+}
+
+CutTriangles StreamedShape::triangles(const terrain::ErrorView& view,
+                                      const Grid<std::uint8_t>& splits) const {
+    const Grid<float>& heights = data_->heightfield.heights;
+    const glm::ivec2 cells(heights.cols() - 1, heights.rows() - 1);
+    const terrain::Tile tile{0, 0, cells.x, cells.y, {}};
+    terrain::Triangulation found =
+        terrain::triangulate_samples(data_->bisection, tile, view, splits);
+    CutTriangles cut;
+    cut.vertices.reserve(found.vertices.size());
+    for (const glm::ivec2 place : found.vertices) {
+        const glm::ivec2 vertex = place / terrain::steps_per_sample;
+        cut.vertices.push_back(static_cast<std::uint16_t>(vertex.y * heights.cols() + vertex.x));
+    }
+    cut.indices = std::move(found.indices);
+    return cut;
+}
+
+namespace {
+
+// Cuts all tiles of a cover, where one is not as it must be.
+class TogetherCutter {
+public:
+    TogetherCutter(const DrawList& list, const terrain::TileCover& cover,
+                   std::span<TileToCut> tiles)
+        : list_(list), cover_(cover), tiles_(tiles), views_(tiles.size()) {
+        for (const TileToCut& tile : tiles_) {
+            draws_.emplace(tile.draw->tile->id, tile.draw);
+        }
+    }
+
+    void cut(bool is_new_cover) {
+        make_shapes();
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            views_[i] = view_of(*tiles_[i].draw, *tiles_[i].cut->shape);
+            is_new_cover = is_new_cover || tiles_[i].cut->view != views_[i];
+        }
+        if (is_new_cover && !tiles_.empty()) {
+            find_triangles();
+        }
+    }
+
+private:
+    template <class Body> void for_each_tile(const Body& body) const {
+        parallel_for(static_cast<int>(tiles_.size()),
+                     [&](int i) { body(static_cast<std::size_t>(i)); });
+    }
+
+    void make_shapes() {
+        const bool all_there = std::all_of(tiles_.begin(), tiles_.end(), [](const TileToCut& tile) {
+            return tile.cut->shape.has_value();
+        });
+        if (all_there) {
+            return; // no threads for nothing
+        }
+        for_each_tile([&](std::size_t i) {
+            StreamedCut& cut = *tiles_[i].cut;
+            if (!cut.shape) {
+                cut.shape.emplace(*tiles_[i].draw->tile);
+            }
+        });
+    }
+
+    void find_triangles() {
+        const terrain::TileTree& tree = tiles_.front().draw->terrain->stream->tree();
+        terrain::SharedSplits splits = terrain::shared_splits(tree, cover_, wanted());
+        for_each_tile([&](std::size_t i) {
+            TileToCut& tile = tiles_[i];
+            Grid<std::uint8_t>& needed = splits.at(tile.draw->tile->id);
+            if (tile.cut->view != views_[i] || tile.cut->splits != needed) {
+                tile.triangles = tile.cut->shape->triangles(views_[i], needed);
+                tile.view = views_[i];
+                tile.cut->view.reset();
+                tile.cut->splits = std::move(needed);
+            }
+        });
+    }
+
+    [[nodiscard]] terrain::BorderSplits wanted() const {
+        std::vector<std::vector<glm::ivec2>> found(tiles_.size());
+        for_each_tile(
+            [&](std::size_t i) { found[i] = tiles_[i].cut->shape->border_splits(views_[i]); });
+        terrain::BorderSplits wanted;
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            wanted.emplace(tiles_[i].draw->tile->id, std::move(found[i]));
+        }
+        return wanted;
+    }
+
+    [[nodiscard]] terrain::ErrorView view_of(const StreamedDraw& draw,
+                                             const StreamedShape& shape) const {
+        const double error = scene::parameter(draw.terrain->material.technique, "error");
+        const double most = error * share_beside(error_of_vertices(draw) / error);
+        return error_view(list_.camera, list_.size,
+                          draw.world_from_local * shape.local_from_plane(),
+                          terrain::PlacementKind::plane, std::max(most, least_error));
+    }
+
+    // On a border they are those of the coarser of two tiles.
+    [[nodiscard]] double error_of_vertices(const StreamedDraw& draw) const {
+        double most = draw.error;
+        for (const terrain::TreeTile other : cover_.touching(draw.tile->id)) {
+            most = std::max(most, draws_.at(other)->error);
+        }
+        return most;
+    }
+
+    const DrawList& list_;
+    const terrain::TileCover& cover_;
+    std::span<TileToCut> tiles_;
+    std::vector<terrain::ErrorView> views_;
+    std::map<terrain::TreeTile, const StreamedDraw*> draws_;
+};
+
+} // namespace
+
+bool is_cut(const StreamedDraw& draw) {
+    const scene::Technique& technique = draw.terrain->material.technique;
+    return !draw.flat && !draw.is_hidden && technique.id == scene::TechniqueId::polygons &&
+           scene::parameter(technique, "error") > 0.0;
+}
+
+void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,
+                  std::span<TileToCut> tiles) {
+    TogetherCutter(list, cover, tiles).cut(is_new_cover);
+}
+
+} // namespace reljef::view

@@ -1,3 +1,0 @@
-layout(std140, binding = 0) uniform FrameBlock {
-#include "frame_block.inc"
-};

@@ -1,0 +1,71 @@
+// Each pixel looks for the tile's surface along its ray, in the plane that touches what carries it.
+#if defined(EXACT)
+#include "relief/relief_exact_tile.glsl"
+#elif defined(CONE)
+#include "relief/relief_cone.glsl"
+#elif defined(LAYERS)
+#include "relief/relief_layers.glsl"
+#elif defined(PARALLAX)
+#include "relief/relief_parallax.glsl"
+#else
+#include "relief/relief_linear.glsl"
+#endif
+
+uniform float mesh_height; // of the tile's heights in [0,1]: where the mesh lies
+uniform float near_depth;  // metres, in perspective
+
+// A ray that is so flat that it would cross more tiles than these on its way through the heights is
+// taken to cross no more: what it looks for is hidden by what stands before it.
+const float most_tiles = 64.0;
+// How far the search goes beyond the heights [0,1], so that a ray begins above and ends below them
+// whatever rounding says: floats near 1 are good to 2^-24, and a ray adds a few of them.
+const float margin = 1.0 / 4096.0;
+
+// The ray through the heights, in samples and height, and how far along the way to the eye a
+// height of 1 is.
+struct TileRay {
+    vec3 start;
+    vec3 span;
+    float way_per_height;
+};
+
+// `to_eye` in tangent space; `near_part` of the way is not seen.
+TileRay ray_through(vec3 to_eye, float near_part) {
+    vec2 samples = tile_samples();
+    vec2 samples_per_metre = tiles_per_metre * samples;
+    float way = metres_per_unit.z / max(to_eye.z, 1e-30);
+    vec2 tiles = abs(to_eye.xy * way * tiles_per_metre);
+    way *= min(1.0, most_tiles / max(max(tiles.x, tiles.y), 1e-30));
+    vec2 shift = to_eye.xy * way * samples_per_metre;
+    float top = 1.0 + margin;
+    if (perspective > 0.5) {
+        top = min(top, mesh_height + (1.0 - near_part) / way); // the eye may be that near
+    }
+    vec2 coordinate = tile_coordinate;
+#ifdef WRAP
+    coordinate = fract(coordinate); // small numbers are exact ones
+#endif
+    vec2 entry = coordinate * samples - 0.5;
+    vec3 start = vec3(entry + shift * (top - mesh_height), top);
+    vec3 end = vec3(entry - shift * (margin + mesh_height), -margin);
+    return TileRay(start, end - start, way);
+}
+
+// From where to where a ray is over the tile; none where the first is not less than the second.
+vec2 part_on_tile(vec3 start, vec3 span) {
+    if (bounded < 0.5) {
+        return vec2(0.0, 1.0);
+    }
+    vec2 away = vec2(equal(span.xy, vec2(0.0)));
+    vec2 inverse = (1.0 - away) / (span.xy + away);
+    vec2 one = (vec2(-0.5) - start.xy) * inverse;
+    vec2 other = (tile_samples() - 0.5 - start.xy) * inverse;
+    vec2 enter = min(one, other) - away;
+    vec2 leave = max(one, other) + 2.0 * away;
+    float begin = max(max(enter.x, enter.y), 0.0);
+    float end = min(min(leave.x, leave.y), 1.0);
+    vec2 middle = start.xy + 0.5 * (begin + end) * span.xy;
+    bool inside = all(greaterThanEqual(middle, vec2(-0.5))) &&
+                  all(lessThanEqual(middle, tile_samples() - 0.5));
+    return inside ? vec2(begin, end) : vec2(1.0, 0.0);
+}

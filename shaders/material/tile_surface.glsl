@@ -1,0 +1,56 @@
+// A tile of detail on a mesh, as a fragment sees it. Tangent space: x where u grows, y where v
+// grows, z off the side of the mesh that is seen; metres of the mesh. From behind, heights are what
+// is left of 1.
+#ifdef GROUND
+#include "terrain/ground.glsl"
+#elif defined(HULL)
+#include "mesh/hull.glsl"
+#else
+in vec3 relative; // from the eye, metres
+in vec3 local_normal;
+in vec4 local_tangent; // w: handedness
+in vec2 tile_coordinate;
+in vec2 tiles_per_metre; // along x and y
+#endif
+
+uniform mat3 local_from_relative; // directions
+uniform float perspective;        // 1, or 0: all rays run along the view axis
+uniform float lift;               // metres that a height of 1 lifts a point
+uniform float bounded;            // 1: there is nothing beyond the tile
+uniform float side;               // -1: the mesh is seen from behind
+
+#if !defined(GROUND) && !defined(HULL)
+// Local directions from tangent space: orthonormal.
+mat3 tangent_space() {
+    vec3 z = normalize(local_normal);
+    vec3 x = normalize(local_tangent.xyz - z * dot(z, local_tangent.xyz));
+    return mat3(x, local_tangent.w * cross(z, x), side * z);
+}
+#endif
+
+// World direction towards the eye; in perspective as long as it is far.
+vec3 way_to_eye() {
+    return mix(-view_forward.xyz, -relative, perspective);
+}
+
+vec2 tile_samples() {
+    return vec2(textureSize(height_map, 0));
+}
+
+bool is_off_tile(vec2 coordinate) {
+    return bounded > 0.5 && (any(lessThan(coordinate, vec2(0.0))) ||
+                             any(greaterThan(coordinate, vec2(1.0))));
+}
+
+#ifdef HIT
+// Column and row in the tile, its height there in [0,1], metres along the view axis.
+vec4 tile_hit(vec2 place, vec3 where) {
+    vec2 samples = tile_samples();
+    vec2 wrapped = mod(place + 0.5, samples) - 0.5;
+#ifndef WRAP
+    wrapped = clamp(place, vec2(-0.5), samples - 0.5);
+#endif
+    float height = 0.5 + side * (height_at(place) - 0.5);
+    return vec4(wrapped, height, dot(where, view_forward.xyz));
+}
+#endif

@@ -1,0 +1,47 @@
+#include "frame/frame_block.glsl"
+#include "frame/air.glsl"
+#include "relief/relief_surface.glsl"
+#include "material/tile_surface.glsl"
+#ifndef HIT
+#include "frame/surface_light.glsl"
+#include "material/tile_light.glsl"
+#include "material/tile_looks.glsl"
+#endif
+
+#ifdef WARPED
+// What is seen at a sample of the mesh: the tile's coordinate, its height, 1; all 0 where nothing is.
+layout(binding = 6) uniform sampler2D warped_map;
+uniform vec4 warp_from_tile; // texture coordinate = tile coordinate · xy + zw
+#endif
+
+#ifdef HIT
+layout(location = 0) out vec4 hit; // col, row, height, depth
+#else
+layout(location = 0) out vec4 color;
+#endif
+
+void main() {
+    if (is_off_tile(tile_coordinate)) {
+        discard;
+    }
+    vec2 coordinate = tile_coordinate;
+#ifdef WARPED
+    vec2 on_map = coordinate * warp_from_tile.xy + warp_from_tile.zw;
+    vec2 samples = vec2(textureSize(warped_map, 0));
+    vec2 middle = (floor(on_map * samples) + 0.5) / samples; // of the nearest sample
+    vec4 seen = textureLod(warped_map, middle, 0.0);
+    if (seen.w < 1.0) {
+        discard;
+    }
+    coordinate = seen.xy + (on_map - middle) / warp_from_tile.xy;
+#endif
+#ifdef HIT
+    hit = tile_hit(coordinate * tile_samples() - 0.5, relative);
+#else
+    vec2 right = dFdx(tile_coordinate);
+    vec2 up = dFdy(tile_coordinate);
+    vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
+    vec3 lit = lit_tile(albedo, coordinate, tangent_space(), right, up, 1.0);
+    color = vec4(seen_through_air(lit, length(relative)), 1.0);
+#endif
+}

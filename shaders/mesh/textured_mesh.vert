@@ -1,0 +1,2 @@
+#include "frame/frame_block.glsl"
+#include "material/tile_vertex.glsl"

@@ -1,0 +1,151 @@
+#include "frame/frame_block.glsl"
+#include "frame/air.glsl"
+#include "relief/relief_surface.glsl"
+#if defined(EXACT)
+#include "relief/relief_exact.glsl"
+#elif defined(CONE)
+#include "relief/relief_cone.glsl"
+#elif defined(PARALLAX)
+#include "relief/relief_parallax.glsl"
+#else
+#include "relief/relief_linear.glsl"
+#endif
+#ifdef FADE
+#include "relief/relief_fade.glsl"
+#endif
+#ifdef BEAMS
+#include "relief/relief_beams.glsl"
+#endif
+#if defined(HARD_SHADOW) || defined(SOFT_SHADOW)
+#define SHADOW
+#include "relief/relief_shadow.glsl"
+#endif
+#ifdef SMOOTH_EDGES
+#include "relief/relief_edges.glsl"
+#endif
+
+in vec3 back;
+
+// From world directions relative to the eye to the search space: column, row, height in [0,1].
+uniform mat3 space_from_relative;
+uniform vec3 eye_in_space;
+uniform vec3 box_begin; // of the search space
+uniform vec3 box_end;
+uniform float perspective;    // 1, or 0: all rays run along the view axis
+uniform float near_depth;     // metres, in perspective
+uniform vec2 range_of_height; // metres: lowest, highest less lowest
+uniform float texels_per_metre_away; // of a pixel that faces the eye
+uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
+
+layout(binding = 0) uniform sampler2D lit_map; // what the surface sends to the eye, linear
+#ifdef SHADOW
+layout(binding = 3) uniform sampler2D sun_map; // of the sun's light alone, lit_map of the rest
+#endif
+
+#ifdef HIT
+layout(location = 0) out vec4 hit; // col, row, height, depth
+#else
+layout(location = 0) out vec4 color;
+#endif
+
+// Where the ray from the box's back enters it, in units of -along: from the nearest depth on in
+// perspective.
+float entry_before(vec3 point, vec3 direction) {
+    vec3 away = vec3(equal(direction, vec3(0.0)));
+    vec3 inverse = (1.0 - away) / (direction + away);
+    vec3 first = min((box_begin - point) * inverse, (box_end - point) * inverse) - away * 3e38;
+    float nearest = max(max(first.x, first.y), first.z);
+    float begin = near_depth / dot(back, view_forward.xyz) - 1.0;
+    return min(perspective > 0.5 ? max(nearest, begin) : nearest, 0.0);
+}
+
+#ifndef HIT
+// The mip level for a pixel, as from derivatives; but no coarser than for a surface that is seen
+// eight times longer than wide: over a silhouette the neighbours show another place.
+float level_of(vec2 coordinate, float distance_to_hit) {
+    vec2 texels = coordinate * vec2(textureSize(lit_map, 0));
+    vec2 across = dFdx(texels);
+    vec2 down = dFdy(texels);
+    float most = 8.0 * distance_to_hit * texels_per_metre_away;
+    return 0.5 * log2(min(max(dot(across, across), dot(down, down)), most * most));
+}
+
+#ifdef SMOOTH_EDGES
+// The same of a place that is passed by: its neighbours show others.
+float near_level(float level, float distance_to_hit) {
+    return min(level, log2(2.0 * distance_to_hit * texels_per_metre_away));
+}
+#endif
+#endif
+
+#ifndef HIT
+vec3 lit_at(vec2 place, float level) {
+    vec2 coordinate = place * lit_from_sample.xy + lit_from_sample.zw;
+    vec3 lit = textureLod(lit_map, coordinate, level).rgb;
+#ifdef SHADOW
+    vec3 sun_direction = space_from_relative * to_sun.xyz;
+    lit += sun_at(place, sun_direction, box_begin, box_end) * textureLod(sun_map, coordinate, level).rgb;
+#endif
+    return lit;
+}
+
+vec3 color_at(vec2 place, float level, float metres) {
+    return seen_through_air(lit_at(place, level), metres);
+}
+#endif
+
+bool find_view_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+#ifdef BEAMS
+    float clear = clear_part(start, span);
+    begins_above = clear > 0.0;
+    bool found = find_hit(start + clear * span, (1.0 - clear) * span, part, place);
+    begins_above = false;
+    part = mix(clear, 1.0, part);
+    return found;
+#else
+    return find_hit(start, span, part, place);
+#endif
+}
+
+void main() {
+    vec3 along = mix(view_forward.xyz, back, perspective);
+    vec3 direction = space_from_relative * along;
+    vec3 leave = space_from_relative * back + eye_in_space;
+    float entry = entry_before(leave, direction);
+    vec3 span = -entry * direction;
+    vec3 start = leave - span;
+#ifdef FADE
+    vec2 ends = stretch(box_begin.z, box_end.z, start, span);
+#endif
+    float part;
+    vec2 place;
+    if (!find_view_hit(start, span, part, place)) {
+        discard;
+    }
+#ifdef FADE
+    float way = mix(ends.x, ends.y, part);
+#else
+    float way = part;
+#endif
+    vec3 relative = back + entry * (1.0 - way) * along;
+#ifdef WRITE_DEPTH
+    vec4 clip = clip_from_relative * vec4(relative, 1.0);
+    gl_FragDepth = clip.z / clip.w;
+#endif
+#ifdef HIT
+    float height = range_of_height.x + range_of_height.y * height_at(place);
+    hit = vec4(place, height, dot(relative, view_forward.xyz));
+#else
+    float metres = length(relative);
+    float level = level_of(place * lit_from_sample.xy + lit_from_sample.zw, metres);
+    vec3 shown = color_at(place, level, metres);
+#ifdef SMOOTH_EDGES
+    vec2 missed;
+    float distance_share = near_miss(start, span, part, missed);
+    if (distance_share < 1.0) {
+        shown = mix(color_at(missed, near_level(level, metres), metres), shown, distance_share);
+    }
+#endif
+    color = vec4(shown, 1.0);
+#endif
+}

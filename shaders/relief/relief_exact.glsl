@@ -1,0 +1,24 @@
+#include "relief/relief_walk.glsl"
+
+// Over a surface that ends at its border.
+bool is_endless(vec3 start, vec3 span) {
+    return false;
+}
+
+ivec2 first_cell(inout vec3 start) {
+    return clamp(ivec2(start.xy), ivec2(0), last_cell);
+}
+
+vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk) {
+    vec2 border = vec2((walk.block + forward) << walk.level);
+    return max((border - start.xy) * inverse, walk.part);
+}
+
+bool stays(inout vec3 start, inout Walk walk) {
+    ivec2 beyond = last_cell >> walk.level;
+    return all(greaterThanEqual(walk.block, ivec2(0))) && all(lessThanEqual(walk.block, beyond));
+}
+
+float greatest_in(Walk walk) {
+    return texelFetch(greatest_heights, walk.block, walk.level).r;
+}

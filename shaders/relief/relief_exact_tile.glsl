@@ -1,0 +1,43 @@
+#include "relief/relief_walk.glsl"
+
+// Over a tile that goes on for ever: in its own copies, between whose last and first samples there
+// are cells too, or as its border, drawn out.
+
+// No number where the mesh has no tangent frame.
+bool is_endless(vec3 start, vec3 span) {
+    return !(dot(abs(start) + abs(span), vec3(1.0)) < 1e30);
+}
+
+ivec2 first_cell(inout vec3 start) {
+#ifdef WRAP
+    vec2 cells = vec2(last_cell + 1);
+    start.xy -= cells * floor(start.xy / cells);
+    return min(ivec2(start.xy), last_cell);
+#else
+    return ivec2(floor(start.xy));
+#endif
+}
+
+vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk) {
+    ivec2 border = (walk.block + forward) << walk.level;
+#ifdef WRAP
+    border = min(border, last_cell + 1);
+#endif
+    return max((vec2(border) - start.xy) * inverse, walk.part);
+}
+
+// From one copy into the next: the ray is moved back over the tile.
+bool stays(inout vec3 start, inout Walk walk) {
+#ifdef WRAP
+    ivec2 beyond = last_cell >> walk.level;
+    ivec2 copy = ivec2(greaterThan(walk.block, beyond)) - ivec2(lessThan(walk.block, ivec2(0)));
+    start.xy -= vec2(copy * (last_cell + 1));
+    walk.block -= copy * (beyond + 1);
+#endif
+    return true;
+}
+
+float greatest_in(Walk walk) {
+    ivec2 block = clamp(walk.block, ivec2(0), last_cell >> walk.level);
+    return texelFetch(greatest_heights, block, walk.level).r;
+}

@@ -1,0 +1,45 @@
+#include "frame/frame_block.glsl"
+
+layout(location = 0) in vec3 position; // local metres
+layout(location = 1) in vec2 place;    // samples from the tile's first
+#ifdef HIT
+layout(location = 2) in float height; // true metres
+#endif
+
+layout(location = 3) in vec3 rest; // local metres, to be added to the position
+
+uniform vec3 eye;      // local metres
+uniform vec3 eye_rest; // local metres, to be added
+uniform mat3 world_from_local;
+
+out vec2 tile_place; // samples from the tile's first
+#ifdef HIT
+out vec2 height_and_depth; // true metres; metres along the view axis
+#endif
+#ifdef GROUND
+out vec3 local_from_eye; // metres
+#endif
+
+// Where the rasterizer puts the vertex anyway, before it interpolates: else triangles seen edge-on show
+// places beyond their own border, and on cliffs those lie pixels away.
+vec4 on_vertex_grid(vec4 clip) {
+    const float farthest = 1048576.0; // steps of which floats still tell an eighth
+    vec2 steps = clip.xy / clip.w * vertex_grid.xy;
+    bool is_on_it = clip.w > 0.0 && max(abs(steps.x), abs(steps.y)) < farthest;
+    return is_on_it ? vec4(round(steps) / vertex_grid.xy * clip.w, clip.zw) : clip;
+}
+
+void main() {
+    // The same bits for a vertex of two tiles: they do not part. Differences of neighbouring floats
+    // are exact (Cozzi and Ring 2011, "3D Engine Design for Virtual Globes", 5.4).
+    precise vec3 from_eye = (position - eye) + (rest - eye_rest);
+    vec3 relative = world_from_local * from_eye;
+    tile_place = place;
+#ifdef GROUND
+    local_from_eye = from_eye;
+#endif
+#ifdef HIT
+    height_and_depth = vec2(height, dot(relative, view_forward.xyz));
+#endif
+    gl_Position = on_vertex_grid(clip_from_relative * vec4(relative, 1.0));
+}

@@ -1,0 +1,2 @@
+#define GROUND
+#include "terrain/terrain.vert"

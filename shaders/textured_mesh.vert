@@ -1,2 +1,0 @@
-#include "frame_block.glsl"
-#include "tile_vertex.glsl"

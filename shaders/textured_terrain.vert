@@ -1,2 +1,0 @@
-#define GROUND
-#include "terrain.vert"

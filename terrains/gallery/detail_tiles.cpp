@@ -1,0 +1,326 @@
+#include "terrains/gallery/detail_tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/core/worker_pool.h"
+#include "terrains/gallery/detail_cells.h"
+#include "terrains/gallery/sheet_tiles.h"
+#include "terrains/natural/noise.h"
+
+namespace reljef::terrains {
+namespace {
+
+constexpr int least_side = 16;
+constexpr int most_side = 4096;
+
+// What a tile is made of at a place.
+struct Stuff {
+    float height = 0.0F;    // of no particular range
+    glm::vec3 albedo{0.5F}; // linear
+};
+
+// The stuff at a place of the tile, in [0,1)².
+using Make = std::function<Stuff(glm::vec2 place, std::uint32_t seed)>;
+
+float noise(std::uint32_t seed, glm::vec2 place, int cells, int octaves = 4) {
+    return fractal_noise(seed, place * static_cast<float>(cells), {octaves, 0.5F, cells});
+}
+
+glm::vec3 chosen(std::span<const glm::vec3> palette, float random) {
+    const float at = random * static_cast<float>(palette.size());
+    const auto index = std::min(static_cast<std::size_t>(at), palette.size() - 1);
+    return glm::mix(palette[index], palette[(index + 1) % palette.size()],
+                    at - static_cast<float>(index));
+}
+
+// Distance to a rectangle of half sides `half` with round corners, negative inside.
+float to_round_box(glm::vec2 place, glm::vec2 half, float radius) {
+    const glm::vec2 beyond = glm::abs(place) - half + radius;
+    return glm::length(glm::max(beyond, 0.0F)) + std::min(std::max(beyond.x, beyond.y), 0.0F) -
+           radius;
+}
+
+struct Brick {
+    glm::ivec2 id{0};
+    glm::vec2 place{0.0F}; // from its middle, in [-½, ½] of its own sides
+    glm::vec2 sides{0.0F}; // in tile widths
+};
+
+// Stretcher bond: each course half a brick off the one above.
+Brick brick_at(glm::vec2 place) {
+    constexpr int bricks = 4;
+    constexpr int courses = 8;
+    const int course = static_cast<int>(place.y * courses) % courses;
+    const float along = place.x * bricks + (course % 2 == 0 ? 0.0F : 0.5F);
+    return {{static_cast<int>(along) % bricks, course},
+            glm::fract(glm::vec2(along, place.y * courses)) - 0.5F,
+            {1.0F / bricks, 1.0F / courses}};
+}
+
+Stuff brick_wall(glm::vec2 place, std::uint32_t seed) {
+    constexpr std::array<glm::vec3, 4> clays{
+        glm::vec3(0.33F, 0.095F, 0.055F), glm::vec3(0.40F, 0.145F, 0.080F),
+        glm::vec3(0.20F, 0.070F, 0.050F), glm::vec3(0.46F, 0.205F, 0.120F)};
+    constexpr glm::vec3 lime(0.44F, 0.40F, 0.34F);
+    constexpr float joint = 0.0075F; // half its width, in tile widths
+    const Brick brick = brick_at(place);
+    const float random = unit_hash(seed, brick.id.x, brick.id.y);
+    const glm::vec2 tilt(unit_hash(seed + 1, brick.id.x, brick.id.y) - 0.5F,
+                         unit_hash(seed + 2, brick.id.x, brick.id.y) - 0.5F);
+    const float worn = 0.0035F * noise(seed + 3, place, 24, 3);
+    const float outside =
+        to_round_box(brick.place * brick.sides, 0.5F * brick.sides - joint, 0.011F) + worn;
+    const float face = glm::smoothstep(0.004F, -0.007F, outside);
+    const float grain = noise(seed + 4, place, 64, 4);
+    const float rough = noise(seed + 5, place, 16, 5);
+    const float pits = glm::smoothstep(0.35F, 0.75F, noise(seed + 6, place, 48, 2));
+    const float top = 0.80F + 0.14F * (random - 0.5F) + 0.12F * glm::dot(tilt, brick.place) +
+                      0.06F * rough + 0.02F * grain - 0.16F * pits;
+    const float mortar = 0.26F + 0.10F * rough + 0.06F * grain;
+    const glm::vec3 clay = chosen(clays, unit_hash(seed + 7, brick.id.x, brick.id.y)) *
+                           (1.0F + 0.35F * rough + 0.25F * grain - 0.35F * pits);
+    return {glm::mix(mortar, top, face),
+            glm::mix(lime * (1.0F + 0.25F * rough + 0.2F * grain), clay, face)};
+}
+
+Stuff cobbles(glm::vec2 place, std::uint32_t seed) {
+    constexpr std::array<glm::vec3, 5> stones{
+        glm::vec3(0.26F, 0.26F, 0.27F), glm::vec3(0.34F, 0.31F, 0.27F),
+        glm::vec3(0.19F, 0.20F, 0.22F), glm::vec3(0.38F, 0.36F, 0.33F),
+        glm::vec3(0.28F, 0.23F, 0.19F)};
+    constexpr int cells = 7;
+    const glm::vec2 wobble(noise(seed + 1, place, 14, 2), noise(seed + 2, place, 14, 2));
+    const VoronoiCell cell =
+        voronoi(seed, place * static_cast<float>(cells) + 0.10F * wobble, cells, 0.62F);
+    const float random = unit_hash(seed + 3, cell.id.x, cell.id.y);
+    const float grain = noise(seed + 4, place, 64, 4);
+    const float rough = noise(seed + 5, place, 20, 4);
+    const float inside = glm::clamp((cell.to_edge - 0.055F) / 0.30F, 0.0F, 1.0F);
+    const float dome = std::sqrt(1.0F - (1.0F - inside) * (1.0F - inside));
+    const float stone = 0.22F + (0.58F + 0.18F * random) * dome + 0.05F * rough + 0.015F * grain;
+    const float sand = 0.24F + 0.05F * noise(seed + 6, place, 12, 5) + 0.02F * grain;
+    const float moss = glm::smoothstep(0.0F, 0.5F, noise(seed + 7, place, 5, 4));
+    const glm::vec3 ground =
+        glm::mix(glm::vec3(0.20F, 0.16F, 0.11F), glm::vec3(0.09F, 0.12F, 0.04F), moss) *
+        (1.0F + 0.4F * grain);
+    const glm::vec3 rock = chosen(stones, unit_hash(seed + 8, cell.id.x, cell.id.y)) *
+                           (1.0F + 0.30F * rough + 0.30F * grain);
+    return {std::max(stone * glm::smoothstep(0.0F, 0.02F, inside), sand),
+            glm::mix(ground, rock,
+                     glm::smoothstep(-0.02F, 0.05F, stone - sand) *
+                         glm::smoothstep(0.0F, 0.05F, inside))};
+}
+
+// Slabs that broke along planes, one leaning this way, the next that.
+float slabs(glm::vec2 place, std::uint32_t seed, int cells) {
+    const glm::vec2 wobble(noise(seed + 1, place, 2 * cells, 3),
+                           noise(seed + 2, place, 2 * cells, 3));
+    const VoronoiCell cell =
+        voronoi(seed, place * static_cast<float>(cells) + 0.35F * wobble, cells, 0.9F);
+    const glm::vec2 lean(unit_hash(seed + 3, cell.id.x, cell.id.y) - 0.5F,
+                         unit_hash(seed + 4, cell.id.x, cell.id.y) - 0.5F);
+    const float crack = glm::smoothstep(0.07F, 0.0F, cell.to_edge);
+    return 0.55F * unit_hash(seed + 5, cell.id.x, cell.id.y) +
+           0.9F * glm::dot(lean, cell.from_seed) - 0.35F * crack;
+}
+
+Stuff rock_face(glm::vec2 place, std::uint32_t seed) {
+    const glm::vec2 wobble(noise(seed + 20, place, 4, 4), noise(seed + 21, place, 4, 4));
+    const glm::vec2 bent = glm::fract(place + 0.03F * wobble);
+    const float ridges = 1.0F - std::abs(noise(seed + 22, bent, 6, 5));
+    const float grain = noise(seed + 23, place, 72, 4);
+    const float height = 0.55F * slabs(bent, seed, 5) + 0.22F * slabs(bent, seed + 40, 13) +
+                         0.30F * ridges + 0.035F * grain;
+    const float layers =
+        noise(seed + 24, glm::fract(glm::vec2(place.x + 0.05F * wobble.x, place.y)), 8, 4);
+    const float lichen = glm::smoothstep(0.22F, 0.42F, noise(seed + 25, bent, 7, 5));
+    const glm::vec3 stone =
+        glm::mix(glm::vec3(0.235F, 0.205F, 0.175F), glm::vec3(0.37F, 0.335F, 0.29F),
+                 glm::clamp(0.5F + layers, 0.0F, 1.0F));
+    const glm::vec3 grown = glm::mix(stone, glm::vec3(0.30F, 0.31F, 0.20F), 0.6F * lichen);
+    return {height, grown * (0.75F + 0.35F * height + 0.35F * grain)};
+}
+
+// Round wires, crossing; a height of 1 is as thick as they are.
+Stuff wire_fence(glm::vec2 place, std::uint32_t seed) {
+    constexpr int wires = 3;
+    constexpr float radius = 0.13F; // of the way from wire to wire
+    float height = 0.0F;
+    for (const float along : {place.x + place.y, place.x - place.y}) {
+        const float off = std::abs(glm::fract(along * wires) - 0.5F) / radius;
+        height = std::max(height, std::sqrt(std::max(1.0F - off * off, 0.0F)));
+    }
+    const float rough = noise(seed, place, 24, 5);
+    const float rust = glm::smoothstep(0.05F, 0.45F, noise(seed + 1, place, 5, 5));
+    const glm::vec3 zinc = glm::vec3(0.40F, 0.42F, 0.44F) * (1.0F + 0.3F * rough);
+    const glm::vec3 brown = glm::vec3(0.30F, 0.14F, 0.06F) * (1.0F + 0.5F * rough);
+    return {height, glm::mix(zinc, brown, 0.75F * rust)};
+}
+
+// Copper, dented by a hammer, dent beside dent.
+Stuff hammered_copper(glm::vec2 place, std::uint32_t seed) {
+    constexpr int dents = 9;
+    const VoronoiCell cell = voronoi(seed, place * static_cast<float>(dents), dents, 0.75F);
+    const float random = unit_hash(seed + 1, cell.id.x, cell.id.y);
+    const float off = glm::length(cell.from_seed);
+    const float ridge = glm::smoothstep(0.16F, 0.0F, cell.to_edge);
+    const float grain = noise(seed + 2, place, 64, 4);
+    const float dish = 0.9F * std::min(off * off, 0.6F) + 0.10F * ridge;
+    const float stain = glm::smoothstep(0.10F, 0.55F, noise(seed + 3, place, 6, 5));
+    const glm::vec3 copper = glm::vec3(0.58F, 0.27F, 0.16F) * (0.9F + 0.2F * random + 0.1F * grain);
+    const glm::vec3 green = glm::vec3(0.20F, 0.36F, 0.28F) * (1.0F + 0.3F * grain);
+    return {dish + 0.12F * random + 0.006F * grain, glm::mix(copper, green, 0.55F * stain)};
+}
+
+// What the rings of layers are made of; they are put in their place by themselves.
+Stuff brass(glm::vec2 place, std::uint32_t seed) {
+    const float rough = noise(seed, place, 48, 4);
+    const float dull = glm::smoothstep(0.0F, 0.5F, noise(seed + 1, place, 6, 4));
+    return {0.0F, glm::mix(glm::vec3(0.56F, 0.40F, 0.15F), glm::vec3(0.34F, 0.25F, 0.13F), dull) *
+                      (1.0F + 0.18F * rough)};
+}
+
+constexpr int ring_rows = 3;
+
+void hang_rings(material::TextureSet& set) {
+    set.layers = ring_layers(ring_rows, set.heights.cols());
+    set.heights = material::top_heights(*set.layers);
+}
+
+// Ribs behind the dents.
+void add_ribs(material::TextureSet& set) {
+    constexpr float ribs = 12.0F;
+    const float turn = 2.0F * std::acos(-1.0F);
+    set.back_heights = Grid<float>(set.heights.cols(), set.heights.rows());
+    for (int row = 0; row < set.back_heights.rows(); ++row) {
+        const float place =
+            (static_cast<float>(row) + 0.5F) / static_cast<float>(set.heights.rows());
+        const float rib = 0.5F + 0.5F * std::sin(turn * ribs * place);
+        std::fill(set.back_heights.row(row).begin(), set.back_heights.row(row).end(),
+                  0.3F + 0.7F * rib);
+    }
+}
+
+void add_nothing(material::TextureSet& /*set*/) {}
+
+void spread_over_unit(Grid<float>& heights) {
+    const auto [low, high] =
+        std::minmax_element(heights.samples().begin(), heights.samples().end());
+    const float lowest = *low;
+    const float range = *high - lowest;
+    for (float& height : heights.samples()) {
+        height = range > 0.0F ? glm::clamp((height - lowest) / range, 0.0F, 1.0F) : 0.0F;
+    }
+}
+
+// The mean of the heights a way off in eight directions, less the height: how much of the sky the
+// neighbours hide.
+float hollow(const Grid<float>& heights, glm::ivec2 texel, int way) {
+    constexpr std::array<glm::ivec2, 8> directions{
+        glm::ivec2(1, 0),  glm::ivec2(1, 1),   glm::ivec2(0, 1),  glm::ivec2(-1, 1),
+        glm::ivec2(-1, 0), glm::ivec2(-1, -1), glm::ivec2(0, -1), glm::ivec2(1, -1)};
+    const glm::ivec2 size(heights.cols(), heights.rows());
+    float sum = 0.0F;
+    for (const glm::ivec2 direction : directions) {
+        const glm::ivec2 other = (texel + way * direction + size) % size;
+        sum += std::max(heights(other.x, other.y) - heights(texel.x, texel.y), 0.0F);
+    }
+    return 0.125F * sum;
+}
+
+// Share of the sky's light that reaches a texel, from two distances.
+float open_to_sky(const Grid<float>& heights, glm::ivec2 texel) {
+    const int near = std::max(heights.cols() / 128, 1);
+    const float hidden =
+        0.6F * hollow(heights, texel, near) + 0.7F * hollow(heights, texel, 3 * near);
+    return glm::clamp(1.0F - hidden, 0.25F, 1.0F);
+}
+
+material::TextureSet made(const Make& make, const DetailOptions& options) {
+    const int size = options.size;
+    Grid<glm::vec3> albedo(size, size);
+    material::TextureSet set;
+    set.heights = Grid<float>(size, size);
+    set.color = Image(size, size);
+    const ParallelOptions parallel{options.threads, {}, {}};
+    parallel_for(
+        size,
+        [&](int row) {
+            for (int col = 0; col < size; ++col) {
+                const glm::vec2 place = (glm::vec2(col, row) + 0.5F) / static_cast<float>(size);
+                const Stuff stuff = make(place, options.seed * 1009U);
+                set.heights(col, row) = stuff.height;
+                albedo(col, row) = stuff.albedo;
+            }
+        },
+        parallel);
+    spread_over_unit(set.heights);
+    parallel_for(
+        size,
+        [&](int row) {
+            for (int col = 0; col < size; ++col) {
+                set.color(col, row) =
+                    rgba8_from_linear(albedo(col, row) * open_to_sky(set.heights, {col, row}));
+            }
+        },
+        parallel);
+    return set;
+}
+
+struct Kind {
+    std::string_view name;
+    Stuff (*make)(glm::vec2 place, std::uint32_t seed);
+    float scale;
+    float specular;
+    float shininess;
+    void (*add_sides)(material::TextureSet& set) = &add_nothing; // beside its heights
+};
+
+constexpr std::array<Kind, 6> kinds{{{"brick", &brick_wall, 0.05F, 0.04F, 12.0F},
+                                     {"rock", &rock_face, 0.10F, 0.06F, 16.0F},
+                                     {"cobble", &cobbles, 0.08F, 0.16F, 40.0F},
+                                     {"fence", &wire_fence, 0.0613F, 0.35F, 40.0F},
+                                     {"rings", &brass, 0.0F, 0.45F, 50.0F, &hang_rings},
+                                     {"copper", &hammered_copper, 0.06F, 0.40F, 36.0F, &add_ribs}}};
+constexpr auto names = [] {
+    std::array<std::string_view, kinds.size()> list;
+    std::transform(kinds.begin(), kinds.end(), list.begin(),
+                   [](const Kind& kind) { return kind.name; });
+    return list;
+}();
+
+} // namespace
+
+std::span<const std::string_view> detail_names() {
+    return names;
+}
+
+Result<material::TextureSet> generate_detail(std::string_view name, const DetailOptions& options) {
+    const auto* const kind = std::find_if(kinds.begin(), kinds.end(),
+                                          [&](const Kind& entry) { return entry.name == name; });
+    if (kind == kinds.end()) {
+        return Error{fmt::format("texture set '{}' found, one of {} was expected", name,
+                                 fmt::join(names, ", "))};
+    }
+    if (options.size < least_side || options.size > most_side) {
+        return Error{fmt::format("texture set {}: a size of {} found, {} to {} was expected", name,
+                                 options.size, least_side, most_side)};
+    }
+    material::TextureSet set = made(kind->make, options);
+    set.name = std::string(name);
+    set.scale = kind->scale > 0.0F ? kind->scale : ring_scale(ring_rows);
+    set.specular = kind->specular;
+    set.shininess = kind->shininess;
+    kind->add_sides(set);
+    return material::completed(std::move(set), material::TileBorder::wrap);
+}
+
+} // namespace reljef::terrains

@@ -1,0 +1,191 @@
+#include "terrains/gallery/gallery.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "terrains/natural/noise.h"
+
+namespace reljef::terrains {
+namespace {
+
+constexpr double floor_width = 40.0; // metres
+constexpr int color_side = 1024;     // texels of the floor's picture
+
+constexpr std::string_view solid_look = "relief";
+constexpr float through_the_middle = -0.5F;
+
+constexpr GalleryModel plane_model{.shape = GalleryShape::plane,
+                                   .name = "plane",
+                                   .textures = "brick",
+                                   .center = {0.0, 3.4, 2.25},
+                                   .heading = 0.0,
+                                   .size = {12.0F, 4.5F, 0.0F},
+                                   .repeats = {8.0F, 3.0F},
+                                   .technique = solid_look};
+constexpr GalleryModel box_model{.shape = GalleryShape::box,
+                                 .name = "box",
+                                 .textures = "rock",
+                                 .center = {-3.35, 0.3, 1.0},
+                                 .heading = 24.0,
+                                 .size = {2.0F, 2.0F, 2.0F},
+                                 .repeats = {2.0F, 2.0F},
+                                 .technique = solid_look,
+                                 .offset = through_the_middle};
+constexpr GalleryModel sphere_model{.shape = GalleryShape::sphere,
+                                    .name = "sphere",
+                                    .textures = "cobble",
+                                    .center = {-0.25, 0.7, 1.3},
+                                    .heading = 0.0,
+                                    .size = {1.3F, 0.0F, 0.0F},
+                                    .repeats = {4.0F, 2.0F},
+                                    .technique = solid_look};
+constexpr GalleryModel torus_model{.shape = GalleryShape::torus,
+                                   .name = "torus",
+                                   .textures = "rock",
+                                   .center = {1.15, -2.1, 0.46},
+                                   .heading = 0.0,
+                                   .size = {0.98F, 0.46F, 0.0F},
+                                   .repeats = {4.0F, 2.0F},
+                                   .technique = solid_look};
+constexpr GalleryModel cylinder_model{.shape = GalleryShape::cylinder,
+                                      .name = "cylinder",
+                                      .textures = "brick",
+                                      .center = {3.4, 0.6, 1.5},
+                                      .heading = 0.0,
+                                      .size = {0.95F, 3.0F, 0.0F},
+                                      .repeats = {4.0F, 2.0F},
+                                      .technique = solid_look};
+constexpr GalleryModel fence_model{.shape = GalleryShape::sheet,
+                                   .name = "fence",
+                                   .textures = "fence",
+                                   .center = {-3.55, -2.0, 0.75},
+                                   .heading = 22.0,
+                                   .size = {3.0F, 1.5F, 0.0F},
+                                   .repeats = {4.0F, 2.0F},
+                                   .technique = "lattice",
+                                   .offset = through_the_middle};
+constexpr GalleryModel curtain_model{.shape = GalleryShape::sheet,
+                                     .name = "curtain",
+                                     .textures = "rings",
+                                     .center = {3.7, -1.8, 1.3},
+                                     .heading = 30.0,
+                                     .size = {2.4F, 2.4F, 0.0F},
+                                     .repeats = {2.0F, 2.0F},
+                                     .technique = "multi-layer:n=64",
+                                     .offset = through_the_middle};
+constexpr GalleryModel shell_model{.shape = GalleryShape::bowl,
+                                   .name = "shell",
+                                   .textures = "copper",
+                                   .center = {-1.35, -2.75, 0.8},
+                                   .heading = 0.0,
+                                   .size = {0.8F, 0.0F, 0.0F},
+                                   .repeats = {6.0F, 1.5F},
+                                   .technique = "relief:sides=two",
+                                   .offset = through_the_middle};
+constexpr std::array models{plane_model,    box_model,   sphere_model,  torus_model,
+                            cylinder_model, fence_model, curtain_model, shell_model};
+
+// Metres from a place on the floor to what a model covers of it; 0 below it.
+double distance_to_foot(const GalleryModel& model, glm::dvec2 place) {
+    const double turn = glm::radians(model.heading);
+    const glm::dvec2 off = place - glm::dvec2(model.center);
+    const glm::dvec2 own(off.x * std::cos(turn) - off.y * std::sin(turn),
+                         off.x * std::sin(turn) + off.y * std::cos(turn));
+    const double far = glm::length(own);
+    switch (model.shape) {
+    case GalleryShape::plane:
+    case GalleryShape::box: {
+        const double depth = model.shape == GalleryShape::box ? 0.5 * model.size.y : 0.0;
+        return glm::length(
+            glm::max(glm::abs(own) - glm::dvec2(0.5 * model.size.x, depth), glm::dvec2(0.0)));
+    }
+    case GalleryShape::torus:
+        return std::abs(far - model.size.x);
+    case GalleryShape::sphere:
+    case GalleryShape::bowl:
+        return far;
+    default:
+        return std::max(far - model.size.x, 0.0);
+    }
+}
+
+// Share of the sky that a place on the floor sees past the models: half beside a wall, all far off.
+double sky_seen(glm::dvec2 place) {
+    double seen = 1.0;
+    for (const GalleryModel& model : models) {
+        if (model.shape == GalleryShape::sheet) {
+            continue; // it has holes
+        }
+        const double reach = 0.45 * std::max(model.center.z, 0.5);
+        const double away = distance_to_foot(model, place) / reach;
+        seen *= 1.0 - 0.62 * std::exp(-away * away);
+    }
+    return seen;
+}
+
+// Slabs of pale stone a few feet wide.
+glm::vec3 floor_albedo(glm::vec2 place, std::uint32_t seed) {
+    constexpr float slab = 1.6F;
+    const glm::vec2 at = place / slab;
+    const glm::ivec2 id(glm::floor(at));
+    const glm::vec2 to_joint = 0.5F - glm::abs(glm::fract(at) - 0.5F);
+    const float joint = glm::smoothstep(0.005F, 0.022F, std::min(to_joint.x, to_joint.y));
+    const float tone = 0.92F + 0.16F * unit_hash(seed, id.x, id.y);
+    const float grain = fractal_noise(seed + 1, 3.0F * place, {5, 0.6F, 0});
+    const glm::vec3 stone = glm::vec3(0.335F, 0.315F, 0.285F) * tone * (1.0F + 0.14F * grain);
+    return stone * glm::mix(0.62F, 1.0F, joint);
+}
+
+// Nothing when it is stopped.
+std::optional<Image> floor_picture(const GeneratorOptions& options) {
+    Image picture(color_side, color_side);
+    const bool done = parallel_for(
+        color_side,
+        [&](int row) {
+            for (int col = 0; col < color_side; ++col) {
+                const glm::dvec2 share = glm::dvec2(col, row) / (color_side - 1.0) - 0.5;
+                const glm::dvec2 place(share.x * floor_width, -share.y * floor_width);
+                picture(col, row) = rgba8_from_linear(floor_albedo(glm::vec2(place), options.seed) *
+                                                      static_cast<float>(sky_seen(place)));
+            }
+        },
+        {options.threads, options.stop, options.progress});
+    return done ? std::optional(std::move(picture)) : std::nullopt;
+}
+
+} // namespace
+
+std::span<const GalleryModel> gallery_models() {
+    return models;
+}
+
+Result<terrain::Terrain> generate_gallery(const GeneratorOptions& options) {
+    if (options.size < 16 || options.size > 4096) {
+        return Error{fmt::format("gallery: the size is {}, expected 16 to 4096", options.size)};
+    }
+    if (options.spacing != 0.0 || options.tileable) {
+        return Error{fmt::format("gallery: {} was given, which its floor has no use for",
+                                 options.tileable ? "tileable" : "a spacing")};
+    }
+    const double spacing = floor_width / (options.size - 1.0);
+    terrain::Terrain terrain;
+    terrain.name = "gallery";
+    terrain.heightfield.heights = Grid<float>(options.size, options.size, 0.0F);
+    terrain.heightfield.spacing = {spacing, spacing};
+    terrain.heightfield.range = {0.0, 0.0};
+    auto picture = floor_picture(options);
+    if (!picture) {
+        return Error{"gallery: generating was stopped"};
+    }
+    terrain.color = std::move(*picture);
+    return terrain;
+}
+
+} // namespace reljef::terrains

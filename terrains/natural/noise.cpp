@@ -1,0 +1,87 @@
+#include "terrains/natural/noise.h"
+
+#include <cmath>
+
+namespace reljef::terrains {
+namespace {
+
+float fade(float t) {
+    return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
+}
+
+// Cheaper than std::lerp, whose branches keep promises that noise does not need.
+float mix(float a, float b, float t) {
+    return a + t * (b - a);
+}
+
+std::int32_t wrap(std::int32_t cell, std::int32_t period) {
+    if (period <= 0) {
+        return cell;
+    }
+    const std::int32_t rest = cell % period;
+    return rest < 0 ? rest + period : rest;
+}
+
+// One of eight unit directions; a table keeps the bits the same on every machine.
+float corner(std::uint32_t seed, std::int32_t x, std::int32_t y, glm::vec2 offset) {
+    constexpr float diagonal = 0.70710678F;
+    constexpr glm::vec2 directions[8] = {
+        {1.0F, 0.0F},  {diagonal, diagonal},   {0.0F, 1.0F},  {-diagonal, diagonal},
+        {-1.0F, 0.0F}, {-diagonal, -diagonal}, {0.0F, -1.0F}, {diagonal, -diagonal}};
+    const glm::vec2 direction = directions[hash(seed, x, y) >> 29U];
+    return direction.x * offset.x + direction.y * offset.y;
+}
+
+} // namespace
+
+std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
+    std::uint32_t bits = seed * 0x9E3779B1U;
+    bits = (bits ^ static_cast<std::uint32_t>(x)) * 0x85EBCA77U;
+    bits ^= bits >> 15U;
+    bits = (bits ^ static_cast<std::uint32_t>(y)) * 0xC2B2AE3DU;
+    bits ^= bits >> 16U;
+    bits *= 0x85EBCA6BU;
+    bits ^= bits >> 13U;
+    bits *= 0xC2B2AE35U;
+    bits ^= bits >> 16U;
+    return bits;
+}
+
+float unit_hash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
+    return static_cast<float>(hash(seed, x, y) >> 8U) * 0x1p-24F;
+}
+
+float gradient_noise(std::uint32_t seed, glm::vec2 point, std::int32_t period) {
+    const float floor_x = std::floor(point.x);
+    const float floor_y = std::floor(point.y);
+    const glm::vec2 f{point.x - floor_x, point.y - floor_y};
+    const auto cell_x = static_cast<std::int32_t>(floor_x);
+    const auto cell_y = static_cast<std::int32_t>(floor_y);
+    const std::int32_t x0 = wrap(cell_x, period);
+    const std::int32_t y0 = wrap(cell_y, period);
+    const std::int32_t x1 = wrap(cell_x + 1, period);
+    const std::int32_t y1 = wrap(cell_y + 1, period);
+    const float u = fade(f.x);
+    const float v = fade(f.y);
+    const float north = mix(corner(seed, x0, y0, f), corner(seed, x1, y0, {f.x - 1.0F, f.y}), u);
+    const float south = mix(corner(seed, x0, y1, {f.x, f.y - 1.0F}),
+                            corner(seed, x1, y1, {f.x - 1.0F, f.y - 1.0F}), u);
+    return 1.5F * mix(north, south, v);
+}
+
+float fractal_noise(std::uint32_t seed, glm::vec2 point, const FractalOptions& options) {
+    float sum = 0.0F;
+    float amplitude = 1.0F;
+    float amplitudes = 0.0F;
+    std::int32_t period = options.period;
+    for (int octave = 0; octave < options.octaves; ++octave) {
+        sum += amplitude * gradient_noise(seed + static_cast<std::uint32_t>(octave), point, period);
+        amplitudes += amplitude;
+        amplitude *= options.gain;
+        point *= 2.0F;
+        period *= 2;
+    }
+    return sum / amplitudes;
+}
+
+} // namespace reljef::terrains

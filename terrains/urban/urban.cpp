@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "engine/core/worker_pool.h"
+#include "terrains/generators.h"
+#include "terrains/urban/urban_light.h"
+#include "terrains/urban/urban_tile.h"
+
+namespace reljef::terrains {
+namespace {
+
+using namespace urban;
+
+constexpr int tile_size = 64;
+constexpr double default_spacing = 0.5;
+constexpr double least_spacing = 0.05;
+constexpr double most_spacing = 4.0;
+constexpr float least_city = 640.0F; ///< metres; what a small window is cut from
+
+std::optional<Error> complaint(const GeneratorOptions& options) {
+    if (options.size < 16 || options.size > 4096) {
+        return Error{"urban: size " + std::to_string(options.size) +
+                     " is out of range, expected 16 to 4096 samples"};
+    }
+    const bool own = options.spacing == 0.0;
+    if (!own && !(options.spacing >= least_spacing && options.spacing <= most_spacing)) {
+        return Error{"urban: spacing " + std::to_string(options.spacing) +
+                     " is out of range, expected 0.05 to 4 m, or 0 for 0.5 m"};
+    }
+    return std::nullopt;
+}
+
+Raster raster_of(const GeneratorOptions& options, float spacing, float period) {
+    Random random(hash(options.seed, 1, 1));
+    const float x = random.unit() * period;
+    return {options.size, spacing, {x, random.unit() * period}, hash(options.seed, 2, 2)};
+}
+
+/// A block and where one of its copies on the repeating plane touches a tile.
+struct Visit {
+    const Block* block;
+    glm::vec2 shift;
+};
+
+std::vector<Visit> visits_of(const City& city, const Tile& tile) {
+    const float period = city.plan.period;
+    const auto first = [&](float from, float to) { return std::ceil((from - to) / period); };
+    std::vector<Visit> visits;
+    for (const Block& block : city.blocks) {
+        const Box& b = block.bounds;
+        for (float y = first(tile.bounds.low.y, b.high.y);
+             b.low.y + y * period <= tile.bounds.high.y; y += 1.0F) {
+            for (float x = first(tile.bounds.low.x, b.high.x);
+                 b.low.x + x * period <= tile.bounds.high.x; x += 1.0F) {
+                visits.push_back({&block, {x * period, y * period}});
+            }
+        }
+    }
+    return visits;
+}
+
+void paint(Tile& tile, const City& city) {
+    const std::vector<Visit> visits = visits_of(city, tile);
+    const Warp& warp = city.plan.warp;
+    for (const auto& [block, shift] : visits) {
+        paint_ground(tile, city.plan, *block, shift);
+    }
+    for (const auto& [block, shift] : visits) {
+        for (const Patch& patch : block->patches) {
+            paint_patch(tile, warp, patch, shift);
+        }
+    }
+    for (const auto& [block, shift] : visits) {
+        for (const Building& building : block->buildings) {
+            paint_building(tile, warp, building, shift);
+        }
+    }
+    for (const auto& [block, shift] : visits) {
+        for (const Prism& prism : block->prisms) {
+            paint_prism(tile, warp, prism, shift);
+        }
+    }
+    for (const auto& [block, shift] : visits) {
+        for (const Tree& tree : block->trees) {
+            paint_tree(tile, warp, tree, shift);
+        }
+    }
+}
+
+void store(const Tile& tile, terrain::Terrain& terrain) {
+    for (int y = 0; y < tile.rows; ++y) {
+        for (int x = 0; x < tile.cols; ++x) {
+            const std::size_t i = tile.index(x, y);
+            terrain.heightfield.heights(tile.col + x, tile.row + y) = tile.height[i];
+            terrain.color(tile.col + x, tile.row + y) = encoded(tile.color[i]);
+        }
+    }
+}
+
+bool paint_all(terrain::Terrain& terrain, const City& city, const Raster& raster,
+               const ParallelOptions& options) {
+    const int across = (raster.size + tile_size - 1) / tile_size;
+    return parallel_for(
+        across * across,
+        [&](int index) {
+            const int col = index % across * tile_size;
+            const int row = index / across * tile_size;
+            Tile tile =
+                make_tile(raster, city.plan.warp, col, row, std::min(tile_size, raster.size - col),
+                          std::min(tile_size, raster.size - row));
+            paint(tile, city);
+            store(tile, terrain);
+        },
+        options);
+}
+
+} // namespace
+
+Result<terrain::Terrain> generate_urban(const GeneratorOptions& options) {
+    if (const auto error = complaint(options)) {
+        return *error;
+    }
+    const double spacing = options.spacing == 0.0 ? default_spacing : options.spacing;
+    const auto extent = static_cast<float>(spacing * options.size);
+    const float period = options.tileable ? extent : std::max(extent, least_city);
+    const City city = build_city(period, hash(options.seed, 3, 3), options.threads);
+
+    terrain::Terrain terrain;
+    terrain.name = "urban";
+    terrain.heightfield.heights = Grid<float>(options.size, options.size);
+    terrain.heightfield.spacing = {spacing, spacing};
+    terrain.color = Image(options.size, options.size);
+    const Raster raster = raster_of(options, static_cast<float>(spacing), period);
+    if (!paint_all(terrain, city, raster, {options.threads, options.stop, options.progress})) {
+        return Error{"urban: generating was stopped"};
+    }
+    darken_hollows(terrain, {static_cast<float>(spacing), options.tileable, options.threads});
+    terrain.heightfield.range = terrain::height_range(terrain.heightfield.heights, {});
+    return terrain;
+}
+
+} // namespace reljef::terrains

@@ -1,0 +1,195 @@
+#include <array>
+#include <cmath>
+
+#include "terrains/urban/urban_tile.h"
+
+namespace reljef::terrains::urban {
+namespace {
+
+/// Where a sample lies on a pitched roof.
+struct Slope {
+    float run = 0.0F;   ///< metres from the eaves
+    float ridge = 0.0F; ///< metres to the line where another slope meets
+    std::size_t facet = 0;
+};
+
+Slope slope_at(const Building& building, glm::vec2 place) {
+    float first = 1e9F;
+    float second = 1e9F;
+    Slope slope;
+    for (std::size_t k = 0; k < building.shape.planes.size(); ++k) {
+        if ((building.sloped >> std::min<std::size_t>(k, 31U) & 1U) == 0U) {
+            continue;
+        }
+        const float distance = building.shape.planes[k].distance(place);
+        if (distance < first) {
+            second = first;
+            first = distance;
+            slope.facet = k;
+        } else {
+            second = std::min(second, distance);
+        }
+    }
+    slope.run = std::max(0.0F, first);
+    slope.ridge = 0.5F * (second - first);
+    return slope;
+}
+
+Color pitched_color(const Building& building, const Slope& slope, const Tile& tile, std::size_t i) {
+    const bool metal = building.cover == Cover::metal;
+    const float facet = unit_hash(building.seed, static_cast<std::int32_t>(slope.facet), 3) - 0.5F;
+    const float rows = fraction(slope.run / 1.1F) < 0.4F ? -0.025F : 0.012F;
+    float light = 1.0F + 0.11F * facet + rows + (metal ? 0.03F : 0.075F) * tile.grain[i] +
+                  0.05F * tile.fine[i] + 0.10F * tile.broad[i];
+    light *= slope.run < 0.45F ? 0.86F : 1.0F;
+    Color color = building.color * light;
+    const float ridge = coverage(tile, 0.22F - slope.ridge);
+    return color * (1.0F + 0.10F * ridge);
+}
+
+float seams(const Building& building, glm::vec2 place, float step) {
+    const float along = fraction(dot(building.axis, place) / step);
+    return along * step < 0.4F ? 1.0F : 0.0F;
+}
+
+Color flat_color(const Building& building, glm::vec2 place, float inside, const Tile& tile,
+                 std::size_t i) {
+    /// Grain, clumps, stains, seams.
+    constexpr std::array<std::array<float, 4>, 7> looks{{{0.09F, 0.06F, 0.09F, 0.0F},
+                                                         {0.04F, 0.08F, 0.14F, 0.05F},
+                                                         {0.02F, 0.03F, 0.07F, 0.045F},
+                                                         {0.04F, 0.05F, 0.10F, 0.03F},
+                                                         {0.06F, 0.05F, 0.08F, 0.0F},
+                                                         {0.03F, 0.04F, 0.06F, 0.05F},
+                                                         {0.08F, 0.14F, 0.20F, 0.0F}}};
+    const std::array<float, 4>& look = looks[static_cast<std::size_t>(building.cover)];
+    const float drains = std::clamp(1.6F - inside, 0.0F, 1.0F) * (0.06F + 0.05F * tile.fine[i]);
+    const float light = 1.0F + look[0] * tile.grain[i] + look[1] * tile.fine[i] +
+                        look[2] * tile.broad[i] - look[3] * seams(building, place, 3.4F) - drains;
+    return building.color * light;
+}
+
+struct RoofSample {
+    float height;
+    Color color;
+};
+
+RoofSample roof_sample(const Building& building, glm::vec2 place, float inside, const Tile& tile,
+                       std::size_t i) {
+    if (building.sloped != 0U) {
+        const Slope slope = slope_at(building, place);
+        const float rise = building.slope * slope.run;
+        if (rise < building.rise_limit) {
+            return {building.eaves + rise, pitched_color(building, slope, tile, i)};
+        }
+        const Color deck = building.color * 0.4F + Color{0.27F, 0.27F, 0.27F};
+        return {building.eaves + building.rise_limit,
+                deck * (1.0F + 0.05F * tile.grain[i] + 0.08F * tile.broad[i])};
+    }
+    const float wall = std::max(0.35F, 0.75F * tile.spacing);
+    const float rim = std::clamp((wall - inside) / tile.spacing + 0.5F, 0.0F, 1.0F);
+    Color color = flat_color(building, place, inside, tile, i);
+    blend(color, building.rim * (1.0F + 0.03F * tile.grain[i]), rim);
+    return {building.eaves + (inside < wall ? building.parapet : 0.0F), color};
+}
+
+Box moved(const Box& box, glm::vec2 shift) {
+    return {box.low + shift, box.high + shift};
+}
+
+Box bounds_of(const Frame& frame, glm::vec2 shift) {
+    const glm::vec2 side = turned(frame.axis);
+    const glm::vec2 half{std::abs(frame.axis.x) * frame.half.x + std::abs(side.x) * frame.half.y,
+                         std::abs(frame.axis.y) * frame.half.x + std::abs(side.y) * frame.half.y};
+    return {frame.center + shift - half, frame.center + shift + half};
+}
+
+// Body, windscreens and roof, by the place along a car.
+Color car_at(const Prism& car, glm::vec2 local) {
+    const float u = local.x / car.frame.half.x;
+    const bool glass = (u > 0.12F && u < 0.42F) || (u < -0.58F && u > -0.8F);
+    return glass ? Color{0.20F, 0.22F, 0.24F} : car.color;
+}
+
+Color prism_color(const Prism& prism, glm::vec2 local, const Tile& tile, std::size_t i) {
+    switch (prism.kind) {
+    case PrismKind::car:
+        return car_at(prism, local);
+    case PrismKind::hedge:
+        return prism.color * (1.0F + 0.12F * tile.grain[i] + 0.2F * tile.fine[i]);
+    case PrismKind::panel:
+        return prism.color * (fraction(local.x / 1.5F) < 0.2F ? 1.35F : 1.0F);
+    default:
+        return prism.color * (1.0F + 0.04F * tile.grain[i]);
+    }
+}
+
+} // namespace
+
+void paint_building(Tile& tile, const Warp& warp, const Building& building, glm::vec2 shift) {
+    const Span span = span_of(tile, warp, moved(building.shape.bounds, shift));
+    for (int y = span.y0; y < span.y1; ++y) {
+        for (int x = span.x0; x < span.x1; ++x) {
+            const std::size_t i = tile.index(x, y);
+            const glm::vec2 place = tile.place[i] - shift;
+            const float inside = building.shape.distance(place);
+            const float cover = coverage(tile, inside);
+            if (cover <= 0.0F || tile.height[i] >= building.eaves + 60.0F) {
+                continue;
+            }
+            const RoofSample roof = roof_sample(building, place, inside, tile, i);
+            if (roof.height > tile.height[i]) {
+                blend(tile.color[i], roof.color, cover);
+                tile.height[i] = inside > 0.0F ? roof.height : tile.height[i];
+            }
+        }
+    }
+}
+
+void paint_prism(Tile& tile, const Warp& warp, const Prism& prism, glm::vec2 shift) {
+    const Span span = span_of(tile, warp, bounds_of(prism.frame, shift));
+    const bool well = prism.kind == PrismKind::well;
+    for (int y = span.y0; y < span.y1; ++y) {
+        for (int x = span.x0; x < span.x1; ++x) {
+            const std::size_t i = tile.index(x, y);
+            const glm::vec2 from = tile.place[i] - shift - prism.frame.center;
+            const glm::vec2 local{dot(prism.frame.axis, from), dot(turned(prism.frame.axis), from)};
+            const float inside = std::min(prism.frame.half.x - std::abs(local.x),
+                                          prism.frame.half.y - std::abs(local.y));
+            const float cover = coverage(tile, inside);
+            if (cover <= 0.0F || (tile.height[i] >= prism.top) != well) {
+                continue;
+            }
+            blend(tile.color[i], prism_color(prism, local, tile, i), cover);
+            tile.height[i] = inside > 0.0F ? prism.top : tile.height[i];
+        }
+    }
+}
+
+void paint_tree(Tile& tile, const Warp& warp, const Tree& tree, glm::vec2 shift) {
+    Box box;
+    box.add(tree.center + shift, tree.radius * 1.2F);
+    const Span span = span_of(tile, warp, box);
+    for (int y = span.y0; y < span.y1; ++y) {
+        for (int x = span.x0; x < span.x1; ++x) {
+            const std::size_t i = tile.index(x, y);
+            const float away = length(tile.place[i] - shift - tree.center) / tree.radius;
+            const float part = away * (1.0F + 0.35F * tile.fine[i]);
+            const float cover = coverage(tile, (1.0F - part) * tree.radius);
+            if (cover <= 0.0F) {
+                continue;
+            }
+            const float dome = std::sqrt(std::max(0.0F, 1.0F - part * part));
+            const float top = tree.height * (0.5F + 0.5F * dome) *
+                              (1.0F + 0.06F * tile.fine[i] + 0.05F * tile.grain[i]);
+            if (top <= tile.height[i]) {
+                continue;
+            }
+            const float light = 0.74F + 0.36F * dome + 0.13F * tile.grain[i] + 0.22F * tile.fine[i];
+            blend(tile.color[i], tree.color * light, cover);
+            tile.height[i] = part < 1.0F ? top : tile.height[i];
+        }
+    }
+}
+
+} // namespace reljef::terrains::urban

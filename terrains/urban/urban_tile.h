@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "terrains/urban/urban_city.h"
+
+namespace reljef::terrains::urban {
+
+/// How the samples lie on the city.
+struct Raster {
+    int size = 0;
+    float spacing = 0.5F;
+    glm::vec2 origin{0.0F, 0.0F}; ///< ground position of sample (0,0), metres
+    std::uint32_t seed = 0;
+};
+
+/// A rectangle of samples while it is painted; all arrays row after row.
+struct Tile {
+    int col = 0;
+    int row = 0;
+    int cols = 0;
+    int rows = 0;
+    float spacing = 0.5F;
+    glm::vec2 origin{0.0F, 0.0F}; ///< ground position of its first sample
+    Box bounds;                   ///< of `place`
+    std::vector<glm::vec2> place; ///< city position
+    std::vector<Color> color;
+    std::vector<float> height;
+    std::vector<float> grain; ///< white noise, [-1, 1]
+    std::vector<float> fine;  ///< clumps of about 2 m, about [-1, 1]
+    std::vector<float> broad; ///< stains of about 14 m, about [-1, 1]
+
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(cols) +
+               static_cast<std::size_t>(x);
+    }
+};
+
+/// An empty tile with its positions and noises; the noises repeat with the raster.
+Tile make_tile(const Raster& raster, const Warp& warp, int col, int row, int cols, int rows);
+
+/// The samples that a box of the city can touch.
+struct Span {
+    int x0 = 0;
+    int y0 = 0;
+    int x1 = 0; ///< one past the last
+    int y1 = 0;
+};
+Span span_of(const Tile& tile, const Warp& warp, const Box& box);
+
+/// Part of a sample that lies inside an edge at this distance.
+inline float coverage(const Tile& tile, float distance) {
+    return std::clamp(distance / tile.spacing + 0.5F, 0.0F, 1.0F);
+}
+
+inline void blend(Color& under, const Color& over, float amount) {
+    under += (over - under) * amount;
+}
+
+/// The colour of a ground cover without its pattern.
+Color surface_color(Surface surface, const Tile& tile, std::size_t i);
+
+/// Streets, sidewalks and the bare ground of a block. `shift` is added to the block's positions.
+void paint_ground(Tile& tile, const StreetPlan& plan, const Block& block, glm::vec2 shift);
+void paint_patch(Tile& tile, const Warp& warp, const Patch& patch, glm::vec2 shift);
+void paint_building(Tile& tile, const Warp& warp, const Building& building, glm::vec2 shift);
+void paint_prism(Tile& tile, const Warp& warp, const Prism& prism, glm::vec2 shift);
+void paint_tree(Tile& tile, const Warp& warp, const Tree& tree, glm::vec2 shift);
+
+} // namespace reljef::terrains::urban

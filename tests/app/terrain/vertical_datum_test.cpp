@@ -1,0 +1,115 @@
+// What heights count from, in the program: what is told of it, and when a geoid is applied.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/session/scene_setup.h"
+#include "tests/app/command_line.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class VerticalDatum : public testing::Test {
+protected:
+    VerticalDatum() {
+        folder_.write("heights.asc", "ncols 4\nnrows 4\nxllcenter 10\nyllcenter 40\ncellsize 1\n"
+                                     "1 2 3 4 5 6 7 8 9 8 7 6 5 4 3 2\n");
+        folder_.write("geoid.prj",
+                      "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+                      "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\","
+                      "0.0174532925199433]]");
+        geoid_ = folder_
+                     .write("geoid.asc", "ncols 6\nnrows 6\nxllcenter 9\nyllcenter 39\n"
+                                         "cellsize 1\n" +
+                                             repeated("50 ", 36))
+                     .string();
+    }
+    static std::string repeated(const std::string& text, int times) {
+        std::string all;
+        for (int i = 0; i < times; ++i) {
+            all += text;
+        }
+        return all;
+    }
+    /// The same heights in a coordinate system, as GDAL's SetFromUserInput takes it.
+    [[nodiscard]] std::string dem(const std::string& crs) const {
+        return folder_
+            .write("dem.vrt",
+                   "<VRTDataset rasterXSize=\"4\" rasterYSize=\"4\"><SRS>" + crs +
+                       "</SRS><GeoTransform>9.5,1,0,43.5,0,-1</GeoTransform><VRTRasterBand "
+                       "dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename "
+                       "relativeToVRT=\"1\">heights.asc</SourceFilename><SourceBand>1"
+                       "</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>")
+            .string();
+    }
+    [[nodiscard]] cli::TerrainChoice choice(const std::string& crs,
+                                            const std::string& geoid = {}) const {
+        cli::TerrainChoice choice;
+        choice.terrain = dem(crs);
+        choice.geoid = geoid;
+        choice.quiet = true;
+        return choice;
+    }
+    /// Whether the note is there that no geoid is applied.
+    static bool misses_geoid(const cli::TerrainChoice& choice) {
+        auto source = session::open_terrain(choice, {});
+        EXPECT_TRUE(source) << (source ? "" : source.error().message);
+        const auto scene = session::make_scene(std::move(*source), choice, {});
+        EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
+        return session::missing_geoid(*scene, choice).has_value();
+    }
+
+    test::TemporaryFolder folder_;
+    std::string geoid_;
+};
+
+TEST_F(VerticalDatum, of_a_crs_with_three_axes_is_the_ellipsoid_and_takes_no_geoid) {
+    const auto info = test::reljef({"info", dem("EPSG:4979")});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("ellipsoidal height; no geoid needed"));
+    test::expect_refusal(test::reljef({"info", dem("EPSG:4979"), "--geoid", geoid_}), 2,
+                         {"--geoid: ", "dem", "count from the ellipsoid"});
+}
+
+TEST_F(VerticalDatum, of_another_name_is_told_where_a_geoid_is_applied) {
+    const auto notes_of = [&](const std::string& crs) {
+        const auto source = session::open_terrain(choice(crs, geoid_), {});
+        EXPECT_TRUE(source) << (source ? "" : source.error().message);
+        EXPECT_TRUE(source->terrain.heightfield.georeference->geoid);
+        return source->terrain.notes;
+    };
+    const auto told = HasSubstr("taken as from the geoid geoid");
+    EXPECT_THAT(notes_of("EPSG:4326+3855"), Contains(told)) << "EGM2008";
+    EXPECT_THAT(notes_of("EPSG:4326+5773"), Not(Contains(told))) << "EGM96";
+    EXPECT_THAT(notes_of("EPSG:4326"), Not(Contains(told))) << "of no name";
+}
+
+TEST_F(VerticalDatum, without_a_geoid_is_told_where_the_ellipsoid_is_drawn_on) {
+    const auto result =
+        test::reljef({"render", dem("EPSG:4326+3855"), "-o", (folder_.path() / "a.png").string(),
+                      "--context", "osmesa", "--size", "64x48"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("EGM2008 height\", and no geoid is applied"));
+    EXPECT_TRUE(misses_geoid(choice("EPSG:4326")));
+    EXPECT_FALSE(misses_geoid(choice("EPSG:4979")));
+    EXPECT_FALSE(misses_geoid(choice("EPSG:4326", geoid_)));
+    EXPECT_FALSE(misses_geoid(choice("EPSG:4326", "none")));
+    cli::TerrainChoice flat = choice("EPSG:4326");
+    flat.placement = terrain::PlacementKind::plane;
+    EXPECT_FALSE(misses_geoid(flat));
+}
+
+TEST_F(VerticalDatum, info_tells_why_no_geoid_is_applied) {
+    const std::string name = dem("EPSG:4326+3855");
+    EXPECT_THAT(test::reljef({"info", name}).out,
+                HasSubstr("geoid not applied: none given or installed for it"));
+    EXPECT_THAT(test::reljef({"info", name, "--geoid", "none"}).out,
+                HasSubstr("geoid not applied: --geoid none\n"));
+}
+
+} // namespace
+} // namespace reljef

@@ -1,0 +1,73 @@
+#include "bench/suites/flight_suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/bench/bench_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::bench {
+namespace {
+
+/// 301 by 301 samples on Earth, of which a megabyte holds an overview.
+std::string large_dem() {
+    std::string text = "ncols 301\nnrows 301\nxllcenter 7\nyllcenter 45\ncellsize 0.001\n";
+    for (int row = 0; row < 301; ++row) {
+        for (int col = 0; col < 301; ++col) {
+            text += std::to_string(500 + (col * 7 + row * 5) % 11) + " ";
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+FlightOptions short_flight(const test::TemporaryFolder& folder) {
+    FlightOptions options;
+    options.terrain.terrain = folder.write("dem.asc", large_dem()).string();
+    folder.write("dem.prj",
+                 R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,)"
+                 R"(298.257223563]],PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]])");
+    options.terrain.memory_megabytes = 1;
+    options.terrain.quiet = true;
+    options.view.path =
+        folder
+            .write("line.geojson",
+                   R"({"type":"LineString","coordinates":[[7.1,45.1,900],[7.2,45.2,900]]})")
+            .string();
+    options.view.frames = 4;
+    options.view.size = {64, 48};
+    options.view.context = platform::ContextKind::osmesa;
+    return options;
+}
+
+TEST(Flight, counts_what_it_read_took_and_waited_for) {
+    const test::TemporaryFolder folder;
+    const auto results = run_flight(short_flight(folder), {});
+    ASSERT_TRUE(results) << results.error().message;
+    EXPECT_FALSE(results->stopped);
+    ASSERT_TRUE(results->stream);
+    EXPECT_GT(results->stream->read, 1);
+    // Each sample is two characters or more of text, but bytes are those of the values: four.
+    EXPECT_GE(results->stream->bytes_read, 4U * 129U * 129U);
+    EXPECT_EQ(results->times.drawing_ms.size(), 4U);
+    EXPECT_EQ(results->times.waiting_ms.size(), 4U);
+    EXPECT_GE(results->seconds, results->seconds_to_first_frame);
+    EXPECT_GE(results->most_memory, results->times.memory_before);
+    const auto report = nlohmann::json::parse(flight_json(*results));
+    EXPECT_EQ(report.at("schema"), "reljef-bench-flight/1");
+    EXPECT_EQ(report.at("frames"), 4);
+    EXPECT_EQ(report.at("tiles").at("read"), results->stream->read);
+    EXPECT_EQ(report.at("memory").at("allowed"), 1 << 20);
+}
+
+TEST(Flight, that_is_stopped_says_so) {
+    const test::TemporaryFolder folder;
+    std::stop_source stop;
+    stop.request_stop();
+    const auto results = run_flight(short_flight(folder), stop.get_token());
+    EXPECT_TRUE(!results || results->stopped);
+}
+
+} // namespace
+} // namespace reljef::bench

@@ -1,0 +1,184 @@
+#include "engine/io/cache/bisection_cache.h"
+
+#include <csignal>
+#include <tuple>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/terrain/made_bisection.h"
+
+namespace reljef::io {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Of every split in a square, and of those on sides by their bounds.
+void expect_same_splits(const terrain::Bisection& found, const terrain::Bisection& expected) {
+    ASSERT_EQ(found.end(), expected.end());
+    for (int size = 2 * terrain::steps_per_sample; size < 128 * terrain::steps_per_sample;
+         size *= 2) {
+        for (int y = size / 2; y <= expected.end().y; y += size) {
+            for (int x = size / 2; x <= expected.end().x; x += size) {
+                const terrain::Split a = found.split({x, y}, size, false);
+                const terrain::Split b = expected.split({x, y}, size, false);
+                EXPECT_EQ(std::tie(a.error, a.radius), std::tie(b.error, b.radius));
+                EXPECT_EQ(a.center, b.center);
+            }
+        }
+    }
+    EXPECT_EQ(found.bounds(), expected.bounds());
+    EXPECT_EQ(found.height({7, 9}), expected.height({7, 9}));
+}
+
+// No file grows beyond so many bytes while it lives, as on a full disk.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        static_cast<void>(std::signal(SIGXFSZ, handler_));
+    }
+
+private:
+    void (*handler_)(int);
+    rlimit before_{};
+};
+
+class BisectionCache : public testing::Test {
+protected:
+    [[nodiscard]] BisectionCacheOptions options() const {
+        return {.folder = folder_.path() / "cache", .least_seconds = 0.0, .parallel = {}};
+    }
+    [[nodiscard]] std::optional<CachedBisection> cached(const BisectionCacheOptions& with) const {
+        return cached_bisection(terrain_.heightfield, terrain_.placement, with);
+    }
+    [[nodiscard]] CachedBisection cached() const { return cached(options()).value(); }
+    [[nodiscard]] std::filesystem::path file() const {
+        return bisection_file(folder_.path() / "cache", terrain_.heightfield, terrain_.placement);
+    }
+    // As made, and kept again after `bytes` were found.
+    void expect_rebuilt_from(const std::string& bytes, const std::string& found) {
+        static_cast<void>(folder_.write("cache/" + file().filename().string(), bytes));
+        const CachedBisection again = cached();
+        EXPECT_THAT(again.note, HasSubstr(found));
+        EXPECT_EQ(again.bisection->bounds(), terrain_.bisection.bounds());
+        EXPECT_EQ(test::read_bytes(file()), good_);
+        EXPECT_THAT(cached().note, IsEmpty());
+    }
+    void SetUp() override {
+        static_cast<void>(cached());
+        good_ = test::read_bytes(file());
+    }
+
+    test::TemporaryFolder folder_;
+    test::PlacedTerrain terrain_{
+        {"hills", test::plane_heightfield(test::rough_hills(90, 61, 1), {30.0, 40.0}), 2.0}};
+    std::string good_;
+};
+
+TEST_F(BisectionCache, WhatIsReadIsWhatWasMade) {
+    const CachedBisection again = cached();
+    EXPECT_THAT(again.note, IsEmpty());
+    expect_same_splits(*again.bisection, terrain_.bisection);
+}
+
+TEST_F(BisectionCache, OnTheEarthTheSame) {
+    const test::PlacedTerrain bent{
+        {"bent", test::geographic_heightfield(test::rough_hills(60, 140, 2), 46.0, 7.0, 1e-3)}};
+    for (int i = 0; i < 2; ++i) { // made, and read
+        const auto made = cached_bisection(bent.heightfield, bent.placement, options());
+        EXPECT_THAT(made->note, IsEmpty());
+        expect_same_splits(*made->bisection, bent.bisection);
+    }
+}
+
+TEST_F(BisectionCache, ItIsReadAndNotMadeAgain) {
+    const auto written = std::filesystem::last_write_time(file());
+    static_cast<void>(cached());
+    EXPECT_EQ(std::filesystem::last_write_time(file()), written);
+}
+
+TEST_F(BisectionCache, ACutFileIsMadeAnewAndToldOnce) {
+    expect_rebuilt_from(good_.substr(0, good_.size() / 2), "a length of");
+    expect_rebuilt_from("", "a length of 0 bytes");
+    expect_rebuilt_from(good_ + 'x', "a length of");
+}
+
+TEST_F(BisectionCache, AnotherVersionIsMadeAnewAndToldOnce) {
+    std::string other = good_;
+    other[8] = 77;
+    expect_rebuilt_from(other, "version 77");
+}
+
+TEST_F(BisectionCache, AFlippedBitAnywhereIsFound) {
+    for (std::size_t at = 0; at < good_.size(); at += 7919) {
+        std::string flipped = good_;
+        flipped[at] = static_cast<char>(flipped[at] ^ 4);
+        expect_rebuilt_from(flipped, " found, the error bounds of these heights");
+    }
+}
+
+TEST_F(BisectionCache, ThatOfOtherHeightsOrPlacesIsNotTaken) {
+    const auto name = file();
+    const auto placed_otherwise =
+        terrain::Placement::create(terrain_.heightfield, terrain::PlacementKind::plane, 2.5);
+    EXPECT_NE(bisection_file(folder_.path() / "cache", terrain_.heightfield, *placed_otherwise),
+              name);
+    terrain_.heightfield.heights(5, 5) += 0.25F;
+    EXPECT_NE(file(), name);
+    static_cast<void>(folder_.write("cache/" + file().filename().string(), good_));
+    EXPECT_THAT(cached().note, HasSubstr("a wrong checksum"));
+}
+
+TEST_F(BisectionCache, WithoutAPlaceToKeepItItIsMade) {
+    const CachedBisection in_no_folder = cached(BisectionCacheOptions{}).value();
+    expect_same_splits(*in_no_folder.bisection, terrain_.bisection);
+    EXPECT_THAT(in_no_folder.note, IsEmpty());
+    static_cast<void>(folder_.write("taken", "a file"));
+    BisectionCacheOptions in_a_file = options();
+    in_a_file.folder = folder_.path() / "taken";
+    EXPECT_THAT(cached(in_a_file).value().note, HasSubstr("cannot be written"));
+}
+
+TEST_F(BisectionCache, WithoutRoomItIsMadeAndNothingIsLeft) {
+    std::filesystem::remove(file());
+    std::optional<CachedBisection> made;
+    {
+        const FileSizeLimit limit(1000);
+        made = cached(options());
+    }
+    EXPECT_THAT(made->note, HasSubstr("cannot be written"));
+    expect_same_splits(*made->bisection, terrain_.bisection);
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "cache"));
+}
+
+TEST_F(BisectionCache, WhatIsStoppedLeavesNothing) {
+    std::filesystem::remove(file());
+    std::stop_source stopped;
+    BisectionCacheOptions stopping = options();
+    stopping.parallel.stop = stopped.get_token();
+    stopping.parallel.progress = [&](double) { stopped.request_stop(); };
+    EXPECT_FALSE(cached(stopping));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "cache"));
+}
+
+TEST_F(BisectionCache, WhatIsMadeAtOnceIsNotKept) {
+    std::filesystem::remove(file());
+    BisectionCacheOptions patient = options();
+    patient.least_seconds = 1e9;
+    EXPECT_TRUE(cached(patient));
+    EXPECT_FALSE(std::filesystem::exists(file()));
+}
+
+} // namespace
+} // namespace reljef::io

@@ -1,0 +1,171 @@
+#include "engine/io/image/image.h"
+
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace reljef::io {
+namespace {
+
+using ::testing::HasSubstr;
+
+Image random_image(int cols, int rows) {
+    std::mt19937 random(1);
+    Image image(cols, rows);
+    for (Rgba8& pixel : image.samples()) {
+        const auto byte = [&] { return static_cast<std::uint8_t>(random() % 256); };
+        pixel = {byte(), byte(), byte(), byte()};
+    }
+    return image;
+}
+
+TEST(ImageFile, APngComesBackOpaque) {
+    const test::TemporaryFolder folder;
+    const Image image = random_image(37, 23);
+    const auto path = folder.path() / "a.png";
+    const auto written = write_image(path, image);
+    ASSERT_TRUE(written) << written.error().message;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
+    const auto again = read_image(path);
+    ASSERT_TRUE(again) << again.error().message;
+    ASSERT_EQ(again->cols(), 37);
+    ASSERT_EQ(again->rows(), 23);
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        Rgba8 opaque = image.samples()[i];
+        opaque.a = 255;
+        ASSERT_EQ(again->samples()[i], opaque);
+    }
+}
+
+TEST(ImageFile, EncodedInMemoryItIsTheFileByteForByte) {
+    const test::TemporaryFolder folder;
+    const Image image = random_image(37, 23);
+    for (const std::string extension : {".png", ".jpg"}) {
+        const auto path = folder.path() / ("a" + extension);
+        ASSERT_TRUE(write_image(path, image));
+        const auto bytes = encode_image(extension, image);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        EXPECT_EQ(text, test::read_bytes(path));
+    }
+}
+
+TEST(ImageFile, WhatCannotBeEncodedIsNamed) {
+    const auto unknown = encode_image(".nothing", random_image(2, 2));
+    ASSERT_FALSE(unknown);
+    EXPECT_THAT(unknown.error().message, HasSubstr(".nothing"));
+    const auto empty = encode_image(".png", Image());
+    ASSERT_FALSE(empty);
+    EXPECT_THAT(empty.error().message, HasSubstr("0×0"));
+}
+
+TEST(ImageFile, AnExistingFileIsReplaced) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.write("a.png", "old");
+    ASSERT_TRUE(write_image(path, random_image(4, 4)));
+    const auto again = read_image(path);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->cols(), 4);
+}
+
+TEST(ImageFile, JpegsAreNearTheirOriginal) {
+    const test::TemporaryFolder folder;
+    const Image grey(64, 64, Rgba8{120, 130, 140, 255});
+    ASSERT_TRUE(write_image(folder.path() / "a.jpg", grey));
+    const auto again = read_image(folder.path() / "a.jpg");
+    ASSERT_TRUE(again);
+    EXPECT_NEAR((*again)(30, 30).r, 120, 3);
+    EXPECT_NEAR((*again)(30, 30).b, 140, 3);
+}
+
+TEST(ImageFile, UnwritablePathsAreNamedAndLeaveNothing) {
+    const test::TemporaryFolder folder;
+    const Image image = random_image(4, 4);
+    for (const auto& path : {folder.path() / "none" / "a.png", folder.path() / "a.nonsense",
+                             folder.path() / "a", folder.path()}) {
+        const auto written = write_image(path, image);
+        ASSERT_FALSE(written) << path;
+        EXPECT_THAT(written.error().message, HasSubstr(path.string()));
+        EXPECT_THAT(written.error().message, HasSubstr("cannot be written"));
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(ImageFile, AnEmptyPictureIsNotWritten) {
+    const test::TemporaryFolder folder;
+    EXPECT_FALSE(write_image(folder.path() / "a.png", Image{}));
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(ImageFile, WhatIsNoPictureIsNamed) {
+    const test::TemporaryFolder folder;
+    const std::vector<std::pair<std::filesystem::path, std::string>> cases{
+        {folder.path() / "none.png", "does not exist"},
+        {folder.path(), "is no file"},
+        {folder.write("empty.png", ""), "is empty"},
+        {folder.write("text.png", "not a picture"), "cannot be read"},
+        {folder.write("text.xyz", "not a picture"), "cannot be read"}};
+    for (const auto& [path, words] : cases) {
+        const auto image = read_image(path);
+        ASSERT_FALSE(image) << path;
+        EXPECT_THAT(image.error().message, HasSubstr(path.string()));
+        EXPECT_THAT(image.error().message, HasSubstr(words));
+    }
+}
+
+TEST(ImageFile, ACutPictureIsAnError) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(write_image(folder.path() / "a.png", random_image(100, 100)));
+    const std::string whole = test::read_bytes(folder.path() / "a.png");
+    for (const std::size_t length : {std::size_t{10}, std::size_t{40}, whole.size() / 2}) {
+        ::testing::internal::CaptureStderr();
+        EXPECT_FALSE(read_image(folder.write("cut.png", whole.substr(0, length)))) << length;
+        EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+    }
+}
+
+TEST(ImageFile, AHeaderThatClaimsMoreThanItCanHoldIsRefused) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.write("a.ppm", "P6\n100000 100000\n255\nabcdef");
+    const auto image = read_image(path);
+    ASSERT_FALSE(image);
+    EXPECT_THAT(image.error().message, HasSubstr("100000×100000"));
+    EXPECT_FALSE(read_image(folder.write("b.ppm", "P6\n0 0\n255\nabcdef")));
+}
+
+TEST(ImageFile, GreyAndDeepPicturesBecomeEightBits) {
+    const test::TemporaryFolder folder;
+    const auto grey = read_image(folder.write("a.pgm", "P2\n2 1\n255\n7 200\n"));
+    ASSERT_TRUE(grey) << grey.error().message;
+    EXPECT_EQ((*grey)(0, 0), (Rgba8{7, 7, 7, 255}));
+    EXPECT_EQ((*grey)(1, 0), (Rgba8{200, 200, 200, 255}));
+    RELJEF_NEED_DATA("natural/png16_height_1024.png");
+    const auto deep = read_image(test::data_path("natural/png16_height_1024.png"));
+    ASSERT_TRUE(deep) << deep.error().message;
+    EXPECT_EQ(deep->cols(), 1024);
+}
+
+TEST(ContactSheet, PlacesSmallCopiesRowByRow) {
+    std::vector<Image> pictures;
+    for (const std::uint8_t level : std::array<std::uint8_t, 3>{0, 100, 200}) {
+        pictures.emplace_back(64, 32, Rgba8{level, 10, 20, 255});
+    }
+    const Image sheet = contact_sheet(pictures, 2, 16);
+    ASSERT_EQ(sheet.cols(), 4 + 2 * 20);
+    ASSERT_EQ(sheet.rows(), 4 + 2 * 12);
+    EXPECT_EQ(sheet(4 + 8, 4 + 4), (Rgba8{0, 10, 20, 255}));
+    EXPECT_EQ(sheet(24 + 8, 4 + 4), (Rgba8{100, 10, 20, 255}));
+    EXPECT_EQ(sheet(4 + 8, 16 + 4), (Rgba8{200, 10, 20, 255}));
+    EXPECT_EQ(sheet(24 + 8, 16 + 4), sheet(0, 0)); // nothing there
+}
+
+TEST(ContactSheet, OfNothingIsNothing) {
+    EXPECT_TRUE(contact_sheet({}, 3, 100).empty());
+}
+
+} // namespace
+} // namespace reljef::io

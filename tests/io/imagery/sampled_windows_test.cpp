@@ -1,0 +1,83 @@
+#include "engine/io/imagery/sampled_windows.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <cpl_string.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/core/grid.h"
+#include "engine/io/imagery/image_files.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::io {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(SampledWindows, AreSmallAndFewWhateverTheBlocks) {
+    for (const glm::ivec2 size : {glm::ivec2(1),
+                                  {7, 30000},
+                                  {30000, 7},
+                                  {30000, 30000},
+                                  {2000000000, 3},
+                                  {400000, 400000}}) {
+        for (const glm::ivec2 block : {glm::ivec2(1),
+                                       {256, 256},
+                                       {1024, 1024},
+                                       {size.x, 1},
+                                       {1, size.y},
+                                       size,
+                                       {2000000000, 2000000000}}) {
+            double pixels = 0.0;
+            for (const PixelWindow& window : sampled_windows(size, block)) {
+                const double area = static_cast<double>(window.size.x) * window.size.y;
+                ASSERT_GE(std::min(window.size.x, window.size.y), 1);
+                ASSERT_LE(area, most_window_pixels);
+                ASSERT_LE(window.first.x, size.x - window.size.x);
+                ASSERT_LE(window.first.y, size.y - window.size.y);
+                pixels += area;
+            }
+            EXPECT_GE(pixels, 1.0);
+            EXPECT_LE(pixels, most_sampled_pixels + most_window_pixels);
+        }
+    }
+}
+
+TEST(SampledWindows, AreAllOfASmallImage) {
+    const glm::ivec2 size(170, 150);
+    for (const glm::ivec2 block : {glm::ivec2(64), {170, 1}, {170, 150}, {64, 150}, {3, 5}}) {
+        Grid<int> seen(size.x, size.y);
+        for (const PixelWindow& window : sampled_windows(size, block)) {
+            for (int row = 0; row < window.size.y; ++row) {
+                for (int col = 0; col < window.size.x; ++col) {
+                    ++seen(window.first.x + col, window.first.y + row);
+                }
+            }
+        }
+        EXPECT_THAT(seen.samples(), ::testing::Each(1)) << block.x;
+    }
+}
+
+// 1.8 GB a block, out of a few hundred bytes.
+TEST(ImageFiles, LeaveOutAnImageOfHugeBlocksWithoutReadingThem) {
+    test::TemporaryFolder folder;
+    const std::filesystem::path path = folder.path() / "huge.tif";
+    register_drivers();
+    CPLStringList options;
+    for (const char* option : {"SPARSE_OK=TRUE", "INTERLEAVE=BAND", "BLOCKYSIZE=30000"}) {
+        options.AddString(option);
+    }
+    Dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 30000, 30000, 3,
+                                                                     GDT_UInt16, options.List()));
+    ASSERT_LT(std::filesystem::file_size(path), 10000U);
+    std::vector<std::string> faults;
+    EXPECT_TRUE(image_files(std::vector{path}, faults).paths.empty());
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_THAT(faults.front(), HasSubstr("blocks of 30000×30000"));
+}
+
+} // namespace
+} // namespace reljef::io

@@ -1,0 +1,94 @@
+// Tiles with fewer triangles than samples: what is drawn, kept and uploaded.
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/render/driver_fixture.h"
+
+namespace reljef::render {
+namespace {
+
+void set_technique(Node& terrain, const std::string& text) {
+    terrain.get<scene::TerrainNode>()->material.technique = scene::parse_technique(text).value();
+}
+
+TEST_F(DriverGlTest, AStillCameraCutsAndUploadsNothing) {
+    World world;
+    set_technique(*world.terrain, "polygons:error=0.5");
+    Driver made = driver();
+    const view::FrameStats first = test::must(made.draw(world.scene));
+    EXPECT_EQ(first.tiles_cut, first.tiles);
+    EXPECT_GT(first.skipped.triangles_under_error, 0U);
+    const view::FrameStats still = test::must(made.draw(world.scene));
+    EXPECT_EQ(still.tiles_cut, 0);
+    EXPECT_EQ(still.skipped.cuts_unchanged, still.tiles);
+    EXPECT_EQ(still.uploads, 1) << "the frame's own block";
+    EXPECT_EQ(still.triangles, first.triangles);
+}
+
+TEST_F(DriverGlTest, AMovedCameraUploadsOnlyTilesWhoseTrianglesChanged) {
+    World world;
+    set_technique(*world.terrain, "polygons:error=2");
+    Driver made = driver();
+    test::must(made.draw(world.scene));
+    Camera camera = world.scene.camera();
+    camera.eye.x += 1e-6;
+    world.look(camera);
+    const view::FrameStats moved = test::must(made.draw(world.scene));
+    EXPECT_EQ(moved.tiles_cut, moved.tiles);
+    EXPECT_EQ(moved.skipped.cuts_unchanged, 0);
+    EXPECT_EQ(moved.uploads, 1) << "the same triangles";
+}
+
+TEST_F(DriverGlTest, ALowerErrorTakesMoreTriangles) {
+    World world;
+    Driver made = driver();
+    std::size_t before = 0;
+    for (const char* error : {"16", "4", "1", "0.25"}) {
+        set_technique(*world.terrain, std::string("polygons:error=") + error);
+        const std::size_t triangles = test::must(made.draw(world.scene)).triangles;
+        EXPECT_GT(triangles, before) << error;
+        before = triangles;
+    }
+}
+
+TEST_F(DriverGlTest, MoreLevelsTakeFewerTriangles) {
+    World world;
+    Driver made = driver();
+    std::size_t before = std::numeric_limits<std::size_t>::max();
+    for (const char* levels : {"1", "2", "3", "4"}) {
+        set_technique(*world.terrain, std::string("polygons:lods=") + levels);
+        const std::size_t triangles = test::must(made.draw(world.scene)).triangles;
+        EXPECT_LT(triangles, before) << levels;
+        before = triangles;
+    }
+}
+
+TEST_F(DriverGlTest, ATechniqueThatIsTakenUpAgainIsCutAlready) {
+    World world;
+    Driver made = driver();
+    for (const int cut : {9, 0}) {
+        for (const char* technique : {"polygons:error=1", "polygons:lods=3", "texture"}) {
+            set_technique(*world.terrain, technique);
+            const int tiles = test::must(made.draw(world.scene)).tiles_cut;
+            EXPECT_LE(tiles, cut) << technique;
+        }
+    }
+}
+
+TEST_F(DriverGlTest, TwoTerrainsOfOneSurfaceAreCutEachForItself) {
+    World world;
+    Node& other = world.scene.root().add(
+        "other", scene::TerrainNode{*world.terrain->get<scene::TerrainNode>()});
+    other.set_position({0.0, 400.0, 0.0});
+    set_technique(*world.terrain, "polygons:error=1");
+    set_technique(other, "polygons:error=1");
+    Driver made = driver();
+    const view::FrameStats first = test::must(made.draw(world.scene));
+    EXPECT_EQ(first.tiles_cut, first.tiles);
+    EXPECT_EQ(test::must(made.draw(world.scene)).tiles_cut, 0);
+}
+
+} // namespace
+} // namespace reljef::render

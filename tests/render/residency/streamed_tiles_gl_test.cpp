@@ -1,0 +1,432 @@
+#include "engine/render/residency/streamed_tiles.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "engine/scene/tile_stream.h"
+#include "engine/view/tile_choice.h"
+#include "tests/render/driver_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/terrain/chance.h"
+#include "tests/terrain/made_tiles.h"
+
+namespace reljef::render {
+namespace {
+
+using terrain::TreeTile;
+
+constexpr int side = 1500; // samples: the last tiles are cut
+constexpr int reduction = 8;
+
+Grid<float> rough_hills(int samples, double step, double offset) {
+    return test::made_heights(samples, samples, [&](int col, int row) {
+        const glm::dvec2 at = glm::dvec2(col, row) * step + offset;
+        return 40.0 * std::sin(0.013 * at.x) * std::cos(0.011 * at.y) +
+               6.0 * std::sin(0.21 * at.x + 0.17 * at.y) + 2.0 * std::sin(0.9 * at.y);
+    });
+}
+
+scene::TileReading read_hills(const Grid<float>& all, TreeTile tile) {
+    const terrain::TileTree tree(side, side);
+    scene::TileReading reading;
+    reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
+        const glm::ivec2 sample = tree.sample(tile, vertex);
+        // Coarser levels are higher: where two meet without their borders joined is a step.
+        return all(sample.x, sample.y) + static_cast<float>(tile.level);
+    });
+    return reading;
+}
+
+// A rough square a kilometre and a half wide, of which an overview is in the scene.
+struct StreamedWorld {
+    Scene scene;
+    Node* terrain = nullptr;
+    Node* camera = nullptr;
+    Node* sun = nullptr;
+    std::shared_ptr<scene::TileStream> stream;
+
+    explicit StreamedWorld(std::size_t tiles = 400, const Image& picture = {}) {
+        auto heightfield =
+            test::plane_heightfield(rough_hills(side / reduction, reduction, 0.5 * (reduction - 1)),
+                                    glm::dvec2(static_cast<double>(reduction)));
+        terrain = &test::add_terrain(scene, std::move(heightfield), picture);
+        camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
+        sun = &scene.add_light();
+        auto& node = *terrain->get<scene::TerrainNode>();
+        const auto all = std::make_shared<const Grid<float>>(rough_hills(side, 1.0, 0.0));
+        stream = std::make_shared<scene::TileStream>(
+            scene::TileMaker(node.surface, terrain::TileTree(side, side), reduction),
+            [all](TreeTile tile, const std::stop_token&) { return read_hills(*all, tile); },
+            scene::TileStreamOptions{.memory_budget = tiles * scene::bytes_per_tile, .threads = 2});
+        node.stream = stream;
+    }
+    [[nodiscard]] view::TileChoice choice(glm::ivec2 picture = size) const {
+        return view::choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
+                                  glm::dmat4(1.0));
+    }
+    void bring() const { bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera()); }
+    void look(glm::dvec3 eye, glm::dvec3 at) { *camera->get<Camera>() = camera_at(eye, at); }
+};
+
+TEST(TileChoices, DrawTheRootUntilFinerTilesAreThere) {
+    const StreamedWorld world;
+    EXPECT_TRUE(world.choice().drawn.empty());
+    EXPECT_EQ(world.choice().wanted, std::vector{world.stream->tree().root()});
+    world.stream->want(world.choice().wanted);
+    world.stream->wait({});
+    ASSERT_EQ(world.choice().drawn.size(), 1U);
+    EXPECT_EQ(world.choice().drawn.front().tile->id, world.stream->tree().root());
+    EXPECT_FALSE(world.choice().wanted.empty());
+}
+
+TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
+    StreamedWorld world;
+    test::Chance chance(3);
+    for (int round = 0; round < 25; ++round) {
+        const glm::dvec3 eye(chance.between(-700, 700), chance.between(-700, 700),
+                             chance.between(60, 900));
+        world.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
+        world.bring();
+        std::set<TreeTile> drawn;
+        const view::TileChoice choice = world.choice();
+        for (const auto& [tile, distance, error] : choice.drawn) {
+            drawn.insert(tile->id);
+            const double pixels = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
+            const double spacing = world.stream->maker().spacing(tile->id.level);
+            if (tile->id.level > 0) {
+                ASSERT_LE(spacing / view::samples_apart_in_errors * pixels / distance, 1.0 + 1e-9);
+                ASSERT_LE(tile->error * pixels / distance, 0.5 + 1e-9);
+            }
+        }
+        for (TreeTile tile : drawn) {
+            while (tile.level < world.stream->tree().root().level) {
+                tile = {tile.level + 1, tile.col / 2, tile.row / 2};
+                ASSERT_FALSE(drawn.contains(tile));
+            }
+        }
+    }
+}
+
+TEST(TileChoices, DrawNoMoreThanMemoryHolds) {
+    StreamedWorld world(40);
+    test::Chance chance(4);
+    for (int round = 0; round < 20; ++round) {
+        world.look({chance.between(-700, 700), chance.between(-700, 700), 50.0},
+                   {chance.between(-700, 700), chance.between(-700, 700), 0.0});
+        world.bring();
+        ASSERT_LE(world.choice().drawn.size(), world.stream->most_drawn());
+        ASSERT_LE(world.stream->stats().bytes, 44 * scene::bytes_per_tile);
+    }
+}
+
+// Tiles that turned out to be too many go, and are not read again to find that out.
+TEST(TileChoices, WhereMemoryLimitsAStillViewReadsNothingMore) {
+    for (const std::size_t tiles : {1U, 12U, 24U, 40U}) {
+        StreamedWorld world(tiles);
+        world.look({0.0, -200.0, 120.0}, {0.0, 0.0, 0.0});
+        const auto look_on = [&](int frames) {
+            for (int i = 0; i < frames; ++i) {
+                world.stream->want(world.choice().wanted);
+                world.stream->wait({});
+            }
+            return world.stream->stats().read;
+        };
+        const int read = look_on(30);
+        EXPECT_EQ(look_on(10), read) << tiles;
+        EXPECT_TRUE(world.choice().wanted.empty()) << tiles;
+        EXPECT_LE(read, 100) << tiles;
+    }
+}
+
+TEST(TileChoices, WhereMemoryLimitsTheChoiceIsTheSameWhateverCameBefore) {
+    test::Chance chance(5);
+    StreamedWorld flown(24);
+    for (int round = 0; round < 8; ++round) {
+        const StreamedWorld fresh(24);
+        const glm::dvec3 eye(chance.between(-700, 700), chance.between(-700, 700), 60.0);
+        flown.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
+        *fresh.camera->get<Camera>() = *flown.camera->get<Camera>();
+        flown.bring();
+        fresh.bring();
+        std::vector<TreeTile> expected;
+        for (const view::TileChoice::Drawn& drawn : fresh.choice().drawn) {
+            expected.push_back(drawn.tile->id);
+        }
+        std::vector<TreeTile> found;
+        for (const view::TileChoice::Drawn& drawn : flown.choice().drawn) {
+            found.push_back(drawn.tile->id);
+        }
+        ASSERT_EQ(found, expected) << round;
+        ASSERT_GT(expected.size(), 4U);
+    }
+    EXPECT_GT(flown.stream->stats().evicted, 0);
+}
+
+class StreamedTilesGlTest : public DriverGlTest {};
+
+int sky_pixels(const HitBuffer& hits) {
+    const auto samples = hits.samples();
+    return static_cast<int>(std::count_if(samples.begin(), samples.end(),
+                                          [](const Hit& hit) { return hit.col < 0.0F; }));
+}
+
+std::string first_sky(const HitBuffer& hits) {
+    for (int row = 0; row < hits.rows(); ++row) {
+        for (int col = 0; col < hits.cols(); ++col) {
+            if (hits(col, row).col < 0.0F) {
+                const Hit beside = hits.clamped(col - 1, row);
+                return fmt::format("the first at {},{} beside sample {},{} at {} m", col, row,
+                                   beside.col, beside.row, beside.height);
+            }
+        }
+    }
+    return "";
+}
+
+TEST_F(StreamedTilesGlTest, NoHoleBetweenTilesOfAnyLevels) {
+    StreamedWorld world;
+    Driver made = driver();
+    test::Chance chance(5);
+    for (int round = 0; round < 40; ++round) {
+        // Down onto the ground: nothing but terrain is seen.
+        const glm::dvec3 eye(chance.between(-300, 300), chance.between(-300, 300),
+                             chance.between(60, 200));
+        const double aside = 0.2 * eye.z;
+        world.look(eye, eye + glm::dvec3(chance.between(-aside, aside),
+                                         chance.between(-aside, aside), -eye.z));
+        if (round % 2 == 0) {
+            world.bring();
+        } else {
+            world.stream->want(world.choice().wanted); // with what happens to be there
+        }
+        const HitBuffer hits = test::must(made.draw_hits(world.scene));
+        ASSERT_EQ(sky_pixels(hits), 0) << "round " << round << ", eye " << eye.x << "," << eye.y
+                                       << "," << eye.z << ", " << first_sky(hits);
+    }
+}
+
+TEST_F(StreamedTilesGlTest, AnErrorTakesFewerTrianglesOfTheSameTilesWithoutAHole) {
+    StreamedWorld world;
+    auto& technique = world.terrain->get<scene::TerrainNode>()->material.technique;
+    const auto all = technique;
+    const auto fewer = scene::parse_technique("polygons:error=1").value(); // that of the tiles
+    Driver made = driver();
+    test::Chance chance(6);
+    for (int round = 0; round < 15; ++round) {
+        const glm::dvec3 eye(chance.between(-300, 300), chance.between(-300, 300),
+                             chance.between(60, 200));
+        world.look(eye, eye + glm::dvec3(0.1 * eye.z, 0.0, -eye.z));
+        world.bring();
+        technique = all;
+        const view::FrameStats whole = test::must(made.draw(world.scene));
+        const Image picture = made.read_color();
+        technique = fewer;
+        const view::FrameStats cut = test::must(made.draw(world.scene));
+        EXPECT_EQ(cut.tiles, whole.tiles);
+        EXPECT_EQ(cut.tiles_cut, cut.tiles);
+        EXPECT_LT(2 * cut.triangles, whole.triangles);
+        EXPECT_EQ(test::must(made.draw(world.scene)).tiles_cut, 0);
+        ASSERT_EQ(sky_pixels(test::must(made.draw_hits(world.scene))), 0) << round;
+        technique = all;
+        test::must(made.draw(world.scene));
+        ASSERT_EQ(made.read_color(), picture) << round;
+    }
+}
+
+TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
+    const auto picture = [&](std::span<const glm::dvec3> before) {
+        StreamedWorld world;
+        Driver made = driver();
+        for (const glm::dvec3 eye : before) {
+            world.look(eye, {0.0, 0.0, 0.0});
+            world.bring();
+            test::must(made.draw(world.scene));
+        }
+        world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
+        world.bring();
+        test::must(made.draw(world.scene));
+        return made.read_color();
+    };
+    const Image first = picture({});
+    EXPECT_EQ(first, picture(std::array{glm::dvec3(500.0, 500.0, 70.0),
+                                        glm::dvec3(-600.0, 300.0, 400.0)}));
+}
+
+TEST_F(StreamedTilesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
+    StreamedWorld world;
+    Driver made = driver();
+    const auto uploads_of_ground = [&] {
+        world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
+        world.bring();
+        return test::must(made.draw(world.scene)).uploads;
+    };
+    const auto look_away = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            world.look({-300.0, -400.0, 180.0}, {-300.0, -400.0, 1e6});
+            test::must(made.draw(world.scene));
+        }
+    };
+    const auto first = uploads_of_ground();
+    EXPECT_GT(first, 8);
+    look_away(4);
+    EXPECT_LE(uploads_of_ground(), 1); // no tile among them
+    look_away(20);
+    EXPECT_GT(uploads_of_ground(), first / 2);
+}
+
+// A drawn tile onto whose vertices one beside it, of its own level, is moved.
+TreeTile tile_beside_another(const view::TileChoice& choice) {
+    for (const view::TileChoice::Drawn& drawn : choice.drawn) {
+        const TreeTile id = drawn.tile->id;
+        for (const view::TileChoice::Drawn& other : choice.drawn) {
+            if (other.tile->id == TreeTile{id.level, id.col + 1, id.row}) {
+                return id;
+            }
+        }
+    }
+    ADD_FAILURE() << "no two tiles of a level are drawn side by side";
+    return {};
+}
+
+TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem) {
+    const auto look = [](StreamedWorld& world) {
+        world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
+    };
+    StreamedWorld whole;
+    look(whole);
+    whole.bring();
+    const TreeTile failing = tile_beside_another(whole.choice());
+
+    StreamedWorld world;
+    std::atomic<int> readings{0};
+    std::atomic<bool> recovers{false};
+    const Grid<float> all = rough_hills(side, 1.0, 0.0);
+    const auto read = [&](TreeTile tile, const std::stop_token& stop) {
+        scene::TileReading reading = read_hills(all, tile);
+        if (tile == failing && ++readings == 1) {
+            for (float& height : reading.heights.samples()) {
+                height += 25.0F;
+            }
+            reading.of_overview = true;
+            reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+        }
+        while (tile == failing && readings > 1 && !recovers && !stop.stop_requested()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return reading;
+    };
+    world.stream = std::make_shared<scene::TileStream>(
+        world.stream->maker(), read,
+        scene::TileStreamOptions{.memory_budget = 400 * scene::bytes_per_tile,
+                                 .threads = 2,
+                                 .first_pause = std::chrono::milliseconds(1)});
+    world.terrain->get<scene::TerrainNode>()->stream = world.stream;
+    look(world);
+    for (auto wanted = world.choice().wanted; !wanted.empty(); wanted = world.choice().wanted) {
+        world.stream->want(wanted);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ASSERT_TRUE(world.stream->find(failing)->of_overview);
+    Driver made = driver();
+    test::must(made.draw(world.scene));
+    const Image before = made.read_color();
+    recovers = true;
+    world.bring();
+    while (world.stream->is_busy()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    test::must(made.draw(world.scene));
+    const Image after = made.read_color();
+    EXPECT_NE(after, before);
+    Driver fresh = driver();
+    test::must(fresh.draw(whole.scene));
+    EXPECT_EQ(after, fresh.read_color());
+}
+
+// A tile of detail, as wide as some of its samples.
+std::shared_ptr<const scene::GroundDetail> striped_detail() {
+    material::TextureSet set;
+    set.name = "stripes";
+    set.heights =
+        test::made_heights(16, 16, [](int col, int row) { return (col / 4 + row / 8) % 2; });
+    set.color = Image(16, 16);
+    for (int row = 0; row < 16; ++row) {
+        for (int col = 0; col < 16; ++col) {
+            set.color(col, row) = col < 8 ? Rgba8{220, 200, 160, 255} : Rgba8{90, 100, 140, 255};
+        }
+    }
+    scene::GroundDetail detail;
+    detail.set = std::make_shared<const material::TextureSet>(
+        material::completed(std::move(set), material::TileBorder::wrap).value());
+    detail.width = 6.0;
+    detail.scale = 0.1F;
+    detail.technique = scene::parse_technique("exact:shadow=hard").value();
+    return std::make_shared<const scene::GroundDetail>(std::move(detail));
+}
+
+// Pixels that differ by more than `limit` of 255 in green.
+int pixels_off(const Image& one, const Image& other, int limit) {
+    int off = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        off += std::abs(one.samples()[i].g - other.samples()[i].g) > limit ? 1 : 0;
+    }
+    return off;
+}
+
+// The middle of the same hills, read whole.
+struct WholeWorld {
+    Scene scene;
+    Node* terrain = nullptr;
+
+    WholeWorld(const Camera& camera, const Image& picture) {
+        constexpr int samples = 302;
+        constexpr int seen = side / reduction * reduction; // what is beyond has no overview
+        terrain = &test::add_terrain(
+            scene,
+            test::plane_heightfield(rough_hills(samples, 1.0, 0.5 * (seen - samples)),
+                                    glm::dvec2(1.0)),
+            picture);
+        scene.add_camera(camera);
+    }
+};
+
+TEST_F(StreamedTilesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
+    const Image gray(2, 2, Rgba8{128, 128, 128, 255});
+    StreamedWorld world(400, gray);
+    world.look({10.0, -20.0, 60.0}, {15.0, -5.0, 30.0});
+    world.bring();
+    world.sun->set_visible(false); // its shadows are the overview's
+    WholeWorld whole(world.scene.camera(), gray);
+    Driver made = driver();
+    const auto picture = [&](Scene& scene, Node& terrain, bool detailed) {
+        terrain.get<scene::TerrainNode>()->detail = detailed ? striped_detail() : nullptr;
+        test::must(made.draw(scene));
+        return made.read_color();
+    };
+    const Image detailed = picture(world.scene, *world.terrain, true);
+    EXPECT_LT(pixels_off(detailed, picture(whole.scene, *whole.terrain, true), 4), 80);
+    EXPECT_GT(pixels_off(detailed, picture(world.scene, *world.terrain, false), 8), 20000);
+}
+
+TEST_F(StreamedTilesGlTest, TextureDrawsTilesFlatAndReliefTheOverview) {
+    StreamedWorld world;
+    auto& material = world.terrain->get<scene::TerrainNode>()->material;
+    Driver made = driver();
+    world.bring();
+    test::must(made.draw(world.scene));
+    const Image hills = made.read_color();
+    material.technique = scene::make_technique(scene::TechniqueId::texture);
+    world.bring();
+    const view::FrameStats flat = test::must(made.draw(world.scene));
+    EXPECT_GT(flat.tiles, 0);
+    EXPECT_NE(made.read_color(), hills);
+    material.technique = scene::make_technique(scene::TechniqueId::relief);
+    EXPECT_EQ(test::must(made.draw(world.scene)).tiles, 1);
+}
+
+} // namespace
+} // namespace reljef::render

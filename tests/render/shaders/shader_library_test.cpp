@@ -1,0 +1,107 @@
+#include "engine/render/shaders/shader_library.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace reljef::render {
+namespace {
+
+TEST(ShaderVariants, AreEachThereOnceAndMeanSomething) {
+    const auto variants = all_variants();
+    EXPECT_EQ(std::set(variants.begin(), variants.end()).size(), variants.size());
+    for (const ShaderVariant& variant : variants) {
+        EXPECT_EQ(without_meaningless(variant), variant);
+    }
+}
+
+TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
+    const auto variants = all_variants();
+    for (const ShaderKind kind :
+         {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
+          ShaderKind::relief_mesh, ShaderKind::relief_hull, ShaderKind::textured_terrain,
+          ShaderKind::relief_terrain, ShaderKind::sky}) {
+        for (std::uint32_t features = 0; features < feature_wrap << 1U; features += 7U) {
+            const ShaderVariant variant = without_meaningless({kind, features});
+            ASSERT_EQ(variant.kind, kind);
+            ASSERT_TRUE(std::binary_search(variants.begin(), variants.end(), variant));
+        }
+    }
+}
+
+TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
+    for (const ShaderVariant& variant : all_variants()) {
+        constexpr std::uint32_t looks = feature_lit | feature_fog;
+        const bool hit = (variant.features & feature_hit) != 0;
+        EXPECT_FALSE(hit && (variant.features & looks) != 0);
+        EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
+    }
+    // terrain: fog or not, or a hit, warped or not; mesh: lit or not too; sky: lit or not. relief,
+    // of four parallaxes: each with and without fade and depth; of eight searches: these, and as
+    // colour three shadows and smooth edges or not.
+    constexpr std::size_t parallax = 4U * 3U * 4U;
+    constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
+    // Three of the searches, without fade, are there with beams too; and the beams themselves.
+    constexpr std::size_t beams = 1U + 3U * (2U + 2U * 2U * 6U);
+    // A mesh with a tile: lit in four ways, warped or not; one that searches is that of a relief,
+    // lit or not, wrapped or not; one that looks for layers has no smooth edges.
+    constexpr std::size_t textured = 2U * (4U * 2U + 2U + 2U);
+    constexpr std::size_t mesh_parallax = 2U * 4U * (4U + 1U) * 4U;
+    constexpr std::size_t mesh_searches = 2U * 8U * (4U + 4U * 2U * 2U * (3U + 1U));
+    constexpr std::size_t layers = 2U * (4U + 4U * 2U * (3U + 1U));
+    // A hull is lit with three shadows or not at all, wrapped or not.
+    // A terrain with a tile: lit in four ways or not; one that searches casts three shadows, or is
+    // not lit; none is ever hit.
+    constexpr std::size_t textured_ground = 2U * (4U + 1U);
+    constexpr std::size_t hull_searches = 2U * 8U * (1U + 2U * (1U + 3U));
+    constexpr std::size_t ground_searches = 2U * (4U * 2U + 8U * (1U + 3U));
+    EXPECT_EQ(all_variants().size(), 2U * 3U + 5U + 2U + parallax + searches + beams + textured +
+                                         mesh_parallax + mesh_searches + layers + textured_ground +
+                                         ground_searches + hull_searches);
+}
+
+TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
+    constexpr std::uint32_t shadows = feature_hard_shadow | feature_soft_shadow;
+    for (const ShaderVariant& variant : all_variants()) {
+        const auto has = [&](std::uint32_t features) { return (variant.features & features) != 0; };
+        constexpr std::uint32_t options = shadows | feature_fade | feature_smooth_edges |
+                                          feature_write_depth | feature_view_steps;
+        EXPECT_FALSE(has(options) && variant.kind != ShaderKind::relief &&
+                     variant.kind != ShaderKind::relief_mesh &&
+                     variant.kind != ShaderKind::relief_hull &&
+                     variant.kind != ShaderKind::relief_terrain);
+        EXPECT_FALSE(has(feature_parallax | feature_hit) && has(shadows | feature_smooth_edges));
+        EXPECT_FALSE(has(feature_parallax | feature_exact | feature_cone) &&
+                     has(feature_view_steps));
+        EXPECT_FALSE(has(feature_hard_shadow) && has(feature_soft_shadow));
+        EXPECT_FALSE(has(shadows) && !has(feature_lit)) << "a shadow without a sun";
+    }
+}
+
+TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
+    for (const ShaderVariant& variant : all_variants()) {
+        int ways = 0;
+        for (const std::uint32_t way : {feature_exact, feature_cone, feature_layers,
+                                        feature_parallax, feature_bisect, feature_secant}) {
+            ways += (variant.features & way) != 0 ? 1 : 0;
+        }
+        const bool searches =
+            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh ||
+            variant.kind == ShaderKind::relief_hull || variant.kind == ShaderKind::relief_terrain;
+        EXPECT_LE(ways, searches ? 1 : 0);
+    }
+}
+
+TEST(EmbeddedShaders, HaveNamesAndTexts) {
+    std::set<std::string_view> names;
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+        EXPECT_TRUE(names.insert(shader.name).second);
+        EXPECT_FALSE(shader.text.empty()) << shader.name;
+    }
+    EXPECT_TRUE(names.contains("terrain/terrain.vert"));
+    EXPECT_TRUE(names.contains("frame/frame_block.inc"));
+}
+
+} // namespace
+} // namespace reljef::render

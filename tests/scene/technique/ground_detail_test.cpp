@@ -1,0 +1,37 @@
+#include "engine/scene/technique/ground_detail.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace reljef::scene {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(GroundDetail, WhatMovesVerticesWarpsOrLooksForLayersShowsNoTileOnATerrain) {
+    for (const TechniqueInfo& info : technique_catalogue()) {
+        const bool shows = info.id != TechniqueId::polygons &&
+                           info.id != TechniqueId::displacement &&
+                           info.id != TechniqueId::prewarp && !looks_for_layers(info.id);
+        const auto checked = check_ground_technique(make_technique(info.id));
+        EXPECT_EQ(static_cast<bool>(checked), shows) << info.name;
+        if (!checked) {
+            EXPECT_THAT(checked.error().message, HasSubstr("normal, relief and exact"));
+        }
+    }
+}
+
+TEST(GroundDetail, StepsAndShadowAreItsOnlyOptions) {
+    const auto check = [](const std::string& text) {
+        return check_ground_technique(parse_technique(text).value());
+    };
+    EXPECT_TRUE(check("relief:n=11,k=8,steps=8..32,shadow=soft,0.3"));
+    EXPECT_TRUE(check("exact:shadow=hard"));
+    for (const std::string option :
+         {"fade=0.2..1", "edges=smooth", "sides=two", "border=clamp", "depth=write"}) {
+        EXPECT_FALSE(check("relief:" + option)) << option;
+    }
+}
+
+} // namespace
+} // namespace reljef::scene

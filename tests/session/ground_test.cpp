@@ -1,0 +1,120 @@
+// The ground of terrains that are read part by part: it is the finer the nearer one came.
+#include "engine/session/ground.h"
+
+#include <array>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "engine/session/frame_maker.h"
+#include "engine/session/streaming.h"
+#include "engine/view/tile_choice.h"
+#include "tests/support/process_state.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr glm::ivec2 small_picture{160, 120};
+
+/// Brings tiles, and draws nothing.
+class TilesOnly : public session::FrameMaker {
+public:
+    void bring(const scene::Scene& scene, const std::stop_token& stop) override {
+        session::bring_tiles(scene, small_picture, stop, true);
+    }
+    Result<Image> draw(const scene::Scene& /*scene*/,
+                       const ParallelOptions& /*parallel*/) override {
+        return Error{"nothing is drawn"};
+    }
+    Result<HitBuffer> draw_hits(const scene::Scene& /*scene*/,
+                                const ParallelOptions& /*parallel*/) override {
+        return Error{"nothing is drawn"};
+    }
+    [[nodiscard]] std::string stats() const override { return {}; }
+};
+
+/// A plateau at 1000 m, 2.8 km wide, with a canyon through its middle from south to north whose
+/// floor, at 0 m, is three samples wide. It is read part by part.
+class StreamedCanyon : public testing::Test {
+protected:
+    [[nodiscard]] session::TerrainScene
+    scene_of(terrain::PlacementKind placement = terrain::PlacementKind::plane) const {
+        constexpr int side = 257;
+        std::string text = fmt::format("ncols {0}\nnrows {0}\nxllcenter 10\nyllcenter 0\n"
+                                       "cellsize 0.0001\n",
+                                       side);
+        for (int i = 0; i < side * side; ++i) {
+            text += std::abs(i % side - side / 2) <= 1 ? "0 " : "1000 ";
+        }
+        folder_.write("canyon.prj", R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",)"
+                                    R"(6378137,298.257223563]],PRIMEM["Greenwich",0],)"
+                                    R"(UNIT["degree",0.0174532925199433]])");
+        cli::TerrainChoice choice;
+        choice.terrain = folder_.write("canyon.asc", text).string();
+        choice.memory_megabytes = 1;
+        choice.placement = placement;
+        choice.quiet = true;
+        choice.streamed = true;
+        auto source = session::open_terrain(choice, {});
+        EXPECT_TRUE(source) << (source ? "" : source.error().message);
+        EXPECT_TRUE(source->stream);
+        return std::move(*session::make_scene(std::move(*source), choice, cli::ViewChoice{}));
+    }
+
+    test::TemporaryFolder folder_;
+    test::EnvironmentVariable cache_{"XDG_CACHE_HOME", (folder_.path() / "cache").string()};
+};
+
+scene::FlyPath northward_path(glm::dvec3 start) {
+    const glm::dvec3 north(0.0, 300.0, 0.0);
+    return *scene::FlyPath::create(
+        {{0.0, start, start + north}, {1.0, start + north, start + 2.0 * north}});
+}
+
+TEST_F(StreamedCanyon, FramesOfAFlightAreRaisedOverTheFineGroundOnly) {
+    session::TerrainScene scene = scene_of();
+    const scene::FlyPath path = northward_path({0.0, -300.0, 5.0});
+    TilesOnly maker;
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(session::fly_above_ground(scene, path, i, 3, maker, {}), 0.0) << i;
+        EXPECT_DOUBLE_EQ(scene.scene.camera().eye.z, 5.0) << i;
+    }
+}
+
+TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
+    session::TerrainScene scene = scene_of();
+    const scene::FlyPath path = northward_path({500.0, -300.0, 200.0});
+    TilesOnly maker;
+    EXPECT_NEAR(session::fly_above_ground(scene, path, 0, 2, maker, {}),
+                800.0 + session::least_clearance(scene), 1e-9);
+    const auto& stream = *scene.terrain->get<scene::TerrainNode>()->stream;
+    const std::array views{scene.scene.camera()};
+    EXPECT_TRUE(view::wanted_tiles(scene.scene, stream, views, small_picture).empty());
+}
+
+// From beside the terrain, as the pose overview looks, and from afar. Without finer tiles the
+// ground is that of the overview, of which the exact ray cast knows.
+TEST_F(StreamedCanyon, TheScaleIsKnownFromBesideTheTerrain) {
+    for (const auto placement :
+         {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        session::TerrainScene scene = scene_of(placement);
+        const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+        auto& camera = *scene.camera->get<scene::Camera>();
+        scene::TerrainNode overview = terrain;
+        overview.stream = nullptr;
+        for (const double times : {1.0, 3.0, 100.0}) {
+            scene::Camera away = camera;
+            away.eye = camera.look + times * (camera.eye - camera.look);
+            const auto wanted = session::metres_per_pixel(overview, away, 120);
+            const auto found = session::metres_per_pixel(terrain, away, 120);
+            ASSERT_TRUE(wanted && found) << times;
+            EXPECT_NEAR(*found, *wanted, 1e-3 * *wanted) << times;
+            away.look = away.eye + (away.eye - camera.look);
+            EXPECT_FALSE(session::metres_per_pixel(terrain, away, 120)) << "nothing but sky";
+        }
+    }
+}
+
+} // namespace
+} // namespace reljef::app

@@ -1,0 +1,237 @@
+// Cameras and paths in geographic coordinates, where the terrain's own axes lean away from north
+// and up.
+#include "engine/session/scene_setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/geo/place.h"
+#include "engine/session/frame_maker.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::app {
+namespace {
+
+const std::string wgs84_prj =
+    R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
+    R"(PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]])";
+
+class GeodeticCamera : public testing::Test {
+protected:
+    /// Ground 20° around (50, 10), level but for a peak in the middle.
+    [[nodiscard]] session::TerrainScene scene_of(const cli::ViewChoice& view,
+                                                 terrain::PlacementKind placement, int ground = 100,
+                                                 int peak = 100) const {
+        std::string text = "ncols 41\nnrows 41\nxllcenter -10\nyllcenter 30\ncellsize 1\n";
+        for (int i = 0; i < 41 * 41; ++i) {
+            text += fmt::format("{} ", i == 20 * 41 + 20 ? peak : ground);
+        }
+        folder_.write("ground.prj", wgs84_prj);
+        cli::TerrainChoice choice;
+        choice.terrain = folder_.write("ground.asc", text).string();
+        choice.placement = placement;
+        choice.quiet = true;
+        auto source = session::open_terrain(choice, {});
+        EXPECT_TRUE(source) << (source ? "" : source.error().message);
+        return std::move(*session::make_scene(std::move(*source), choice, view));
+    }
+    static cli::ViewChoice view_of(const cli::GeodeticView& geodetic) {
+        cli::ViewChoice view;
+        view.geodetic = geodetic;
+        return view;
+    }
+    /// What is so far ahead at a place, by the local frame at that very place.
+    static geo::Geodetic ahead_of(const cli::GeodeticView& view, double metres) {
+        const double heading = glm::radians(view.heading);
+        const double pitch = glm::radians(view.pitch);
+        const geo::LocalFrame there({view.latitude, view.longitude, view.height});
+        return there.geodetic_from_local(metres * glm::dvec3(std::sin(heading) * std::cos(pitch),
+                                                             std::cos(heading) * std::cos(pitch),
+                                                             std::sin(pitch)));
+    }
+    static const terrain::Placement& placement_of(const session::TerrainScene& scene) {
+        return scene.terrain->get<scene::TerrainNode>()->surface->placement();
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+constexpr double right_angle = 1e-9; // radians
+
+TEST_F(GeodeticCamera, LooksAlongTheHeadingAndThePitchOfItsOwnPlace) {
+    for (const double latitude : {32.0, 50.0, 69.0}) {
+        for (const double longitude : {-9.0, 10.0, 29.0}) {
+            for (const double heading : {0.0, 90.0, 217.0}) {
+                for (const double pitch : {-60.0, 0.0, 20.0}) {
+                    const cli::GeodeticView view{latitude, longitude, 5000.0, heading, pitch};
+                    const auto scene = scene_of(view_of(view), terrain::PlacementKind::ellipsoid);
+                    const auto& camera = *scene.camera->get<scene::Camera>();
+                    const glm::dvec3 target =
+                        *placement_of(scene).world_from_geodetic(ahead_of(view, 10000.0));
+                    const glm::dvec3 wanted = glm::normalize(target - camera.eye);
+                    const scene::ViewAxes axes = scene::view_axes(camera);
+                    EXPECT_LT(glm::distance(axes.forward, wanted), right_angle)
+                        << latitude << "," << longitude << " " << heading << " " << pitch;
+                    EXPECT_LT(std::abs(glm::dot(axes.right, placement_of(scene).up(camera.eye))),
+                              right_angle);
+                }
+            }
+        }
+    }
+}
+
+TEST_F(GeodeticCamera, OnAPlaneLooksAlongTheMapsNorth) {
+    const cli::GeodeticView view{60.0, 25.0, 5000.0, 0.0, 0.0};
+    const auto scene = scene_of(view_of(view), terrain::PlacementKind::plane);
+    const auto& camera = *scene.camera->get<scene::Camera>();
+    EXPECT_LT(glm::distance(scene::view_axes(camera).forward, {0.0, 1.0, 0.0}), 1e-6);
+}
+
+const std::string utm_32_prj =
+    R"(PROJCS["UTM_32N",)" + wgs84_prj +
+    R"(,PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],)"
+    R"(PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",9.0],)"
+    R"(PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
+
+// Of UTM zone 32 away from its middle meridian; degrees by PROJ's proj_factors.
+TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
+    struct Place {
+        double longitude, easting, northing, convergence;
+    };
+    for (const Place& at : {Place{11.9, 661720.751, 6654956.720, 2.512012476527},
+                            Place{6.2, 343853.566, 6654716.392, -2.425356101970}}) {
+        folder_.write("utm.prj", utm_32_prj);
+        cli::TerrainChoice choice;
+        choice.terrain = folder_
+                             .write("utm.asc", fmt::format("ncols 3\nnrows 3\nxllcenter {}\n"
+                                                           "yllcenter {}\ncellsize 1000\n"
+                                                           "5 5 5 5 5 5 5 5 5 ",
+                                                           at.easting - 1000, at.northing - 1000))
+                             .string();
+        choice.placement = terrain::PlacementKind::plane;
+        choice.quiet = true;
+        auto source = session::open_terrain(choice, {});
+        ASSERT_TRUE(source) << source.error().message;
+        const auto scene = session::make_scene(std::move(*source), choice,
+                                               view_of({60.0, at.longitude, 500.0, 0.0, 0.0}));
+        ASSERT_TRUE(scene) << scene.error().message;
+        const glm::dvec3 forward = scene::view_axes(*scene->camera->get<scene::Camera>()).forward;
+        // East of the middle meridian the grid's north is east of the true one.
+        EXPECT_NEAR(glm::degrees(std::atan2(-forward.x, forward.y)), at.convergence, 1e-4);
+    }
+}
+
+TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
+    cli::ViewChoice view;
+    view.path = folder_
+                    .write("path.toml", "[[key]]\ntime = 0\nlatitude = 65\nlongitude = 28\n"
+                                        "height = 5000\nheading = 40\npitch = -10\n"
+                                        "[[key]]\ntime = 1\nlatitude = 65.01\nlongitude = 28\n"
+                                        "height = 5000\nheading = 40\npitch = -10\n")
+                    .string();
+    auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
+    const auto path = session::open_path(scene, view, {});
+    ASSERT_TRUE(path) << path.error().message;
+    session::fly_to(scene, **path, 0, 2);
+    const auto& camera = *scene.camera->get<scene::Camera>();
+    const cli::GeodeticView first{65.0, 28.0, 5000.0, 40.0, -10.0};
+    const glm::dvec3 target = *placement_of(scene).world_from_geodetic(ahead_of(first, 1000.0));
+    const scene::ViewAxes axes = scene::view_axes(camera);
+    EXPECT_LT(glm::distance(axes.forward, glm::normalize(target - camera.eye)), right_angle);
+    EXPECT_LT(std::abs(glm::dot(axes.right, placement_of(scene).up(camera.eye))), right_angle);
+}
+
+class Flight : public GeodeticCamera {
+protected:
+    /// Where the frames of a path file see from.
+    std::vector<geo::Geodetic> eyes_of(const std::string& name, const std::string& text, int frames,
+                                       int ground, int peak) {
+        cli::ViewChoice view;
+        view.path = folder_.write(name, text).string();
+        auto scene = scene_of(view, terrain::PlacementKind::ellipsoid, ground, peak);
+        const auto path = session::open_path(scene, view, {});
+        EXPECT_TRUE(path) << (path ? "" : path.error().message);
+        session::TruthFrames maker({1, 1}, 1);
+        std::vector<geo::Geodetic> eyes;
+        for (int i = 0; i < frames; ++i) {
+            raised_.push_back(session::fly_above_ground(scene, **path, i, frames, maker, {}));
+            const glm::dvec3 eye = scene.camera->get<scene::Camera>()->eye;
+            eyes.push_back(*placement_of(scene).geodetic_from_world(eye));
+        }
+        return eyes;
+    }
+    std::vector<double> raised_;
+};
+
+// A chord of 1,400 km is 39 km lower than its arc.
+TEST_F(Flight, GoesAlongTheGeodesicBetweenKeysAtTheirHeights) {
+    const geo::Geodetic west{48.0, 0.0, 1500.0};
+    const geo::Geodetic east{52.0, 20.0, 1500.0};
+    const geo::Geodesic whole = geo::geodesic_between(west, east);
+    for (const geo::Geodetic& eye : eyes_of(
+             "line.geojson", R"({"type":"LineString","coordinates":[[0,48,1500],[20,52,1500]]})",
+             98, 100, 100)) {
+        EXPECT_NEAR(eye.height, 1500.0, 1.0) << eye.longitude;
+        const geo::Geodesic done = geo::geodesic_between(west, eye);
+        const geo::Geodetic wanted = geo::geodesic_end(west, whole.azimuth_start, done.distance);
+        EXPECT_LT(geo::geodesic_between(wanted, eye).distance, 1.0) << eye.longitude;
+    }
+    EXPECT_EQ(std::count(raised_.begin(), raised_.end(), 0.0), 98);
+}
+
+TEST_F(Flight, LooksAlongItsWayAllTheTime) {
+    cli::ViewChoice view;
+    view.path = folder_
+                    .write("line.geojson",
+                           R"({"type":"LineString","coordinates":[[0,48,1500],[20,52,1500]]})")
+                    .string();
+    auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
+    const auto path = session::open_path(scene, view, {});
+    ASSERT_TRUE(path) << path.error().message;
+    for (int i = 0; i < 30; ++i) {
+        session::fly_to(scene, **path, i, 30);
+        const auto& camera = *scene.camera->get<scene::Camera>();
+        const glm::dvec3 forward = scene::view_axes(camera).forward;
+        EXPECT_NEAR(glm::dot(forward, placement_of(scene).up(camera.eye)), 0.0, 1e-3) << i;
+        if (i < 29) {
+            const scene::FlyKey next = (*path)->at((i + 1) / 29.0 * (*path)->duration());
+            EXPECT_GT(glm::dot(forward, glm::normalize(next.eye - camera.eye)), 0.999) << i;
+        }
+    }
+}
+
+// The line leads through the mountain between its two keys.
+TEST_F(Flight, IsRaisedOverTheGroundWhereItWouldGoThroughIt) {
+    const auto eyes =
+        eyes_of("line.geojson", R"({"type":"LineString","coordinates":[[5,50,1500],[15,50,1500]]})",
+                51, 100, 8000);
+    int raised = 0;
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        EXPECT_GT(eyes[i].height, 1499.0);
+        raised += raised_[i] > 0.0 ? 1 : 0;
+        EXPECT_NEAR(eyes[i].height - raised_[i], 1500.0, 1.0) << i;
+    }
+    EXPECT_GT(raised, 4);
+    EXPECT_LT(raised, 30) << "what was above the ground stays";
+}
+
+TEST_F(Flight, MayGoAMetreAboveTheGround) {
+    const auto path_at = [](double height) {
+        return fmt::format("[[key]]\ntime = 0\nlatitude = 55\nlongitude = 12\nheight = {}\n",
+                           height);
+    };
+    EXPECT_NEAR(eyes_of("a.toml", path_at(514.0), 1, 512, 512)[0].height, 514.0, 1e-6);
+    EXPECT_NEAR(eyes_of("b.toml", path_at(513.0), 1, 512, 512)[0].height, 513.0, 1e-6);
+    EXPECT_NEAR(eyes_of("c.toml", path_at(400.0), 1, 512, 512)[0].height, 512.5, 1e-6);
+    EXPECT_EQ(raised_[0], 0.0);
+    EXPECT_EQ(raised_[1], 0.0);
+    EXPECT_NEAR(raised_[2], 112.5, 1e-6);
+}
+
+} // namespace
+} // namespace reljef::app

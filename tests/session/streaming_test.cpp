@@ -1,0 +1,494 @@
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <future>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/io/image/image.h"
+#include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
+#include "tests/app/command_line.h"
+#include "tests/support/nginx.h"
+#include "tests/support/process_state.h"
+#include "tests/support/release_only.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+#include "tests/support/test_program.h"
+
+namespace reljef {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Folders of SRTM-like cells 1201 samples a side, big-endian, made of a formula.
+class Streaming : public ::testing::Test {
+protected:
+    void SetUp() override {
+        for (const auto& [name, west, south] :
+             {std::tuple("N44E006.hgt", 6, 44), {"N44E007.hgt", 7, 44}, {"N45E006.hgt", 6, 45}}) {
+            write_cell(name, west, south);
+        }
+        options_.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
+        options_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
+    }
+    void write_cell(const std::string& name, int west, int south) const {
+        constexpr int side = 1201;
+        std::string bytes;
+        for (int row = 0; row < side; ++row) {
+            for (int col = 0; col < side; ++col) {
+                const double x = west + col / 1200.0;
+                const double y = south + 1.0 - row / 1200.0;
+                const auto height = static_cast<std::int16_t>(
+                    1500.0 + 900.0 * std::sin(40.0 * x) * std::cos(37.0 * y) +
+                    60.0 * std::sin(700.0 * x + 500.0 * y));
+                bytes.push_back(static_cast<char>(height >> 8));
+                bytes.push_back(static_cast<char>(height & 0xff));
+            }
+        }
+        folder_.write("tiles/" + name, bytes);
+    }
+    /// For the application's own calls, whose caches XDG_CACHE_HOME keeps here.
+    [[nodiscard]] cli::TerrainChoice streamed_choice() const {
+        cli::TerrainChoice choice;
+        choice.terrain = path("tiles");
+        choice.memory_megabytes = 32;
+        choice.quiet = true;
+        choice.streamed = true;
+        return choice;
+    }
+    [[nodiscard]] test::ProgramResult
+    render(const std::string& picture, std::vector<std::string> more,
+           const std::string& camera = "44.6,6.6,2600,60,-12") const {
+        std::vector<std::string> arguments{"render",   path("tiles"), "-o",        path(picture),
+                                           "--size",   "160x120",     "--context", "osmesa",
+                                           "--memory", "32",          "--camera",  camera};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return test::reljef(arguments, options_);
+    }
+    [[nodiscard]] std::string path(const std::string& name) const {
+        return (folder_.path() / name).string();
+    }
+
+    test::TemporaryFolder folder_;
+    test::ProgramOptions options_;
+};
+
+TEST_F(Streaming, what_does_not_fit_the_memory_is_read_as_the_view_needs_it) {
+    const auto result = render("a.png", {"--stats"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("finer tiles are read where the view needs them"));
+    EXPECT_THAT(result.out, HasSubstr("streamed: "));
+    EXPECT_THAT(result.out, HasSubstr(" 0 failed"));
+    ASSERT_EQ(render("b.png", {"--quiet"}).exit_code, 0);
+    EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
+    // Other techniques draw what fits.
+    const auto bump =
+        render("c.png", {"--placement", "plane", "--technique", "parallax", "--stats"});
+    EXPECT_EQ(bump.exit_code, 0) << bump.err;
+    EXPECT_THAT(bump.out, Not(HasSubstr("streamed: ")));
+}
+
+TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
+    ASSERT_EQ(render("a.png", {}).exit_code, 0); // the index knows the file whole
+    // Cut, but of the size and the time that the index knows.
+    const auto file = folder_.path() / "tiles/N44E006.hgt";
+    const auto time = std::filesystem::last_write_time(file);
+    const auto size = std::filesystem::file_size(file);
+    std::filesystem::resize_file(file, 0);
+    std::filesystem::resize_file(file, size - 100000);
+    std::filesystem::last_write_time(file, time);
+    const auto result = render("b.png", {});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("N44E006.hgt"));
+    EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
+}
+
+// Cells that share no edge with the one that is gone are drawn as finely as without it.
+TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    const cli::TerrainChoice choice = streamed_choice();
+    cli::ViewChoice view;
+    view.geodetic = {44.3, 7.7, 3000.0, 90.0, -60.0};
+    auto source = session::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    std::filesystem::remove(folder_.path() / "tiles/N45E006.hgt");
+    auto scene = session::make_scene(std::move(*source), choice, view);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto& terrain = *scene->terrain->get<scene::TerrainNode>();
+    const std::array cameras{scene->scene.camera()};
+    const auto level_there = [&] {
+        const auto eye = terrain.surface->placement().sample_from_world(cameras.front().eye);
+        const auto found = terrain.stream->finest_at(glm::dvec2(*eye));
+        return found ? found->tile->id.level : -1;
+    };
+    for (int i = 0; i < 300 && level_there() != 0; ++i) {
+        session::ask_for_tiles(scene->scene, cameras, {160, 120});
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(level_there(), 0);
+    EXPECT_THAT(terrain.stream->take_faults(), ::testing::Contains(HasSubstr("N45E006.hgt")));
+}
+
+// What the overview stood in for is read once the file is back.
+TEST_F(Streaming, a_file_that_comes_back_is_shown_again) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    const cli::TerrainChoice choice = streamed_choice();
+    auto source = session::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = session::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    const auto wait_until = [&](const auto& condition) {
+        for (int i = 0; i < 2000 && !condition(); ++i) {
+            stream.want(std::array{stream.tree().root()});
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    };
+    const auto root = [&] { return stream.find(stream.tree().root()); };
+    std::filesystem::rename(path("tiles/N45E006.hgt"), path("away.hgt"));
+    wait_until([&] { return root() != nullptr; });
+    ASSERT_NE(root(), nullptr);
+    EXPECT_TRUE(root()->of_overview);
+    std::filesystem::rename(path("away.hgt"), path("tiles/N45E006.hgt"));
+    wait_until([&] { return !root()->of_overview; });
+    EXPECT_FALSE(root()->of_overview);
+}
+
+/// In place of a cell: 61 samples a side, from a longitude on, over the same latitudes.
+std::string coarse_cell(double west, double south) {
+    std::string text = fmt::format("ncols 61\nnrows 61\nxllcenter {}\nyllcenter {}\n"
+                                   "cellsize 0.0166666666666667\n",
+                                   west, south);
+    for (int i = 0; i < 61 * 61; ++i) {
+        text += i % 61 == 60 ? "1500\n" : "1500 ";
+    }
+    return text;
+}
+
+TEST_F(Streaming, a_file_that_is_replaced_by_one_of_another_size_is_shown_and_told) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    const cli::TerrainChoice choice = streamed_choice();
+    auto source = session::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = session::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    folder_.write("tiles/N45E006.hgt", coarse_cell(6.0, 45.0));
+    stream.want(std::array{stream.tree().root()});
+    ASSERT_TRUE(stream.wait({}));
+    ASSERT_NE(stream.find(stream.tree().root()), nullptr);
+    EXPECT_FALSE(stream.find(stream.tree().root())->of_overview);
+    EXPECT_THAT(stream.take_faults(), ::testing::IsEmpty());
+    EXPECT_THAT(stream.take_notes(), ::testing::ElementsAre(HasSubstr("61×61")));
+}
+
+TEST_F(Streaming, whether_a_replaced_file_can_be_shown_is_told_and_in_the_exit_status) {
+    RELJEF_RELEASE_ONLY("two pictures of whole cells");
+    ASSERT_EQ(test::reljef({"info", path("tiles")}, options_).exit_code, 0); // indexes them
+    const auto file = folder_.path() / "tiles/N44E006.hgt";
+    const auto time = std::filesystem::last_write_time(file);
+    const auto size = std::filesystem::file_size(file);
+    const auto render_with = [&](std::string text) { // of the size and the time that it knows
+        text.resize(size, ' ');
+        folder_.write("tiles/N44E006.hgt", text);
+        std::filesystem::last_write_time(file, time);
+        return render("b.png", {});
+    };
+    const std::string told = "N44E006.hgt: was replaced while it was open, by 61×61 samples";
+    const auto shown = render_with(coarse_cell(6.0, 44.0));
+    EXPECT_EQ(shown.exit_code, 0) << shown.err;
+    EXPECT_THAT(shown.err, HasSubstr(told + ": they are read at the places of the 1201×1201"));
+    const auto elsewhere = render_with(coarse_cell(60.0, 44.0));
+    EXPECT_EQ(elsewhere.exit_code, 1) << elsewhere.err;
+    EXPECT_THAT(elsewhere.err, HasSubstr(told + " that are no heights over all the ground"));
+}
+
+TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
+    folder_.write("wide.vrt",
+                  R"(<VRTDataset rasterXSize="8300" rasterYSize="1200"><SRS>EPSG:4326</SRS>)"
+                  "<GeoTransform>6, 0.0005, 0, 45, 0, -0.0005</GeoTransform>"
+                  R"(<VRTRasterBand dataType="Int16" band="1"><SimpleSource>)"
+                  R"(<SourceFilename relativeToVRT="1">tiles/N44E006.hgt</SourceFilename>)"
+                  R"(<SrcRect xOff="0" yOff="0" xSize="1201" ySize="1201"/>)"
+                  R"(<DstRect xOff="0" yOff="0" xSize="8300" ySize="1200"/></SimpleSource>)"
+                  "</VRTRasterBand></VRTDataset>");
+    const auto render_from = [&](const std::string& camera) {
+        return test::reljef({"render", path("wide.vrt"), "-o", path("a.png"), "--size", "160x120",
+                             "--context", "osmesa", "--memory", "16", "--stats", "--camera",
+                             camera},
+                            options_);
+    };
+    const auto far = render_from("44.7,8,900000,0,-90");
+    ASSERT_EQ(far.exit_code, 0) << far.err;
+    const auto told = far.err.find("without overviews");
+    ASSERT_NE(told, std::string::npos) << far.err;
+    EXPECT_EQ(far.err.find("without overviews", told + 1), std::string::npos) << far.err;
+    EXPECT_THAT(far.err, HasSubstr("gdaladdo -r average " + path("wide.vrt")));
+    EXPECT_THAT(far.out, HasSubstr("tiles read (0.0 MB of files), 0 failed"));
+    const auto near = render_from("44.7,8,9000,0,-30");
+    ASSERT_EQ(near.exit_code, 0) << near.err;
+    EXPECT_THAT(near.out, Not(HasSubstr("tiles read (0.0 MB of files)")));
+}
+
+/// Over the same cells: images of one colour each, in UTM, as GDAL's virtual rasters.
+class StreamedImagery : public Streaming {
+protected:
+    void SetUp() override {
+        Streaming::SetUp();
+        write_image("west.vrt", 290000.0, 40000.0, "\xff\x10\x10");
+        write_image("east.vrt", 330000.0, 80000.0, "\x10\x10\xff");
+    }
+    // 100 km from north to south.
+    void write_image(const std::string& name, double west, double width,
+                     const std::string& color) const {
+        constexpr int side = 64;
+        std::string pixels = "P6\n64 64\n255\n";
+        for (int i = 0; i < side * side; ++i) {
+            pixels += color;
+        }
+        folder_.write("images/" + name + ".dat", pixels);
+        std::string bands;
+        for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
+            bands += fmt::format("<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}"
+                                 "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">"
+                                 "{2}.dat</SourceFilename><SourceBand>{0}</SourceBand>"
+                                 "</SimpleSource></VRTRasterBand>",
+                                 band, meaning, name);
+        }
+        folder_.write("images/" + name,
+                      fmt::format("<VRTDataset rasterXSize=\"64\" rasterYSize=\"64\"><SRS>"
+                                  "EPSG:32632</SRS><GeoTransform>{}, {}, 0, 5000000, 0, {}"
+                                  "</GeoTransform>{}</VRTDataset>",
+                                  west, width / side, -100000.0 / side, bands));
+    }
+    // Straight down from 30 km, onto where the two meet.
+    [[nodiscard]] test::ProgramResult render_down(const std::string& picture,
+                                                  std::vector<std::string> more) const {
+        return render(picture, std::move(more), "44.7,6.85,30000,0,-90");
+    }
+    [[nodiscard]] Image picture_of(const std::string& name) const {
+        auto image = io::read_image(path(name));
+        EXPECT_TRUE(image) << (image ? "" : image.error().message);
+        return std::move(*image);
+    }
+};
+
+enum class Shown { red, blue, other };
+Shown shown(Rgba8 pixel) {
+    return pixel.r > 3 * pixel.b ? Shown::red : pixel.b > 3 * pixel.r ? Shown::blue : Shown::other;
+}
+
+TEST_F(StreamedImagery, of_a_folder_shows_no_gap_where_two_images_meet) {
+    const auto result = render_down("a.png", {"--imagery", path("images")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Image picture = picture_of("a.png");
+    int other = 0;
+    for (const Rgba8 pixel : picture.samples()) {
+        other += shown(pixel) == Shown::other ? 1 : 0;
+    }
+    EXPECT_EQ(shown(picture(2, 60)), Shown::red);
+    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
+    EXPECT_LE(other, 3 * picture.rows()); // those that lie across the edge
+}
+
+TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
+    folder_.write("scene.toml", "[terrain]\nheights = \"tiles\"\n"
+                                "imagery = [\"images/west.vrt\", \"images/east.vrt\"]\n");
+    const auto scene =
+        test::reljef({"render", path("scene.toml"), "-o", path("c.png"), "--size", "160x120",
+                      "--context", "osmesa", "--memory", "32", "--camera", "44.7,6.85,30000,0,-90"},
+                     options_);
+    ASSERT_EQ(scene.exit_code, 0) << scene.err;
+    const Image picture = picture_of("c.png");
+    EXPECT_EQ(shown(picture(2, 60)), Shown::red);
+    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
+}
+
+/// A patch of pixels of which 8,400 would lie along the terrain, which fits the memory.
+class FineImagery : public StreamedImagery {
+protected:
+    void SetUp() override {
+        StreamedImagery::SetUp();
+        write_fine();
+    }
+    void write_fine() const;
+};
+
+void FineImagery::write_fine() const {
+    folder_.write("fine.ppm", "P6\n256 256\n255\n" + std::string(3 * 256 * 256, '\x60'));
+    std::string bands;
+    for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
+        bands += fmt::format("<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}"
+                             "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">"
+                             "fine.ppm</SourceFilename><SourceBand>{0}</SourceBand>"
+                             "</SimpleSource></VRTRasterBand>",
+                             band, meaning);
+    }
+    folder_.write("fine.vrt",
+                  "<VRTDataset rasterXSize=\"256\" rasterYSize=\"256\"><SRS>EPSG:4326</SRS>"
+                  "<GeoTransform>6.485, 0.000119, 0, 44.515, 0, -0.000119</GeoTransform>" +
+                      bands + "</VRTDataset>");
+}
+
+// But an error that is promised is kept.
+TEST_F(FineImagery, is_streamed_over_what_fits_the_memory) {
+    const auto render_with = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"render",    path("tiles/N44E006.hgt"),
+                                           "--memory",  "64",
+                                           "--imagery", path("fine.vrt"),
+                                           "-o",        path("a.png"),
+                                           "--size",    "64x48",
+                                           "--context", "osmesa",
+                                           "--camera",  "44.5,6.5,3500,0,-60",
+                                           "--stats"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return test::reljef(arguments, options_);
+    };
+    const auto fine = render_with({});
+    ASSERT_EQ(fine.exit_code, 0) << fine.err;
+    EXPECT_THAT(fine.out, HasSubstr("streamed: "));
+    const auto promised = render_with({"--max-error", "1"});
+    ASSERT_EQ(promised.exit_code, 0) << promised.err;
+    EXPECT_THAT(promised.out, Not(HasSubstr("streamed: ")));
+}
+
+TEST_F(FineImagery, leaves_all_samples_to_shadows_and_far_ground_where_there_is_memory) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    cli::TerrainChoice choice;
+    choice.terrain = path("tiles/N44E006.hgt");
+    choice.imagery = {path("fine.vrt")};
+    choice.quiet = true;
+    choice.streamed = choice.pictures_streamed = true;
+    choice.memory_megabytes = 160; // of which the samples and their picture take a half at most
+    const auto whole = session::open_terrain(choice, {});
+    ASSERT_TRUE(whole) << whole.error().message;
+    ASSERT_TRUE(whole->stream);
+    EXPECT_EQ(whole->stream->plan.reduction, 1);
+    EXPECT_EQ(whole->terrain.heightfield.heights.cols(), 1201);
+    EXPECT_THAT(whole->terrain.notes, ::testing::Contains(HasSubstr("finer parts of the images")));
+    choice.memory_megabytes = 64;
+    const auto averages = session::open_terrain(choice, {});
+    ASSERT_TRUE(averages) << averages.error().message;
+    ASSERT_TRUE(averages->stream);
+    EXPECT_GT(averages->stream->plan.reduction, 1);
+    EXPECT_THAT(averages->terrain.notes,
+                ::testing::Contains(HasSubstr("shadows and far ground are of averages")));
+}
+
+TEST_F(StreamedImagery, that_is_missing_is_told_once_and_the_rest_is_shown) {
+    std::filesystem::remove(folder_.path() / "images/west.vrt.dat");
+    const auto result = render_down(
+        "a.png", {"--imagery", path("images/west.vrt"), "--imagery", path("images/east.vrt")});
+    EXPECT_EQ(result.exit_code, 1);
+    const auto first = result.err.find("west.vrt: ");
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("west.vrt: ", first + 1), std::string::npos) << result.err;
+    const Image picture = picture_of("a.png");
+    EXPECT_EQ(shown(picture(2, 60)), Shown::other); // the tint
+    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
+}
+
+/// A cloud-optimized file of a cell: it begins with its overviews, 1,300,000 bytes, and then has
+/// the samples in blocks of 128 x 128.
+class BadServer : public Streaming {
+protected:
+    void SetUp() override {
+        RELJEF_NEED_NGINX();
+        if (!std::filesystem::exists("/usr/bin/gdal_translate")) {
+            GTEST_SKIP() << "gdal_translate of gdal-bin is not here";
+        }
+        Streaming::SetUp();
+        const auto made =
+            test::run_program("/usr/bin/gdal_translate",
+                              {"-q", "-of", "COG", "-co", "BLOCKSIZE=128", "-co", "COMPRESS=NONE",
+                               path("tiles/N44E006.hgt"), path("dem.tif")});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        options_.environment["GDAL_HTTP_MAX_RETRY"] = "0";
+        options_.environment["GDAL_HTTP_LOW_SPEED_TIME"] = "1";
+    }
+    /// Rules of nginx for the samples alone.
+    [[nodiscard]] static std::string for_samples(const std::string& directive) {
+        return "location / { if ($http_range ~ \"^bytes=(1[3-9]|[2-9][0-9])[0-9]{5}-\") { " +
+               directive + " } }";
+    }
+    /// So little memory that only coarse overviews are read at the beginning.
+    [[nodiscard]] test::ProgramResult render_from(const std::string& address,
+                                                  const std::string& picture) const {
+        return test::reljef({"render", address, "-o", path(picture), "--size", "160x120",
+                             "--context", "osmesa", "--memory", "1", "--camera",
+                             "44.6,6.6,2600,60,-12"},
+                            options_);
+    }
+};
+
+TEST_F(BadServer, gives_the_picture_of_the_local_file_even_where_it_is_slow) {
+    RELJEF_RELEASE_ONLY("waits for a slow server");
+    ASSERT_EQ(render_from(path("dem.tif"), "local.png").exit_code, 0);
+    const test::Nginx server(folder_.path(), "limit_rate 2m;");
+    ASSERT_EQ(render_from(server.url("dem.tif"), "slow.png").exit_code, 0);
+    EXPECT_EQ(test::read_bytes(path("slow.png")), test::read_bytes(path("local.png")));
+}
+
+TEST_F(BadServer, that_hangs_holds_up_no_picture_and_finer_tiles_come_once_it_has_recovered) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    test::Nginx server(folder_.path());
+    cli::TerrainChoice choice = streamed_choice();
+    choice.terrain = server.url("dem.tif");
+    choice.memory_megabytes = 1;
+    auto source = session::open_terrain(choice, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = session::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    const auto ask_for = [&](terrain::TreeTile tile, std::chrono::milliseconds time) {
+        const auto end = std::chrono::steady_clock::now() + time;
+        while (stream.find(tile) == nullptr && std::chrono::steady_clock::now() < end) {
+            stream.want(std::array{tile});
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        return stream.find(tile);
+    };
+    constexpr std::chrono::seconds long_enough{10};
+    const terrain::TreeTile finest{0, 3, 3};
+    EXPECT_NE(ask_for(stream.tree().root(), long_enough), nullptr);
+    server.serve_by(for_samples("limit_rate 1;")); // a byte a second
+    EXPECT_EQ(ask_for(finest, std::chrono::milliseconds(200)), nullptr);
+    server.serve_by(for_samples("return 404;"));
+    EXPECT_EQ(ask_for(finest, std::chrono::milliseconds(100)), nullptr);
+    server.serve_by("");
+    EXPECT_NE(ask_for(finest, long_enough), nullptr);
+    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre(HasSubstr("dem.tif")));
+}
+
+// All at the same time: they wait more than they work.
+TEST_F(BadServer, is_drawn_coarser_tried_again_and_told_once) {
+    RELJEF_RELEASE_ONLY("waits for what is tried again");
+    std::vector<std::future<void>> runs;
+    for (const std::string fault : {"return 404;", "return 500;", "return 444;"}) {
+        runs.push_back(std::async(std::launch::async, [this, fault] {
+            const test::Nginx server(folder_.path(), for_samples(fault));
+            const std::string picture = fault + ".png";
+            const auto result = render_from(server.url("dem.tif"), picture);
+            EXPECT_GT(test::read_bytes(path(picture)).size(), 100U);
+            EXPECT_EQ(result.exit_code, 1) << fault << result.err;
+            const std::string told = "shown coarser: ";
+            const auto first = result.err.find(told);
+            ASSERT_NE(first, std::string::npos) << fault << result.err;
+            EXPECT_EQ(result.err.find(told, first + 1), std::string::npos) << result.err;
+            EXPECT_THAT(result.err, HasSubstr("dem.tif"));
+        }));
+    }
+    for (auto& run : runs) {
+        run.get();
+    }
+}
+
+} // namespace
+} // namespace reljef

@@ -1,0 +1,138 @@
+#include "engine/terrain/field/tint.h"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::terrain {
+namespace {
+
+constexpr Rgba8 grey{128, 128, 128, 255};
+
+bool is_blue(Rgba8 color) {
+    return color.b > color.g && color.g > color.r;
+}
+
+TEST(Tint, OneOpaquePixelPerSample) {
+    const Image image =
+        hypsometric_tint(test::plane_heightfield(test::random_heights(13, 7, 1.0F, 900.0F, 1)));
+    EXPECT_EQ(image.cols(), 13);
+    EXPECT_EQ(image.rows(), 7);
+    for (const Rgba8& pixel : image.samples()) {
+        EXPECT_EQ(pixel.a, 255);
+    }
+}
+
+TEST(Tint, GoesFromGreenLowlandToLightSummits) {
+    const Image image = hypsometric_tint(test::plane_heightfield(
+        test::made_heights(101, 3, [](int col, int) { return 10.0 + col; })));
+    const Rgba8 low = image(0, 1);
+    EXPECT_GT(low.g, low.r);
+    EXPECT_GT(low.g, low.b);
+    const Rgba8 high = image(100, 1);
+    EXPECT_GT(std::min({high.r, high.g, high.b}), 190);
+}
+
+// A jump of the tint would show as a contour line that is not there.
+TEST(Tint, IsContinuousInTheHeight) {
+    const Image image = hypsometric_tint(test::plane_heightfield(
+        test::made_heights(2001, 2, [](int col, int) { return 100.0 + 0.5 * col; })));
+    for (int col = 1; col < image.cols(); ++col) {
+        EXPECT_LE(std::abs(image(col, 0).r - image(col - 1, 0).r), 2) << col;
+        EXPECT_LE(std::abs(image(col, 0).g - image(col - 1, 0).g), 2) << col;
+        EXPECT_LE(std::abs(image(col, 0).b - image(col - 1, 0).b), 2) << col;
+    }
+}
+
+TEST(Tint, VoidsAreGreyAndDoNotStretchTheScale) {
+    Heightfield heightfield = test::plane_heightfield(
+        test::made_heights(60, 60, [](int col, int) { return 100.0 + col; }));
+    const Image whole = hypsometric_tint(heightfield);
+    heightfield.void_mask = Grid<std::uint8_t>(60, 60, 0);
+    for (int row = 0; row < 60; ++row) {
+        heightfield.void_mask(30, row) = 1;
+        heightfield.heights(30, row) = 1e6F;
+    }
+    const Image holed = hypsometric_tint(heightfield);
+    EXPECT_EQ(holed(30, 30), grey);
+    for (const int col : {5, 20, 45, 58}) {
+        EXPECT_LE(std::abs(holed(col, 9).r - whole(col, 9).r), 4);
+    }
+}
+
+// A few cells at one end of a wide void: every hundredth sample met none of them.
+TEST(Tint, FewHeightsInAWideVoidAreSeenAll) {
+    constexpr int cols = 6300;
+    constexpr int rows = 1050;
+    Heightfield heightfield = test::plane_heightfield(
+        test::made_heights(cols, rows, [](int col, int) { return static_cast<double>(col); }));
+    heightfield.void_mask = Grid<std::uint8_t>(cols, rows, 1);
+    for (int row = 0; row < rows; ++row) {
+        heightfield.void_mask(0, row) = 0;
+        for (int col = 6225; col < cols; ++col) {
+            heightfield.void_mask(col, row) = 0;
+        }
+    }
+    const HeightTint tint(heightfield);
+    EXPECT_NE(tint.at(0.0), tint.at(6299.0));
+}
+
+TEST(Tint, AllVoidIsGrey) {
+    Heightfield heightfield = test::plane_heightfield(Grid<float>(4, 4, 0.0F));
+    heightfield.void_mask = Grid<std::uint8_t>(4, 4, 1);
+    const Image image = hypsometric_tint(heightfield);
+    for (const Rgba8& pixel : image.samples()) {
+        EXPECT_EQ(pixel, grey);
+    }
+}
+
+TEST(Tint, LevelGroundAtZeroIsWaterAndItsShoreIsNot) {
+    const Image image = hypsometric_tint(test::plane_heightfield(test::made_heights(
+        20, 20, [](int col, int) { return col < 10 ? 0.0 : 30.0 * (col - 9); })));
+    EXPECT_TRUE(is_blue(image(0, 0)));
+    EXPECT_TRUE(is_blue(image(8, 19)));
+    EXPECT_FALSE(is_blue(image(9, 5))) << "its neighbour is not level";
+    EXPECT_FALSE(is_blue(image(15, 5)));
+}
+
+TEST(Tint, AConstantHeightIsOneColor) {
+    for (const float height : {-5.0F, 1234.5F}) {
+        const Image image = hypsometric_tint(test::plane_heightfield(Grid<float>(9, 9, height)));
+        for (const Rgba8& pixel : image.samples()) {
+            EXPECT_EQ(pixel, image(0, 0));
+            EXPECT_NE(pixel, grey);
+            EXPECT_GT(pixel.g, 60);
+        }
+    }
+}
+
+TEST(Composite, AnEmptyPictureLeavesWhatIsBeneath) {
+    const Image beneath(3, 2, Rgba8{1, 2, 3, 255});
+    EXPECT_EQ(composite({}, beneath), beneath);
+}
+
+TEST(Composite, BlendsByAlphaAndIsOpaque) {
+    Image color(3, 1, Rgba8{200, 100, 50, 255});
+    color(1, 0).a = 0;
+    color(2, 0).a = 128;
+    const Image result = composite(color, Image(3, 1, Rgba8{0, 0, 0, 255}));
+    EXPECT_EQ(result(0, 0), (Rgba8{200, 100, 50, 255}));
+    EXPECT_EQ(result(1, 0), (Rgba8{0, 0, 0, 255}));
+    EXPECT_NEAR(result(2, 0).r, 100, 1);
+    EXPECT_EQ(result(2, 0).a, 255);
+}
+
+TEST(Composite, LooksUpAnotherResolutionEdgeToEdge) {
+    Image beneath(2, 2, Rgba8{0, 0, 0, 255});
+    beneath(1, 0) = {255, 255, 255, 255};
+    const Image result = composite(Image(9, 9, Rgba8{9, 9, 9, 0}), beneath);
+    EXPECT_EQ(result.cols(), 9);
+    EXPECT_EQ(result(8, 0).r, 255) << "north-east stays north-east";
+    EXPECT_EQ(result(0, 0).r, 0);
+    EXPECT_EQ(result(8, 8).r, 0);
+}
+
+} // namespace
+} // namespace reljef::terrain

@@ -1,0 +1,141 @@
+#include "engine/terrain/mesh/tile_layout.h"
+
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::terrain {
+namespace {
+
+TEST(TileLayout, CoversEveryCellOnceWhateverTheSize) {
+    for (const auto& [cols, rows] : {std::pair{2, 2},
+                                     {3, 1000},
+                                     {1000, 3},
+                                     {129, 129},
+                                     {130, 129},
+                                     {129, 130},
+                                     {128, 128},
+                                     {257, 258},
+                                     {2, 500},
+                                     {400, 301}}) {
+        const Heightfield heightfield =
+            test::plane_heightfield(test::random_heights(cols, rows, 0.0F, 9.0F, 1));
+        Grid<int> covered(cols - 1, rows - 1, 0);
+        for (const Tile& tile : tile_layout(heightfield, test::placed(heightfield))) {
+            ASSERT_GE(std::min(tile.cols, tile.rows), 1);
+            ASSERT_LE(std::max(tile.cols, tile.rows), tile_cells);
+            for (int row = tile.row; row < tile.row + tile.rows; ++row) {
+                for (int col = tile.col; col < tile.col + tile.cols; ++col) {
+                    ++covered(col, row);
+                }
+            }
+        }
+        for (const int count : covered.samples()) {
+            ASSERT_EQ(count, 1) << cols << " x " << rows;
+        }
+    }
+}
+
+// Empty where the box holds every placed sample of the tile, else what lies outside.
+void expect_inside(const Heightfield& heightfield, const Placement& placement, const Tile& tile,
+                   std::optional<double> flat_height) {
+    for (int row = tile.row; row <= tile.row + tile.rows; ++row) {
+        for (int col = tile.col; col <= tile.col + tile.cols; ++col) {
+            const double height = flat_height.value_or(heightfield.heights(col, row));
+            const glm::dvec3 place = placement.world_from_sample({col, row, height});
+            for (int axis = 0; axis < 3; ++axis) {
+                ASSERT_GE(place[axis], tile.bounds.low[axis] - 1e-9)
+                    << col << ' ' << row << ' ' << axis;
+                ASSERT_LE(place[axis], tile.bounds.high[axis] + 1e-9)
+                    << col << ' ' << row << ' ' << axis;
+            }
+        }
+    }
+}
+
+void expect_bounds_hold(const Heightfield& heightfield, double exaggeration) {
+    const Placement placement = test::placed(heightfield, exaggeration);
+    for (const Tile& tile : tile_layout(heightfield, placement)) {
+        expect_inside(heightfield, placement, tile, std::nullopt);
+    }
+    const double reference = reference_height(heightfield);
+    for (const Tile& tile : flat_tile_layout(heightfield, placement, reference)) {
+        expect_inside(heightfield, placement, tile, reference);
+    }
+}
+
+TEST(TileLayout, BoundsOnAPlaneAreTight) {
+    const Heightfield heightfield =
+        test::plane_heightfield(test::random_heights(150, 140, -7.0F, 9.0F, 2), {2.0, 3.0});
+    const Placement placement = test::placed(heightfield, 4.0);
+    expect_bounds_hold(heightfield, 4.0);
+    Box all;
+    for (const Tile& tile : tile_layout(heightfield, placement)) {
+        all.add(tile.bounds);
+    }
+    EXPECT_DOUBLE_EQ(all.low.z, 4.0 * heightfield.range.low);
+    EXPECT_DOUBLE_EQ(all.high.z, 4.0 * heightfield.range.high);
+    EXPECT_DOUBLE_EQ(all.size().x, 149 * 2.0);
+    EXPECT_DOUBLE_EQ(all.size().y, 139 * 3.0);
+}
+
+// Neighbours share the samples on their border: both must hold them.
+TEST(TileLayout, BoundsHoldASpikeOnTheBorderOfTiles) {
+    for (const glm::ivec2 spike :
+         {glm::ivec2(128, 50), glm::ivec2(50, 128), glm::ivec2(128, 128), glm::ivec2(0, 0),
+          glm::ivec2(199, 30), glm::ivec2(30, 179), glm::ivec2(199, 179)}) {
+        for (const float height : {100.0F, -100.0F}) {
+            Grid<float> heights(200, 180, 0.0F);
+            heights(spike.x, spike.y) = height;
+            expect_bounds_hold(test::plane_heightfield(heights), 1.0);
+        }
+    }
+}
+
+TEST(TileLayout, BoundsOnAnEllipsoidHoldEverySample) {
+    for (const double latitude : {0.6, 46.0, -33.0, 84.0}) {
+        expect_bounds_hold(
+            test::geographic_heightfield(test::random_heights(150, 140, 0.0F, 900.0F, 3), latitude,
+                                         7.0, 1.0 / 1200.0),
+            1.0);
+    }
+}
+
+// The top of the Earth's bulge, at the frame's origin, lies neither on a tile's border nor in its
+// middle when 193 samples are cut at 128.
+TEST(TileLayout, BoundsHoldTheTopOfTheBulgeWhereverItLies) {
+    for (const int side : {193, 161, 209, 130}) {
+        for (const double step : {1.0 / 1200.0, 0.01, 0.1}) {
+            expect_bounds_hold(
+                test::geographic_heightfield(Grid<float>(side, side, 50.0F), 50.0, 7.0, step), 1.0);
+        }
+    }
+}
+
+TEST(TileLayout, FlatTilesHaveTheSameIndices) {
+    const Heightfield heightfield =
+        test::plane_heightfield(test::random_heights(300, 200, 0.0F, 9.0F, 4));
+    const auto tiles = tile_layout(heightfield, test::placed(heightfield));
+    const auto flat = flat_tile_layout(heightfield, test::placed(heightfield), 3.0);
+    ASSERT_EQ(tiles.size(), flat.size());
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        EXPECT_EQ(tiles[i].col, flat[i].col);
+        EXPECT_EQ(tiles[i].row, flat[i].row);
+        EXPECT_EQ(tiles[i].cols, flat[i].cols);
+        EXPECT_EQ(tiles[i].rows, flat[i].rows);
+        EXPECT_DOUBLE_EQ(flat[i].bounds.low.z, 3.0);
+        EXPECT_DOUBLE_EQ(flat[i].bounds.high.z, 3.0);
+    }
+}
+
+TEST(TileLayout, TheReferenceIsTheMiddleOfTheRange) {
+    const Heightfield heightfield =
+        test::plane_heightfield(test::made_heights(2, 2, [](int col, int) { return 10.0 * col; }));
+    EXPECT_DOUBLE_EQ(reference_height(heightfield), 5.0);
+}
+
+} // namespace
+} // namespace reljef::terrain

@@ -1,0 +1,116 @@
+#include "engine/view/error_view.h"
+
+#include <cmath>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/terrain/chance.h"
+
+namespace reljef::render {
+namespace {
+
+glm::dvec3 chance_point(test::Chance& chance, double reach) {
+    return {chance.between(-reach, reach), chance.between(-reach, reach),
+            chance.between(-reach, reach)};
+}
+
+scene::Camera chance_camera(test::Chance& chance) {
+    scene::Camera camera;
+    camera.eye = chance_point(chance, 100.0);
+    camera.look = chance_point(chance, 100.0);
+    camera.vertical_fov = chance.between(1.0, 160.0);
+    camera.projection =
+        chance.one_in(3) ? scene::ProjectionKind::orthographic : scene::ProjectionKind::perspective;
+    camera.view_height = chance.between(1.0, 300.0);
+    return camera;
+}
+
+glm::dmat4 chance_transform(test::Chance& chance) {
+    const auto moved = glm::translate(glm::dmat4(1.0), chance_point(chance, 50.0));
+    const auto turned =
+        glm::rotate(moved, chance.between(0.0, 6.0), glm::normalize(chance_point(chance, 1.0)));
+    const glm::dvec3 scale(chance.between(0.5, 2.0), chance.between(0.5, 2.0),
+                           chance.between(0.5, 2.0));
+    auto whole = glm::scale(turned, chance.one_in(2) ? glm::dvec3(1.0) : scale);
+    whole[1] += chance.one_in(3) ? 0.3 * whole[0] : glm::dvec4(0.0); // skewed
+    return whole;
+}
+
+constexpr glm::ivec2 picture{640, 360};
+
+bool is_seen(const scene::Camera& camera, glm::dvec3 world) {
+    const auto [pixel, depth] = scene::project(camera, picture, world);
+    const bool is_ahead =
+        camera.projection == scene::ProjectionKind::orthographic || depth >= camera.near;
+    return is_ahead && pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= picture.x &&
+           pixel.y <= picture.y;
+}
+
+// A point of a triangle that is seen, and where it belongs; the ball around both says no more than
+// that. Whatever the view then allows to leave unsplit must be seen within the error.
+TEST(ErrorView, WhatIsLeftUnsplitIsSeenWithinTheErrorEverywhereOnThePicture) {
+    test::Chance chance(11);
+    int allowed = 0;
+    int refused = 0;
+    for (int i = 0; i < 300'000; ++i) {
+        const scene::Camera camera = chance_camera(chance);
+        const glm::dmat4 world_from_local = chance_transform(chance);
+        const auto kind =
+            chance.one_in(2) ? terrain::PlacementKind::plane : terrain::PlacementKind::ellipsoid;
+        const double most_error = std::exp(chance.between(-1.0, 4.0));
+        const auto view = view::error_view(camera, picture, world_from_local, kind, most_error);
+        const double error = std::exp(chance.between(-7.0, 2.0));
+        const glm::dvec3 shown = chance_point(chance, 100.0);
+        const glm::dvec3 way = kind == terrain::PlacementKind::plane
+                                   ? glm::dvec3(0.0, 0.0, chance.one_in(2) ? 1.0 : -1.0)
+                                   : glm::normalize(chance_point(chance, 1.0));
+        const terrain::Split split{error, shown + 0.5 * error * way, 0.5 * error * 1.001};
+        const auto world = [&](glm::dvec3 local) {
+            return glm::dvec3(world_from_local * glm::dvec4(local, 1.0));
+        };
+        if (!is_seen(camera, world(shown))) {
+            continue;
+        }
+        if (terrain::exceeds(view, split)) {
+            ++refused;
+            continue;
+        }
+        ++allowed;
+        const auto at = scene::project(camera, picture, world(shown)).pixel;
+        const auto belongs = scene::project(camera, picture, world(shown + error * way)).pixel;
+        ASSERT_LE(glm::distance(at, belongs), most_error - view::rasterizer_error + 1e-9);
+    }
+    EXPECT_GT(allowed, 5000);
+    EXPECT_GT(refused, 5000);
+}
+
+// The bound is no more than what is seen, for a vertical error seen level in the middle.
+TEST(ErrorView, IsTightInTheMiddleOfALevelView) {
+    scene::Camera camera;
+    camera.eye = {0.0, 0.0, 0.0};
+    camera.look = {0.0, 1.0, 0.0};
+    const auto view =
+        view::error_view(camera, picture, glm::dmat4(1.0), terrain::PlacementKind::plane, 1.0);
+    const glm::dvec3 place(0.0, 1000.0, 0.0);
+    const double metres_per_pixel =
+        1000.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / (0.5 * picture.y);
+    EXPECT_FALSE(terrain::exceeds(view, {0.99 * metres_per_pixel, place, 0.0}));
+    EXPECT_TRUE(terrain::exceeds(view, {1.01 * metres_per_pixel, place, 0.0}));
+}
+
+TEST(ErrorView, AVerticalErrorSeenFromStraightAboveIsNone) {
+    scene::Camera camera;
+    camera.eye = {0.0, 0.0, 100.0};
+    camera.look = {0.0, 0.0, 0.0};
+    camera.projection = scene::ProjectionKind::orthographic;
+    camera.view_height = 100.0;
+    const auto view =
+        view::error_view(camera, picture, glm::dmat4(1.0), terrain::PlacementKind::plane, 1.0);
+    EXPECT_FALSE(terrain::exceeds(view, {50.0, {0.0, 0.0, 0.0}, 60.0}));
+}
+
+} // namespace
+} // namespace reljef::render

@@ -1,0 +1,98 @@
+#include "engine/view/occlusion.h"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/render/driver_fixture.h"
+#include "tests/terrain/chance.h"
+
+namespace reljef::render {
+namespace {
+
+// Ridges one behind the other, 15 tiles.
+terrain::Heightfield ridged(unsigned seed) {
+    const Grid<float> noise = test::random_heights(600, 300, -2.0F, 2.0F, seed);
+    return test::plane_heightfield(test::made_heights(600, 300,
+                                                      [&](int col, int row) {
+                                                          return 90.0 * std::sin(col / 17.0) +
+                                                                 20.0 * std::sin(row / 40.0) +
+                                                                 noise(col, row);
+                                                      }),
+                                   {6.0, 6.0});
+}
+
+Camera low_view(test::Chance& chance, const scene::TerrainSurface& surface) {
+    const Box& bounds = surface.bounds();
+    const double x = chance.between(0.9 * bounds.low.x, 0.9 * bounds.high.x);
+    const double y = chance.between(0.9 * bounds.low.y, 0.9 * bounds.high.y);
+    const double ground = surface.height_at(x, y).value();
+    Camera camera =
+        camera_at({x, y, ground + chance.between(0.5, 40.0)},
+                  {chance.between(bounds.low.x, bounds.high.x),
+                   chance.between(bounds.low.y, bounds.high.y), ground + chance.between(-20, 20)});
+    camera.near = 0.01;
+    return camera;
+}
+
+bool same_bits(const HitBuffer& a, const HitBuffer& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.samples().data(), b.samples().data(), a.samples().size_bytes()) == 0;
+}
+
+class Occlusion : public DriverGlTest {
+protected:
+    // Drawn with and without: the same bits, of colours and of hits. Returns the tiles left out.
+    int compare(const std::string& technique, int views, unsigned seed) {
+        Scene scene;
+        Node& terrain = test::add_terrain(scene, ridged(seed));
+        Node& camera = scene.add_camera();
+        scene.add_light();
+        scene.set_sky({});
+        terrain.get<scene::TerrainNode>()->material.technique =
+            scene::parse_technique(technique).value();
+        Driver with = driver();
+        Driver without = test::must(
+            Driver::create({.size = size, .shader_dir = {}, .software = true, .occlusion = false}));
+        test::Chance chance(seed);
+        int occluded = 0;
+        for (int i = 0; i < views; ++i) {
+            *camera.get<Camera>() = low_view(chance, surface_of(terrain));
+            occluded += test::must(with.draw(scene)).skipped.tiles_occluded;
+            EXPECT_EQ(test::must(without.draw(scene)).skipped.tiles_occluded, 0);
+            EXPECT_EQ(with.read_color(), without.read_color()) << technique << ' ' << i;
+            EXPECT_TRUE(
+                same_bits(test::must(with.draw_hits(scene)), test::must(without.draw_hits(scene))))
+                << technique << ' ' << i;
+        }
+        return occluded;
+    }
+};
+
+TEST_F(Occlusion, ThePictureIsTheSameToTheBitWhereTilesAreLeftOut) {
+    EXPECT_GT(compare("polygons:error=1", 20, 1), 10);
+    EXPECT_GT(compare("polygons:error=4", 10, 2), 3);
+    EXPECT_GT(compare("polygons", 6, 3), 3);
+}
+
+TEST_F(Occlusion, NothingIsLeftOutWhereLevelsGoByDistanceOrNothingIsSolid) {
+    EXPECT_EQ(compare("polygons:lods=4", 3, 4), 0);
+    EXPECT_EQ(compare("texture", 3, 5), 0);
+}
+
+TEST(OcclusionList, FlatViewsOfAMapLeaveNothingOut) {
+    Scene scene;
+    test::add_terrain(scene, ridged(6));
+    Camera camera = camera_at({0, 0, 500}, {0, 10, 0});
+    camera.projection = scene::ProjectionKind::orthographic;
+    scene.add_camera(camera);
+    view::DrawList list = view::select(scene, size);
+    const std::size_t before = list.tiles.size();
+    view::drop_occluded(list);
+    EXPECT_EQ(list.tiles.size(), before);
+}
+
+} // namespace
+} // namespace reljef::render
