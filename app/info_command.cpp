@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/console_log.h"
 #include "app/cli/options.h"
 #include "app/commands.h"
 #include "engine/io/raster/raster.h"
@@ -300,8 +301,16 @@ void print_text(const Json& info, const cli::TerrainChoice& choice) {
     }
 }
 
+// Notes are part of what is printed.
+class ProgressLog : public cli::ConsoleLog {
+public:
+    using cli::ConsoleLog::ConsoleLog;
+    void message(session::MessageKind /*kind*/, std::string_view /*sentence*/) override {}
+};
+
 Result<void> print_info(const InfoChoice& choice, const cli::Interrupt& interrupt) {
-    auto source = session::open_terrain(choice.terrain, interrupt.token(), session::Notes::kept);
+    ProgressLog log(choice.terrain.quiet);
+    auto source = session::open_terrain(choice.terrain, log, interrupt.token());
     if (!source) {
         return source.error();
     }

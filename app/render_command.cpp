@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/cli/message.h"
+#include "app/cli/console_log.h"
 #include "app/cli/misuse.h"
 #include "app/cli/options.h"
 #include "app/cli/output_files.h"
@@ -34,7 +34,8 @@ constexpr int sheet_columns = 4;
 constexpr int sheet_picture_width = 320;
 constexpr int most_sheet_pictures = 24;
 
-Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice& choice) {
+Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice& choice,
+                                                              session::Log& log) {
     using Maker = std::unique_ptr<session::FrameMaker>;
     if (choice.truth) {
         return Maker(new session::TruthFrames(choice.view.size, choice.rays));
@@ -44,11 +45,11 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
     options.context = choice.view.context;
     options.context_options.size = choice.view.size;
     options.context_options.visible = false;
-    options.driver.size = choice.view.size;
-    options.driver.shader_dir = choice.view.shader_dir;
+    options.renderer.driver.size = choice.view.size;
+    options.renderer.driver.shader_dir = choice.view.shader_dir;
     auto device = session::Device::create(options);
-    return device ? Result<Maker>(Maker(new session::DeviceFrames(
-                        std::move(*device), {choice.stats, choice.terrain.quiet})))
+    return device ? Result<Maker>(
+                        Maker(new session::DeviceFrames(std::move(*device), log, {choice.stats})))
                   : device.error();
 }
 
@@ -81,11 +82,11 @@ public:
         count_ += metres > 0.0 ? 1 : 0;
         most_ = std::max(most_, metres);
     }
-    void tell_of(const RenderChoice& choice) const {
-        if (count_ > 0 && !choice.terrain.quiet) {
-            cli::tell(
-                fmt::format("reljef: note: --path {}: {} of {} frames would be under the ground "
-                            "or too close to it; raised by up to {:.1f} m\n",
+    void log_to(session::Log& log, const RenderChoice& choice) const {
+        if (count_ > 0) {
+            log.note(
+                fmt::format("--path {}: {} of {} frames would be under the ground or too close "
+                            "to it; raised by up to {:.1f} m",
                             choice.view.path, count_, choice.view.frames, most_));
         }
     }
@@ -109,7 +110,7 @@ Result<void> check_interrupt(const cli::Interrupt& interrupt) {
 
 Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
                          session::FrameMaker& maker, const std::optional<scene::FlyPath>& path,
-                         const cli::Interrupt& interrupt) {
+                         session::Log& log, const cli::Interrupt& interrupt) {
     const int frames = choice.view.frames;
     auto sink =
         make_frame_sink(choice.output, {.size = choice.view.size,
@@ -144,7 +145,7 @@ Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scen
     if (auto finished = (*sink)->finish(); !finished) {
         return finished;
     }
-    raised.tell_of(choice);
+    raised.log_to(log, choice);
     if (choice.stats) {
         fmt::print("{}", maker.stats());
     }
@@ -189,7 +190,7 @@ std::vector<cli::NamedFile> inputs_of(const RenderChoice& choice,
         {"the terrain's heights", description.heights},
         {"--textures", choice.terrain.textures.value_or("")},
         {"the gallery's textures", description.gallery_textures},
-        {"--detail", choice.view.detail.value_or(cli::DetailChoice{}).textures},
+        {"--detail", choice.view.detail.value_or(session::DetailChoice{}).textures},
         {"the tile of detail", description.detail.value_or(io::DetailDescription{}).textures},
         {"--path", choice.view.path}};
     for (const std::filesystem::path& image : description.imagery) {
@@ -248,9 +249,20 @@ Result<void> write_hit_file(const RenderChoice& choice, const session::TerrainSc
     return io::write_hits(choice.hits, *hits);
 }
 
+Result<std::optional<scene::FlyPath>> path_of(const session::TerrainScene& scene,
+                                              const RenderChoice& choice, session::Log& log) {
+    using Path = std::optional<scene::FlyPath>;
+    if (choice.view.path.empty()) {
+        return Path();
+    }
+    auto path = session::open_path(scene, choice.view.path, log);
+    return path ? Result<Path>(Path(std::move(*path))) : path.error();
+}
+
 Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& scene,
-                          session::FrameMaker& maker, const cli::Interrupt& interrupt) {
-    const auto path = session::open_path(scene, choice.view, choice.terrain);
+                          session::FrameMaker& maker, session::Log& log,
+                          const cli::Interrupt& interrupt) {
+    const auto path = path_of(scene, choice, log);
     if (!path) {
         return path.error();
     }
@@ -263,59 +275,46 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         }
     }
     return choice.output.empty() ? Result<void>()
-                                 : draw_frames(choice, scene, maker, *path, interrupt);
+                                 : draw_frames(choice, scene, maker, *path, log, interrupt);
 }
 
 Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {
     if (auto good = check_targets(choice); !good) {
         return good;
     }
-    auto maker = make_frame_maker(choice);
+    cli::ConsoleLog log(choice.terrain.quiet);
+    auto maker = make_frame_maker(choice, log);
     if (!maker) {
         return maker.error();
     }
-    cli::TerrainChoice terrain = choice.terrain;
-    terrain.streamed = !choice.truth && cli::may_stream(choice.view);
-    terrain.pictures_streamed = terrain.streamed && cli::may_stream_pictures(choice.view);
-    auto source = session::open_terrain(terrain, interrupt.token());
-    if (!source) {
-        return source.error();
+    auto description = session::describe(choice.terrain.terrain);
+    if (!description) {
+        return description.error();
     }
-    if (choice.truth && source->description.generator == "gallery") {
-        cli::refuse(
+    if (choice.truth && description->generator == "gallery") {
+        return usage_error(
             fmt::format("--truth: {} found, whose models the exact picture does not know; a "
                         "terrain was expected, or --technique exact",
                         choice.terrain.terrain));
     }
-    const auto inputs = inputs_of(choice, source->description);
+    const auto inputs = inputs_of(choice, *description);
     cli::expect_apart(outputs_of(choice, inputs), inputs);
-    if (auto ready = session::prepare_technique(*source, cli::technique_of(choice.view),
-                                                choice.terrain, interrupt.token());
-        !ready) {
-        return ready;
-    }
-    const std::size_t faults = source->terrain.faults.size();
+    session::SourceOptions terrain = choice.terrain;
+    terrain.streamed = !choice.truth && session::may_stream(choice.view);
+    terrain.pictures_streamed = terrain.streamed && session::may_stream_pictures(choice.view);
+    session::SceneOptions view = choice.view;
+    view.bounds_error = !choice.truth;
     auto scene =
-        session::make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
+        session::open_scene(std::move(*description), terrain, view, log, interrupt.token());
     if (!scene) {
         return scene.error();
     }
-    if (const auto note = session::missing_geoid(*scene, choice.terrain);
-        note && !choice.terrain.quiet) {
-        cli::tell(fmt::format("reljef: note: {}\n", *note));
-    }
-    if (auto ready = choice.truth
-                         ? Result<void>()
-                         : session::prepare_bisection(*scene, choice.terrain, interrupt.token());
-        !ready) {
-        return ready;
-    }
-    if (auto drawn = draw_outputs(choice, *scene, **maker, interrupt); !drawn) {
+    if (auto drawn = draw_outputs(choice, *scene, **maker, log, interrupt); !drawn) {
         return drawn;
     }
-    session::tell_stream_faults(scene->scene, choice.terrain.quiet);
+    session::log_stream_faults(scene->scene, log);
     return session::report_faults(choice.terrain.terrain,
-                                  faults + session::faulty_files(scene->scene));
+                                  scene->faulty_files + session::faulty_files(scene->scene));
 }
 
 } // namespace

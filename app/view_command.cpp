@@ -1,16 +1,18 @@
 #include <chrono>
+#include <iterator>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/console_log.h"
 #include "app/cli/message.h"
 #include "app/cli/options.h"
 #include "app/commands.h"
 #include "app/viewer/viewer.h"
 #include "engine/io/image/image.h"
 #include "engine/platform/window.h"
-#include "engine/render/driver.h"
 #include "engine/session/device.h"
+#include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 
@@ -38,10 +40,11 @@ double seconds_since(Clock::time_point start) {
 // The loop between the window, what the viewer decides, and the driver.
 class WindowLoop {
 public:
-    WindowLoop(platform::Window& window, render::Driver& driver, session::TerrainScene& scene,
-               Viewer& viewer, const ViewerChoice& choice)
-        : window_(window), driver_(driver), scene_(scene), viewer_(viewer),
-          frames_(choice.frames_given ? choice.view.frames : 0), quiet_(choice.terrain.quiet) {}
+    WindowLoop(platform::Window& window, session::SceneRenderer& renderer,
+               session::TerrainScene& scene, Viewer& viewer, session::Log& log,
+               const ViewerChoice& choice)
+        : window_(window), renderer_(renderer), scene_(scene), viewer_(viewer), log_(log),
+          frames_(choice.frames_given ? choice.view.frames : 0) {}
 
     Result<void> run(const cli::Interrupt& interrupt) {
         auto before = Clock::now();
@@ -49,15 +52,14 @@ public:
             receive(window_.wait_events(pause()));
             viewer_.advance(seconds_since(std::exchange(before, Clock::now())));
             has_drawn_ = false;
-            const bool has_new_tiles = session::take_new_tiles(scene_.scene);
+            const bool has_new_tiles = session::take_arrivals(scene_.scene);
             if (viewer_.take_redraw() || frames_ > 0 || has_new_tiles) {
-                ask_ahead();
                 if (auto drawn = draw(); !drawn) {
                     return drawn;
                 }
             }
-            session::tell_stream_faults(scene_.scene, quiet_);
-            tell_raised_path();
+            session::log_stream_faults(scene_.scene, log_);
+            log_raised_path();
             serve_requests();
             show_title();
         }
@@ -77,12 +79,17 @@ private:
         return has_drawn_ || drawn_ == 0 ? std::chrono::milliseconds(0) : stuck;
     }
 
-    // The picture does not wait for them: it shows what is there.
-    void ask_ahead() {
-        std::vector<scene::Camera> views{scene_.scene.camera()};
-        const std::vector<scene::Camera> upcoming = viewer_.upcoming();
-        views.insert(views.end(), upcoming.begin(), upcoming.end());
-        session::ask_for_tiles(scene_.scene, views, driver_.size());
+    // Selects the view and requests its tiles and those of the next seconds. The picture does not
+    // wait for them: it shows what is there.
+    void select() {
+        std::vector<view::TileRequests> requests = renderer_.select(scene_.scene).requests;
+        if (!requests.empty()) {
+            for (const scene::Camera& camera : viewer_.upcoming()) {
+                auto ahead = view::tile_requests(scene_.scene, camera, renderer_.size());
+                std::move(ahead.begin(), ahead.end(), std::back_inserter(requests));
+            }
+            session::request_tiles(requests);
+        }
     }
 
     void receive(const std::vector<Event>& events) {
@@ -98,11 +105,9 @@ private:
     }
 
     // Once, when it happens first.
-    void tell_raised_path() {
-        if (viewer_.path_raised() > 0.0 && !std::exchange(raise_told_, true) && !quiet_) {
-            cli::tell(
-                "reljef: note: the path leads under the ground or too close to it: it is raised "
-                "there\n");
+    void log_raised_path() {
+        if (viewer_.path_raised() > 0.0 && !std::exchange(raise_logged_, true)) {
+            log_.note("the path leads under the ground or too close to it: it is raised there");
         }
     }
 
@@ -119,7 +124,7 @@ private:
     // A folder that cannot be written is no reason to end the flight.
     void save_picture() {
         const auto file = next_screenshot(".");
-        if (const auto written = io::write_image(file, driver_.read_color()); !written) {
+        if (const auto written = io::write_image(file, renderer_.read_color()); !written) {
             cli::tell(fmt::format("reljef: {}\n", written.error().message));
             return;
         }
@@ -131,17 +136,18 @@ private:
         if (size.x == 0 || size.y == 0) {
             return {}; // minimized
         }
-        if (size != driver_.size()) {
-            if (auto resized = driver_.resize(size); !resized) {
+        if (size != renderer_.size()) {
+            if (auto resized = renderer_.resize(size); !resized) {
                 return resized;
             }
         }
         const auto start = Clock::now();
-        const auto stats = driver_.draw(scene_.scene, true);
+        select();
+        const auto stats = renderer_.draw_selected(true);
         if (!stats) {
             return stats.error();
         }
-        driver_.show_in_window(size);
+        renderer_.show_in_window(size);
         timing_.last_ms = 1000.0 * seconds_since(start);
         window_.swap_buffers();
         stats_ = *stats;
@@ -169,11 +175,11 @@ private:
     }
 
     platform::Window& window_;
-    render::Driver& driver_;
+    session::SceneRenderer& renderer_;
     session::TerrainScene& scene_;
     Viewer& viewer_;
+    session::Log& log_;
     int frames_; // to draw, moving or not, before the window closes; 0: until the user ends it
-    bool quiet_;
     view::FrameStats stats_;
     FrameTiming timing_;
     std::string title_;
@@ -182,21 +188,8 @@ private:
     int drawn_since_title_ = 0;
     bool has_drawn_ = false; // in this turn of the loop
     bool mouse_captured_ = false;
-    bool raise_told_ = false;
+    bool raise_logged_ = false;
 };
-
-// The path that was named, or the flight over the terrain.
-Result<scene::FlyPath> path_or_flyover(const session::TerrainScene& scene, cli::ViewChoice view,
-                                       const cli::TerrainChoice& terrain) {
-    if (view.path.empty()) {
-        view.path = "flyover";
-    }
-    auto path = session::open_path(scene, view, terrain);
-    if (!path) {
-        return path.error();
-    }
-    return std::move(**path);
-}
 
 Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice) {
     session::limit_software_threads(choice.terrain.threads);
@@ -211,40 +204,30 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
-    cli::TerrainChoice terrain = choice.terrain;
-    terrain.streamed = cli::may_stream(choice.view);
-    terrain.pictures_streamed = cli::may_stream_pictures(choice.view);
-    auto source = session::open_terrain(terrain, interrupt.token());
-    if (!source) {
-        return source.error();
-    }
-    if (auto ready = session::prepare_technique(*source, cli::technique_of(choice.view),
-                                                choice.terrain, interrupt.token());
-        !ready) {
-        return ready;
+    cli::ConsoleLog log(choice.terrain.quiet);
+    session::SourceOptions terrain = choice.terrain;
+    terrain.streamed = session::may_stream(choice.view);
+    terrain.pictures_streamed = session::may_stream_pictures(choice.view);
+    auto description = session::describe(choice.terrain.terrain);
+    if (!description) {
+        return description.error();
     }
     auto scene =
-        session::make_scene(std::move(*source), choice.terrain, choice.view, interrupt.token());
+        session::open_scene(std::move(*description), terrain, choice.view, log, interrupt.token());
     if (!scene) {
         return scene.error();
     }
-    if (const auto note = session::missing_geoid(*scene, choice.terrain);
-        note && !choice.terrain.quiet) {
-        cli::tell(fmt::format("reljef: note: {}\n", *note));
-    }
-    if (auto ready = session::prepare_bisection(*scene, choice.terrain, interrupt.token());
-        !ready) {
-        return ready;
-    }
-    auto path = path_or_flyover(*scene, choice.view, choice.terrain);
+    auto path =
+        session::open_path(*scene, choice.view.path.empty() ? "flyover" : choice.view.path, log);
     if (!path) {
         return path.error();
     }
-    auto driver = render::Driver::create({.size = (*window)->framebuffer_size(),
-                                          .shader_dir = choice.view.shader_dir,
-                                          .software = (*window)->context().is_software()});
-    if (!driver) {
-        return driver.error();
+    auto renderer = session::SceneRenderer::create(
+        {.driver = {.size = (*window)->framebuffer_size(),
+                    .shader_dir = choice.view.shader_dir,
+                    .software = (*window)->context().is_software()}});
+    if (!renderer) {
+        return renderer.error();
     }
     if (!choice.terrain.quiet) {
         fmt::print("{}", Viewer::keys());
@@ -254,7 +237,7 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }
-    return WindowLoop(**window, *driver, *scene, viewer, choice).run(interrupt);
+    return WindowLoop(**window, *renderer, *scene, viewer, log, choice).run(interrupt);
 }
 
 void expect_window(const cli::ViewChoice& view) {

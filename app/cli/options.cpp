@@ -32,7 +32,7 @@ Result<glm::dvec3> parse_point(std::string_view option, std::string_view text) {
     return point;
 }
 
-Result<GeodeticView> parse_geodetic_view(const std::string& text) {
+Result<session::GeodeticView> parse_geodetic_view(const std::string& text) {
     constexpr const char* expected = "LAT,LON,HEIGHT,HEADING,PITCH in degrees and metres";
     const auto numbers = parse_numbers<5>("--camera", text, expected);
     if (!numbers) {
@@ -48,7 +48,7 @@ Result<GeodeticView> parse_geodetic_view(const std::string& text) {
         return Error{fmt::format("--camera: height {} found, at most {} metres were expected",
                                  height, world_reach)};
     }
-    return GeodeticView{latitude, longitude, height, heading, pitch};
+    return session::GeodeticView{latitude, longitude, height, heading, pitch};
 }
 
 Result<glm::dvec2> parse_sun(const std::string& text) {
@@ -92,7 +92,7 @@ Result<scene::Technique> parse_detail_technique(const std::string& text) {
 }
 
 // One of the numbers behind a tile's name.
-Result<void> set_detail_number(DetailChoice& choice, const std::string& assignment) {
+Result<void> set_detail_number(session::DetailChoice& choice, const std::string& assignment) {
     const auto equals = assignment.find('=');
     const std::string key = assignment.substr(0, equals);
     const std::string text =
@@ -234,11 +234,11 @@ Result<scene::Pose> parse_pose(std::string_view text) {
     return *pose;
 }
 
-Result<DetailChoice> parse_detail(const std::string& text) {
+Result<session::DetailChoice> parse_detail(const std::string& text) {
     const auto colon = text.rfind(':');
     const bool has_numbers =
         colon != std::string::npos && text.find('=', colon) != std::string::npos;
-    DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
+    session::DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
     if (choice.textures.empty() || choice.textures.back() == ':') {
         return Error{fmt::format(
             "--detail: '{}' found, a tile's name or folder, then :width=W,scale=S was expected",
@@ -351,24 +351,6 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
             "how far sea level lies above the ellipsoid: a file (.gtx, .tif, .pgm), or none "
             "(the installed EGM96, for heights above EGM96)")
         ->type_name("FILE");
-}
-
-scene::Technique technique_of(const ViewChoice& choice) {
-    const scene::Technique technique =
-        choice.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
-    return choice.max_error ? scene::with_parameter(technique, "error", *choice.max_error)
-                            : technique;
-}
-
-bool may_stream(const ViewChoice& choice) {
-    return scene::draws_tiles(technique_of(choice));
-}
-
-bool may_stream_pictures(const ViewChoice& choice) {
-    const scene::Technique technique = technique_of(choice);
-    const bool promised =
-        technique.id == scene::TechniqueId::polygons && scene::parameter(technique, "error") > 0.0;
-    return may_stream(choice) && !promised;
 }
 
 void check_view_options(const ViewChoice& choice) {

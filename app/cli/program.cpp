@@ -95,16 +95,19 @@ int fail_to_print(const Program& program) {
                                                       std::strerror(errno)));
 }
 
+int misuse(const Program& program, std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    tell(fmt::format("{}: {} (see --help)\n", program.name, printable(message)));
+    return misused;
+}
+
 // One line for whatever is wrong with the arguments; help and version are no mistakes.
 int explain(const Program& program, const CLI::App& parser, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
         parser.exit(error);
         return std::cout.flush() ? done : fail_to_print(program);
     }
-    std::string message = error.what();
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    tell(fmt::format("{}: {} (see --help)\n", program.name, printable(message)));
-    return misused;
+    return misuse(program, error.what());
 }
 
 int run_command(const Program& program, const Command& command, const Interrupt& interrupt) {
@@ -116,6 +119,9 @@ int run_command(const Program& program, const Command& command, const Interrupt&
         return done;
     }
     const std::string& message = result.error().message;
+    if (result.error().kind == Error::Kind::usage) {
+        return misuse(program, message);
+    }
     const bool is_told = message.starts_with("interrupted");
     return fail(program, interrupt.requested() && !is_told ? "interrupted" : message);
 }

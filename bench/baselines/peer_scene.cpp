@@ -6,16 +6,17 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/console_log.h"
 #include "engine/session/terrain_source.h"
 
 namespace reljef::bench {
 
 Result<PeerScene> open_peer_scene(const PeerSceneOptions& options, const std::stop_token& stop) {
-    cli::TerrainChoice choice;
+    session::SourceOptions choice;
     choice.terrain = options.terrain;
     choice.threads = options.threads;
-    choice.quiet = options.quiet;
-    const auto source = session::open_terrain(choice, stop);
+    cli::ConsoleLog log(options.quiet);
+    const auto source = session::open_terrain(choice, log, stop);
     if (!source) {
         return source.error();
     }

@@ -212,8 +212,8 @@ private:
         device.context = options_.suite.context.value_or(platform::ContextKind::glfw);
         device.context_options.size = options_.suite.size;
         device.context_options.visible = false;
-        device.driver.size = options_.suite.size;
-        device.driver.shader_dir = options_.suite.shader_dir;
+        device.renderer.driver.size = options_.suite.size;
+        device.renderer.driver.shader_dir = options_.suite.shader_dir;
         auto opened = session::Device::create(device);
         if (!opened) {
             return opened.error();
@@ -229,7 +229,7 @@ private:
             return scene_->scene.height_at(x, y).value_or(0.0);
         });
         set_technique("polygons:error=1");
-        const auto shown = device_->driver().draw_hits(scene_->scene);
+        const auto shown = device_->renderer().draw_hits(scene_->scene);
         if (!shown) {
             return shown.error();
         }
@@ -288,7 +288,7 @@ private:
         entry.set_up = [] { return Result<void>(); };
         entry.draw = [this, technique](PeerRow& row) -> Result<double> {
             set_technique(technique);
-            const auto stats = device_->driver().draw(scene_->scene, true);
+            const auto stats = device_->renderer().draw(scene_->scene, true);
             if (!stats) {
                 return stats.error();
             }
@@ -297,7 +297,7 @@ private:
         };
         entry.hits = [this, technique] {
             set_technique(technique);
-            return device_->driver().draw_hits(scene_->scene);
+            return device_->renderer().draw_hits(scene_->scene);
         };
         return entry;
     }

@@ -15,7 +15,7 @@ struct ShownFrame {
     Image image;
 };
 
-Result<ShownFrame> draw_shown(const scene::Scene& scene, render::Driver& driver) {
+Result<ShownFrame> draw_shown(const scene::Scene& scene, session::SceneRenderer& driver) {
     const auto stats = driver.draw(scene);
     if (!stats) {
         return stats.error();
@@ -53,8 +53,8 @@ RowError row_error_of(const truth::GeometricErrors& geometric, const truth::Imag
 
 } // namespace
 
-Result<Judgement> judge(Stage& stage, const scene::Technique& technique, render::Driver& driver,
-                        const JudgeOptions& options) {
+Result<Judgement> judge(Stage& stage, const scene::Technique& technique,
+                        session::SceneRenderer& driver, const JudgeOptions& options) {
     stage.set_technique(technique);
     auto shown = draw_shown(stage.scene(), driver);
     if (!shown) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/console_log.h"
 #include "bench/runner/gallery_tiles.h"
 #include "engine/io/formats/scene_file.h"
 
@@ -12,10 +13,10 @@ namespace reljef::bench {
 namespace {
 
 Result<session::TerrainSource> open_source(const StageChoice& choice,
-                                           const cli::TerrainChoice& terrain,
-                                           const std::stop_token& stop) {
+                                           const session::SourceOptions& terrain,
+                                           session::Log& log, const std::stop_token& stop) {
     if (choice.size == 0) {
-        return session::open_terrain(terrain, stop);
+        return session::open_terrain(terrain, log, stop);
     }
     io::SceneDescription description;
     description.name =
@@ -23,7 +24,7 @@ Result<session::TerrainSource> open_source(const StageChoice& choice,
     description.generator = choice.terrain;
     description.size = choice.size;
     description.tileable = choice.tileable;
-    return session::open_terrain(std::move(description), terrain, stop);
+    return session::open_terrain(std::move(description), terrain, log, stop);
 }
 
 bool shows_gallery(const std::string& terrain) {
@@ -78,20 +79,19 @@ Result<Stage> Stage::open(const StageChoice& choice, const StageOptions& options
                                  "--terrain gallery",
                                  choice.terrain)};
     }
-    cli::TerrainChoice terrain;
+    session::SourceOptions terrain;
     terrain.terrain = choice.terrain;
     terrain.threads = options.threads;
-    terrain.quiet = options.quiet;
+    cli::ConsoleLog log(options.quiet);
     terrain.placement = terrain::PlacementKind::plane; // one surface that all techniques draw
-    auto source = open_source(choice, terrain, stop);
+    auto source = open_source(choice, terrain, log, stop);
     if (!source) {
         return source.error();
     }
-    cli::ViewChoice view;
-    view.size = options.size;
+    session::SceneOptions view;
     view.pose = scene::Pose::overview;
     std::string name = source->description.name;
-    auto scene = session::make_scene(std::move(*source), terrain, view);
+    auto scene = session::make_scene(std::move(*source), terrain, view, log);
     if (!scene) {
         return scene.error();
     }

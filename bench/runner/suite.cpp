@@ -100,7 +100,7 @@ std::vector<Entry> ended_by_null_row(std::vector<Entry> entries) {
     return entries;
 }
 
-DrawFrame frame_of(Entry& entry, Stage& stage, render::Driver& driver) {
+DrawFrame frame_of(Entry& entry, Stage& stage, session::SceneRenderer& driver) {
     return [&]() -> Result<void> {
         stage.set_technique(*entry.technique);
         auto stats = driver.draw(stage.scene(), true);
@@ -203,7 +203,7 @@ public:
         SuiteProgress progress(suite_.name, suite_.groups.size(), options_);
         for (std::size_t i = 0; i < suite_.groups.size() && !stop_.stop_requested(); ++i) {
             progress.begin_group(i);
-            if (auto done = run_group(i, device->driver(), progress); !done) {
+            if (auto done = run_group(i, device->renderer(), progress); !done) {
                 return done;
             }
         }
@@ -236,7 +236,8 @@ private:
         return {};
     }
 
-    Result<void> run_group(std::size_t index, render::Driver& driver, SuiteProgress& progress) {
+    Result<void> run_group(std::size_t index, session::SceneRenderer& driver,
+                           SuiteProgress& progress) {
         const Group& group = suite_.groups[index];
         const std::size_t left = suite_.groups.size() - index;
         const double seconds = group_seconds(options_, seconds_since(begin_), left);
@@ -268,7 +269,7 @@ private:
     // Those there is time for in `seconds`, where any may be left out, but texture at any rate, and
     // its null row; where the run is stopped, those that are judged by then.
     Result<std::vector<Entry>> judge_all(std::vector<Entry> entries, double seconds, Stage& stage,
-                                         render::Driver& driver, SuiteProgress& progress) {
+                                         session::SceneRenderer& driver, SuiteProgress& progress) {
         std::vector<Entry> kept;
         GroupCost cost;
         const std::size_t count = entries.size();
@@ -297,7 +298,7 @@ private:
 
     // What the group has cost then. Missing techniques cost nothing.
     Result<GroupCost> judge_one(Entry& entry, const GroupCost& cost, Stage& stage,
-                                render::Driver& driver) {
+                                session::SceneRenderer& driver) {
         if (!entry.technique) {
             return cost;
         }
@@ -342,7 +343,7 @@ private:
         return {};
     }
 
-    Result<void> time_all(std::vector<Entry> entries, Stage& stage, render::Driver& driver,
+    Result<void> time_all(std::vector<Entry> entries, Stage& stage, session::SceneRenderer& driver,
                           MeasureOptions timing) {
         std::vector<DrawFrame> frames;
         std::size_t twice = 0; // of the frames

@@ -8,9 +8,9 @@ Result<session::Device> make_device(const SuiteOptions& options) {
     device.context = options.context;
     device.context_options.size = options.size;
     device.context_options.visible = false;
-    device.driver.size = options.size;
-    device.driver.shader_dir = options.shader_dir;
-    device.driver.selects_always = true;
+    device.renderer.driver.size = options.size;
+    device.renderer.driver.shader_dir = options.shader_dir;
+    device.renderer.selects_always = true;
     return session::Device::create(device);
 }
 

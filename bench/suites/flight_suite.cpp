@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "app/cli/process_memory.h"
+#include "app/cli/console_log.h"
 #include "app/cli/progress_line.h"
+#include "engine/core/process_memory.h"
 #include "engine/scene/motion/animators.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
@@ -18,32 +19,32 @@ double flown_since(FlightClock::time_point start) {
     return std::chrono::duration<double>(FlightClock::now() - start).count();
 }
 
-Result<session::DeviceFrames> flight_device(const FlightOptions& options) {
+Result<session::DeviceFrames> flight_device(const FlightOptions& options, session::Log& log) {
     session::DeviceOptions device;
     device.threads = options.terrain.threads;
     device.context = options.view.context;
     device.context_options.size = options.view.size;
     device.context_options.visible = false;
-    device.driver.size = options.view.size;
-    device.driver.shader_dir = options.view.shader_dir;
+    device.renderer.driver.size = options.view.size;
+    device.renderer.driver.shader_dir = options.view.shader_dir;
     auto made = session::Device::create(device);
     return made ? Result<session::DeviceFrames>(
-                      session::DeviceFrames(std::move(*made), {true, options.terrain.quiet}))
+                      session::DeviceFrames(std::move(*made), log, {.timed = true}))
                 : made.error();
 }
 
-Result<session::TerrainScene> flight_scene(const FlightOptions& options,
+Result<session::TerrainScene> flight_scene(const FlightOptions& options, session::Log& log,
                                            const std::stop_token& stop) {
-    cli::TerrainChoice terrain = options.terrain;
-    terrain.streamed = cli::may_stream(options.view);
-    terrain.pictures_streamed = cli::may_stream_pictures(options.view);
-    auto source = session::open_terrain(terrain, stop);
-    return source ? session::make_scene(std::move(*source), terrain, options.view, stop)
+    session::SourceOptions terrain = options.terrain;
+    terrain.streamed = session::may_stream(options.view);
+    terrain.pictures_streamed = session::may_stream_pictures(options.view);
+    auto source = session::open_terrain(terrain, log, stop);
+    return source ? session::make_scene(std::move(*source), terrain, options.view, log, stop)
                   : source.error();
 }
 
 Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
-                 session::DeviceFrames& frames, FlightClock::time_point start,
+                 session::DeviceFrames& frames, session::Log& log, FlightClock::time_point start,
                  FlightResults& results, const std::stop_token& stop) {
     const int count = results.options.view.frames;
     cli::ProgressLine line("flying", results.options.terrain.quiet);
@@ -54,8 +55,8 @@ Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
         if (const auto drawn = frames.draw(scene.scene, parallel); !drawn) {
             return drawn.error();
         }
-        results.most_memory = std::max(results.most_memory, cli::process_memory().now);
-        session::tell_stream_faults(scene.scene, results.options.terrain.quiet);
+        results.most_memory = std::max(results.most_memory, process_memory().now);
+        session::log_stream_faults(scene.scene, log);
         if (index == 0) {
             results.seconds_to_first_frame = flown_since(start);
         }
@@ -70,30 +71,31 @@ Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
 } // namespace
 
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop) {
-    auto frames = flight_device(options);
+    cli::ConsoleLog log(options.terrain.quiet);
+    auto frames = flight_device(options, log);
     if (!frames) {
         return frames.error();
     }
     const auto start = FlightClock::now();
-    auto scene = flight_scene(options, stop);
+    auto scene = flight_scene(options, log, stop);
     if (!scene) {
         return scene.error();
     }
-    const auto path = session::open_path(*scene, options.view, options.terrain);
+    const auto path = session::open_path(*scene, options.view.path, log);
     if (!path) {
         return path.error();
     }
     FlightResults results;
     results.options = options;
     results.environment = environment_of(frames->context(), options.terrain.threads);
-    if (auto flown = fly(*scene, **path, *frames, start, results, stop); !flown) {
+    if (auto flown = fly(*scene, *path, *frames, log, start, results, stop); !flown) {
         return flown.error();
     }
     results.seconds = flown_since(start);
     results.times = frames->times();
     results.faulty_files = session::faulty_files(scene->scene);
     results.most_memory =
-        std::max({results.most_memory, cli::process_memory().most, results.times.memory_before});
+        std::max({results.most_memory, process_memory().most, results.times.memory_before});
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
     if (stream != nullptr) {
         results.stream = stream->stats();

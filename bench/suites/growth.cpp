@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include "bench/suites/growth_ground.h"
+#include "app/cli/console_log.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/device.h"
 #include "engine/session/scene_setup.h"
@@ -69,22 +70,21 @@ struct GrowthStage {
 
 Result<session::TerrainScene> open_ground(const fs::path& path, const GrowthOptions& options,
                                           const std::stop_token& stop) {
-    cli::TerrainChoice terrain;
+    session::SourceOptions terrain;
     terrain.terrain = path.string();
     terrain.threads = options.suite.threads;
-    terrain.quiet = true;
     terrain.memory_megabytes = options.memory_megabytes;
     terrain.placement = terrain::PlacementKind::plane;
     terrain.streamed = true;
-    auto source = session::open_terrain(terrain, stop);
+    session::Log silent;
+    auto source = session::open_terrain(terrain, silent, stop);
     if (!source) {
         return source.error();
     }
-    cli::ViewChoice view;
-    view.size = options.suite.size;
+    session::SceneOptions view;
     view.pose = growth_poses.front();
     view.max_error = options.error;
-    return session::make_scene(std::move(*source), terrain, view, stop);
+    return session::make_scene(std::move(*source), terrain, view, silent, stop);
 }
 
 Result<GrowthStage> open_stage(const fs::path& path, const GrowthOptions& options,
@@ -95,9 +95,9 @@ Result<GrowthStage> open_stage(const fs::path& path, const GrowthOptions& option
     choice.context = options.suite.context;
     choice.context_options.size = options.suite.size;
     choice.context_options.visible = false;
-    choice.driver.size = options.suite.size;
-    choice.driver.shader_dir = options.suite.shader_dir;
-    choice.driver.selects_always = true;
+    choice.renderer.driver.size = options.suite.size;
+    choice.renderer.driver.shader_dir = options.suite.shader_dir;
+    choice.renderer.selects_always = true;
     auto device = session::Device::create(choice);
     if (!device) {
         return device.error();
@@ -230,16 +230,16 @@ private:
         const GrowthWatch& watch = row.pose == growth_poses.front() ? stage.watch : since_pose;
         set_pose(stage.scene, row.pose);
         const scene::Scene& scene = stage.scene.scene;
-        render::Driver& driver = stage.device.driver();
+        session::SceneRenderer& renderer = stage.device.renderer();
         row.streamed = stage.scene.terrain->get<scene::TerrainNode>()->stream != nullptr;
-        const std::array views{scene.camera()};
-        session::ask_for_tiles(scene, views, options_.suite.size);
-        if (auto drawn = driver.draw(scene, true); !drawn) {
+        session::request_tiles(renderer.select(scene).requests);
+        if (auto drawn = renderer.draw_selected(true); !drawn) {
             return drawn.error();
         }
         row.first_picture = watch.seconds();
-        session::bring_tiles(scene, options_.suite.size, stop_, options_.suite.quiet);
-        if (auto drawn = driver.draw(scene, true); !drawn) {
+        cli::ConsoleLog log(options_.suite.quiet);
+        session::wait_for_tiles(scene, renderer, log, stop_);
+        if (auto drawn = renderer.draw_selected(true); !drawn) {
             return drawn.error();
         }
         row.last_picture = watch.seconds();
@@ -249,7 +249,7 @@ private:
     Result<void> measure(GrowthStage& stage, GrowthRow& row) const {
         std::vector<double> ms;
         for (int i = 0; i < growth_warm_up + growth_frames && !stop_.stop_requested(); ++i) {
-            const auto stats = stage.device.driver().draw(stage.scene.scene, true);
+            const auto stats = stage.device.renderer().draw(stage.scene.scene, true);
             if (!stats) {
                 return stats.error();
             }
@@ -265,7 +265,7 @@ private:
         row.frames = ms.size();
         row.ms = summarize(ms);
         row.memory_bytes = most_memory();
-        const auto hits = stage.device.driver().draw_hits(stage.scene.scene);
+        const auto hits = stage.device.renderer().draw_hits(stage.scene.scene);
         if (!hits) {
             return hits.error();
         }

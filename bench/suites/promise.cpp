@@ -144,7 +144,7 @@ public:
         }
         results_.environment = environment_of(device->context(), options_.suite.threads);
         for (std::size_t i = 0; i < options_.terrains.size() && !stop_.stop_requested(); ++i) {
-            if (auto done = run_terrain(i, device->driver()); !done) {
+            if (auto done = run_terrain(i, device->renderer()); !done) {
                 return done;
             }
         }
@@ -154,7 +154,7 @@ public:
     PromiseResults take() { return std::move(results_); }
 
 private:
-    Result<void> run_terrain(std::size_t index, render::Driver& driver) {
+    Result<void> run_terrain(std::size_t index, session::SceneRenderer& driver) {
         const SuiteOptions& suite = options_.suite;
         auto stage = Stage::open({.terrain = options_.terrains[index]},
                                  {suite.size, suite.threads, suite.quiet}, stop_);
@@ -206,7 +206,7 @@ private:
         return {stage, options_.suite.size, error, static_cast<unsigned>(options_.suite.threads)};
     }
 
-    Result<void> run_random(Stage& stage, int poses, render::Driver& driver) {
+    Result<void> run_random(Stage& stage, int poses, session::SceneRenderer& driver) {
         PromiseRow row = row_of(stage, "random", options_.error);
         const Judge judge = judge_of(stage, options_.error);
         const scene::TerrainSurface& surface = *stage.terrain().get<scene::TerrainNode>()->surface;
@@ -222,7 +222,7 @@ private:
     }
 
     Result<void> run_flight(Stage& stage, const Flight& flight, double error,
-                            render::Driver& driver) {
+                            session::SceneRenderer& driver) {
         if (auto done = ask_for(stage, error); !done) {
             return done;
         }
@@ -253,7 +253,7 @@ private:
     }
 
     Result<void> judge_frame(const Stage& stage, const PixelLattice& lattice, const Judge& judge,
-                             render::Driver& driver, PromiseRow& row) {
+                             session::SceneRenderer& driver, PromiseRow& row) {
         auto hits = driver.draw_hits(stage.scene());
         if (!hits) {
             return hits.error();

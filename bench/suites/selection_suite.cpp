@@ -10,7 +10,7 @@
 
 #include "app/cli/progress_line.h"
 #include "engine/core/atomic_file.h"
-#include "engine/view/draw_list.h"
+#include "engine/view/select.h"
 #include "terrains/generators.h"
 
 namespace reljef::bench {
@@ -72,7 +72,7 @@ SelectionRow measure(ManyTiles& made, const SelectionView& view, const Selection
     std::vector<double> ms;
     for (int round = 0; round < options.rounds; ++round) {
         const auto begin = Clock::now();
-        const view::DrawList list = view::select(seen);
+        const view::DrawList list = view::select(seen, {.occlusion = false}).list;
         ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
         row.seen = list.tiles.size();
         row.tiles = row.seen + static_cast<std::size_t>(list.stats.skipped.tiles_outside_frustum);

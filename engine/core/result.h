@@ -12,8 +12,17 @@ namespace reljef {
 /// Why something could not be done: one sentence that names the file or option, what was found and
 /// what was expected.
 struct Error {
+    /// Whose mistake it is: a file, the machine or an interruption; or the caller, whose options are
+    /// unknown or contradict each other or what they are used on.
+    enum class Kind { failure, usage };
+
     std::string message;
+    Kind kind = Kind::failure;
 };
+
+inline Error usage_error(std::string message) {
+    return {std::move(message), Error::Kind::usage};
+}
 
 /// A value or the sentence that says why there is none. Nothing throws across rooms.
 template <class T> class [[nodiscard]] Result {

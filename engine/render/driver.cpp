@@ -11,7 +11,6 @@
 #include "engine/render/passes/terrain_painter.h"
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/technique_support.h"
-#include "engine/view/occlusion.h"
 
 #include <glad/gl.h>
 
@@ -58,9 +57,9 @@ Result<void> Driver::resize(glm::ivec2 size) {
     return {};
 }
 
-Result<view::FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
+Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     const auto start = Clock::now();
-    const view::DrawList& list = list_of(scene);
+    const view::DrawList& list = frame.list;
     view::FrameStats stats = list.stats;
     if (auto done = prepare(list, false, stats); !done) {
         return done.error();
@@ -88,7 +87,7 @@ Result<view::FrameStats> Driver::draw(const scene::Scene& scene, bool wait) {
     return stats;
 }
 
-Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
+Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
     if (hit_target_.size() != size()) {
         auto target = gl::Framebuffer::create({.size = size(), .colors = {gl::Format::rgba32f}});
         if (!target) {
@@ -96,7 +95,7 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
         hit_target_ = std::move(*target);
     }
-    const view::DrawList& list = list_of(scene);
+    const view::DrawList& list = frame.list;
     view::FrameStats stats;
     if (auto done = prepare(list, true, stats); !done) {
         return done.error();
@@ -115,24 +114,6 @@ Result<HitBuffer> Driver::draw_hits(const scene::Scene& scene) {
         }
     }
     return hits;
-}
-
-void Driver::forget_scene() {
-    view_ = {};
-    list_.reset();
-}
-
-const view::DrawList& Driver::list_of(const scene::Scene& scene) {
-    const bool is_new = view_.look(scene, size());
-    if (!is_new && list_ && !options_.selects_always) {
-        list_->stats.skipped.selections_unchanged = 1;
-        return *list_;
-    }
-    list_ = view::select(view_, {.keeps_hidden = !options_.occlusion});
-    if (options_.occlusion) {
-        view::drop_occluded(*list_);
-    }
-    return *list_;
 }
 
 Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameStats& stats) {

@@ -15,8 +15,8 @@
 #include "engine/render/passes/beams.h"
 #include "engine/render/residency/residency.h"
 #include "engine/render/shaders/shader_library.h"
-#include "engine/view/draw_list.h"
 #include "engine/view/frame_stats.h"
+#include "engine/view/select.h"
 
 namespace reljef::render {
 
@@ -24,27 +24,22 @@ struct DriverOptions {
     glm::ivec2 size{1024, 768};       ///< of the picture, pixels
     std::filesystem::path shader_dir; ///< files there come before the built-in shaders
     bool software = true;             ///< the renderer is a CPU: time by a clock, not by queries
-    bool occlusion = true;            ///< tiles behind nearer ground are left out, see occlusion.h
-    bool selects_always = false;      ///< a view that is as it was, too: to measure it
 };
 
-/// Draws scenes with the context that is current, into a framebuffer object of its own with 32-bit
-/// float depth, reversed. Holds what the last scene shows, though the scene be gone, until another
-/// is drawn or forget_scene(). Destroy while its context is current.
+/// Draws selected frames with the current context, into its own framebuffer object with reversed
+/// 32-bit float depth. Keeps what frames show in the GPU's memory as long as their scene lives.
+/// Destroy while its context is current.
 class Driver {
 public:
     /// Fails when the size is outside what the driver can draw.
     static Result<Driver> create(const DriverOptions& options = {});
 
-    /// Draws a frame; fails as check_techniques() and check_support() do. `wait` also waits until
-    /// it is finished and fills FrameStats::gpu_ms.
-    Result<view::FrameStats> draw(const scene::Scene& scene, bool wait = false);
+    /// Draws a frame of size(); fails as check_techniques() and check_support() do. `wait` also
+    /// waits until it is finished and fills FrameStats::gpu_ms.
+    Result<view::FrameStats> draw(const view::FrameView& frame, bool wait = false);
 
-    /// Lets go of the last scene's terrains, before another is read.
-    void forget_scene();
-
-    /// Draws what each pixel of the scene shows instead of its colour.
-    Result<HitBuffer> draw_hits(const scene::Scene& scene);
+    /// Draws what each pixel of the frame shows instead of its colour.
+    Result<HitBuffer> draw_hits(const view::FrameView& frame);
 
     /// The last frame drawn. Waits for it.
     [[nodiscard]] Image read_color() const;
@@ -57,7 +52,6 @@ public:
 private:
     Driver(const DriverOptions& options, gl::Framebuffer target);
 
-    const view::DrawList& list_of(const scene::Scene& scene);
     Result<void> prepare(const view::DrawList& list, bool hits, view::FrameStats& stats);
     Result<void> draw_content(const view::DrawList& list, bool hits, view::FrameStats& stats);
 
@@ -70,8 +64,6 @@ private:
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;
     Residency residency_;
-    view::SceneView view_;               // of the last frame
-    std::optional<view::DrawList> list_; // what it shows
 };
 
 } // namespace reljef::render

@@ -66,16 +66,6 @@ TileStream::~TileStream() {
 std::shared_ptr<const StreamedTile> TileStream::find(terrain::TreeTile tile) const {
     const std::lock_guard lock(mutex_);
     const auto found = tiles_.find(tile);
-    if (found == tiles_.end()) {
-        return nullptr;
-    }
-    found->second.used = view_;
-    return found->second.made.tile;
-}
-
-std::shared_ptr<const StreamedTile> TileStream::peek(terrain::TreeTile tile) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = tiles_.find(tile);
     return found != tiles_.end() ? found->second.made.tile : nullptr;
 }
 
@@ -122,11 +112,17 @@ int TileStream::texels_within(std::size_t memory_budget) {
     return texels;
 }
 
-void TileStream::want(std::span<const terrain::TreeTile> tiles) {
+void TileStream::request(std::span<const terrain::TreeTile> missing,
+                         std::span<const terrain::TreeTile> used) {
     {
         const std::lock_guard lock(mutex_);
         ++view_;
-        std::vector<terrain::TreeTile> asked = asked_for(tiles);
+        for (const terrain::TreeTile tile : used) {
+            if (const auto found = tiles_.find(tile); found != tiles_.end()) {
+                found->second.used = view_;
+            }
+        }
+        std::vector<terrain::TreeTile> asked = asked_for(missing);
         const std::set<terrain::TreeTile> now(asked.begin(), asked.end());
         for (const terrain::TreeTile& tile : wanted_) {
             stats_.cancelled += now.contains(tile) || in_flight_.contains(tile) ? 0 : 1;

@@ -75,10 +75,8 @@ public:
     [[nodiscard]] const TileMaker& maker() const { return maker_; }
     [[nodiscard]] const terrain::TileTree& tree() const { return maker_.tree(); }
 
-    /// A tile that is there, else null. The view has seen it then: others go first.
+    /// A tile that is in memory, else null.
     [[nodiscard]] std::shared_ptr<const StreamedTile> find(terrain::TreeTile tile) const;
-    /// The same, but it counts as seen no more than before.
-    [[nodiscard]] std::shared_ptr<const StreamedTile> peek(terrain::TreeTile tile) const;
     /// What tiles are chosen by, of one that is there or went: that it was not worth its memory
     /// need not be found out by reading it again. Of those that went first nothing is left.
     [[nodiscard]] std::optional<TileSummary> recall(terrain::TreeTile tile) const;
@@ -94,10 +92,12 @@ public:
     /// ImageryDetail::most_texels so that these fit, or 1.
     static int texels_within(std::size_t memory_budget);
 
-    /// Begins a view: what is to be read, the most urgent first. What was wanted before and is not
-    /// any more is cancelled; tiles that are seen and lack some of their picture are asked for too.
-    /// What memory does not hold of views before the last goes.
-    void want(std::span<const terrain::TreeTile> tiles);
+    /// Begins a view. Reads the missing tiles, the most urgent first, and cancels earlier requests
+    /// that are not repeated. The used tiles stay in memory; those that lack a part of their picture
+    /// are read again. Tiles that neither this view nor the one before used go where memory runs
+    /// out.
+    void request(std::span<const terrain::TreeTile> missing,
+                 std::span<const terrain::TreeTile> used = {});
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
     /// was stopped. Only while nobody else wants.
     bool wait(const std::stop_token& stop);
@@ -132,7 +132,7 @@ private:
     };
     struct Entry {
         Made made;
-        mutable std::uint64_t used = 0; // view that looked at it last
+        std::uint64_t used = 0; // view that used it last
     };
     struct TileFailure {
         BackOff latest; // of the files' the one that lasts longest

@@ -19,15 +19,15 @@ Result<Device> Device::create(const DeviceOptions& options) {
     if (!context) {
         return context.error();
     }
-    render::DriverOptions driver_options = options.driver;
-    driver_options.software = (*context)->is_software();
-    auto driver = render::Driver::create(driver_options);
-    if (!driver) {
-        return driver.error();
+    SceneRendererOptions renderer_options = options.renderer;
+    renderer_options.driver.software = (*context)->is_software();
+    auto renderer = SceneRenderer::create(renderer_options);
+    if (!renderer) {
+        return renderer.error();
     }
     Device device;
     device.context_ = std::move(*context);
-    device.driver_ = std::make_unique<render::Driver>(std::move(*driver));
+    device.renderer_ = std::make_unique<SceneRenderer>(std::move(*renderer));
     return device;
 }
 

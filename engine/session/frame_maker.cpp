@@ -1,11 +1,12 @@
 #include "engine/session/frame_maker.h"
 
 #include <chrono>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "app/cli/process_memory.h"
+#include "engine/core/process_memory.h"
 #include "engine/core/statistics.h"
 #include "engine/session/ground.h"
 #include "engine/session/streaming.h"
@@ -46,6 +47,20 @@ scene::Scene busy_scene() {
     return scene;
 }
 
+std::string streams_text(std::span<const scene::TileStreamStats> streams) {
+    std::string text;
+    for (const scene::TileStreamStats& stats : streams) {
+        text +=
+            fmt::format("streamed: {} tiles read ({:.1f} MB of files), {} failed, {} cancelled, "
+                        "{} evicted; {} kept ({:.1f} MB, at most {:.1f} MB)\n",
+                        stats.read, static_cast<double>(stats.bytes_read) / megabyte, stats.failed,
+                        stats.cancelled, stats.evicted, stats.tiles,
+                        static_cast<double>(stats.bytes) / megabyte,
+                        static_cast<double>(stats.most_bytes) / megabyte);
+    }
+    return text;
+}
+
 std::string times_text(const FrameTimes& times) {
     const Summary drawing = summarize(times.drawing_ms);
     const Summary waiting = summarize(times.waiting_ms);
@@ -58,53 +73,53 @@ std::string times_text(const FrameTimes& times) {
 std::string memory_text(std::size_t before) {
     return fmt::format("memory: {:.1f} MB of the process at most, {:.1f} MB before the terrain was "
                        "read\n",
-                       static_cast<double>(cli::process_memory().most) / megabyte,
+                       static_cast<double>(process_memory().most) / megabyte,
                        static_cast<double>(before) / megabyte);
 }
 
 } // namespace
 
-DeviceFrames::DeviceFrames(Device device, const DeviceFramesOptions& options)
-    : device_(std::move(device)), options_(options) {
+DeviceFrames::DeviceFrames(Device device, Log& log, const DeviceFramesOptions& options)
+    : device_(std::move(device)), log_(log), options_(options) {
     if (options_.timed) {
-        static_cast<void>(device_.driver().draw(busy_scene(), true));
-        static_cast<void>(device_.driver().draw(scene::Scene(), true)); // the other's mesh is gone
-        times_.memory_before = cli::process_memory().most;
+        static_cast<void>(device_.renderer().draw(busy_scene(), true));
+        static_cast<void>(device_.renderer().draw(scene::Scene(), true)); // frees the other's mesh
+        times_.memory_before = process_memory().most;
     }
 }
 
-void DeviceFrames::bring(const scene::Scene& scene, const std::stop_token& stop) {
-    if (brought_for_ == scene.camera()) {
+void DeviceFrames::wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) {
+    if (ready_for_ == scene.camera()) {
         return;
     }
     const Stopwatch waiting;
-    bring_tiles(scene, device_.driver().size(), stop, options_.quiet);
+    session::wait_for_tiles(scene, device_.renderer(), log_, stop);
     waited_ms_ += waiting.ms();
-    brought_for_ = scene.camera();
+    ready_for_ = scene.camera();
 }
 
 Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
-    bring(scene, parallel.stop);
+    wait_for_tiles(scene, parallel.stop);
     times_.waiting_ms.push_back(std::exchange(waited_ms_, 0.0));
-    brought_for_.reset();
+    ready_for_.reset();
     stream_stats_ = stream_stats(scene);
-    const auto stats = device_.driver().draw(scene, options_.timed);
+    const auto stats = device_.renderer().draw_selected(options_.timed);
     if (!stats) {
         return stats.error();
     }
     times_.drawing_ms.push_back(stats->cpu_ms + stats->gpu_ms);
     stats_ = *stats;
-    return device_.driver().read_color();
+    return device_.renderer().read_color();
 }
 
 Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
                                           const ParallelOptions& parallel) {
-    bring_tiles(scene, device_.driver().size(), parallel.stop, options_.quiet);
-    return device_.driver().draw_hits(scene);
+    session::wait_for_tiles(scene, device_.renderer(), log_, parallel.stop);
+    return device_.renderer().draw_selected_hits();
 }
 
 std::string DeviceFrames::stats() const {
-    return stream_stats_ + times_text(times_) + memory_text(times_.memory_before) +
+    return streams_text(stream_stats_) + times_text(times_) + memory_text(times_.memory_before) +
            fmt::format(
                "renderer: {}\n"
                "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
@@ -175,7 +190,7 @@ double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int ind
     fly_to(scene, path, index, frames);
     double raised = 0.0;
     for (int i = 0; i < most_rises; ++i) {
-        maker.bring(scene.scene, stop);
+        maker.wait_for_tiles(scene.scene, stop);
         const double rise = keep_above_ground(scene);
         if (rise == 0.0) {
             break;

@@ -11,7 +11,9 @@
 #include "engine/core/hit.h"
 #include "engine/core/worker_pool.h"
 #include "engine/scene/graph/scene.h"
+#include "engine/scene/tile_stream.h"
 #include "engine/session/device.h"
+#include "engine/session/log.h"
 #include "engine/session/scene_setup.h"
 #include "engine/truth/draw.h"
 
@@ -21,8 +23,8 @@ namespace reljef::session {
 class FrameMaker {
 public:
     virtual ~FrameMaker() = default;
-    /// Waits for what is read part by part of what the next frame shows; drawing it does so too.
-    virtual void bring(const scene::Scene& scene, const std::stop_token& stop) = 0;
+    /// Waits for the tiles that the next frame shows. Drawing waits, too.
+    virtual void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) = 0;
     /// Progress is that of this frame.
     virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
     virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
@@ -40,36 +42,39 @@ struct FrameTimes {
 
 struct DeviceFramesOptions {
     bool timed = false; ///< waits for each frame's end, too
-    bool quiet = false; ///< faults of what is read meanwhile are not told
 };
 
 /// Draws with OpenGL.
 class DeviceFrames : public FrameMaker {
 public:
-    DeviceFrames(Device device, const DeviceFramesOptions& options);
-    void bring(const scene::Scene& scene, const std::stop_token& stop) override;
+    /// The log gets the faults of tiles that are read meanwhile, and outlives this.
+    DeviceFrames(Device device, Log& log, const DeviceFramesOptions& options = {});
+    void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) override;
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
     [[nodiscard]] std::string stats() const override;
     [[nodiscard]] const FrameTimes& times() const { return times_; }
     [[nodiscard]] const platform::Context& context() const { return device_.context(); }
+    /// Views selected so far.
+    [[nodiscard]] int selections() { return device_.renderer().selections(); }
 
 private:
     Device device_;
+    Log& log_;
     DeviceFramesOptions options_;
     FrameTimes times_;
-    std::optional<scene::Camera> brought_for_; // since the last frame
-    double waited_ms_ = 0.0;                   // the same
+    std::optional<scene::Camera> ready_for_; // since the last frame: the view whose tiles are there
+    double waited_ms_ = 0.0;                 // the same
     view::FrameStats stats_;
-    std::string stream_stats_; // after the last frame
+    std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };
 
 /// Draws with exact rays on the CPU.
 class TruthFrames : public FrameMaker {
 public:
     TruthFrames(glm::ivec2 size, int rays_per_side) : size_(size), rays_per_side_(rays_per_side) {}
-    void bring(const scene::Scene& /*scene*/, const std::stop_token& /*stop*/) override {}
+    void wait_for_tiles(const scene::Scene& /*scene*/, const std::stop_token& /*stop*/) override {}
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;

@@ -8,7 +8,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/cli/misuse.h"
 #include "engine/session/texture_sets.h"
 #include "terrains/gallery/gallery.h"
 
@@ -53,10 +52,10 @@ glm::dmat4 place_of(const terrains::GalleryModel& model) {
 class Sets {
 public:
     Sets(std::string asked_for, const io::SceneDescription& description,
-         const cli::TerrainChoice& terrain, std::optional<scene::Technique> technique,
+         const SourceOptions& terrain, std::optional<scene::Technique> technique, Log& log,
          std::stop_token stop)
         : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
-          technique_(std::move(technique)), stop_(std::move(stop)) {}
+          technique_(std::move(technique)), log_(log), stop_(std::move(stop)) {}
 
     Result<Set> of(const terrains::GalleryModel& model) {
         const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
@@ -72,11 +71,11 @@ public:
             return set.error();
         }
         if (technique_) {
-            if (auto made = add_cones(*set, *technique_, terrain_, stop_); !made) {
+            if (auto made = add_cones(*set, *technique_, terrain_, log_, stop_); !made) {
                 return made.error();
             }
         }
-        tell_texture_notes(*set, terrain_);
+        log_texture_notes(*set, log_);
         return sets_.emplace(name, std::make_shared<const material::TextureSet>(std::move(*set)))
             .first->second;
     }
@@ -84,8 +83,9 @@ public:
 private:
     std::string asked_for_;
     const io::SceneDescription& description_;
-    const cli::TerrainChoice& terrain_;
+    const SourceOptions& terrain_;
     std::optional<scene::Technique> technique_; // of all models; none: each its own, without cones
+    Log& log_;
     std::stop_token stop_;
     std::map<std::string, Set> sets_;
 };
@@ -93,10 +93,10 @@ private:
 // None: each model's own.
 Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescription& description,
                                                          const std::string& file,
-                                                         const cli::ViewChoice& view) {
+                                                         const SceneOptions& view) {
     using Choice = std::optional<scene::Technique>;
     if (view.max_error) {
-        cli::refuse(
+        return usage_error(
             fmt::format("--max-error: {} found, a terrain was expected: its models are drawn as "
                         "they are",
                         file));
@@ -125,15 +125,15 @@ scene::Material material_of(const terrains::GalleryModel& model, Set set,
 
 Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const io::SceneDescription& description,
-                                              const cli::TerrainChoice& terrain,
-                                              const cli::ViewChoice& view,
+                                              const SourceOptions& terrain,
+                                              const SceneOptions& view, Log& log,
                                               const std::stop_token& stop) {
     const auto technique = chosen_technique(description, terrain.terrain, view);
     if (!technique) {
         return technique.error();
     }
     Sets sets(terrain.textures.value_or(description.gallery_textures), description, terrain,
-              *technique, stop);
+              *technique, log, stop);
     std::vector<scene::Node*> nodes;
     for (const terrains::GalleryModel& model : terrains::gallery_models()) {
         const auto set = sets.of(model);

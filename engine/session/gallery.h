@@ -3,9 +3,10 @@
 #include <stop_token>
 #include <vector>
 
-#include "app/cli/options.h"
 #include "engine/io/formats/scene_file.h"
 #include "engine/scene/graph/scene.h"
+#include "engine/session/log.h"
+#include "engine/session/options.h"
 
 namespace reljef::session {
 
@@ -14,8 +15,8 @@ namespace reljef::session {
 /// technique of the scene file that is none, and where it is stopped.
 Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const io::SceneDescription& description,
-                                              const cli::TerrainChoice& terrain,
-                                              const cli::ViewChoice& view,
+                                              const SourceOptions& terrain,
+                                              const SceneOptions& view, Log& log,
                                               const std::stop_token& stop);
 
 } // namespace reljef::session

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/misuse.h"
 #include "engine/session/texture_sets.h"
 
 namespace reljef::session {
@@ -10,7 +9,7 @@ namespace {
 
 // The command line's word comes before the scene file's.
 std::optional<io::DetailDescription> asked_for(const io::SceneDescription& description,
-                                               const cli::ViewChoice& view) {
+                                               const SceneOptions& view) {
     std::optional<io::DetailDescription> detail = description.detail;
     if (view.detail) {
         detail = detail.value_or(io::DetailDescription{});
@@ -23,7 +22,7 @@ std::optional<io::DetailDescription> asked_for(const io::SceneDescription& descr
 }
 
 Result<scene::Technique> technique_for(const io::DetailDescription& detail,
-                                       const std::string& scene_name, const cli::ViewChoice& view) {
+                                       const std::string& scene_name, const SceneOptions& view) {
     if (view.detail_technique) {
         return *view.detail_technique;
     }
@@ -37,13 +36,13 @@ Result<scene::Technique> technique_for(const io::DetailDescription& detail,
 } // namespace
 
 Result<std::shared_ptr<const scene::GroundDetail>>
-open_detail(const io::SceneDescription& description, const cli::TerrainChoice& terrain,
-            const cli::ViewChoice& view, const std::stop_token& stop) {
+open_detail(const io::SceneDescription& description, const SourceOptions& terrain,
+            const SceneOptions& view, Log& log, const std::stop_token& stop) {
     using Detail = std::shared_ptr<const scene::GroundDetail>;
     const auto asked = asked_for(description, view);
     if (!asked) {
         if (view.detail_technique) {
-            cli::refuse("--detail-technique: found without --detail, whose tile it draws");
+            return usage_error("--detail-technique: found without --detail, whose tile it draws");
         }
         return Detail();
     }
@@ -58,10 +57,10 @@ open_detail(const io::SceneDescription& description, const cli::TerrainChoice& t
     if (!set) {
         return set.error();
     }
-    if (auto made = add_cones(*set, *technique, terrain, stop); !made) {
+    if (auto made = add_cones(*set, *technique, terrain, log, stop); !made) {
         return made.error();
     }
-    tell_texture_notes(*set, terrain);
+    log_texture_notes(*set, log);
     scene::GroundDetail detail;
     detail.width = asked->width;
     detail.scale = asked->scale ? static_cast<float>(*asked->scale) : set->scale;

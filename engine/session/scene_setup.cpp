@@ -7,9 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/cli/message.h"
-#include "app/cli/misuse.h"
-#include "app/cli/progress_line.h"
 #include "engine/io/cache/bisection_cache.h"
 #include "engine/io/cache/cone_cache.h"
 #include "engine/io/formats/flight_file.h"
@@ -25,7 +22,7 @@ namespace {
 // The air of a clear day over a scene: a fifth of the contrast is gone after one and a half widths.
 constexpr double visibility_in_widths = 25.0;
 
-scene::TerrainOptions terrain_options(const cli::TerrainChoice& choice, const cli::ViewChoice& view,
+scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOptions& view,
                                       const io::SceneDescription& description) {
     scene::TerrainOptions options;
     options.exaggeration = choice.exaggeration.value_or(description.exaggeration);
@@ -45,7 +42,7 @@ scene::Compass compass_at(const terrain::Placement& placement, glm::dvec3 eye) {
 }
 
 Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
-                                      const cli::GeodeticView& view) {
+                                      const GeodeticView& view) {
     const terrain::Placement& placement = surface.placement();
     const auto eye = placement.world_from_geodetic({view.latitude, view.longitude, view.height});
     if (!eye) {
@@ -58,7 +55,7 @@ Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
 
 Result<scene::Camera> choose_camera(const TerrainScene& scene,
                                     const io::SceneDescription& description,
-                                    const cli::ViewChoice& view) {
+                                    const SceneOptions& view) {
     scene::Camera camera;
     if (view.geodetic) {
         return geodetic_camera(*scene.terrain->get<scene::TerrainNode>()->surface, *view.geodetic);
@@ -95,7 +92,7 @@ Result<std::vector<scene::FlyKey>> fly_keys_of(const TerrainScene& scene, const 
 // smallest normal float.
 constexpr double near_in_widths = 1e-6;
 
-void set_projection(scene::Camera& camera, const Box& bounds, const cli::ViewChoice& view) {
+void set_projection(scene::Camera& camera, const Box& bounds, const SceneOptions& view) {
     camera.vertical_fov = view.vertical_fov;
     camera.near = std::clamp(near_in_widths * bounds.size().x, 1e-3, 0.1);
     if (view.projection == scene::ProjectionKind::orthographic &&
@@ -107,21 +104,18 @@ void set_projection(scene::Camera& camera, const Box& bounds, const cli::ViewCho
 }
 
 // What draws nothing of the kind is a mistake where an option names it.
-Error refused_technique(const Error& reason, const cli::ViewChoice& view) {
-    if (view.technique) {
-        cli::refuse(reason.message);
-    }
-    return reason;
+Error refused_technique(const Error& reason, const SceneOptions& view) {
+    return view.technique ? usage_error(reason.message) : reason;
 }
 
 // How the terrain is drawn.
-Result<void> choose_look(TerrainScene& scene, const cli::ViewChoice& view) {
+Result<void> choose_look(TerrainScene& scene, const SceneOptions& view) {
     if (view.mixed) {
-        cli::refuse(
+        return usage_error(
             "--technique: mixed found, the gallery was expected: a terrain is drawn with one "
             "technique");
     }
-    const scene::Technique technique = cli::technique_of(view);
+    const scene::Technique technique = technique_of(view);
     if (auto good = scene.check(technique); !good) {
         return refused_technique(good.error(), view);
     }
@@ -160,9 +154,11 @@ Result<void> TerrainScene::check(const scene::Technique& technique) const {
     return {};
 }
 
-Result<TerrainScene> make_scene(TerrainSource source, const cli::TerrainChoice& terrain,
-                                const cli::ViewChoice& view, const std::stop_token& stop) {
+Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
+                                const SceneOptions& view, Log& log, const std::stop_token& stop) {
     TerrainScene result;
+    result.is_gallery = source.description.generator == "gallery";
+    result.faulty_files = source.terrain.faults.size();
     const auto options = terrain_options(terrain, view, source.description);
     auto node = result.scene.add_terrain(std::move(source.terrain), options);
     if (!node) {
@@ -172,8 +168,8 @@ Result<TerrainScene> make_scene(TerrainSource source, const cli::TerrainChoice& 
     auto& shown = *result.terrain->get<scene::TerrainNode>();
     shown.stream = make_stream(source, shown.surface);
     result.bounds = result.terrain->world_bounds();
-    if (source.description.generator == "gallery") {
-        auto models = add_gallery(result.scene, source.description, terrain, view, stop);
+    if (result.is_gallery) {
+        auto models = add_gallery(result.scene, source.description, terrain, view, log, stop);
         if (!models) {
             return models.error();
         }
@@ -188,7 +184,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const cli::TerrainChoice& 
         return done.error();
     }
 
-    auto detail = open_detail(source.description, terrain, view, stop);
+    auto detail = open_detail(source.description, terrain, view, log, stop);
     if (!detail) {
         return detail.error();
     }
@@ -213,8 +209,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const cli::TerrainChoice& 
     return result;
 }
 
-std::optional<std::string> missing_geoid(const TerrainScene& scene,
-                                         const cli::TerrainChoice& terrain) {
+std::optional<std::string> missing_geoid(const TerrainScene& scene, const SourceOptions& terrain) {
     const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
     const auto& georeference = surface.heightfield().georeference;
     const bool on_ellipsoid = surface.placement().kind() == terrain::PlacementKind::ellipsoid;
@@ -229,7 +224,7 @@ std::optional<std::string> missing_geoid(const TerrainScene& scene,
                        datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
 }
 
-Result<void> prepare_bisection(TerrainScene& scene, const cli::TerrainChoice& terrain,
+Result<void> prepare_bisection(TerrainScene& scene, const SourceOptions& terrain, Log& log,
                                const std::stop_token& stop) {
     auto& shown = *scene.terrain->get<scene::TerrainNode>();
     const scene::Technique& technique = shown.material.technique;
@@ -238,58 +233,70 @@ Result<void> prepare_bisection(TerrainScene& scene, const cli::TerrainChoice& te
         return {};
     }
     const std::string& name = shown.surface->terrain().name;
-    cli::ProgressLine line("bounding the errors of " + name, terrain.quiet);
+    const auto task = log.start("bounding the errors of " + name);
     io::BisectionCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-    options.parallel = {static_cast<unsigned>(terrain.threads), stop, line.callback()};
+    options.parallel = {static_cast<unsigned>(terrain.threads), stop, task->callback()};
     auto cached =
         io::cached_bisection(shown.surface->heightfield(), shown.surface->placement(), options);
     if (!cached) {
         return Error{fmt::format("{}: stopped while its errors were bounded", name)};
     }
-    if (!terrain.quiet && !cached->note.empty()) {
-        cli::tell(fmt::format("reljef: note: {}\n", cached->note));
+    if (!cached->note.empty()) {
+        log.note(cached->note);
     }
     shown.bisection = std::move(cached->bisection);
     return {};
 }
 
-Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene,
-                                                const cli::ViewChoice& view,
-                                                const cli::TerrainChoice& terrain) {
-    using Path = std::optional<scene::FlyPath>;
-    if (view.path.empty()) {
-        return Path();
+Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
+                                const SceneOptions& view, Log& log, const std::stop_token& stop) {
+    auto source = open_terrain(std::move(description), terrain, log, stop);
+    if (!source) {
+        return source.error();
     }
-    if (view.path == "orbit") {
-        return Path(scene::orbit_path(scene.bounds));
+    if (auto ready = prepare_technique(*source, technique_of(view), terrain, log, stop); !ready) {
+        return ready.error();
     }
-    if (view.path == "flyover") {
-        return Path(scene::flyover_path(scene.bounds,
-                                        [&](double x, double y) { return scene.ground(x, y); }));
+    auto scene = make_scene(std::move(*source), terrain, view, log, stop);
+    if (!scene) {
+        return scene;
+    }
+    if (const auto note = missing_geoid(*scene, terrain)) {
+        log.note(*note);
+    }
+    if (auto ready = view.bounds_error ? prepare_bisection(*scene, terrain, log, stop)
+                                       : Result<void>();
+        !ready) {
+        return ready.error();
+    }
+    return scene;
+}
+
+Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& name, Log& log) {
+    if (name == "orbit") {
+        return scene::orbit_path(scene.bounds);
+    }
+    if (name == "flyover") {
+        return scene::flyover_path(scene.bounds,
+                                   [&](double x, double y) { return scene.ground(x, y); });
     }
     std::error_code ignored;
-    if (!std::filesystem::exists(view.path, ignored)) {
-        return Error{fmt::format("--path: '{}' found, orbit, flyover or a path file was expected",
-                                 view.path)};
+    if (!std::filesystem::exists(name, ignored)) {
+        return Error{
+            fmt::format("--path: '{}' found, orbit, flyover or a path file was expected", name)};
     }
-    const auto flight = io::read_flight(view.path);
+    const auto flight = io::read_flight(name);
     if (!flight) {
         return flight.error();
     }
     for (const std::string& note : flight->notes) {
-        if (!terrain.quiet) {
-            cli::tell(fmt::format("reljef: note: {}\n", note));
-        }
+        log.note(note);
     }
-    auto fly_keys = fly_keys_of(scene, *flight, view.path);
+    auto fly_keys = fly_keys_of(scene, *flight, name);
     if (!fly_keys) {
         return fly_keys.error();
     }
-    auto path = scene::FlyPath::create(std::move(*fly_keys));
-    if (!path) {
-        return path.error();
-    }
-    return Path(std::move(*path));
+    return scene::FlyPath::create(std::move(*fly_keys));
 }
 
 void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/options.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/motion/fly_path.h"
+#include "engine/session/log.h"
+#include "engine/session/options.h"
 #include "engine/session/terrain_source.h"
 
 namespace reljef::session {
@@ -20,6 +21,8 @@ struct TerrainScene {
     scene::Node* light = nullptr;     ///< owned by the scene
     std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
     Box bounds;                       ///< of the terrain, scene metres
+    bool is_gallery = false;
+    std::size_t faulty_files = 0; ///< that were left out when the terrain was opened
 
     /// z of the ground at x, y; the lowest of the terrain where there is none.
     [[nodiscard]] double ground(double x, double y) const;
@@ -30,26 +33,28 @@ struct TerrainScene {
     [[nodiscard]] Result<void> check(const scene::Technique& technique) const;
 };
 
-/// Builds the scene. Fails where the placement or the camera does not fit the terrain, and refuses
-/// (misuse.h) options that do not fit what is drawn.
-Result<TerrainScene> make_scene(TerrainSource source, const cli::TerrainChoice& terrain,
-                                const cli::ViewChoice& view, const std::stop_token& stop = {});
+/// Builds the scene. Fails where the placement or the camera does not fit the terrain; options that
+/// do not fit what is drawn are usage errors.
+Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
+                                const SceneOptions& view, Log& log,
+                                const std::stop_token& stop = {});
 
 /// A note where heights are drawn from the ellipsoid on although they may count from another zero:
 /// no geoid is applied, and the user did not ask for that.
-std::optional<std::string> missing_geoid(const TerrainScene& scene,
-                                         const cli::TerrainChoice& terrain);
+std::optional<std::string> missing_geoid(const TerrainScene& scene, const SourceOptions& terrain);
 
-/// Reads what the technique's error needs of the terrain from the cache, or makes and keeps it,
-/// with progress and a note on stderr: its bisection. Nothing to do for other techniques and for
-/// streams of tiles. Fails when it was stopped.
-Result<void> prepare_bisection(TerrainScene& scene, const cli::TerrainChoice& terrain,
+/// Reads the bisection that bounds a terrain's error from the cache, or makes and keeps it. Nothing
+/// to do for techniques without a bound and for streamed terrain. Fails when it was stopped.
+Result<void> prepare_bisection(TerrainScene& scene, const SourceOptions& terrain, Log& log,
                                const std::stop_token& stop);
 
-/// The path that --path names, with notes on stderr; nothing without one.
-Result<std::optional<scene::FlyPath>> open_path(const TerrainScene& scene,
-                                                const cli::ViewChoice& view,
-                                                const cli::TerrainChoice& terrain);
+/// Opens a terrain and sets up its scene: open_terrain, prepare_technique, make_scene,
+/// missing_geoid, prepare_bisection.
+Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
+                                const SceneOptions& view, Log& log, const std::stop_token& stop);
+
+/// The camera path that `name` names: "orbit", "flyover" or a path file, whose notes are logged.
+Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& name, Log& log);
 
 /// Puts the camera where frame `index` of so many evenly spread along a path sees from, be it under
 /// the ground: see fly_above_ground in frame_maker.h.

@@ -95,7 +95,7 @@ int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, do
 
 } // namespace
 
-OpenImagery open_imagery(const io::TileSet& tiles, const cli::TerrainChoice& choice,
+OpenImagery open_imagery(const io::TileSet& tiles, const SourceOptions& choice,
                          const io::TileTerrainOptions& options) {
     const bool shown = choice.pictures_streamed || !fits(tiles.plan(options));
     if (!choice.streamed || options.raster.imagery.empty() || !shown) {
@@ -123,8 +123,7 @@ bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& 
     return side > io::longest_image_side * imagery.set->finest_pixel();
 }
 
-std::optional<StreamSource> stream_source(const io::TileSet& tiles,
-                                          const cli::TerrainChoice& choice,
+std::optional<StreamSource> stream_source(const io::TileSet& tiles, const SourceOptions& choice,
                                           io::TileTerrainOptions options,
                                           const OpenImagery& imagery) {
     const auto whole = tiles.plan(options);

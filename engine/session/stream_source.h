@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "app/cli/options.h"
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tile_set.h"
+#include "engine/session/options.h"
 #include "engine/session/terrain_source.h"
 
 namespace reljef::session {
@@ -23,7 +23,7 @@ struct OpenImagery {
 };
 
 /// Opens them where tiles would show them.
-OpenImagery open_imagery(const io::TileSet& tiles, const cli::TerrainChoice& choice,
+OpenImagery open_imagery(const io::TileSet& tiles, const SourceOptions& choice,
                          const io::TileTerrainOptions& options);
 
 /// Whether images are finer than one picture over all of the terrain may be.
@@ -32,8 +32,7 @@ bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& 
 
 /// How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
 /// GDAL's memory for blocks is limited to its share then.
-std::optional<StreamSource> stream_source(const io::TileSet& tiles,
-                                          const cli::TerrainChoice& choice,
+std::optional<StreamSource> stream_source(const io::TileSet& tiles, const SourceOptions& choice,
                                           io::TileTerrainOptions options,
                                           const OpenImagery& imagery);
 

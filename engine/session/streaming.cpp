@@ -1,21 +1,20 @@
 #include "engine/session/streaming.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <numeric>
-#include <vector>
+#include <set>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#include <fmt/format.h>
-
-#include "app/cli/message.h"
 #include "engine/io/imagery/closed_picture.h"
 #include "engine/io/tree_tile.h"
-#include "engine/view/tile_choice.h"
 
 namespace reljef::session {
 namespace {
@@ -93,26 +92,30 @@ void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
     }
 }
 
-void tell_faults(scene::TileStream& stream, bool quiet) {
-    const auto tell_each = [&](const char* what, const std::vector<std::string>& sentences) {
-        for (const std::string& sentence : sentences) {
-            if (!quiet) {
-                cli::tell(fmt::format("reljef: {}: {}\n", what, sentence));
-            }
-        }
-    };
-    tell_each("shown coarser", stream.take_faults());
-    tell_each("note", stream.take_notes());
+void log_faults(scene::TileStream& stream, Log& log) {
+    for (const std::string& fault : stream.take_faults()) {
+        log.message(MessageKind::shown_coarser, fault);
+    }
+    for (const std::string& note : stream.take_notes()) {
+        log.note(note);
+    }
 }
 
-bool wait_and_tell(scene::TileStream& stream, const std::stop_token& stop, bool quiet) {
-    constexpr std::chrono::milliseconds before_telling{500};
+void wait_and_log(scene::TileStream& stream, Log& log, const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds between_logs{500};
     bool is_there = false;
     while (!is_there && !stop.stop_requested()) {
-        is_there = stream.wait_for(stop, before_telling);
-        tell_faults(stream, quiet);
+        is_there = stream.wait_for(stop, between_logs);
+        log_faults(stream, log);
     }
-    return is_there;
+}
+
+int readings_of(const scene::Scene& scene) {
+    int readings = 0;
+    for (const scene::TileStreamStats& stats : stream_stats(scene)) {
+        readings += stats.read + stats.failed;
+    }
+    return readings;
 }
 
 // The mean of a row: of a pole's the height that it has everywhere.
@@ -182,28 +185,42 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
-void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop,
-                 bool quiet) {
-    const std::array views{scene.camera()};
-    for_each_stream(scene, [&](scene::TileStream& stream) {
-        const auto readings = [&] { return stream.stats().read + stream.stats().failed; };
-        int before = -1;
-        while (!stop.stop_requested() && readings() != before) {
-            before = readings();
-            const auto wanted = view::wanted_tiles(scene, stream, views, size);
-            stream.want(wanted);
-            if (wanted.empty() || !wait_and_tell(stream, stop, quiet)) {
-                return;
-            }
-        }
-    });
+void request_tiles(std::span<const view::TileRequests> requests) {
+    struct Merged {
+        std::vector<terrain::TreeTile> missing;
+        std::set<terrain::TreeTile> known; // of the missing
+        std::vector<terrain::TreeTile> used;
+    };
+    std::map<scene::TileStream*, Merged> merged;
+    for (const view::TileRequests& request : requests) {
+        Merged& all = merged[request.stream.get()];
+        std::copy_if(request.missing.begin(), request.missing.end(),
+                     std::back_inserter(all.missing),
+                     [&](terrain::TreeTile tile) { return all.known.insert(tile).second; });
+        all.used.insert(all.used.end(), request.used.begin(), request.used.end());
+    }
+    for (const auto& [stream, all] : merged) {
+        stream->request(all.missing, all.used);
+    }
 }
 
-void ask_for_tiles(const scene::Scene& scene, std::span<const scene::Camera> views,
-                   glm::ivec2 size) {
-    for_each_stream(scene, [&](scene::TileStream& stream) {
-        stream.want(view::wanted_tiles(scene, stream, views, size));
-    });
+void wait_for_tiles(const scene::Scene& scene, SceneRenderer& renderer, Log& log,
+                    const std::stop_token& stop) {
+    int before = -1;
+    for (int readings = readings_of(scene); !stop.stop_requested(); readings = readings_of(scene)) {
+        const view::FrameView& frame = renderer.select(scene);
+        request_tiles(frame.requests);
+        const bool is_whole =
+            std::all_of(frame.requests.begin(), frame.requests.end(),
+                        [](const view::TileRequests& request) { return request.missing.empty(); });
+        if (is_whole || readings == before) {
+            return;
+        }
+        before = readings;
+        for (const view::TileRequests& request : frame.requests) {
+            wait_and_log(*request.stream, log, stop);
+        }
+    }
 }
 
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
@@ -217,10 +234,12 @@ scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now
     return later;
 }
 
-bool take_new_tiles(const scene::Scene& scene) {
-    bool news = false;
-    for_each_stream(scene, [&](scene::TileStream& stream) { news = stream.take_news() || news; });
-    return news;
+bool take_arrivals(const scene::Scene& scene) {
+    bool has_arrivals = false;
+    for_each_stream(scene, [&](scene::TileStream& stream) {
+        has_arrivals = stream.take_news() || has_arrivals;
+    });
+    return has_arrivals;
 }
 
 bool awaits_tiles(const scene::Scene& scene) {
@@ -229,8 +248,8 @@ bool awaits_tiles(const scene::Scene& scene) {
     return busy;
 }
 
-void tell_stream_faults(const scene::Scene& scene, bool quiet) {
-    for_each_stream(scene, [&](scene::TileStream& stream) { tell_faults(stream, quiet); });
+void log_stream_faults(const scene::Scene& scene, Log& log) {
+    for_each_stream(scene, [&](scene::TileStream& stream) { log_faults(stream, log); });
 }
 
 std::size_t faulty_files(const scene::Scene& scene) {
@@ -239,18 +258,10 @@ std::size_t faulty_files(const scene::Scene& scene) {
     return count;
 }
 
-std::string stream_stats(const scene::Scene& scene) {
-    std::string text;
-    for_each_stream(scene, [&](scene::TileStream& stream) {
-        const scene::TileStreamStats stats = stream.stats();
-        text += fmt::format(
-            "streamed: {} tiles read ({:.1f} MB of files), {} failed, {} cancelled, "
-            "{} evicted; {} kept ({:.1f} MB, at most {:.1f} MB)\n",
-            stats.read, static_cast<double>(stats.bytes_read) * 1e-6, stats.failed, stats.cancelled,
-            stats.evicted, stats.tiles, static_cast<double>(stats.bytes) * 1e-6,
-            static_cast<double>(stats.most_bytes) * 1e-6);
-    });
-    return text;
+std::vector<scene::TileStreamStats> stream_stats(const scene::Scene& scene) {
+    std::vector<scene::TileStreamStats> stats;
+    for_each_stream(scene, [&](scene::TileStream& stream) { stats.push_back(stream.stats()); });
+    return stats;
 }
 
 } // namespace reljef::session

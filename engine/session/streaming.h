@@ -1,16 +1,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <stop_token>
-#include <string>
-
-#include <glm/vec2.hpp>
+#include <vector>
 
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/tile_stream.h"
+#include "engine/session/log.h"
+#include "engine/session/scene_renderer.h"
 #include "engine/session/terrain_source.h"
+#include "engine/view/select.h"
 
 namespace reljef::session {
 
@@ -18,31 +18,31 @@ namespace reljef::session {
 std::shared_ptr<scene::TileStream>
 make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSurface> overview);
 
-/// Waits until all tiles are there that a picture of the scene needs, or have failed for good.
-/// Meanwhile tells faults, as tell_stream_faults.
-void bring_tiles(const scene::Scene& scene, glm::ivec2 size, const std::stop_token& stop,
-                 bool quiet);
+/// Forwards what views need to the streams: the tiles of the first views first.
+void request_tiles(std::span<const view::TileRequests> requests);
 
-/// Asks for the tiles that views need, the first view's first, and returns at once.
-void ask_for_tiles(const scene::Scene& scene, std::span<const scene::Camera> views,
-                   glm::ivec2 size);
+/// Selects the scene's view, loads what it lacks and selects again, until all tiles are in memory
+/// or have failed for good: the renderer's selected frame is then the one to draw. Logs faults
+/// meanwhile, as log_stream_faults().
+void wait_for_tiles(const scene::Scene& scene, SceneRenderer& renderer, Log& log,
+                    const std::stop_token& stop);
 
 /// Where a camera that came from `before` within `seconds` will be after `ahead` more, seconds, if
 /// it goes on like that.
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
                            double ahead);
 
-/// Whether tiles came since the last call.
-bool take_new_tiles(const scene::Scene& scene);
-/// Whether some are still to come.
+/// Whether tiles arrived since the last call.
+bool take_arrivals(const scene::Scene& scene);
+/// Whether some are still to arrive.
 bool awaits_tiles(const scene::Scene& scene);
 
-/// Tells the faults of streams on stderr, each file's once, and their notes.
-void tell_stream_faults(const scene::Scene& scene, bool quiet);
+/// Logs the faults of streams, each file's once, and their notes.
+void log_stream_faults(const scene::Scene& scene, Log& log);
 /// Files that had faults.
 std::size_t faulty_files(const scene::Scene& scene);
 
-/// What was read, dropped and is kept, as lines; empty where nothing is streamed.
-std::string stream_stats(const scene::Scene& scene);
+/// What each stream read, dropped and keeps; empty where nothing is streamed.
+std::vector<scene::TileStreamStats> stream_stats(const scene::Scene& scene);
 
 } // namespace reljef::session

@@ -1,13 +1,9 @@
 #include "engine/session/terrain_source.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
-#include "app/cli/message.h"
-#include "app/cli/misuse.h"
-#include "app/cli/progress_line.h"
 #include "engine/io/cache/cone_cache.h"
 #include "engine/io/formats/geoid_file.h"
 #include "engine/io/raster/raster.h"
@@ -24,47 +20,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<io::SceneDescription> describe(const std::string& terrain) {
-    for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
-        if (scene.name == terrain) {
-            return io::parse_scene(scene.text, std::string(scene.name), fs::current_path());
-        }
-    }
-    const fs::path path(terrain);
-    if (path.extension() == ".toml") {
-        return io::read_scene_file(path);
-    }
-    std::error_code ignored;
-    if (!fs::exists(path, ignored) && !path.has_extension() && !path.has_parent_path() &&
-        !io::is_tile_pyramid(path)) {
-        std::string names;
-        for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
-            names += std::string(scene.name) + ", ";
-        }
-        return Error{
-            fmt::format("{}: no such terrain; one of {}a scene file or a DEM file was expected",
-                        terrain, names)};
-    }
-    io::SceneDescription description;
-    description.name = (path.has_filename() ? path : path.parent_path()).filename().string();
-    description.heights = path;
-    return description;
-}
-
-Result<terrain::Terrain> generate(const cli::TerrainChoice& choice,
-                                  const io::SceneDescription& description,
+Result<terrain::Terrain> generate(const SourceOptions& choice,
+                                  const io::SceneDescription& description, Log& log,
                                   const std::stop_token& stop) {
-    cli::ProgressLine line("generating " + description.name, choice.quiet);
+    const auto task = log.start("generating " + description.name);
     const terrains::GeneratorOptions options{.size = description.size,
                                              .seed = description.seed,
                                              .spacing = description.spacing.value_or(0.0),
                                              .tileable = description.tileable,
                                              .threads = static_cast<unsigned>(choice.threads),
-                                             .progress = line.callback(),
+                                             .progress = task->callback(),
                                              .stop = stop};
     if (!choice.imagery.empty()) {
-        cli::refuse(fmt::format("--imagery: {} found, but {} brings its own colours",
-                                choice.imagery.front().string(), description.name));
+        return usage_error(fmt::format("--imagery: {} found, but {} brings its own colours",
+                                       choice.imagery.front().string(), description.name));
     }
     if (description.generator == "gallery") {
         return terrains::generate_gallery(options);
@@ -73,7 +42,7 @@ Result<terrain::Terrain> generate(const cli::TerrainChoice& choice,
                                               : terrains::generate_urban(options);
 }
 
-io::RasterOptions raster_options(const cli::TerrainChoice& choice,
+io::RasterOptions raster_options(const SourceOptions& choice,
                                  const io::SceneDescription& description,
                                  const std::stop_token& stop) {
     io::RasterOptions options;
@@ -86,25 +55,10 @@ io::RasterOptions raster_options(const cli::TerrainChoice& choice,
     return options;
 }
 
-// Where the indexes of folders are kept, by the XDG base directory specification; empty where the
-// user has no home.
-fs::path cache_folder() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return fs::path(value != nullptr ? value : "");
-    };
-    const fs::path cache = variable("XDG_CACHE_HOME");
-    if (cache.is_absolute()) {
-        return cache / "reljef";
-    }
-    const fs::path home = variable("HOME");
-    return home.is_absolute() ? home / ".cache" / "reljef" : fs::path();
-}
-
-Result<io::TileSet> open_set(const cli::TerrainChoice& choice,
-                             const io::SceneDescription& description, const std::stop_token& stop) {
+Result<io::TileSet> open_set(const SourceOptions& choice, const io::SceneDescription& description,
+                             const std::stop_token& stop) {
     io::TileSetOptions options;
-    options.cache_folder = cache_folder();
+    options.cache_folder = io::cache_folder().value_or(fs::path());
     options.threads = static_cast<unsigned>(choice.threads);
     options.height_scale = description.height_scale;
     options.height_offset = description.height_offset;
@@ -112,7 +66,7 @@ Result<io::TileSet> open_set(const cli::TerrainChoice& choice,
     return io::TileSet::open(description.heights, options);
 }
 
-io::TileTerrainOptions tile_options(const cli::TerrainChoice& choice,
+io::TileTerrainOptions tile_options(const SourceOptions& choice,
                                     const io::SceneDescription& description,
                                     const std::stop_token& stop) {
     io::TileTerrainOptions options;
@@ -142,7 +96,7 @@ constexpr int least_megabytes = 64;
 constexpr int most_step_read = 4096 / terrain::tile_cells;
 
 // Of which heights tiles are made of the overview, and what is to be told of all that.
-void set_heights_of_tiles(const io::TileSet& tiles, const cli::TerrainChoice& choice,
+void set_heights_of_tiles(const io::TileSet& tiles, const SourceOptions& choice,
                           StreamSource& stream, std::vector<std::string>& notes) {
     const bool is_whole = stream.plan.reduction == 1;
     notes.emplace_back(is_whole ? "finer parts of the images are read where the view needs them"
@@ -182,11 +136,12 @@ void add_imagery(const OpenImagery& imagery, TerrainSource& source) {
     source.imagery = imagery.set;
 }
 
-Result<TerrainSource> read_tiles(SetToRead set, const cli::TerrainChoice& choice,
-                                 io::SceneDescription description, const std::stop_token& stop) {
-    cli::ProgressLine line("reading " + description.name, choice.quiet);
+Result<TerrainSource> read_tiles(SetToRead set, const SourceOptions& choice,
+                                 io::SceneDescription description, Log& log,
+                                 const std::stop_token& stop) {
+    const auto task = log.start("reading " + description.name);
     io::TileTerrainOptions options = tile_options(choice, description, stop);
-    options.raster.progress = line.callback();
+    options.raster.progress = task->callback();
     options.raster.imagery_white = set.imagery.white();
     std::optional<StreamSource> stream = stream_source(set.tiles, choice, options, set.imagery);
     if (stream) {
@@ -210,8 +165,8 @@ Result<TerrainSource> read_tiles(SetToRead set, const cli::TerrainChoice& choice
 
 // A single file that does not fit the memory, or whose images do not, is read as a set of one, if
 // it can be; what is known of its images else.
-SetOrImagery set_to_stream(const cli::TerrainChoice& choice,
-                           const io::SceneDescription& description, const std::stop_token& stop) {
+SetOrImagery set_to_stream(const SourceOptions& choice, const io::SceneDescription& description,
+                           const std::stop_token& stop) {
     if (!choice.streamed || !description.generator.empty() || description.spacing) {
         return {};
     }
@@ -236,13 +191,13 @@ SetOrImagery set_to_stream(const cli::TerrainChoice& choice,
     return {SetToRead{std::move(*tiles), std::move(imagery)}, {}};
 }
 
-Result<terrain::Terrain> read(const cli::TerrainChoice& choice,
-                              const io::SceneDescription& description,
-                              std::optional<double> imagery_white, const std::stop_token& stop) {
-    cli::ProgressLine line("reading " + description.name, choice.quiet);
+Result<terrain::Terrain> read(const SourceOptions& choice, const io::SceneDescription& description,
+                              std::optional<double> imagery_white, Log& log,
+                              const std::stop_token& stop) {
+    const auto task = log.start("reading " + description.name);
     io::RasterOptions options = raster_options(choice, description, stop);
     options.imagery_white = imagery_white;
-    options.progress = line.callback();
+    options.progress = task->callback();
     return io::read_terrain(description.heights, options);
 }
 
@@ -256,7 +211,7 @@ bool is_set(const io::SceneDescription& description) {
     return is_folder(description.heights) || io::is_tile_pyramid(description.heights);
 }
 
-Result<void> refuse_folder_options(const cli::TerrainChoice& choice,
+Result<void> refuse_folder_options(const SourceOptions& choice,
                                    const io::SceneDescription& description) {
     const char* option = choice.area ? "--area" : choice.gaps ? "--gaps" : nullptr;
     if (option == nullptr && !description.area) {
@@ -265,14 +220,11 @@ Result<void> refuse_folder_options(const cli::TerrainChoice& choice,
     const std::string message =
         fmt::format("{}: {} found, but it is no folder of tiles, for which alone that was expected",
                     description.name, option != nullptr ? option : "[area]");
-    if (option != nullptr) {
-        cli::refuse(message);
-    }
-    return Error{message};
+    return option != nullptr ? usage_error(message) : Error{message};
 }
 
-Result<TerrainSource> read_source(const cli::TerrainChoice& choice,
-                                  io::SceneDescription description, const std::stop_token& stop) {
+Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescription description, Log& log,
+                                  const std::stop_token& stop) {
     if (is_set(description)) {
         auto tiles = open_set(choice, description, stop);
         if (!tiles) {
@@ -280,18 +232,18 @@ Result<TerrainSource> read_source(const cli::TerrainChoice& choice,
         }
         OpenImagery imagery = open_imagery(*tiles, choice, tile_options(choice, description, stop));
         return read_tiles({std::move(*tiles), std::move(imagery)}, choice, std::move(description),
-                          stop);
+                          log, stop);
     }
     if (auto fits = refuse_folder_options(choice, description); !fits) {
         return fits.error();
     }
     SetOrImagery found = set_to_stream(choice, description, stop);
     if (found.set) {
-        return read_tiles(std::move(*found.set), choice, std::move(description), stop);
+        return read_tiles(std::move(*found.set), choice, std::move(description), log, stop);
     }
     auto terrain = description.generator.empty()
-                       ? read(choice, description, found.imagery_white, stop)
-                       : generate(choice, description, stop);
+                       ? read(choice, description, found.imagery_white, log, stop)
+                       : generate(choice, description, log, stop);
     return terrain ? Result<TerrainSource>(
                          TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})
                    : terrain.error();
@@ -302,7 +254,7 @@ bool is_egm96(const std::string& datum) {
 }
 
 // The geoid that the user names, or the installed one where it is the terrain's own.
-std::optional<fs::path> geoid_file(const cli::TerrainChoice& choice, const std::string& datum) {
+std::optional<fs::path> geoid_file(const SourceOptions& choice, const std::string& datum) {
     if (choice.geoid == "none") {
         return std::nullopt;
     }
@@ -313,7 +265,7 @@ std::optional<fs::path> geoid_file(const cli::TerrainChoice& choice, const std::
 }
 
 // Heights above sea level become heights above the ellipsoid.
-Result<void> set_geoid(const cli::TerrainChoice& choice, terrain::Terrain& terrain) {
+Result<void> set_geoid(const SourceOptions& choice, terrain::Terrain& terrain) {
     auto& georeference = terrain.heightfield.georeference;
     if (!georeference) {
         return {};
@@ -324,9 +276,10 @@ Result<void> set_geoid(const cli::TerrainChoice& choice, terrain::Terrain& terra
         return {};
     }
     if (geo::is_ellipsoidal(datum)) {
-        cli::refuse(fmt::format("--geoid: {} found, but the heights of {} count from the ellipsoid "
-                                "({}): none was expected",
-                                choice.geoid, terrain.name, datum));
+        return usage_error(
+            fmt::format("--geoid: {} found, but the heights of {} count from the ellipsoid "
+                        "({}): none was expected",
+                        choice.geoid, terrain.name, datum));
     }
     auto geoid = io::read_geoid(*file);
     if (!geoid) {
@@ -341,18 +294,45 @@ Result<void> set_geoid(const cli::TerrainChoice& choice, terrain::Terrain& terra
     return {};
 }
 
-void tell_notes(const TerrainSource& source) {
+void log_notes(const TerrainSource& source, Log& log) {
     for (const std::string& note : source.terrain.notes) {
-        cli::tell(fmt::format("reljef: note: {}\n", note));
+        log.note(note);
     }
     for (const std::string& fault : source.terrain.faults) {
-        cli::tell(fmt::format("reljef: left out: {}\n", fault));
+        log.message(MessageKind::left_out, fault);
     }
 }
 
 } // namespace
 
-std::optional<geo::GeodeticArea> area_of(const cli::TerrainChoice& choice,
+Result<io::SceneDescription> describe(const std::string& terrain) {
+    for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
+        if (scene.name == terrain) {
+            return io::parse_scene(scene.text, std::string(scene.name), fs::current_path());
+        }
+    }
+    const fs::path path(terrain);
+    if (path.extension() == ".toml") {
+        return io::read_scene_file(path);
+    }
+    std::error_code ignored;
+    if (!fs::exists(path, ignored) && !path.has_extension() && !path.has_parent_path() &&
+        !io::is_tile_pyramid(path)) {
+        std::string names;
+        for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
+            names += std::string(scene.name) + ", ";
+        }
+        return Error{
+            fmt::format("{}: no such terrain; one of {}a scene file or a DEM file was expected",
+                        terrain, names)};
+    }
+    io::SceneDescription description;
+    description.name = (path.has_filename() ? path : path.parent_path()).filename().string();
+    description.heights = path;
+    return description;
+}
+
+std::optional<geo::GeodeticArea> area_of(const SourceOptions& choice,
                                          const io::SceneDescription& description) {
     if (choice.area || description.area) {
         return choice.area ? choice.area : description.area;
@@ -361,37 +341,35 @@ std::optional<geo::GeodeticArea> area_of(const cli::TerrainChoice& choice,
                                                     : std::nullopt;
 }
 
-Result<TerrainSource> open_terrain(const cli::TerrainChoice& choice, const std::stop_token& stop,
-                                   Notes notes) {
+Result<TerrainSource> open_terrain(const SourceOptions& choice, Log& log,
+                                   const std::stop_token& stop) {
     auto description = describe(choice.terrain);
     if (!description) {
         return description.error();
     }
-    return open_terrain(std::move(*description), choice, stop, notes);
+    return open_terrain(std::move(*description), choice, log, stop);
 }
 
-Result<TerrainSource> open_terrain(io::SceneDescription description,
-                                   const cli::TerrainChoice& choice, const std::stop_token& stop,
-                                   Notes notes) {
+Result<TerrainSource> open_terrain(io::SceneDescription description, const SourceOptions& choice,
+                                   Log& log, const std::stop_token& stop) {
     if (choice.textures && description.generator != "gallery") {
-        cli::refuse(fmt::format("--textures: {} found, but only the gallery shows tiles, not {}; "
-                                "--detail lays one over a terrain",
-                                *choice.textures, description.name));
+        return usage_error(
+            fmt::format("--textures: {} found, but only the gallery shows tiles, not {}; "
+                        "--detail lays one over a terrain",
+                        *choice.textures, description.name));
     }
-    auto source = read_source(choice, std::move(description), stop);
+    auto source = read_source(choice, std::move(description), log, stop);
     if (!source) {
         return source.error();
     }
     if (auto set = set_geoid(choice, source->terrain); !set) {
         return set.error();
     }
-    if (!choice.quiet && notes == Notes::told) {
-        tell_notes(*source);
-    }
+    log_notes(*source, log);
     return source;
 }
 
-Result<HeightSource> open_heights(const cli::TerrainChoice& choice, const std::stop_token& stop) {
+Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_token& stop) {
     const auto description = describe(choice.terrain);
     if (!description) {
         return description.error();
@@ -422,20 +400,20 @@ Result<void> report_faults(const std::string& terrain, std::size_t faults) {
 }
 
 Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
-                               const cli::TerrainChoice& choice, const std::stop_token& stop) {
+                               const SourceOptions& choice, Log& log, const std::stop_token& stop) {
     const Grid<float>& heights = source.terrain.heightfield.heights;
     if (technique.id != scene::TechniqueId::cone || heights.cols() < 2 || heights.rows() < 2) {
         return {};
     }
-    cli::ProgressLine line("cones of " + source.description.name, choice.quiet);
+    const auto task = log.start("cones of " + source.description.name);
     io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-    options.parallel = {static_cast<unsigned>(choice.threads), stop, line.callback()};
+    options.parallel = {static_cast<unsigned>(choice.threads), stop, task->callback()};
     auto cached = io::cached_cones(terrain::unit_heights(heights.view()).view(), options);
     if (!cached) {
         return Error{fmt::format("{}: stopped while its cones were made", source.terrain.name)};
     }
-    if (!choice.quiet && !cached->note.empty()) {
-        cli::tell(fmt::format("reljef: note: {}\n", cached->note));
+    if (!cached->note.empty()) {
+        log.note(cached->note);
     }
     source.terrain.cones = std::move(cached->cones);
     return {};

@@ -4,12 +4,13 @@
 #include <optional>
 #include <stop_token>
 
-#include "app/cli/options.h"
 #include "engine/io/formats/scene_file.h"
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tile_set.h"
 #include "engine/scene/streamed_tile.h"
 #include "engine/scene/technique/technique.h"
+#include "engine/session/log.h"
+#include "engine/session/options.h"
 #include "engine/terrain/field/heightfield.h"
 
 namespace reljef::session {
@@ -38,27 +39,28 @@ struct TerrainSource {
     std::shared_ptr<const io::ImagerySet> imagery; ///< where tiles show images of their own
 };
 
-/// What becomes of a terrain's notes: told on stderr, or only kept in terrain::Terrain::notes.
-enum class Notes { told, kept };
-
 /// The part of a folder or a tile pyramid that is of use; absent: all.
-std::optional<geo::GeodeticArea> area_of(const cli::TerrainChoice& choice,
+std::optional<geo::GeodeticArea> area_of(const SourceOptions& options,
                                          const io::SceneDescription& description);
 
-/// Opens what TERRAIN names, with progress on stderr. Errors name the terrain, what was found and
-/// what was expected; options that such a terrain has no use for are refused (misuse.h).
-Result<TerrainSource> open_terrain(const cli::TerrainChoice& choice, const std::stop_token& stop,
-                                   Notes notes = Notes::told);
+/// What a TERRAIN names, without reading its heights: a scene file's or a built-in scene's text, or
+/// a description of the path.
+Result<io::SceneDescription> describe(const std::string& terrain);
 
-/// The same of a scene that is described already; `choice.terrain` is not looked at.
-Result<TerrainSource> open_terrain(io::SceneDescription description,
-                                   const cli::TerrainChoice& choice, const std::stop_token& stop,
-                                   Notes notes = Notes::told);
+/// Opens what the options name. The log gets the progress, and the terrain's notes and faults.
+/// Errors name the terrain, what was found and what was expected; options that do not fit such a
+/// terrain are usage errors.
+Result<TerrainSource> open_terrain(const SourceOptions& options, Log& log,
+                                   const std::stop_token& stop);
+
+/// The same for a scene that is described already; `options.terrain` is not read.
+Result<TerrainSource> open_terrain(io::SceneDescription description, const SourceOptions& options,
+                                   Log& log, const std::stop_token& stop);
 
 /// Makes what the technique needs besides the heights and takes seconds, or reads it from the
-/// cache, with progress and notes on stderr: the cones. Fails when it was stopped.
+/// cache: the cones. Fails when it was stopped.
 Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
-                               const cli::TerrainChoice& choice, const std::stop_token& stop);
+                               const SourceOptions& options, Log& log, const std::stop_token& stop);
 
 /// The files of heights that TERRAIN names, and the part of them that is of use.
 struct HeightSource {
@@ -68,7 +70,7 @@ struct HeightSource {
 
 /// Indexes them and reads none. Fails for generated terrains, and as open_terrain does; what is
 /// read of them later is kept within half of the memory.
-Result<HeightSource> open_heights(const cli::TerrainChoice& choice, const std::stop_token& stop);
+Result<HeightSource> open_heights(const SourceOptions& options, const std::stop_token& stop);
 
 /// What is told in the end, with exit status 1, where files of the terrain could not be read.
 Result<void> report_faults(const std::string& terrain, std::size_t faults);

@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/cli/message.h"
-#include "app/cli/misuse.h"
-#include "app/cli/progress_line.h"
 #include "engine/io/cache/cone_cache.h"
 #include "engine/io/image/texture_files.h"
 #include "engine/material/tile_cones.h"
@@ -17,10 +14,10 @@ namespace reljef::session {
 namespace {
 
 Result<void> add_cones_of(material::TextureSet& set, material::KnownCones side,
-                          const cli::TerrainChoice& choice, const std::stop_token& stop) {
-    cli::ProgressLine line("cones of " + set.name, choice.quiet);
+                          const SourceOptions& choice, Log& log, const std::stop_token& stop) {
+    const auto task = log.start("cones of " + set.name);
     io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-    options.parallel = {static_cast<unsigned>(choice.threads), stop, line.callback()};
+    options.parallel = {static_cast<unsigned>(choice.threads), stop, task->callback()};
     const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
     const Grid<float> field = material::cone_field(heights.view(), side.border);
     auto cached = io::cached_cones(field.view(), options);
@@ -38,7 +35,7 @@ Result<void> add_cones_of(material::TextureSet& set, material::KnownCones side,
 } // namespace
 
 Result<material::TextureSet> open_textures(const TextureRequest& request,
-                                           const cli::TerrainChoice& choice) {
+                                           const SourceOptions& choice) {
     const std::string& name = request.name;
     const auto names = terrains::detail_names();
     if (std::find(names.begin(), names.end(), name) != names.end()) {
@@ -50,10 +47,7 @@ Result<material::TextureSet> open_textures(const TextureRequest& request,
         const std::string message = fmt::format(
             "{}: texture set '{}' found, one of {}{} or a folder of pictures was expected",
             request.asked_by, name, request.also, fmt::join(names, ", "));
-        if (request.asked_by.starts_with("--")) {
-            cli::refuse(message);
-        }
-        return Error{message};
+        return request.asked_by.starts_with("--") ? usage_error(message) : Error{message};
     }
     const auto files = io::find_texture_files(request.folder);
     if (!files) {
@@ -65,7 +59,7 @@ Result<material::TextureSet> open_textures(const TextureRequest& request,
 }
 
 Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique,
-                       const cli::TerrainChoice& choice, const std::stop_token& stop) {
+                       const SourceOptions& choice, Log& log, const std::stop_token& stop) {
     if (technique.id != scene::TechniqueId::cone) {
         return {};
     }
@@ -73,18 +67,17 @@ Result<void> add_cones(material::TextureSet& set, const scene::Technique& techni
         technique.options.border.value_or(scene::BorderRule::wrap) == scene::BorderRule::wrap;
     material::KnownCones side{wraps ? material::TileBorder::wrap : material::TileBorder::clamp,
                               false, nullptr};
-    if (auto made = add_cones_of(set, side, choice, stop); !made || !technique.options.two_sided) {
+    if (auto made = add_cones_of(set, side, choice, log, stop);
+        !made || !technique.options.two_sided) {
         return made;
     }
     side.from_behind = true;
-    return add_cones_of(set, side, choice, stop);
+    return add_cones_of(set, side, choice, log, stop);
 }
 
-void tell_texture_notes(const material::TextureSet& set, const cli::TerrainChoice& choice) {
+void log_texture_notes(const material::TextureSet& set, Log& log) {
     for (const std::string& note : set.notes) {
-        if (!choice.quiet) {
-            cli::tell(fmt::format("reljef: note: {}\n", note));
-        }
+        log.note(note);
     }
 }
 

@@ -6,10 +6,11 @@
 #include <stop_token>
 #include <string>
 
-#include "app/cli/options.h"
 #include "engine/core/result.h"
 #include "engine/material/texture_set.h"
 #include "engine/scene/technique/technique.h"
+#include "engine/session/log.h"
+#include "engine/session/options.h"
 
 namespace reljef::session {
 
@@ -24,17 +25,17 @@ struct TextureRequest {
     std::string also = {};            ///< what else the user might have said: "NAME, "
 };
 
-/// Makes or reads them. Fails on a name that is neither built in nor a folder, with those that are
-/// (misuse.h, where an option asked), and where pictures cannot be read.
+/// Makes or reads them. Fails on a name that is neither built in nor a folder (a usage error where
+/// an option asked), and where pictures cannot be read.
 Result<material::TextureSet> open_textures(const TextureRequest& request,
-                                           const cli::TerrainChoice& choice);
+                                           const SourceOptions& options);
 
 /// Makes the cones over the sides of a tile that the technique sees, with the border it asks for,
 /// or reads them from the cache; none where the technique needs none. Fails when it was stopped.
 Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique,
-                       const cli::TerrainChoice& choice, const std::stop_token& stop);
+                       const SourceOptions& options, Log& log, const std::stop_token& stop);
 
-/// What is odd about the maps, on stderr.
-void tell_texture_notes(const material::TextureSet& set, const cli::TerrainChoice& choice);
+/// Reports what is odd about the maps.
+void log_texture_notes(const material::TextureSet& set, Log& log);
 
 } // namespace reljef::session

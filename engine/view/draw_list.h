@@ -16,8 +16,6 @@
 #include "engine/terrain/mesh/bisection_mesh.h"
 #include "engine/view/frame_stats.h"
 #include "engine/view/ground_view.h"
-#include "engine/view/scene_view.h"
-#include "engine/view/tile_choice.h"
 
 namespace reljef::view {
 
@@ -86,14 +84,6 @@ struct DrawList {
         return transforms[static_cast<std::size_t>(draw.transform)];
     }
 };
-
-/// Leaves out what is hidden or outside the frustum and orders the rest. An orthographic camera's
-/// depth range is fitted to the scene. Reads nothing but the view (and the tiles of its streams,
-/// whose revisions it has): the same view gives the same list. What the list draws is the scene's
-/// own.
-DrawList select(const SceneView& view, const TileChoiceOptions& options = {});
-/// Looks at the scene through its camera.
-DrawList select(const scene::Scene& scene, glm::ivec2 size);
 
 /// Whether each terrain and mesh can be drawn as it is asked to be; fails as
 /// scene::check_technique.

@@ -31,7 +31,7 @@ struct FrameStats {
     };
     Skipped skipped;
 
-    double cpu_ms = 0.0; ///< selection, uploads and submission
+    double cpu_ms = 0.0; ///< uploads and submission, and the selection where the caller adds it
     double gpu_ms = 0.0; ///< from submission until all is drawn; only when asked for
 };
 

@@ -94,7 +94,7 @@ public:
     [[nodiscard]] const std::optional<terrain::HorizonView>& horizon() const { return horizon_; }
 
     [[nodiscard]] std::optional<KnownTile> known(terrain::TreeTile id) const {
-        if (auto tile = stream_.peek(id)) {
+        if (auto tile = stream_.find(id)) {
             return KnownTile{*tile, std::move(tile)};
         }
         const auto summary = stream_.recall(id);
@@ -201,12 +201,8 @@ public:
     }
 
     [[nodiscard]] const std::vector<Candidate>& missing() const { return missing_; }
-    /// What would be drawn and what is over it stays in memory.
-    void mark_seen() const {
-        for (const terrain::TreeTile tile : seen_) {
-            static_cast<void>(view_.stream().find(tile));
-        }
-    }
+    /// What would be drawn, and what is above it.
+    [[nodiscard]] const std::vector<terrain::TreeTile>& used() const { return seen_; }
     TileChoice take() { return std::move(choice_); }
 
 private:
@@ -387,13 +383,14 @@ TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
     const scene::TileStream& stream = view.stream();
     WalkLimits limits;
     std::optional<std::vector<terrain::TreeTile>> wanted;
+    std::set<terrain::TreeTile> used; // by any walk: the next view may be like the first one's
     while (true) {
         TreeWalk walk(view, limits, options);
         if (!walk.walk(root)) {
             limits.raise(excess_within_memory(view, root));
             continue;
         }
-        walk.mark_seen();
+        used.insert(walk.used().begin(), walk.used().end());
         if (limits.hides && are_given_up(stream, walk.missing())) {
             limits.hides = false; // for long: what is drawn meanwhile is wanted, too
             continue;
@@ -404,6 +401,7 @@ TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
         if (walk.missing().empty()) {
             TileChoice choice = walk.take();
             choice.wanted = std::move(*wanted);
+            choice.used.assign(used.begin(), used.end());
             return choice;
         }
         for (const Candidate& candidate : walk.missing()) {
@@ -422,33 +420,11 @@ TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& 
     const auto root = stream.find(stream.tree().root());
     if (root == nullptr) {
         TileChoice choice;
+        choice.has_root = false;
         choice.wanted.push_back(stream.tree().root());
         return choice;
     }
     return chosen(StreamView(terrain, camera, size, world_from_local), *root, options);
-}
-
-std::vector<terrain::TreeTile> wanted_tiles(const scene::Scene& scene,
-                                            const scene::TileStream& stream,
-                                            std::span<const scene::Camera> cameras,
-                                            glm::ivec2 size) {
-    std::vector<terrain::TreeTile> wanted;
-    std::set<terrain::TreeTile> known;
-    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& transform) {
-        const auto* terrain = node.get<scene::TerrainNode>();
-        if (terrain == nullptr || terrain->stream.get() != &stream) {
-            return;
-        }
-        for (const scene::Camera& camera : cameras) {
-            const TileChoice choice = choose_tiles(*terrain, camera, size, transform);
-            for (const terrain::TreeTile tile : choice.wanted) {
-                if (known.insert(tile).second) {
-                    wanted.push_back(tile);
-                }
-            }
-        }
-    });
-    return wanted;
 }
 
 } // namespace reljef::view

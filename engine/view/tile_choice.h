@@ -21,6 +21,9 @@ struct TileChoice {
     std::vector<Drawn> drawn;              ///< from the eye outwards
     std::vector<Drawn> hidden;             ///< behind what is drawn, of what is there
     std::vector<terrain::TreeTile> wanted; ///< and not there, the most urgent first
+    /// In memory, and drawn, above a drawn one, or needed to find out what is hidden: to keep.
+    std::vector<terrain::TreeTile> used;
+    bool has_root = true; ///< false: nothing is in memory yet, and the root is wanted
     int outside_frustum = 0;
     int hidden_unread = 0; ///< tiles that are not there and need not be
 };
@@ -50,11 +53,5 @@ struct TileChoiceOptions {
 TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, const glm::dmat4& world_from_local,
                         const TileChoiceOptions& options = {});
-
-/// All that the cameras' views of a scene want of a stream, the first camera's first.
-std::vector<terrain::TreeTile> wanted_tiles(const scene::Scene& scene,
-                                            const scene::TileStream& stream,
-                                            std::span<const scene::Camera> cameras,
-                                            glm::ivec2 size);
 
 } // namespace reljef::view

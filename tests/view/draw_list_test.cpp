@@ -1,4 +1,4 @@
-#include "engine/view/draw_list.h"
+#include "engine/view/select.h"
 
 #include <random>
 #include <set>

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace reljef::cli {
+namespace reljef {
 
 /// What this process has of the machine's memory for itself, bytes; 0 where the system does not
 /// tell. Pages of programs and files are left out: the system takes them back when it needs them.
@@ -12,4 +12,4 @@ struct ProcessMemory {
 };
 ProcessMemory process_memory();
 
-} // namespace reljef::cli
+} // namespace reljef

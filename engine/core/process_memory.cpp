@@ -1,4 +1,4 @@
-#include "app/cli/process_memory.h"
+#include "engine/core/process_memory.h"
 
 #include <algorithm>
 #include <fstream>
@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace reljef::cli {
+namespace reljef {
 
 // The kernel's lines "VmRSS:     1234 kB" (proc(5), /proc/pid/status).
 ProcessMemory process_memory() {
@@ -25,4 +25,4 @@ ProcessMemory process_memory() {
             bytes["VmHWM:"] - std::min(files, bytes["VmHWM:"])};
 }
 
-} // namespace reljef::cli
+} // namespace reljef

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "engine/core/worker_pool.h"
+
+namespace reljef::session {
+
+/// What a message is about.
+enum class MessageKind {
+    note,         ///< something the user should know; the picture is as asked for
+    left_out,     ///< a source file that could not be read when the terrain was opened
+    shown_coarser ///< a source file that could not be read later; coarser tiles stand in for it
+};
+
+/// A long operation while it runs; it ends with the object.
+class Task {
+public:
+    virtual ~Task() = default;
+    /// `fraction` in [0,1]; any thread, one at a time.
+    virtual void update(double fraction) = 0;
+    /// For options that take a Progress; valid as long as this task.
+    [[nodiscard]] Progress callback() {
+        return [this](double fraction) { update(fraction); };
+    }
+};
+
+/// Receives what a session reports. The session calls it on the thread that called the session.
+/// This one ignores everything.
+class Log {
+public:
+    virtual ~Log() = default;
+    /// One sentence without a line end.
+    virtual void message(MessageKind /*kind*/, std::string_view /*sentence*/) {}
+    /// Begins a task, "reading alps.tif". Never null.
+    [[nodiscard]] virtual std::unique_ptr<Task> start(const std::string& label);
+
+    void note(std::string_view sentence) { message(MessageKind::note, sentence); }
+};
+
+} // namespace reljef::session

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/geo/geodetic_area.h"
+#include "engine/io/tile_set.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/scene/motion/poses.h"
+#include "engine/scene/technique/technique.h"
+#include "engine/terrain/field/placement.h"
+
+namespace reljef::session {
+
+/// Which terrain to open, and how to read it.
+struct SourceOptions {
+    /// A built-in name, a scene file (.toml), a DEM file, a folder of them, the address of one, or
+    /// web tiles.
+    std::string terrain;
+    std::vector<std::filesystem::path> imagery; ///< files, folders, addresses
+    /// The gallery's detail textures: a built-in set, "mixed" or a folder; absent: the scene
+    /// file's.
+    std::optional<std::string> textures;
+    std::optional<double> exaggeration; ///< absent: the scene file's, else 1
+    /// Absent: the scene file's, else the ellipsoid for georeferenced terrain.
+    std::optional<terrain::PlacementKind> placement;
+    std::optional<geo::GeodeticArea> area; ///< absent: the scene file's, else all
+    std::optional<io::Gaps> gaps;          ///< absent: the scene file's, else holes
+    std::string geoid;                     ///< a file, "none", or empty: the installed one
+    int memory_megabytes = 512;
+    int threads = 0; ///< 0: as many as the machine has
+    /// Reads a terrain that does not fit the memory tile by tile, where the technique can draw
+    /// tiles; else, or where this is false, as one coarser terrain.
+    bool streamed = false;
+    /// Streams a terrain that does fit, too, where its images are finer than one picture holds.
+    bool pictures_streamed = false;
+};
+
+/// A camera on Earth.
+struct GeodeticView {
+    double latitude = 0.0;
+    double longitude = 0.0;
+    double height = 0.0;  ///< metres above the DEM's zero
+    double heading = 0.0; ///< degrees clockwise from north
+    double pitch = 0.0;   ///< degrees above the horizon
+};
+
+/// A detail texture over the terrain.
+struct DetailChoice {
+    std::string textures;        ///< a built-in one or a folder
+    std::optional<double> width; ///< metres; absent: the scene file's, else 4
+    std::optional<double> scale; ///< absent: the scene file's, else the texture's own
+};
+
+/// How a terrain is drawn, and from where.
+struct SceneOptions {
+    /// Absent: polygons; in the gallery each model's own.
+    std::optional<scene::Technique> technique;
+    bool mixed = false; ///< each of the gallery's models has its own, whatever the scene file says
+    std::optional<double> max_error;    ///< pixels, of polygons; absent: as the technique says
+    std::optional<DetailChoice> detail; ///< absent: the scene file's, else none
+    std::optional<scene::Technique> detail_technique; ///< absent: the scene file's, else relief
+    bool wireframe = false;
+    double vertical_fov = 57.3; ///< degrees
+    scene::ProjectionKind projection = scene::ProjectionKind::perspective;
+    std::optional<glm::dvec3> eye;  ///< scene metres; with `look`
+    std::optional<glm::dvec3> look; ///< what the camera looks at, scene metres
+    std::optional<GeodeticView> geodetic;
+    std::optional<scene::Pose> pose;
+    std::optional<glm::dvec2> sun; ///< azimuth, altitude, degrees; absent: the scene file's
+    /// Makes what bounds the error of polygons when the scene is opened; the truth needs none.
+    bool bounds_error = true;
+};
+
+/// The technique with its error bound.
+scene::Technique technique_of(const SceneOptions& options);
+
+/// Whether the technique draws a terrain tile by tile.
+bool may_stream(const SceneOptions& options);
+
+/// Whether images may make a terrain a stream of tiles: not where an error is bounded, as the error
+/// of streamed tiles is an estimate.
+bool may_stream_pictures(const SceneOptions& options);
+
+} // namespace reljef::session

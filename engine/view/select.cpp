@@ -1,0 +1,273 @@
+#include "engine/view/select.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/core/nearest_first.h"
+#include "engine/terrain/mesh/patch_mesh.h"
+#include "engine/view/error_view.h"
+#include "engine/view/grid_mesh.h"
+#include "engine/view/occlusion.h"
+#include "engine/view/tile_choice.h"
+
+namespace reljef::view {
+namespace {
+
+// As it would be drawn.
+std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Tile& tile,
+                           bool flat) {
+    const int quads = flat_quads(terrain.surface->placement().kind());
+    return 2U * static_cast<std::size_t>(flat ? quads : tile.cols) *
+           static_cast<std::size_t>(flat ? quads : tile.rows);
+}
+
+// Of an overview whose tiles are not there yet: no picture to wait for a bisection for.
+constexpr int overview_levels = terrain::most_patch_levels + 1;
+
+// How coarse a terrain may be; nothing where every sample is a vertex.
+std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
+                                        const scene::Camera& camera, glm::ivec2 size,
+                                        const glm::dmat4& world_from_local) {
+    const scene::Technique& technique = terrain.material.technique;
+    if (technique.id != scene::TechniqueId::polygons) {
+        return std::nullopt;
+    }
+    const scene::TerrainSurface& surface = *terrain.surface;
+    const double error = scene::parameter(technique, "error");
+    if (error > 0.0 && terrain.stream == nullptr) {
+        terrain::ErrorView view =
+            error_view(camera, size, world_from_local, surface.placement().kind(),
+                       std::max(error, least_error));
+        view.morph_from = scene::parameter(technique, "morph") > 0.0 ? morph_from : 1.0;
+        return view;
+    }
+    const int levels =
+        error > 0.0 ? overview_levels : static_cast<int>(scene::parameter(technique, "lods"));
+    if (levels == 1) {
+        return std::nullopt;
+    }
+    const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
+    return terrain::patch_levels(surface.heightfield(), surface.placement(), eye, levels);
+}
+
+// From a box's nearest point.
+glm::dvec3 away_from(glm::dvec3 point, const Box& box) {
+    return point - glm::clamp(point, box.low, box.high);
+}
+
+bool has_streamed_tiles(const scene::TerrainNode& terrain) {
+    return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
+}
+
+// Adds what one visible node shows.
+class Selector {
+public:
+    Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options,
+             std::size_t most_tiles)
+        : list_(frame.list), requests_(frame.requests), frustum_(frustum), options_(options) {
+        seen_.reserve(most_tiles);
+    }
+
+    void add(const SeenNode& seen) {
+        if (const auto* mesh = seen.node->get<scene::MeshNode>()) {
+            add_mesh(*mesh, seen.world_from_local, seen.local_bounds);
+        } else if (const auto* terrain = seen.node->get<scene::TerrainNode>()) {
+            add_terrain(*terrain, seen.world_from_local);
+        }
+    }
+
+    /// The tiles of all terrains, front to back.
+    void order_tiles() {
+        seen_ = nearest_first(std::move(seen_));
+        list_.tiles.reserve(seen_.size());
+        for (const SeenTile& seen : seen_) {
+            const ShownTerrain& shown = shown_[static_cast<std::size_t>(seen.transform)];
+            const double distance = std::sqrt(seen.distance);
+            list_.tiles.push_back({shown.terrain, distance, seen.transform, seen.tile,
+                                   detail_of(*shown.terrain, distance), shown.is_flat,
+                                   shown.is_coarse});
+        }
+    }
+
+private:
+    struct SeenTile {
+        double distance = 0.0; // squared
+        int transform = 0;
+        int tile = 0;
+    };
+    // With DrawList::transforms.
+    struct ShownTerrain {
+        const scene::TerrainNode* terrain = nullptr;
+        bool is_flat = false;
+        bool is_coarse = false;
+    };
+
+    void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        if (scene::geometry_of(terrain.material.technique.id) == scene::Geometry::box) {
+            add_relief(terrain, world_from_local);
+        } else if (!add_streamed(terrain, world_from_local)) {
+            add_tiles(terrain, world_from_local);
+        }
+    }
+
+    void add_mesh(const scene::MeshNode& mesh, const glm::dmat4& world_from_local,
+                  const Box& local_bounds) {
+        if (frustum_.may_see(transformed(world_from_local, local_bounds))) {
+            if (scene::is_seen_from_behind(mesh.material)) {
+                list_.meshes.push_back({&mesh, world_from_local, true});
+            }
+            list_.meshes.push_back({&mesh, world_from_local, false});
+        } else {
+            ++list_.stats.skipped.nodes_outside_frustum;
+            list_.stats.skipped.triangles_outside_frustum += mesh.mesh->indices.size() / 3;
+        }
+    }
+
+    void add_relief(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        const Box bounds = transformed(world_from_local, terrain.surface->bounds());
+        if (frustum_.may_see(bounds)) {
+            list_.reliefs.push_back(
+                {&terrain, world_from_local, glm::length(away_from(list_.camera.eye, bounds))});
+        } else {
+            ++list_.stats.skipped.nodes_outside_frustum;
+        }
+    }
+
+    // False where there is no stream, or nothing of it yet: the overview is drawn.
+    bool add_streamed(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        if (!has_streamed_tiles(terrain)) {
+            return false;
+        }
+        const bool flat =
+            scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
+        TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local,
+                                         {.keeps_hidden = !options_.occlusion});
+        requests_.push_back({terrain.stream, std::move(choice.wanted), std::move(choice.used)});
+        const auto add = [&](TileChoice::Drawn& drawn, bool is_hidden) {
+            list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
+                                            drawn.distance, detail_of(terrain, drawn.distance),
+                                            drawn.error, is_hidden});
+        };
+        for (TileChoice::Drawn& drawn : choice.drawn) {
+            add(drawn, false);
+        }
+        for (TileChoice::Drawn& hidden : choice.hidden) {
+            add(hidden, true);
+        }
+        list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
+        list_.stats.skipped.tiles_occluded += choice.hidden_unread;
+        list_.stats.tiles_missing += static_cast<int>(requests_.back().missing.size());
+        return choice.has_root;
+    }
+
+    void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        const bool flat =
+            scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
+        const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
+        const Frustum frustum = frustum_.in_local(world_from_local);
+        const std::size_t before = seen_.size();
+        auto coarseness = coarseness_of(terrain, list_.camera, list_.size, world_from_local);
+        const int transform = static_cast<int>(list_.transforms.size());
+        const bool is_only_moved = glm::dmat3(world_from_local) == glm::dmat3(1.0);
+        const glm::dvec3 eye =
+            list_.camera.eye - (is_only_moved ? glm::dvec3(world_from_local[3]) : glm::dvec3(0.0));
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            if (frustum.may_see(tiles[i].bounds)) {
+                const glm::dvec3 away =
+                    away_from(eye, is_only_moved ? tiles[i].bounds
+                                                 : transformed(world_from_local, tiles[i].bounds));
+                seen_.push_back({glm::dot(away, away), transform, static_cast<int>(i)});
+            } else {
+                ++list_.stats.skipped.tiles_outside_frustum;
+                list_.stats.skipped.triangles_outside_frustum +=
+                    triangle_count(terrain, tiles[i], flat);
+            }
+        }
+        if (seen_.size() == before) {
+            ++list_.stats.skipped.nodes_outside_frustum;
+            return;
+        }
+        list_.transforms.push_back(world_from_local);
+        shown_.push_back({&terrain, flat, coarseness.has_value()});
+        if (coarseness) {
+            list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
+        }
+    }
+
+    // What is seen of the tile of detail on a terrain, and how often it is too far.
+    DetailLevel detail_of(const scene::TerrainNode& terrain, double distance) {
+        const DetailLevel seen = seen_detail(terrain, list_.camera, list_.size, distance);
+        const bool is_skipped = terrain.detail != nullptr && seen == DetailLevel::none;
+        list_.stats.skipped.details_too_small += is_skipped ? 1 : 0;
+        return seen;
+    }
+
+    DrawList& list_;
+    std::vector<TileRequests>& requests_;
+    const Frustum& frustum_;
+    const SelectOptions& options_;
+    std::vector<SeenTile> seen_;
+    std::vector<ShownTerrain> shown_;
+};
+
+std::size_t most_tiles(const SceneView& view) {
+    std::size_t most = 0;
+    for (const SeenNode& seen : view.nodes()) {
+        const auto* const terrain = seen.node->get<scene::TerrainNode>();
+        most += terrain != nullptr ? terrain->surface->tiles().size() : 0;
+    }
+    return most;
+}
+
+} // namespace
+
+FrameView select(const scene::Scene& scene, glm::ivec2 size, const SelectOptions& options) {
+    return select(SceneView(scene, size), options);
+}
+
+FrameView select(const SceneView& view, const SelectOptions& options) {
+    FrameView frame;
+    DrawList& list = frame.list;
+    list.camera = view.camera();
+    list.size = view.size();
+    list.sun = view.sun();
+    list.sky = view.sky();
+    if (list.camera.projection == scene::ProjectionKind::orthographic) {
+        list.camera = scene::with_fitted_depth(list.camera, view.bounds());
+    }
+    const Frustum frustum(scene::clip_from_world(list.camera, list.size));
+    Selector selector(frame, frustum, options, most_tiles(view));
+    for (const SeenNode& seen : view.nodes()) {
+        selector.add(seen);
+    }
+    selector.order_tiles();
+    list.streamed_tiles = nearest_first(std::move(list.streamed_tiles));
+    list.reliefs = nearest_first(std::move(list.reliefs));
+    list.stats.nodes = view.node_count();
+    list.stats.skipped.invisible_nodes = view.node_count() - view.visible_count();
+    list.stats.skipped.sky = list.sky ? 0 : 1;
+    if (options.occlusion) {
+        drop_occluded(list);
+    }
+    return frame;
+}
+
+std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::Camera& camera,
+                                        glm::ivec2 size) {
+    std::vector<TileRequests> requests;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& transform) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        if (terrain != nullptr && has_streamed_tiles(*terrain)) {
+            TileChoice choice = choose_tiles(*terrain, camera, size, transform);
+            requests.push_back({terrain->stream, std::move(choice.wanted), std::move(choice.used)});
+        }
+    });
+    return requests;
+}
+
+} // namespace reljef::view
