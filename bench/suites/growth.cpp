@@ -14,8 +14,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "bench/suites/growth_ground.h"
 #include "app/cli/console_log.h"
+#include "bench/suites/growth_ground.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/device.h"
 #include "engine/session/scene_setup.h"
@@ -238,7 +238,7 @@ private:
         }
         row.first_picture = watch.seconds();
         cli::ConsoleLog log(options_.suite.quiet);
-        session::wait_for_tiles(scene, renderer, log, stop_);
+        session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log, stop_);
         if (auto drawn = renderer.draw_selected(true); !drawn) {
             return drawn.error();
         }

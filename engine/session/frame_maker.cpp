@@ -93,7 +93,8 @@ void DeviceFrames::wait_for_tiles(const scene::Scene& scene, const std::stop_tok
         return;
     }
     const Stopwatch waiting;
-    session::wait_for_tiles(scene, device_.renderer(), log_, stop);
+    SceneRenderer& renderer = device_.renderer();
+    session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log_, stop);
     waited_ms_ += waiting.ms();
     ready_for_ = scene.camera();
 }
@@ -114,8 +115,9 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
 
 Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
                                           const ParallelOptions& parallel) {
-    session::wait_for_tiles(scene, device_.renderer(), log_, parallel.stop);
-    return device_.renderer().draw_selected_hits();
+    SceneRenderer& renderer = device_.renderer();
+    session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log_, parallel.stop);
+    return renderer.draw_selected_hits();
 }
 
 std::string DeviceFrames::stats() const {

@@ -57,7 +57,7 @@ public:
     [[nodiscard]] const FrameTimes& times() const { return times_; }
     [[nodiscard]] const platform::Context& context() const { return device_.context(); }
     /// Views selected so far.
-    [[nodiscard]] int selections() { return device_.renderer().selections(); }
+    [[nodiscard]] int selections() { return device_.renderer().selector().count(); }
 
 private:
     Device device_;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include <glm/vec2.hpp>
 
 #include "engine/core/color.h"
@@ -9,7 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/render/driver.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/view/select.h"
+#include "engine/view/frame_selector.h"
 
 namespace reljef::session {
 
@@ -28,22 +26,24 @@ public:
     static Result<SceneRenderer> create(const SceneRendererOptions& options = {});
 
     /// The frame that the scene's camera sees now. Valid until the next call.
-    const view::FrameView& select(const scene::Scene& scene);
-    /// Draws the frame that was selected last; FrameStats::cpu_ms has its selection. `wait` also
-    /// waits until it is finished. Preconditions: the scene is unchanged since its selection.
+    const view::FrameView& select(const scene::Scene& scene) {
+        return selector_.select(scene, size());
+    }
+    /// Draws the frame that was selected last; `wait` also waits until it is
+    /// finished. Preconditions: the scene is unchanged since its selection.
     Result<view::FrameStats> draw_selected(bool wait = false);
     /// Draws what each pixel shows. Precondition as draw_selected().
     Result<HitBuffer> draw_selected_hits();
 
-    /// Selects and draws.
+    /// Selects and draws; FrameStats::cpu_ms has the selection, too.
     Result<view::FrameStats> draw(const scene::Scene& scene, bool wait = false);
     Result<HitBuffer> draw_hits(const scene::Scene& scene);
 
     /// Lets go of what the last view shows, before another scene is opened.
-    void forget_scene();
+    void forget_scene() { selector_.forget(); }
 
-    /// How many views were selected so far.
-    [[nodiscard]] int selections() const { return selections_; }
+    /// What select() selects with.
+    [[nodiscard]] view::FrameSelector& selector() { return selector_; }
     /// The last frame drawn. Waits for it.
     [[nodiscard]] Image read_color() const { return driver_.read_color(); }
     /// Copies the last frame to the window's back buffer.
@@ -53,15 +53,11 @@ public:
 
 private:
     SceneRenderer(render::Driver driver, const SceneRendererOptions& options)
-        : options_(options), driver_(std::move(driver)) {}
+        : driver_(std::move(driver)), selector_(options.select, options.selects_always) {}
 
-    SceneRendererOptions options_;
     render::Driver driver_;
-    view::SceneView view_;
-    std::optional<view::FrameView> frame_;
-    bool was_drawn_ = false; // the selected frame
-    double select_ms_ = 0.0; // of the last call of select()
-    int selections_ = 0;
+    view::FrameSelector selector_;
+    int drawn_ = 0; // the selection that was drawn last, counted from 1
 };
 
 } // namespace reljef::session

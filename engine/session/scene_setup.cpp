@@ -272,6 +272,13 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
     return scene;
 }
 
+Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions& view, Log& log,
+                                const std::stop_token& stop) {
+    auto description = describe(terrain.terrain);
+    return description ? open_scene(std::move(*description), terrain, view, log, stop)
+                       : description.error();
+}
+
 Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& name, Log& log) {
     if (name == "orbit") {
         return scene::orbit_path(scene.bounds);

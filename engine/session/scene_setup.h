@@ -53,6 +53,10 @@ Result<void> prepare_bisection(TerrainScene& scene, const SourceOptions& terrain
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop);
 
+/// The same for the terrain that `terrain.terrain` names.
+Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions& view, Log& log,
+                                const std::stop_token& stop = {});
+
 /// The camera path that `name` names: "orbit", "flyover" or a path file, whose notes are logged.
 Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& name, Log& log);
 

@@ -204,11 +204,11 @@ void request_tiles(std::span<const view::TileRequests> requests) {
     }
 }
 
-void wait_for_tiles(const scene::Scene& scene, SceneRenderer& renderer, Log& log,
-                    const std::stop_token& stop) {
+void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelector& selector,
+                    Log& log, const std::stop_token& stop) {
     int before = -1;
     for (int readings = readings_of(scene); !stop.stop_requested(); readings = readings_of(scene)) {
-        const view::FrameView& frame = renderer.select(scene);
+        const view::FrameView& frame = selector.select(scene, size);
         request_tiles(frame.requests);
         const bool is_whole =
             std::all_of(frame.requests.begin(), frame.requests.end(),

@@ -5,12 +5,13 @@
 #include <stop_token>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/log.h"
-#include "engine/session/scene_renderer.h"
 #include "engine/session/terrain_source.h"
-#include "engine/view/select.h"
+#include "engine/view/frame_selector.h"
 
 namespace reljef::session {
 
@@ -22,10 +23,10 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
 void request_tiles(std::span<const view::TileRequests> requests);
 
 /// Selects the scene's view, loads what it lacks and selects again, until all tiles are in memory
-/// or have failed for good: the renderer's selected frame is then the one to draw. Logs faults
+/// or have failed for good: the selected frame is then the one to draw. Logs faults
 /// meanwhile, as log_stream_faults().
-void wait_for_tiles(const scene::Scene& scene, SceneRenderer& renderer, Log& log,
-                    const std::stop_token& stop);
+void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelector& selector,
+                    Log& log, const std::stop_token& stop);
 
 /// Where a camera that came from `before` within `seconds` will be after `ahead` more, seconds, if
 /// it goes on like that.

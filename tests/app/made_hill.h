@@ -4,20 +4,21 @@
 
 #include "engine/session/scene_setup.h"
 #include "engine/terrain/field/heightfield.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::app {
 
-inline session::TerrainScene scene_of(Grid<float> heights, const cli::ViewChoice& view = {}) {
+inline session::TerrainScene scene_of(Grid<float> heights, const session::SceneOptions& view = {}) {
     session::TerrainSource source;
     source.terrain.name = "hill";
     auto& heightfield = source.terrain.heightfield;
     heightfield.heights = std::move(heights);
     heightfield.spacing = {10.0, 10.0};
     heightfield.range = terrain::height_range(heightfield.heights, {});
-    return session::make_scene(std::move(source), {}, view).value();
+    return test::make_scene(std::move(source), {}, view).value();
 }
 
-inline session::TerrainScene hill_scene(const cli::ViewChoice& view = {}) {
+inline session::TerrainScene hill_scene(const session::SceneOptions& view = {}) {
     Grid<float> heights(33, 33, 10.0F);
     heights(16, 16) = 60.0F;
     return scene_of(std::move(heights), view);

@@ -9,6 +9,7 @@
 #include "engine/scene/motion/poses.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::render {
 
@@ -23,11 +24,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class DriverGlTest : public test::GlTest {
 protected:
-    static Driver driver(glm::ivec2 picture = size) {
-        return test::must(Driver::create({.size = picture, .shader_dir = {}, .software = true}));
+    static session::SceneRenderer driver(glm::ivec2 picture = size) {
+        return test::must(test::make_renderer(picture));
     }
     static Image draw(const Scene& scene) {
-        Driver made = driver();
+        session::SceneRenderer made = driver();
         test::must(made.draw(scene));
         return made.read_color();
     }

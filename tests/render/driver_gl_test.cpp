@@ -10,6 +10,7 @@
 
 #include "engine/render/shaders/frame_block.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::render {
 namespace {
@@ -28,7 +29,7 @@ TEST_F(DriverGlTest, AMapHasNorthUpAndEastRight) {
             64, 64, [](int col, int row) { return col >= 48 && row < 16 ? 5.0 : 0.0; })),
         color);
     scene.add_camera(pose(scene::Pose::map, terrain));
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::must(made.draw(scene));
     const Image picture = made.read_color();
     const HitBuffer hits = test::must(made.draw_hits(scene));
@@ -112,7 +113,7 @@ TEST_F(DriverGlTest, TwoNodesMayShareASurface) {
                                             std::acos(-1.0), {0.0, 0.0, 1.0}));
     scene.add_camera(scene::pose_camera(scene::Pose::map, scene.root().world_bounds(), {}));
     scene.add_light({.azimuth = 90.0, .altitude = 20.0});
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::must(made.draw(scene));
     const Image picture = made.read_color();
     EXPECT_GT(brightness(picture(240, 120)), brightness(picture(80, 120)) + 60);
@@ -121,7 +122,7 @@ TEST_F(DriverGlTest, TwoNodesMayShareASurface) {
 TEST_F(DriverGlTest, ASecondFrameUploadsTheFrameBlockOnly) {
     World world;
     world.look(camera_at({0.0, -350.0, 250.0}, {0.0, 0.0, 0.0}));
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const view::FrameStats first = test::must(made.draw(world.scene));
     EXPECT_EQ(first.tiles, 9);
     EXPECT_EQ(first.triangles, 2U * 300U * 300U);
@@ -137,7 +138,7 @@ TEST_F(DriverGlTest, ASecondFrameUploadsTheFrameBlockOnly) {
 
 TEST_F(DriverGlTest, AMovedSunUploadsTheMapsAgain) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::must(made.draw(world.scene));
     const Image before = made.read_color();
     for (const auto& child : world.scene.root().children()) {
@@ -154,7 +155,7 @@ TEST_F(DriverGlTest, AMovedSunUploadsTheMapsAgain) {
 TEST_F(DriverGlTest, WhatIsGoneFromTheSceneLeavesTheDriver) {
     Scene scene;
     scene.add_camera(camera_at({0.0, -40.0, 30.0}, {0.0, 0.0, 0.0}));
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     for (int i = 0; i < 20; ++i) {
         Node& terrain = test::add_terrain(
             scene, test::plane_heightfield(Grid<float>(20, 20, 0.1F * static_cast<float>(i))));
@@ -175,7 +176,7 @@ TEST_F(DriverGlTest, AWireframeCoversFewerPixels) {
     Node& terrain =
         test::add_terrain(scene, test::plane_heightfield(test::hills(20, 20, 1.0), {10.0, 10.0}));
     scene.add_camera(pose(scene::Pose::overview, terrain));
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const int filled = terrain_pixels(test::must(made.draw_hits(scene)));
     terrain.get<scene::TerrainNode>()->material.wireframe = true;
     const int lines = terrain_pixels(test::must(made.draw_hits(scene)));
@@ -187,7 +188,7 @@ TEST_F(DriverGlTest, AWireframeCoversFewerPixels) {
 
 TEST_F(DriverGlTest, AResizedOneDrawsAsOneMadeOfThatSize) {
     World world;
-    Driver made = driver({100, 50});
+    session::SceneRenderer made = driver({100, 50});
     test::must(made.draw(world.scene));
     EXPECT_EQ(made.read_color().cols(), 100);
     EXPECT_EQ(test::must(made.draw_hits(world.scene)).rows(), 50);
@@ -203,8 +204,8 @@ TEST_F(DriverGlTest, AResizedOneDrawsAsOneMadeOfThatSize) {
 }
 
 TEST_F(DriverGlTest, ASizeThatCannotBeIsAnError) {
-    EXPECT_FALSE(Driver::create({.size = {0, 0}, .shader_dir = {}, .software = true}));
-    EXPECT_FALSE(Driver::create({.size = {100000, 100000}, .shader_dir = {}, .software = true}));
+    EXPECT_FALSE(test::make_renderer({0, 0}));
+    EXPECT_FALSE(test::make_renderer({100000, 100000}));
 }
 
 TEST_F(DriverGlTest, WithoutSunAndSkyTheImageryItselfShows) {
@@ -212,7 +213,7 @@ TEST_F(DriverGlTest, WithoutSunAndSkyTheImageryItselfShows) {
     Node& terrain = test::add_terrain(scene, test::plane_heightfield(test::hills(50, 50, 1.0)),
                                       Image(50, 50, Rgba8{100, 150, 200, 255}));
     scene.add_camera(pose(scene::Pose::overview, terrain));
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const view::FrameStats stats = test::must(made.draw(scene));
     EXPECT_EQ(stats.draws, 1);
     EXPECT_EQ(stats.skipped.sky, 1);
@@ -226,7 +227,7 @@ TEST_F(DriverGlTest, WithoutSunAndSkyTheImageryItselfShows) {
 
 TEST_F(DriverGlTest, AnEmptySceneIsSky) {
     Scene scene;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     EXPECT_EQ(test::must(made.draw(scene)).draws, 0);
     scene.set_sky({});
     EXPECT_EQ(test::must(made.draw(scene)).draws, 1);
@@ -295,7 +296,7 @@ TEST_F(DriverGlTest, AMeshInFrontHidesTheTerrain) {
     Node& box = world.scene.add_mesh(scene::box_mesh(glm::vec3(10.0F)));
     world.look(camera_at({0.0, -100.0, 60.0}, {0.0, 0.0, 20.0}));
     box.set_position({0.0, 0.0, 20.0});
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::must(made.draw(world.scene));
     const HitBuffer hits = test::must(made.draw_hits(world.scene));
     const Hit& middle = hits(size.x / 2, size.y / 2);
@@ -329,7 +330,7 @@ TEST_F(DriverGlTest, TheTextureTechniqueIsFlatAtTheMiddleOfTheRange) {
     world.terrain->get<scene::TerrainNode>()->material.technique =
         scene::make_technique(scene::TechniqueId::texture);
     world.look(camera_at({0.0, -350.0, 250.0}, {0.0, 0.0, 0.0}));
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     EXPECT_EQ(test::must(made.draw(world.scene)).triangles, 2U * 9U);
     const HitBuffer hits = test::must(made.draw_hits(world.scene));
     const double reference = terrain::reference_height(surface_of(*world.terrain).heightfield());
@@ -354,7 +355,7 @@ TEST_F(DriverGlTest, TheTextureTechniqueIsFlatAtTheMiddleOfTheRange) {
 
 TEST_F(DriverGlTest, CamerasThatAreNowhereDrawNothingAndDoNoHarm) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const double nan = std::nan("");
     for (const Camera& camera :
          {camera_at(glm::dvec3(nan), glm::dvec3(0.0)), camera_at(glm::dvec3(0.0), glm::dvec3(0.0)),

@@ -8,6 +8,7 @@
 
 #include "engine/terrain/field/surface_caster.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::render {
 namespace {
@@ -132,7 +133,7 @@ void expect_true_hits(const HitBuffer& hits, const Camera& camera, const Node& n
 
 TEST_F(DriverGlTest, HitsLieOnTheSurfaceAndProjectBackToTheirPixel) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     for (const auto which :
          {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
         world.look(pose(which, *world.terrain));
@@ -208,7 +209,7 @@ bool is_inner(const Grid<std::uint8_t>& cover, int col, int row) {
 
 TEST_F(DriverGlTest, ThePictureShowsTheTerrainExactlyWhereTheExactRaysDo) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     for (const auto which : {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing}) {
         world.look(pose(which, *world.terrain));
         const HitBuffer hits = test::must(made.draw_hits(world.scene));
@@ -252,7 +253,7 @@ TEST_F(DriverGlTest, HasNoHolesBetweenTiles) {
         scene, test::plane_heightfield(test::hills(641, 641, 150.0), {30.87, 29.3}));
     const Box& bounds = surface_of(terrain).bounds();
     Node& camera = scene.add_camera();
-    Driver made = driver(picture);
+    session::SceneRenderer made = driver(picture);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     int holes = 0;
@@ -271,7 +272,7 @@ TEST_F(DriverGlTest, TheLeastHeightfieldIsDrawn) {
     Node& terrain = test::add_terrain(scene, test::plane_heightfield(heights, {10.0, 10.0}));
     scene.add_camera(pose(scene::Pose::map, terrain));
     scene.add_light();
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     EXPECT_EQ(test::must(made.draw(scene)).triangles, 2U);
     const HitBuffer hits = test::must(made.draw_hits(scene));
     expect_true_hits(hits, scene.camera(), terrain);

@@ -7,6 +7,7 @@
 
 #include "engine/geo/place.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::render {
@@ -71,7 +72,7 @@ class EarthGlTest : public DriverGlTest {};
 
 TEST_F(EarthGlTest, AMetreAboveTheGroundNoPixelIsAHundredthOffAnywhere) {
     Ground ground;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::Chance chance(71);
     std::vector<glm::dvec2> places{{0.0, 0.0},        {0.0, 180.0},      {0.0, -180.0},
                                    {45.0, 7.0},       {90.0, 0.0},       {-90.0, 33.0},
@@ -90,7 +91,7 @@ TEST_F(EarthGlTest, AMetreAboveTheGroundNoPixelIsAHundredthOffAnywhere) {
 
 TEST_F(EarthGlTest, NothingJittersWhileTheEyeCreepsAMillimetreAFrame) {
     Ground ground;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const glm::dmat4 frame = earth_frame(46.0, 7.0);
     for (int i = 0; i < 12; ++i) {
         ground.stand(frame, {1.0 + 0.001 * i, 2.0}, 0.7);

@@ -9,9 +9,9 @@ namespace reljef::render {
 /// Reads until a view of `size` wants no more tiles of the terrain's stream.
 inline void bring_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera) {
     while (true) {
-        const auto wanted = view::choose_tiles(terrain, camera, size, glm::dmat4(1.0)).wanted;
-        terrain.stream->want(wanted);
-        if (wanted.empty()) {
+        const auto choice = view::choose_tiles(terrain, camera, size, glm::dmat4(1.0));
+        terrain.stream->request(choice.wanted, choice.used);
+        if (choice.wanted.empty()) {
             return;
         }
         terrain.stream->wait({});

@@ -10,6 +10,8 @@
 #include "engine/view/streamed_cut.h"
 #include "engine/view/tile_choice.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_tiles.h"
 
@@ -88,15 +90,7 @@ protected:
             scene::TileStreamOptions{.memory_budget = 300 * scene::bytes_per_tile, .threads = 2});
     }
 
-    void bring() {
-        auto& stream = *terrain_->get<scene::TerrainNode>()->stream;
-        const std::array views{scene_.camera()};
-        for (auto wanted = view::wanted_tiles(scene_, stream, views, size); !wanted.empty();
-             wanted = view::wanted_tiles(scene_, stream, views, size)) {
-            stream.want(wanted);
-            stream.wait({});
-        }
-    }
+    void bring() { bring_tiles(*terrain_->get<scene::TerrainNode>(), scene_.camera()); }
 
     // Of the pixels that show terrain, pixels.
     std::vector<double> errors(const HitBuffer& hits) const {
@@ -126,7 +120,7 @@ protected:
 };
 
 TEST_F(StreamedError, OfRoughGroundIsWhatWasAskedForOrLess) {
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::Chance chance(9);
     for (int round = 0; round < 3; ++round) {
         const glm::dvec3 eye(chance.between(-300, 300), chance.between(-300, 300),
@@ -144,7 +138,7 @@ TEST_F(StreamedError, OfRoughGroundIsWhatWasAskedForOrLess) {
 
 TEST_F(StreamedError, OfTheVerticesBesideATileIsNotLeftToItsTriangles) {
     bring();
-    view::DrawList list = view::select(scene_, size);
+    view::DrawList list = view::select(scene_, size).list;
     ASSERT_GT(list.streamed_tiles.size(), 2U);
     std::set<TreeTile> ids;
     for (view::StreamedDraw& draw : list.streamed_tiles) {

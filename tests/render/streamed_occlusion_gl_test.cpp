@@ -12,6 +12,7 @@
 #include "engine/view/occlusion.h"
 #include "engine/view/tile_choice.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::render {
@@ -124,11 +125,13 @@ struct RidgeWorld {
 
     // All that is wanted and can be read.
     void bring(const view::TileChoiceOptions& options = {}) const {
-        for (auto wanted = choice(options).wanted;
-             !std::all_of(wanted.begin(), wanted.end(),
-                          [&](TreeTile tile) { return terrain->stream->has_given_up(tile); });
-             wanted = choice(options).wanted) {
-            terrain->stream->want(wanted);
+        const auto is_given_up = [&](TreeTile tile) { return terrain->stream->has_given_up(tile); };
+        while (true) {
+            const view::TileChoice now = choice(options);
+            terrain->stream->request(now.wanted, now.used);
+            if (std::all_of(now.wanted.begin(), now.wanted.end(), is_given_up)) {
+                return;
+            }
             terrain->stream->wait({});
         }
     }
@@ -201,15 +204,14 @@ double deepest_before(const Ray& ray, double depth) {
 
 class StreamedOcclusion : public DriverGlTest {
 protected:
-    static Driver driver_of_all() {
-        return test::must(
-            Driver::create({.size = size, .shader_dir = {}, .software = true, .occlusion = false}));
+    static session::SceneRenderer driver_of_all() {
+        return test::must(test::make_renderer(size, {.occlusion = false}));
     }
 };
 
 TEST_F(StreamedOcclusion, ThePictureIsTheSameToTheBitWithAllThatIsHiddenReadAndDrawn) {
-    Driver with = driver();
-    Driver without = driver_of_all();
+    session::SceneRenderer with = driver();
+    session::SceneRenderer without = driver_of_all();
     int hidden = 0;
     const std::array techniques{std::pair("polygons:error=1", 2), std::pair("polygons", 1)};
     for (const auto& [technique, views] : techniques) {
@@ -236,8 +238,8 @@ TEST_F(StreamedOcclusion, ThePictureIsTheSameToTheBitWithAllThatIsHiddenReadAndD
 // What they rise to is known only once they are read. Found: none is missed; 56 pixels would be if
 // tiles that are not read were looked for no higher than what is there over them.
 TEST_F(StreamedOcclusion, TowersOfTwoSamplesThatAreHigherThanNearerGroundAreSeen) {
-    Driver with = driver();
-    Driver without = driver_of_all();
+    session::SceneRenderer with = driver();
+    session::SceneRenderer without = driver_of_all();
     RidgeWorld world({.ground = wall_height, .towers = 200.0});
     test::Chance chance(26);
     world.look(view_over_wall(chance));
@@ -287,7 +289,7 @@ TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShor
                 ASSERT_TRUE(hidden_tiles(choice) == 0 || worst <= 0.125) << worst;
                 hiding += hidden_tiles(choice) > 0 ? 1 : 0;
                 coarse += worst > 0.125 ? 1 : 0;
-                world.terrain->stream->want(choice.wanted);
+                world.terrain->stream->request(choice.wanted, choice.used);
                 world.terrain->stream->wait({});
             }
         }
@@ -305,19 +307,20 @@ TEST(StreamedOcclusionChoice, TilesThatWaitForOthersStayInMemory) {
     const scene::TileStream& stream = *world.terrain->stream;
     ASSERT_EQ(world.choice().wanted, std::vector{failing});
     for (int round = 0; round < 30; ++round) {
-        std::vector<TreeTile> wanted = world.choice().wanted;
+        const view::TileChoice choice = world.choice();
+        std::vector<TreeTile> wanted = choice.wanted;
         wanted.insert(wanted.end(), {{0, round % 24, 0}, {0, round % 24, 23}}); // of views ahead
-        world.terrain->stream->want(wanted);
+        world.terrain->stream->request(wanted, choice.used);
         world.terrain->stream->wait({});
     }
     EXPECT_GT(stream.stats().evicted, 0);
     for (const TreeTile tile : waiting) {
-        EXPECT_NE(stream.peek(tile), nullptr);
+        EXPECT_NE(stream.find(tile), nullptr);
     }
 }
 
 TEST_F(StreamedOcclusion, NothingIsSeenThroughNearerGround) {
-    Driver with = driver();
+    session::SceneRenderer with = driver();
     RidgeWorld world;
     test::Chance chance(22);
     const double pixels_per_radian = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
@@ -357,7 +360,7 @@ TEST_F(StreamedOcclusion, TheSameViewGivesTheSamePictureWhateverCameBefore) {
     const Camera view = view_from_valley(chance);
     const auto picture = [&](bool with_more) {
         RidgeWorld world;
-        Driver made = driver();
+        session::SceneRenderer made = driver();
         world.look(view);
         world.terrain->material.wireframe = with_more;
         world.bring();

@@ -7,6 +7,7 @@
 #include "engine/view/tile_choice.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
+#include "tests/session/made_session.h"
 #include "tests/terrain/made_tiles.h"
 
 namespace reljef::render {
@@ -105,7 +106,7 @@ class StreamedPicturesGlTest : public DriverGlTest {};
 // rounded four times.
 TEST_F(StreamedPicturesGlTest, EveryPixelHasTheColourOfItsPlace) {
     Pictures world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     for (const glm::dvec3 eye : {glm::dvec3(-60.0, 20.0, 25.0), {-70.0, -30.0, 40.0}}) {
         world.look_down(eye);
         test::must(made.draw(world.scene));
@@ -159,7 +160,7 @@ TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
     Pictures world(std::size_t{400} << 20U, striped_at);
     world.scene.add_light();
     world.look_down({-70.0, -30.0, 25.0});
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const auto picture = [&](std::shared_ptr<const scene::GroundDetail> detail) {
         world.terrain->get<scene::TerrainNode>()->detail = std::move(detail);
         test::must(made.draw(world.scene));

@@ -33,7 +33,7 @@ TEST(TileStreams, TilesMadeOfACoarserOverviewHaveItsError) {
         reading.of_overview = true;
         return reading;
     });
-    stream.want(std::array{TreeTile{0, 2, 2}, TreeTile{0, 5, 5}});
+    stream.request(std::array{TreeTile{0, 2, 2}, TreeTile{0, 5, 5}});
     ASSERT_TRUE(stream.wait({}));
     EXPECT_FLOAT_EQ(static_cast<float>(stream.find({0, 2, 2})->error), 16.0F);
     EXPECT_EQ(stream.find({0, 5, 5})->error, 0.0);
@@ -59,9 +59,9 @@ TEST(TileStreams, BringWhatIsWantedOnce) {
         return read_plane(tile, stop);
     });
     const auto tiles = level_0();
-    stream.want(tiles);
+    stream.request(tiles);
     EXPECT_TRUE(stream.wait({}));
-    stream.want(tiles);
+    stream.request(tiles);
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(readings, 64);
     EXPECT_FALSE(stream.is_busy());
@@ -74,7 +74,7 @@ TEST(TileStreams, BringWhatIsWantedOnce) {
 TEST(TileStreams, StayWithinTheirMemoryAndDropTheLeastRecentlySeen) {
     TileStream stream(maker(), read_plane, {.memory_budget = 8 * bytes_per_tile, .threads = 2});
     for (const TreeTile tile : level_0()) {
-        stream.want(std::array{tile});
+        stream.request(std::array{tile});
         stream.wait({});
         ASSERT_NE(stream.find(tile), nullptr);
         ASSERT_LE(stream.stats().bytes, 9 * bytes_per_tile);
@@ -86,11 +86,11 @@ TEST(TileStreams, StayWithinTheirMemoryAndDropTheLeastRecentlySeen) {
 
 TEST(TileStreams, DropWhatOneViewHadTooMuchWhenOthersBegin) {
     TileStream stream(maker(), read_plane, {.memory_budget = 8 * bytes_per_tile, .threads = 2});
-    stream.want(level_0());
+    stream.request(level_0());
     stream.wait({});
     EXPECT_EQ(stream.stats().tiles, 64U);
-    stream.want({});
-    stream.want({});
+    stream.request({});
+    stream.request({});
     EXPECT_LE(stream.stats().bytes, 8 * bytes_per_tile);
 }
 
@@ -108,10 +108,10 @@ TEST(TileStreams, RememberWhatWentThoughNotWithoutEnd) {
                       },
                       {.memory_budget = bytes_per_tile, .threads = 1});
     for (int col = 0; col < tiles; ++col) {
-        stream.want(std::array{TreeTile{0, col, 0}});
+        stream.request(std::array{TreeTile{0, col, 0}});
         ASSERT_TRUE(stream.wait({}));
     }
-    EXPECT_EQ(stream.peek({0, 1000, 0}), nullptr);
+    EXPECT_EQ(stream.find({0, 1000, 0}), nullptr);
     ASSERT_TRUE(stream.recall({0, 1000, 0}));
     EXPECT_EQ(stream.recall({0, 1000, 0})->id, (TreeTile{0, 1000, 0}));
     EXPECT_EQ(stream.recall({0, 1000, 0})->range.high, 128.0);
@@ -131,12 +131,12 @@ TEST(TileStreams, CancelWhatIsPassedBy) {
                           return read_plane(tile, stop);
                       },
                       {.threads = 1});
-    stream.want(level_0());
+    stream.request(level_0());
     while (begun == 0) {
         std::this_thread::sleep_for(1ms);
     }
     go_on = false;
-    stream.want(std::array{TreeTile{3, 0, 0}});
+    stream.request(std::array{TreeTile{3, 0, 0}});
     while (begun < 2) {
         std::this_thread::sleep_for(1ms);
     }
@@ -158,7 +158,7 @@ TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
                           return reading;
                       },
                       {.threads = 1, .first_pause = 1ms});
-    stream.want(std::array{TreeTile{0, 0, 0}});
+    stream.request(std::array{TreeTile{0, 0, 0}});
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(readings, 3);
     EXPECT_NE(stream.find({0, 0, 0}), nullptr);
@@ -181,12 +181,12 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
                           return reading;
                       },
                       {.threads = 1, .first_pause = 20ms});
-    stream.want(std::array{TreeTile{0, 0, 0}});
+    stream.request(std::array{TreeTile{0, 0, 0}});
     while (stream.find({0, 0, 0}) == nullptr) {
         std::this_thread::sleep_for(1ms);
     }
     EXPECT_NE(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
-    stream.want({}); // it is there, and drawn
+    stream.request({}); // it is there, and drawn
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
     EXPECT_EQ(readings, 3);
@@ -213,10 +213,10 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
                       },
                       {.threads = 1, .first_pause = 1ms});
     const TreeTile tile{0, 0, 0};
-    stream.want(std::array{tile});
+    stream.request(std::array{tile});
     for (int frame = 0; frame < 200 && (stream.is_busy() || readings < 2); ++frame) {
         if (stream.find(tile) != nullptr) {
-            stream.want({});
+            stream.request({});
         }
         std::this_thread::sleep_for(2ms);
     }
@@ -246,7 +246,7 @@ protected:
                 return read(attempts_.at(static_cast<std::size_t>(readings_++)), wanted, stop);
             },
             TileStreamOptions{.threads = 1, .first_pause = 10ms});
-        stream_->want(std::array{tile});
+        stream_->request(std::array{tile});
         while (stream_->find(tile) == nullptr) {
             std::this_thread::sleep_for(1ms);
         }
@@ -325,7 +325,7 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
                           return reading;
                       },
                       {.threads = 2, .first_pause = 1ms});
-    stream.want(level_0());
+    stream.request(level_0());
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(stream.stats().read, 56);
     EXPECT_EQ(stream.stats().failed, 8 * TileStream::most_attempts);
@@ -346,16 +346,16 @@ TEST(TileStreams, WaitOnceForAFileThatFailsForGood) {
                           return reading;
                       },
                       {.threads = 2, .first_pause = 2ms});
-    stream.want(std::array{TreeTile{0, 0, 0}});
+    stream.request(std::array{TreeTile{0, 0, 0}});
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(stream.stats().failed, TileStream::most_attempts);
-    stream.want(level_0());
+    stream.request(level_0());
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(stream.stats().failed, TileStream::most_attempts + 63);
     EXPECT_FALSE(stream.is_busy());
     // What of it was not tried is read as soon as it is wanted.
     is_back = true;
-    stream.want(std::array{TreeTile{3, 0, 0}});
+    stream.request(std::array{TreeTile{3, 0, 0}});
     EXPECT_TRUE(stream.wait({}));
     EXPECT_NE(stream.find({3, 0, 0}), nullptr);
 }
@@ -370,7 +370,7 @@ TEST(TileStreams, EndInTheMiddleOfReading) {
             }
             return read_plane(tile, stop);
         });
-        stream.want(level_0());
+        stream.request(level_0());
         std::stop_source stopped;
         stopped.request_stop();
         EXPECT_FALSE(stream.wait(stopped.get_token()));
@@ -382,7 +382,7 @@ TEST(TileStreams, KnowTheGroundAtTheFinestTileThatIsThere) {
     auto stream = std::make_shared<TileStream>(maker(), read_plane);
     const TerrainNode node{overview(), {}, stream};
     EXPECT_FALSE(stream->finest_at({64.0, 64.0}));
-    stream->want(std::array{TreeTile{3, 0, 0}, TreeTile{0, 4, 4}});
+    stream->request(std::array{TreeTile{3, 0, 0}, TreeTile{0, 4, 4}});
     stream->wait({});
     EXPECT_EQ(stream->finest_at({70.0, 70.0})->tile->id.level, 0);
     EXPECT_EQ(stream->finest_at({20.0, 70.0})->tile->id.level, 3);

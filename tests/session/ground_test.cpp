@@ -8,7 +8,8 @@
 
 #include "engine/session/frame_maker.h"
 #include "engine/session/streaming.h"
-#include "engine/view/tile_choice.h"
+#include "engine/view/select.h"
+#include "tests/session/made_session.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
@@ -17,11 +18,12 @@ namespace {
 
 constexpr glm::ivec2 small_picture{160, 120};
 
-/// Brings tiles, and draws nothing.
+/// Loads tiles, and draws nothing.
 class TilesOnly : public session::FrameMaker {
 public:
-    void bring(const scene::Scene& scene, const std::stop_token& stop) override {
-        session::bring_tiles(scene, small_picture, stop, true);
+    void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) override {
+        session::Log silent;
+        session::wait_for_tiles(scene, small_picture, selector, silent, stop);
     }
     Result<Image> draw(const scene::Scene& /*scene*/,
                        const ParallelOptions& /*parallel*/) override {
@@ -32,6 +34,8 @@ public:
         return Error{"nothing is drawn"};
     }
     [[nodiscard]] std::string stats() const override { return {}; }
+
+    view::FrameSelector selector;
 };
 
 /// A plateau at 1000 m, 2.8 km wide, with a canyon through its middle from south to north whose
@@ -50,16 +54,15 @@ protected:
         folder_.write("canyon.prj", R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",)"
                                     R"(6378137,298.257223563]],PRIMEM["Greenwich",0],)"
                                     R"(UNIT["degree",0.0174532925199433]])");
-        cli::TerrainChoice choice;
+        session::SourceOptions choice;
         choice.terrain = folder_.write("canyon.asc", text).string();
         choice.memory_megabytes = 1;
         choice.placement = placement;
-        choice.quiet = true;
         choice.streamed = true;
-        auto source = session::open_terrain(choice, {});
+        auto source = test::open_terrain(choice);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
         EXPECT_TRUE(source->stream);
-        return std::move(*session::make_scene(std::move(*source), choice, cli::ViewChoice{}));
+        return std::move(*test::make_scene(std::move(*source), choice, session::SceneOptions{}));
     }
 
     test::TemporaryFolder folder_;
@@ -88,9 +91,9 @@ TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
     TilesOnly maker;
     EXPECT_NEAR(session::fly_above_ground(scene, path, 0, 2, maker, {}),
                 800.0 + session::least_clearance(scene), 1e-9);
-    const auto& stream = *scene.terrain->get<scene::TerrainNode>()->stream;
-    const std::array views{scene.scene.camera()};
-    EXPECT_TRUE(view::wanted_tiles(scene.scene, stream, views, small_picture).empty());
+    const view::FrameView frame = view::select(scene.scene, small_picture);
+    ASSERT_EQ(frame.requests.size(), 1U);
+    EXPECT_TRUE(frame.requests.front().missing.empty());
 }
 
 // From beside the terrain, as the pose overview looks, and from afar. Without finer tiles the

@@ -12,6 +12,7 @@
 
 #include "engine/geo/place.h"
 #include "engine/session/frame_maker.h"
+#include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::app {
@@ -24,7 +25,7 @@ const std::string wgs84_prj =
 class GeodeticCamera : public testing::Test {
 protected:
     /// Ground 20° around (50, 10), level but for a peak in the middle.
-    [[nodiscard]] session::TerrainScene scene_of(const cli::ViewChoice& view,
+    [[nodiscard]] session::TerrainScene scene_of(const session::SceneOptions& view,
                                                  terrain::PlacementKind placement, int ground = 100,
                                                  int peak = 100) const {
         std::string text = "ncols 41\nnrows 41\nxllcenter -10\nyllcenter 30\ncellsize 1\n";
@@ -32,21 +33,20 @@ protected:
             text += fmt::format("{} ", i == 20 * 41 + 20 ? peak : ground);
         }
         folder_.write("ground.prj", wgs84_prj);
-        cli::TerrainChoice choice;
+        session::SourceOptions choice;
         choice.terrain = folder_.write("ground.asc", text).string();
         choice.placement = placement;
-        choice.quiet = true;
-        auto source = session::open_terrain(choice, {});
+        auto source = test::open_terrain(choice);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
-        return std::move(*session::make_scene(std::move(*source), choice, view));
+        return std::move(*test::make_scene(std::move(*source), choice, view));
     }
-    static cli::ViewChoice view_of(const cli::GeodeticView& geodetic) {
-        cli::ViewChoice view;
+    static session::SceneOptions view_of(const session::GeodeticView& geodetic) {
+        session::SceneOptions view;
         view.geodetic = geodetic;
         return view;
     }
     /// What is so far ahead at a place, by the local frame at that very place.
-    static geo::Geodetic ahead_of(const cli::GeodeticView& view, double metres) {
+    static geo::Geodetic ahead_of(const session::GeodeticView& view, double metres) {
         const double heading = glm::radians(view.heading);
         const double pitch = glm::radians(view.pitch);
         const geo::LocalFrame there({view.latitude, view.longitude, view.height});
@@ -68,7 +68,7 @@ TEST_F(GeodeticCamera, LooksAlongTheHeadingAndThePitchOfItsOwnPlace) {
         for (const double longitude : {-9.0, 10.0, 29.0}) {
             for (const double heading : {0.0, 90.0, 217.0}) {
                 for (const double pitch : {-60.0, 0.0, 20.0}) {
-                    const cli::GeodeticView view{latitude, longitude, 5000.0, heading, pitch};
+                    const session::GeodeticView view{latitude, longitude, 5000.0, heading, pitch};
                     const auto scene = scene_of(view_of(view), terrain::PlacementKind::ellipsoid);
                     const auto& camera = *scene.camera->get<scene::Camera>();
                     const glm::dvec3 target =
@@ -86,7 +86,7 @@ TEST_F(GeodeticCamera, LooksAlongTheHeadingAndThePitchOfItsOwnPlace) {
 }
 
 TEST_F(GeodeticCamera, OnAPlaneLooksAlongTheMapsNorth) {
-    const cli::GeodeticView view{60.0, 25.0, 5000.0, 0.0, 0.0};
+    const session::GeodeticView view{60.0, 25.0, 5000.0, 0.0, 0.0};
     const auto scene = scene_of(view_of(view), terrain::PlacementKind::plane);
     const auto& camera = *scene.camera->get<scene::Camera>();
     EXPECT_LT(glm::distance(scene::view_axes(camera).forward, {0.0, 1.0, 0.0}), 1e-6);
@@ -106,7 +106,7 @@ TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
     for (const Place& at : {Place{11.9, 661720.751, 6654956.720, 2.512012476527},
                             Place{6.2, 343853.566, 6654716.392, -2.425356101970}}) {
         folder_.write("utm.prj", utm_32_prj);
-        cli::TerrainChoice choice;
+        session::SourceOptions choice;
         choice.terrain = folder_
                              .write("utm.asc", fmt::format("ncols 3\nnrows 3\nxllcenter {}\n"
                                                            "yllcenter {}\ncellsize 1000\n"
@@ -114,11 +114,10 @@ TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
                                                            at.easting - 1000, at.northing - 1000))
                              .string();
         choice.placement = terrain::PlacementKind::plane;
-        choice.quiet = true;
-        auto source = session::open_terrain(choice, {});
+        auto source = test::open_terrain(choice);
         ASSERT_TRUE(source) << source.error().message;
-        const auto scene = session::make_scene(std::move(*source), choice,
-                                               view_of({60.0, at.longitude, 500.0, 0.0, 0.0}));
+        const auto scene = test::make_scene(std::move(*source), choice,
+                                            view_of({60.0, at.longitude, 500.0, 0.0, 0.0}));
         ASSERT_TRUE(scene) << scene.error().message;
         const glm::dvec3 forward = scene::view_axes(*scene->camera->get<scene::Camera>()).forward;
         // East of the middle meridian the grid's north is east of the true one.
@@ -127,19 +126,19 @@ TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
 }
 
 TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
-    cli::ViewChoice view;
-    view.path = folder_
-                    .write("path.toml", "[[key]]\ntime = 0\nlatitude = 65\nlongitude = 28\n"
-                                        "height = 5000\nheading = 40\npitch = -10\n"
-                                        "[[key]]\ntime = 1\nlatitude = 65.01\nlongitude = 28\n"
-                                        "height = 5000\nheading = 40\npitch = -10\n")
-                    .string();
-    auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
-    const auto path = session::open_path(scene, view, {});
+    const std::string file =
+        folder_
+            .write("path.toml", "[[key]]\ntime = 0\nlatitude = 65\nlongitude = 28\n"
+                                "height = 5000\nheading = 40\npitch = -10\n"
+                                "[[key]]\ntime = 1\nlatitude = 65.01\nlongitude = 28\n"
+                                "height = 5000\nheading = 40\npitch = -10\n")
+            .string();
+    auto scene = scene_of({}, terrain::PlacementKind::ellipsoid);
+    const auto path = test::open_path(scene, file);
     ASSERT_TRUE(path) << path.error().message;
-    session::fly_to(scene, **path, 0, 2);
+    session::fly_to(scene, *path, 0, 2);
     const auto& camera = *scene.camera->get<scene::Camera>();
-    const cli::GeodeticView first{65.0, 28.0, 5000.0, 40.0, -10.0};
+    const session::GeodeticView first{65.0, 28.0, 5000.0, 40.0, -10.0};
     const glm::dvec3 target = *placement_of(scene).world_from_geodetic(ahead_of(first, 1000.0));
     const scene::ViewAxes axes = scene::view_axes(camera);
     EXPECT_LT(glm::distance(axes.forward, glm::normalize(target - camera.eye)), right_angle);
@@ -151,15 +150,14 @@ protected:
     /// Where the frames of a path file see from.
     std::vector<geo::Geodetic> eyes_of(const std::string& name, const std::string& text, int frames,
                                        int ground, int peak) {
-        cli::ViewChoice view;
-        view.path = folder_.write(name, text).string();
-        auto scene = scene_of(view, terrain::PlacementKind::ellipsoid, ground, peak);
-        const auto path = session::open_path(scene, view, {});
+        const std::string file = folder_.write(name, text).string();
+        auto scene = scene_of({}, terrain::PlacementKind::ellipsoid, ground, peak);
+        const auto path = test::open_path(scene, file);
         EXPECT_TRUE(path) << (path ? "" : path.error().message);
         session::TruthFrames maker({1, 1}, 1);
         std::vector<geo::Geodetic> eyes;
         for (int i = 0; i < frames; ++i) {
-            raised_.push_back(session::fly_above_ground(scene, **path, i, frames, maker, {}));
+            raised_.push_back(session::fly_above_ground(scene, *path, i, frames, maker, {}));
             const glm::dvec3 eye = scene.camera->get<scene::Camera>()->eye;
             eyes.push_back(*placement_of(scene).geodetic_from_world(eye));
         }
@@ -185,21 +183,21 @@ TEST_F(Flight, GoesAlongTheGeodesicBetweenKeysAtTheirHeights) {
 }
 
 TEST_F(Flight, LooksAlongItsWayAllTheTime) {
-    cli::ViewChoice view;
-    view.path = folder_
-                    .write("line.geojson",
-                           R"({"type":"LineString","coordinates":[[0,48,1500],[20,52,1500]]})")
-                    .string();
-    auto scene = scene_of(view, terrain::PlacementKind::ellipsoid);
-    const auto path = session::open_path(scene, view, {});
+    const std::string file =
+        folder_
+            .write("line.geojson",
+                   R"({"type":"LineString","coordinates":[[0,48,1500],[20,52,1500]]})")
+            .string();
+    auto scene = scene_of({}, terrain::PlacementKind::ellipsoid);
+    const auto path = test::open_path(scene, file);
     ASSERT_TRUE(path) << path.error().message;
     for (int i = 0; i < 30; ++i) {
-        session::fly_to(scene, **path, i, 30);
+        session::fly_to(scene, *path, i, 30);
         const auto& camera = *scene.camera->get<scene::Camera>();
         const glm::dvec3 forward = scene::view_axes(camera).forward;
         EXPECT_NEAR(glm::dot(forward, placement_of(scene).up(camera.eye)), 0.0, 1e-3) << i;
         if (i < 29) {
-            const scene::FlyKey next = (*path)->at((i + 1) / 29.0 * (*path)->duration());
+            const scene::FlyKey next = path->at((i + 1) / 29.0 * path->duration());
             EXPECT_GT(glm::dot(forward, glm::normalize(next.eye - camera.eye)), 0.999) << i;
         }
     }

@@ -14,6 +14,7 @@
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 #include "tests/app/command_line.h"
+#include "tests/session/made_session.h"
 #include "tests/support/nginx.h"
 #include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
@@ -55,11 +56,10 @@ protected:
         folder_.write("tiles/" + name, bytes);
     }
     /// For the application's own calls, whose caches XDG_CACHE_HOME keeps here.
-    [[nodiscard]] cli::TerrainChoice streamed_choice() const {
-        cli::TerrainChoice choice;
+    [[nodiscard]] session::SourceOptions streamed_choice() const {
+        session::SourceOptions choice;
         choice.terrain = path("tiles");
         choice.memory_megabytes = 32;
-        choice.quiet = true;
         choice.streamed = true;
         return choice;
     }
@@ -113,13 +113,13 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
 // Cells that share no edge with the one that is gone are drawn as finely as without it.
 TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    const cli::TerrainChoice choice = streamed_choice();
-    cli::ViewChoice view;
+    const session::SourceOptions choice = streamed_choice();
+    session::SceneOptions view;
     view.geodetic = {44.3, 7.7, 3000.0, 90.0, -60.0};
-    auto source = session::open_terrain(choice, {});
+    auto source = test::open_terrain(choice);
     ASSERT_TRUE(source) << source.error().message;
     std::filesystem::remove(folder_.path() / "tiles/N45E006.hgt");
-    auto scene = session::make_scene(std::move(*source), choice, view);
+    auto scene = test::make_scene(std::move(*source), choice, view);
     ASSERT_TRUE(scene) << scene.error().message;
     const auto& terrain = *scene->terrain->get<scene::TerrainNode>();
     const std::array cameras{scene->scene.camera()};
@@ -129,7 +129,7 @@ TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
         return found ? found->tile->id.level : -1;
     };
     for (int i = 0; i < 300 && level_there() != 0; ++i) {
-        session::ask_for_tiles(scene->scene, cameras, {160, 120});
+        session::request_tiles(view::tile_requests(scene->scene, cameras.front(), {160, 120}));
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_EQ(level_there(), 0);
@@ -139,15 +139,15 @@ TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
 // What the overview stood in for is read once the file is back.
 TEST_F(Streaming, a_file_that_comes_back_is_shown_again) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    const cli::TerrainChoice choice = streamed_choice();
-    auto source = session::open_terrain(choice, {});
+    const session::SourceOptions choice = streamed_choice();
+    auto source = test::open_terrain(choice);
     ASSERT_TRUE(source) << source.error().message;
-    const auto scene = session::make_scene(std::move(*source), choice, {});
+    const auto scene = test::make_scene(std::move(*source), choice, {});
     ASSERT_TRUE(scene) << scene.error().message;
     scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
     const auto wait_until = [&](const auto& condition) {
         for (int i = 0; i < 2000 && !condition(); ++i) {
-            stream.want(std::array{stream.tree().root()});
+            stream.request(std::array{stream.tree().root()});
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     };
@@ -174,14 +174,14 @@ std::string coarse_cell(double west, double south) {
 
 TEST_F(Streaming, a_file_that_is_replaced_by_one_of_another_size_is_shown_and_told) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    const cli::TerrainChoice choice = streamed_choice();
-    auto source = session::open_terrain(choice, {});
+    const session::SourceOptions choice = streamed_choice();
+    auto source = test::open_terrain(choice);
     ASSERT_TRUE(source) << source.error().message;
-    const auto scene = session::make_scene(std::move(*source), choice, {});
+    const auto scene = test::make_scene(std::move(*source), choice, {});
     ASSERT_TRUE(scene) << scene.error().message;
     scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
     folder_.write("tiles/N45E006.hgt", coarse_cell(6.0, 45.0));
-    stream.want(std::array{stream.tree().root()});
+    stream.request(std::array{stream.tree().root()});
     ASSERT_TRUE(stream.wait({}));
     ASSERT_NE(stream.find(stream.tree().root()), nullptr);
     EXPECT_FALSE(stream.find(stream.tree().root())->of_overview);
@@ -361,20 +361,19 @@ TEST_F(FineImagery, is_streamed_over_what_fits_the_memory) {
 
 TEST_F(FineImagery, leaves_all_samples_to_shadows_and_far_ground_where_there_is_memory) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    cli::TerrainChoice choice;
+    session::SourceOptions choice;
     choice.terrain = path("tiles/N44E006.hgt");
     choice.imagery = {path("fine.vrt")};
-    choice.quiet = true;
     choice.streamed = choice.pictures_streamed = true;
     choice.memory_megabytes = 160; // of which the samples and their picture take a half at most
-    const auto whole = session::open_terrain(choice, {});
+    const auto whole = test::open_terrain(choice);
     ASSERT_TRUE(whole) << whole.error().message;
     ASSERT_TRUE(whole->stream);
     EXPECT_EQ(whole->stream->plan.reduction, 1);
     EXPECT_EQ(whole->terrain.heightfield.heights.cols(), 1201);
     EXPECT_THAT(whole->terrain.notes, ::testing::Contains(HasSubstr("finer parts of the images")));
     choice.memory_megabytes = 64;
-    const auto averages = session::open_terrain(choice, {});
+    const auto averages = test::open_terrain(choice);
     ASSERT_TRUE(averages) << averages.error().message;
     ASSERT_TRUE(averages->stream);
     EXPECT_GT(averages->stream->plan.reduction, 1);
@@ -439,18 +438,18 @@ TEST_F(BadServer, gives_the_picture_of_the_local_file_even_where_it_is_slow) {
 TEST_F(BadServer, that_hangs_holds_up_no_picture_and_finer_tiles_come_once_it_has_recovered) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
     test::Nginx server(folder_.path());
-    cli::TerrainChoice choice = streamed_choice();
+    session::SourceOptions choice = streamed_choice();
     choice.terrain = server.url("dem.tif");
     choice.memory_megabytes = 1;
-    auto source = session::open_terrain(choice, {});
+    auto source = test::open_terrain(choice);
     ASSERT_TRUE(source) << source.error().message;
-    const auto scene = session::make_scene(std::move(*source), choice, {});
+    const auto scene = test::make_scene(std::move(*source), choice, {});
     ASSERT_TRUE(scene) << scene.error().message;
     scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
     const auto ask_for = [&](terrain::TreeTile tile, std::chrono::milliseconds time) {
         const auto end = std::chrono::steady_clock::now() + time;
         while (stream.find(tile) == nullptr && std::chrono::steady_clock::now() < end) {
-            stream.want(std::array{tile});
+            stream.request(std::array{tile});
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         return stream.find(tile);

@@ -68,7 +68,7 @@ std::size_t triangles_of(const scene::Node& node) {
 }
 
 void expect_right_selection(scene::Scene& scene, const scene::Node& node, bool flat) {
-    const view::DrawList list = view::select(scene, picture_size);
+    const view::DrawList list = view::select(scene, picture_size).list;
     const auto& surface = test::surface_of(node);
     std::set<int> drawn;
     std::size_t triangles = 0;
@@ -159,28 +159,28 @@ TEST(DrawList, CountsWhatIsHidden) {
     group.add("one");
     group.add("two");
     scene.add_camera();
-    const view::DrawList all = view::select(scene, picture_size);
+    const view::DrawList all = view::select(scene, picture_size).list;
     EXPECT_EQ(all.stats.nodes, 5);
     EXPECT_EQ(all.stats.skipped.invisible_nodes, 0);
     group.set_visible(false);
-    const view::DrawList some = view::select(scene, picture_size);
+    const view::DrawList some = view::select(scene, picture_size).list;
     EXPECT_EQ(some.stats.nodes, 5);
     EXPECT_EQ(some.stats.skipped.invisible_nodes, 3);
 }
 
 TEST(DrawList, HoldsTheFirstVisibleLightAndTheSky) {
     scene::Scene scene;
-    EXPECT_FALSE(view::select(scene, picture_size).sun);
-    EXPECT_FALSE(view::select(scene, picture_size).sky);
-    EXPECT_EQ(view::select(scene, picture_size).stats.skipped.sky, 1);
+    EXPECT_FALSE(view::select(scene, picture_size).list.sun);
+    EXPECT_FALSE(view::select(scene, picture_size).list.sky);
+    EXPECT_EQ(view::select(scene, picture_size).list.stats.skipped.sky, 1);
     scene::Node& first = scene.add_light({.azimuth = 1.0});
     scene.add_light({.azimuth = 2.0});
     scene.set_sky({});
-    EXPECT_EQ(view::select(scene, picture_size).sun->azimuth, 1.0);
+    EXPECT_EQ(view::select(scene, picture_size).list.sun->azimuth, 1.0);
     first.set_visible(false);
-    EXPECT_EQ(view::select(scene, picture_size).sun->azimuth, 2.0);
-    EXPECT_TRUE(view::select(scene, picture_size).sky);
-    EXPECT_EQ(view::select(scene, picture_size).stats.skipped.sky, 0);
+    EXPECT_EQ(view::select(scene, picture_size).list.sun->azimuth, 2.0);
+    EXPECT_TRUE(view::select(scene, picture_size).list.sky);
+    EXPECT_EQ(view::select(scene, picture_size).list.stats.skipped.sky, 0);
 }
 
 TEST(DrawList, LeavesOutMeshesOutsideTheFrustum) {
@@ -188,11 +188,11 @@ TEST(DrawList, LeavesOutMeshesOutsideTheFrustum) {
     scene.add_camera(test::camera_at({0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}));
     scene::Node& box = scene.add_mesh(scene::box_mesh(glm::vec3(1.0F)));
     box.set_position({0.0, 5.0, 0.0});
-    EXPECT_EQ(view::select(scene, picture_size).meshes.size(), 1U);
+    EXPECT_EQ(view::select(scene, picture_size).list.meshes.size(), 1U);
     box.set_position({0.0, -5.0, 0.0});
-    EXPECT_TRUE(view::select(scene, picture_size).meshes.empty());
-    EXPECT_EQ(view::select(scene, picture_size).stats.skipped.nodes_outside_frustum, 1);
-    EXPECT_EQ(view::select(scene, picture_size).stats.skipped.triangles_outside_frustum, 12U);
+    EXPECT_TRUE(view::select(scene, picture_size).list.meshes.empty());
+    EXPECT_EQ(view::select(scene, picture_size).list.stats.skipped.nodes_outside_frustum, 1);
+    EXPECT_EQ(view::select(scene, picture_size).list.stats.skipped.triangles_outside_frustum, 12U);
 }
 
 TEST(DrawList, FitsTheDepthOfAnOrthographicCameraToTheScene) {
@@ -206,7 +206,7 @@ TEST(DrawList, FitsTheDepthOfAnOrthographicCameraToTheScene) {
         scene::Camera camera = chance.camera(5e3);
         camera.projection = scene::ProjectionKind::orthographic;
         *node.get<scene::Camera>() = camera;
-        const view::DrawList list = view::select(scene, picture_size);
+        const view::DrawList list = view::select(scene, picture_size).list;
         const Box bounds = scene.root().world_bounds();
         for (int corner = 0; corner < 8; ++corner) {
             const glm::dvec3 at{(corner & 1) != 0 ? bounds.low.x : bounds.high.x,

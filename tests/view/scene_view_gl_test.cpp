@@ -8,6 +8,7 @@
 
 #include "engine/scene/tile_stream.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::render {
 namespace {
@@ -120,7 +121,7 @@ TEST(SceneViews, TilesThatComeAreSeen) {
     view::SceneView view(world.scene, size);
     EXPECT_FALSE(view.look(world.scene, size));
     const std::array wanted{tree.root()};
-    world.ground().stream->want(wanted);
+    world.ground().stream->request(wanted);
     world.ground().stream->wait({});
     EXPECT_TRUE(view.look(world.scene, size));
     EXPECT_FALSE(view.look(world.scene, size));
@@ -130,7 +131,7 @@ class StillView : public DriverGlTest {};
 
 TEST_F(StillView, IsDecidedOnceAndDrawnTheSame) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     EXPECT_EQ(test::must(made.draw(world.scene)).skipped.selections_unchanged, 0);
     const Image first = made.read_color();
     const view::FrameStats still = test::must(made.draw(world.scene));
@@ -144,8 +145,8 @@ TEST_F(StillView, IsDecidedOnceAndDrawnTheSame) {
 
 TEST_F(StillView, IsDecidedAnewWhereThatIsMeasured) {
     World world;
-    Driver made =
-        test::must(Driver::create({.size = size, .shader_dir = {}, .selects_always = true}));
+    session::SceneRenderer made = test::must(session::SceneRenderer::create(
+        {.driver = {.size = size, .shader_dir = {}}, .select = {}, .selects_always = true}));
     for (int frame = 0; frame < 2; ++frame) {
         EXPECT_EQ(test::must(made.draw(world.scene)).skipped.selections_unchanged, 0);
     }
@@ -155,7 +156,7 @@ TEST_F(StillView, HoldsNoSurfaceThatItWasToldToForget) {
     auto world = std::make_unique<World>();
     const std::weak_ptr<const scene::TerrainSurface> surface =
         world->terrain->get<scene::TerrainNode>()->surface;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::must(made.draw(world->scene));
     world.reset();
     made.forget_scene();

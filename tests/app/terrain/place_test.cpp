@@ -9,6 +9,7 @@
 #include "engine/session/frame_maker.h"
 #include "engine/session/ground.h"
 #include "engine/session/scene_setup.h"
+#include "tests/session/made_session.h"
 #include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
@@ -29,22 +30,20 @@ int holes_in(const HitBuffer& hits) {
 class StreamedPlace {
 public:
     StreamedPlace(const std::string& folder, int megabytes) {
-        cli::TerrainChoice choice;
+        session::SourceOptions choice;
         choice.terrain = folder;
         choice.memory_megabytes = megabytes;
-        choice.quiet = true;
         choice.streamed = true;
         choice.geoid = "none";
-        auto source = session::open_terrain(choice, {});
+        auto source = test::open_terrain(choice);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
         EXPECT_TRUE(source->stream);
-        scene_ = std::move(*session::make_scene(std::move(*source), choice, cli::ViewChoice{}));
+        scene_ = std::move(*test::make_scene(std::move(*source), choice, session::SceneOptions{}));
         session::DeviceOptions options;
         options.context = platform::ContextKind::osmesa;
         options.context_options.size = picture_size;
-        options.driver.size = picture_size;
-        frames_.emplace(std::move(*session::Device::create(options)),
-                        session::DeviceFramesOptions{});
+        options.renderer.driver.size = picture_size;
+        frames_.emplace(std::move(*session::Device::create(options)), log_);
     }
 
     [[nodiscard]] session::TerrainScene& scene() { return *scene_; }
@@ -74,6 +73,7 @@ public:
 
 private:
     std::optional<session::TerrainScene> scene_;
+    session::Log log_;
     std::optional<session::DeviceFrames> frames_;
 };
 
@@ -101,18 +101,17 @@ protected:
     /// Along a path of so many frames: the eye and its view go on without a jump, and the ground
     /// has no hole.
     void expect_smooth_flight(StreamedPlace& place, const std::string& line) const {
-        cli::ViewChoice view;
-        view.path =
+        const std::string file =
             folder_.write("line.geojson", R"({"type":"LineString","coordinates":[)" + line + "]}")
                 .string();
-        const auto flight = session::open_path(place.scene(), view, {});
+        const auto flight = test::open_path(place.scene(), file);
         ASSERT_TRUE(flight) << flight.error().message;
         constexpr int frames = 17;
         const auto& camera = *place.scene().camera->get<scene::Camera>();
         std::vector<glm::dvec3> eyes;
         glm::dvec3 ahead(0.0);
         for (int i = 0; i < frames; ++i) {
-            session::fly_to(place.scene(), **flight, i, frames);
+            session::fly_to(place.scene(), *flight, i, frames);
             session::keep_above_ground(place.scene());
             const glm::dvec3 eye = camera.eye;
             const glm::dvec3 forward = glm::normalize(camera.look - eye);

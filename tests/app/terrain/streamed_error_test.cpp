@@ -11,6 +11,7 @@
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 #include "engine/terrain/field/heightfield.h"
+#include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr glm::ivec2 picture{384, 288};
 
 /// The block around Mont Blanc, 2401² samples, of which a fifth fits the memory that is allowed.
-class StreamedError : public ::testing::TestWithParam<cli::GeodeticView> {
+class StreamedError : public ::testing::TestWithParam<session::GeodeticView> {
 protected:
     void SetUp() override {
         RELJEF_RELEASE_ONLY("reads and draws the Alps");
@@ -33,24 +34,22 @@ protected:
             fs::create_symlink(fs::absolute(test::data_path(file)), folder_.path() / name);
         }
         choice_.terrain = folder_.path().string();
-        choice_.quiet = true;
         choice_.memory_megabytes = 200;
         choice_.streamed = true;
     }
-    [[nodiscard]] session::TerrainScene scene_from(const cli::GeodeticView& from) const {
-        auto source = session::open_terrain(choice_, {});
+    [[nodiscard]] session::TerrainScene scene_from(const session::GeodeticView& from) const {
+        auto source = test::open_terrain(choice_);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
-        cli::ViewChoice view;
-        view.size = picture;
+        session::SceneOptions view;
         view.geodetic = from;
         view.max_error = 1.0;
-        auto scene = session::make_scene(std::move(*source), choice_, view);
+        auto scene = test::make_scene(std::move(*source), choice_, view);
         EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
         return std::move(*scene);
     }
 
     test::TemporaryFolder folder_;
-    cli::TerrainChoice choice_;
+    session::SourceOptions choice_;
 };
 
 /// How far from where it belongs each pixel shows its place, pixels, ascending.
@@ -89,14 +88,16 @@ TEST_P(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
     session::DeviceOptions options;
     options.context = platform::ContextKind::osmesa;
     options.context_options = {.size = picture, .visible = false};
-    options.driver.size = picture;
+    options.renderer.driver.size = picture;
     auto device = session::Device::create(options);
     ASSERT_TRUE(device) << device.error().message;
-    const cli::GeodeticView& from = GetParam();
+    const session::GeodeticView& from = GetParam();
     const session::TerrainScene scene = scene_from(from);
     ASSERT_NE(scene.terrain->get<scene::TerrainNode>()->stream, nullptr);
-    session::bring_tiles(scene.scene, picture, {}, true);
-    const auto hits = device->driver().draw_hits(scene.scene);
+    session::SceneRenderer& renderer = device->renderer();
+    session::Log silent;
+    session::wait_for_tiles(scene.scene, picture, renderer.selector(), silent, {});
+    const auto hits = renderer.draw_selected_hits();
     ASSERT_TRUE(hits) << hits.error().message;
     const std::vector<double> errors = errors_of(scene, *hits, heights);
     ASSERT_GT(errors.size(), 30000U);
@@ -113,9 +114,9 @@ TEST_P(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, StreamedError,
-                         ::testing::Values(cli::GeodeticView{45.83, 6.75, 2600.0, 60.0, -12.0},
-                                           cli::GeodeticView{45.2, 6.4, 9000.0, 40.0, -20.0},
-                                           cli::GeodeticView{45.0, 7.0, 60000.0, 0.0, -70.0}));
+                         ::testing::Values(session::GeodeticView{45.83, 6.75, 2600.0, 60.0, -12.0},
+                                           session::GeodeticView{45.2, 6.4, 9000.0, 40.0, -20.0},
+                                           session::GeodeticView{45.0, 7.0, 60000.0, 0.0, -70.0}));
 
 } // namespace
 } // namespace reljef::app

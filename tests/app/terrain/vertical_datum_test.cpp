@@ -4,6 +4,7 @@
 
 #include "engine/session/scene_setup.h"
 #include "tests/app/command_line.h"
+#include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef {
@@ -46,19 +47,18 @@ protected:
                        "</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>")
             .string();
     }
-    [[nodiscard]] cli::TerrainChoice choice(const std::string& crs,
-                                            const std::string& geoid = {}) const {
-        cli::TerrainChoice choice;
+    [[nodiscard]] session::SourceOptions choice(const std::string& crs,
+                                                const std::string& geoid = {}) const {
+        session::SourceOptions choice;
         choice.terrain = dem(crs);
         choice.geoid = geoid;
-        choice.quiet = true;
         return choice;
     }
     /// Whether the note is there that no geoid is applied.
-    static bool misses_geoid(const cli::TerrainChoice& choice) {
-        auto source = session::open_terrain(choice, {});
+    static bool misses_geoid(const session::SourceOptions& choice) {
+        auto source = test::open_terrain(choice);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
-        const auto scene = session::make_scene(std::move(*source), choice, {});
+        const auto scene = test::make_scene(std::move(*source), choice, {});
         EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
         return session::missing_geoid(*scene, choice).has_value();
     }
@@ -77,7 +77,7 @@ TEST_F(VerticalDatum, of_a_crs_with_three_axes_is_the_ellipsoid_and_takes_no_geo
 
 TEST_F(VerticalDatum, of_another_name_is_told_where_a_geoid_is_applied) {
     const auto notes_of = [&](const std::string& crs) {
-        const auto source = session::open_terrain(choice(crs, geoid_), {});
+        const auto source = test::open_terrain(choice(crs, geoid_));
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
         EXPECT_TRUE(source->terrain.heightfield.georeference->geoid);
         return source->terrain.notes;
@@ -98,7 +98,7 @@ TEST_F(VerticalDatum, without_a_geoid_is_told_where_the_ellipsoid_is_drawn_on) {
     EXPECT_FALSE(misses_geoid(choice("EPSG:4979")));
     EXPECT_FALSE(misses_geoid(choice("EPSG:4326", geoid_)));
     EXPECT_FALSE(misses_geoid(choice("EPSG:4326", "none")));
-    cli::TerrainChoice flat = choice("EPSG:4326");
+    session::SourceOptions flat = choice("EPSG:4326");
     flat.placement = terrain::PlacementKind::plane;
     EXPECT_FALSE(misses_geoid(flat));
 }

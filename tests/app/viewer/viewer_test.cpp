@@ -20,8 +20,8 @@ using testing::Not;
 
 constexpr double frame = 1.0 / 60.0;
 
-cli::ViewChoice from(glm::dvec3 eye) {
-    cli::ViewChoice view;
+session::SceneOptions from(glm::dvec3 eye) {
+    session::SceneOptions view;
     view.eye = eye;
     view.look = glm::dvec3(0.0);
     return view;
@@ -400,7 +400,7 @@ TEST_F(ViewerTest, MapIsNeverLost) {
 }
 
 TEST(Viewer, SceneThatBeginsAsAMapStaysOneUntilO) {
-    cli::ViewChoice map;
+    session::SceneOptions map;
     map.projection = scene::ProjectionKind::orthographic;
     session::TerrainScene scene = hill_scene(map);
     const scene::Camera given = *scene.camera->get<scene::Camera>();

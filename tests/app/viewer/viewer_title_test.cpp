@@ -5,6 +5,7 @@
 #include "app/viewer/viewer.h"
 #include "engine/geo/place.h"
 #include "tests/app/made_hill.h"
+#include "tests/session/made_session.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::app {
@@ -18,9 +19,9 @@ TEST(ViewerOnEarth, TitleTellsPlaceHeightAndHeading) {
     source.terrain.name = "alps";
     source.terrain.heightfield =
         test::geographic_heightfield(Grid<float>(33, 33, 1000.0F), 46.0, 7.0, 1e-3);
-    cli::ViewChoice view;
-    view.geodetic = cli::GeodeticView{45.99, 7.01, 1500.0, 250.0, -30.0};
-    session::TerrainScene over = session::make_scene(std::move(source), {}, view).value();
+    session::SceneOptions view;
+    view.geodetic = session::GeodeticView{45.99, 7.01, 1500.0, 250.0, -30.0};
+    session::TerrainScene over = test::make_scene(std::move(source), {}, view).value();
     const std::string title =
         Viewer(over, scene::orbit_path(over.bounds), {400, 300}).title({}, {});
     for (const std::string& part :
@@ -37,9 +38,9 @@ TEST(ViewerOnEarth, TitleTellsHeightsAlongThePlacesOwnVertical) {
     source.terrain.name = "europe";
     source.terrain.heightfield =
         test::geographic_heightfield(Grid<float>(33, 33, 1000.0F), 46.0, 7.0, 0.5);
-    cli::ViewChoice view;
-    view.geodetic = cli::GeodeticView{45.5, 8.0, 1500.0, 250.0, -30.0};
-    session::TerrainScene over = session::make_scene(std::move(source), {}, view).value();
+    session::SceneOptions view;
+    view.geodetic = session::GeodeticView{45.5, 8.0, 1500.0, 250.0, -30.0};
+    session::TerrainScene over = test::make_scene(std::move(source), {}, view).value();
     const std::string title =
         Viewer(over, scene::orbit_path(over.bounds), {400, 300}).title({}, {});
     EXPECT_THAT(title, HasSubstr("500 m above ground - 1500 m above sea"));
@@ -52,9 +53,9 @@ TEST(ViewerOnEarth, TitleSaysThatTheEyeIsBesideAMapOfTheWholeEarth) {
     source.terrain.name = "globe";
     source.terrain.heightfield =
         test::geographic_heightfield(Grid<float>(37, 19, 1000.0F), 90.0, -180.0, 10.0);
-    cli::TerrainChoice choice;
+    session::SourceOptions choice;
     choice.placement = terrain::PlacementKind::plane;
-    session::TerrainScene globe = session::make_scene(std::move(source), choice, {}).value();
+    session::TerrainScene globe = test::make_scene(std::move(source), choice, {}).value();
     Viewer viewer(globe, scene::orbit_path(globe.bounds), {400, 300});
     EXPECT_THAT(viewer.title({}, {}), HasSubstr("beside the map of the Earth"));
     // Just south of the north pole, with what is ahead beyond it.
@@ -67,7 +68,7 @@ TEST(ViewerOnEarth, TitleSaysThatTheEyeIsBesideAMapOfTheWholeEarth) {
 }
 
 TEST(Viewer, TitleTellsTheScaleAtTheMiddleOfThePicture) {
-    cli::ViewChoice down;
+    session::SceneOptions down;
     down.eye = glm::dvec3(0.0, -80.0, 160.0);
     down.look = glm::dvec3(0.0, -79.999, 10.0);
     down.vertical_fov = 90.0;
@@ -77,12 +78,12 @@ TEST(Viewer, TitleTellsTheScaleAtTheMiddleOfThePicture) {
                 HasSubstr("1.00 m a pixel"));
     EXPECT_THAT(Viewer(over, scene::orbit_path(over.bounds), {400, 600}).title({}, {}),
                 HasSubstr("0.50 m a pixel"));
-    cli::ViewChoice up = down;
+    session::SceneOptions up = down;
     up.look = glm::dvec3(0.0, 0.0, 1000.0);
     session::TerrainScene sky = hill_scene(up);
     EXPECT_THAT(Viewer(sky, scene::orbit_path(sky.bounds), {400, 300}).title({}, {}),
                 Not(HasSubstr("a pixel")));
-    cli::ViewChoice map;
+    session::SceneOptions map;
     map.projection = scene::ProjectionKind::orthographic;
     session::TerrainScene flat = hill_scene(map);
     const double high = flat.camera->get<scene::Camera>()->view_height;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/render/driver_fixture.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::render {
 namespace {
@@ -16,7 +17,7 @@ void set_technique(Node& terrain, const std::string& text) {
 TEST_F(DriverGlTest, AStillCameraCutsAndUploadsNothing) {
     World world;
     set_technique(*world.terrain, "polygons:error=0.5");
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const view::FrameStats first = test::must(made.draw(world.scene));
     EXPECT_EQ(first.tiles_cut, first.tiles);
     EXPECT_GT(first.skipped.triangles_under_error, 0U);
@@ -30,7 +31,7 @@ TEST_F(DriverGlTest, AStillCameraCutsAndUploadsNothing) {
 TEST_F(DriverGlTest, AMovedCameraUploadsOnlyTilesWhoseTrianglesChanged) {
     World world;
     set_technique(*world.terrain, "polygons:error=2");
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::must(made.draw(world.scene));
     Camera camera = world.scene.camera();
     camera.eye.x += 1e-6;
@@ -43,7 +44,7 @@ TEST_F(DriverGlTest, AMovedCameraUploadsOnlyTilesWhoseTrianglesChanged) {
 
 TEST_F(DriverGlTest, ALowerErrorTakesMoreTriangles) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     std::size_t before = 0;
     for (const char* error : {"16", "4", "1", "0.25"}) {
         set_technique(*world.terrain, std::string("polygons:error=") + error);
@@ -55,7 +56,7 @@ TEST_F(DriverGlTest, ALowerErrorTakesMoreTriangles) {
 
 TEST_F(DriverGlTest, MoreLevelsTakeFewerTriangles) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     std::size_t before = std::numeric_limits<std::size_t>::max();
     for (const char* levels : {"1", "2", "3", "4"}) {
         set_technique(*world.terrain, std::string("polygons:lods=") + levels);
@@ -67,7 +68,7 @@ TEST_F(DriverGlTest, MoreLevelsTakeFewerTriangles) {
 
 TEST_F(DriverGlTest, ATechniqueThatIsTakenUpAgainIsCutAlready) {
     World world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     for (const int cut : {9, 0}) {
         for (const char* technique : {"polygons:error=1", "polygons:lods=3", "texture"}) {
             set_technique(*world.terrain, technique);
@@ -84,7 +85,7 @@ TEST_F(DriverGlTest, TwoTerrainsOfOneSurfaceAreCutEachForItself) {
     other.set_position({0.0, 400.0, 0.0});
     set_technique(*world.terrain, "polygons:error=1");
     set_technique(other, "polygons:error=1");
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const view::FrameStats first = test::must(made.draw(world.scene));
     EXPECT_EQ(first.tiles_cut, first.tiles);
     EXPECT_EQ(test::must(made.draw(world.scene)).tiles_cut, 0);

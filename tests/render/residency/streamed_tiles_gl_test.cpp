@@ -11,6 +11,7 @@
 #include "engine/view/tile_choice.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
+#include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_tiles.h"
 
@@ -68,6 +69,12 @@ struct StreamedWorld {
         return view::choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
                                   glm::dmat4(1.0));
     }
+    // Requests what the view needs, and does not wait.
+    view::TileChoice request() const {
+        view::TileChoice chosen = choice();
+        stream->request(chosen.wanted, chosen.used);
+        return chosen;
+    }
     void bring() const { bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera()); }
     void look(glm::dvec3 eye, glm::dvec3 at) { *camera->get<Camera>() = camera_at(eye, at); }
 };
@@ -76,7 +83,7 @@ TEST(TileChoices, DrawTheRootUntilFinerTilesAreThere) {
     const StreamedWorld world;
     EXPECT_TRUE(world.choice().drawn.empty());
     EXPECT_EQ(world.choice().wanted, std::vector{world.stream->tree().root()});
-    world.stream->want(world.choice().wanted);
+    world.request();
     world.stream->wait({});
     ASSERT_EQ(world.choice().drawn.size(), 1U);
     EXPECT_EQ(world.choice().drawn.front().tile->id, world.stream->tree().root());
@@ -130,7 +137,7 @@ TEST(TileChoices, WhereMemoryLimitsAStillViewReadsNothingMore) {
         world.look({0.0, -200.0, 120.0}, {0.0, 0.0, 0.0});
         const auto look_on = [&](int frames) {
             for (int i = 0; i < frames; ++i) {
-                world.stream->want(world.choice().wanted);
+                world.request();
                 world.stream->wait({});
             }
             return world.stream->stats().read;
@@ -189,7 +196,7 @@ std::string first_sky(const HitBuffer& hits) {
 
 TEST_F(StreamedTilesGlTest, NoHoleBetweenTilesOfAnyLevels) {
     StreamedWorld world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::Chance chance(5);
     for (int round = 0; round < 40; ++round) {
         // Down onto the ground: nothing but terrain is seen.
@@ -201,7 +208,7 @@ TEST_F(StreamedTilesGlTest, NoHoleBetweenTilesOfAnyLevels) {
         if (round % 2 == 0) {
             world.bring();
         } else {
-            world.stream->want(world.choice().wanted); // with what happens to be there
+            world.request(); // with what happens to be there
         }
         const HitBuffer hits = test::must(made.draw_hits(world.scene));
         ASSERT_EQ(sky_pixels(hits), 0) << "round " << round << ", eye " << eye.x << "," << eye.y
@@ -214,7 +221,7 @@ TEST_F(StreamedTilesGlTest, AnErrorTakesFewerTrianglesOfTheSameTilesWithoutAHole
     auto& technique = world.terrain->get<scene::TerrainNode>()->material.technique;
     const auto all = technique;
     const auto fewer = scene::parse_technique("polygons:error=1").value(); // that of the tiles
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::Chance chance(6);
     for (int round = 0; round < 15; ++round) {
         const glm::dvec3 eye(chance.between(-300, 300), chance.between(-300, 300),
@@ -240,7 +247,7 @@ TEST_F(StreamedTilesGlTest, AnErrorTakesFewerTrianglesOfTheSameTilesWithoutAHole
 TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
     const auto picture = [&](std::span<const glm::dvec3> before) {
         StreamedWorld world;
-        Driver made = driver();
+        session::SceneRenderer made = driver();
         for (const glm::dvec3 eye : before) {
             world.look(eye, {0.0, 0.0, 0.0});
             world.bring();
@@ -258,7 +265,7 @@ TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
 
 TEST_F(StreamedTilesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
     StreamedWorld world;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const auto uploads_of_ground = [&] {
         world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
         world.bring();
@@ -326,12 +333,11 @@ TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem
                                  .first_pause = std::chrono::milliseconds(1)});
     world.terrain->get<scene::TerrainNode>()->stream = world.stream;
     look(world);
-    for (auto wanted = world.choice().wanted; !wanted.empty(); wanted = world.choice().wanted) {
-        world.stream->want(wanted);
+    while (!world.request().wanted.empty()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     ASSERT_TRUE(world.stream->find(failing)->of_overview);
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     test::must(made.draw(world.scene));
     const Image before = made.read_color();
     recovers = true;
@@ -342,7 +348,7 @@ TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem
     test::must(made.draw(world.scene));
     const Image after = made.read_color();
     EXPECT_NE(after, before);
-    Driver fresh = driver();
+    session::SceneRenderer fresh = driver();
     test::must(fresh.draw(whole.scene));
     EXPECT_EQ(after, fresh.read_color());
 }
@@ -401,7 +407,7 @@ TEST_F(StreamedTilesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
     world.bring();
     world.sun->set_visible(false); // its shadows are the overview's
     WholeWorld whole(world.scene.camera(), gray);
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     const auto picture = [&](Scene& scene, Node& terrain, bool detailed) {
         terrain.get<scene::TerrainNode>()->detail = detailed ? striped_detail() : nullptr;
         test::must(made.draw(scene));
@@ -415,7 +421,7 @@ TEST_F(StreamedTilesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
 TEST_F(StreamedTilesGlTest, TextureDrawsTilesFlatAndReliefTheOverview) {
     StreamedWorld world;
     auto& material = world.terrain->get<scene::TerrainNode>()->material;
-    Driver made = driver();
+    session::SceneRenderer made = driver();
     world.bring();
     test::must(made.draw(world.scene));
     const Image hills = made.read_color();

@@ -79,9 +79,9 @@ TEST(TechniqueSupport, OneSentenceNamesWhatIsLackingAndWhatWorks) {
     scene.add_camera(test::camera_at({0.0, -50.0, 30.0}, {0.0, 0.0, 0.0}));
     node.get<scene::TerrainNode>()->material.technique = scene::parse_technique("steep").value();
     gl::Limits limits = usual_limits();
-    EXPECT_TRUE(check_support(view::select(scene, {64, 48}), limits));
+    EXPECT_TRUE(check_support(view::select(scene, {64, 48}).list, limits));
     limits.max_texture_size = 32;
-    const auto refused = check_support(view::select(scene, {64, 48}), limits);
+    const auto refused = check_support(view::select(scene, {64, 48}).list, limits);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
               "technique steep: heights of 40 x 3 samples found, which take a texture 40 wide, at "

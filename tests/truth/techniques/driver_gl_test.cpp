@@ -12,6 +12,7 @@
 #include "engine/truth/draw.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::truth {
 namespace {
@@ -20,10 +21,7 @@ constexpr glm::ivec2 size{160, 120};
 
 class DriverAgainstTruthGlTest : public test::GlTest {
 protected:
-    static render::Driver driver() {
-        return test::must(
-            render::Driver::create({.size = size, .shader_dir = {}, .software = true}));
-    }
+    static session::SceneRenderer driver() { return test::must(test::make_renderer(size)); }
 
     // Of all pixels, the share whose hit is a texel or more off, or ground for sky, percent.
     static double wrong_percent(const HitBuffer& drawn, const HitBuffer& exact) {
@@ -51,7 +49,7 @@ protected:
     }
 
     static void expect_alike(const scene::Scene& scene) {
-        render::Driver made = driver();
+        session::SceneRenderer made = driver();
         test::must(made.draw(scene));
         const Picture exact = draw(scene, size).value();
         EXPECT_LT(mean_difference(made.read_color(), exact.image), 1.5);

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 #include "tests/terrain/made_heightfield.h"
 #include "tests/truth/techniques/tile_panel.h"
@@ -65,9 +66,9 @@ detail_of(const std::string& technique, std::shared_ptr<const material::TextureS
 }
 
 // Grounds that share one compile each program once.
-std::shared_ptr<render::Driver> ground_driver() {
-    return std::make_shared<render::Driver>(test::must(
-        render::Driver::create({.size = ground_picture, .shader_dir = {}, .software = true})));
+std::shared_ptr<session::SceneRenderer> ground_driver() {
+    return std::make_shared<session::SceneRenderer>(
+        test::must(test::make_renderer(ground_picture)));
 }
 
 // A terrain with a sun, and a camera.
@@ -75,10 +76,10 @@ struct Ground {
     scene::Scene scene;
     scene::Node* node = nullptr;
     scene::Node* camera = nullptr;
-    std::shared_ptr<render::Driver> driver;
+    std::shared_ptr<session::SceneRenderer> driver;
 
     explicit Ground(terrain::Heightfield heightfield,
-                    std::shared_ptr<render::Driver> shared = ground_driver())
+                    std::shared_ptr<session::SceneRenderer> shared = ground_driver())
         : driver(std::move(shared)) {
         node = &test::add_terrain(scene, std::move(heightfield), mean_color());
         scene.add_light();

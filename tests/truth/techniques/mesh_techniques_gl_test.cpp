@@ -13,6 +13,7 @@
 
 #include "engine/render/driver.h"
 #include "engine/render/shaders/frame_block.h"
+#include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 #include "tests/truth/techniques/tile_panel.h"
 
@@ -230,7 +231,7 @@ TEST_F(MeshTechniquesGlTest, DisplacedVerticesLieOnTheSurface) {
 }
 
 // From near, from far at a hair's breadth above the ground, and from beside.
-void expect_sound_pictures(Panel& panel, render::Driver& driver, std::string_view name) {
+void expect_sound_pictures(Panel& panel, session::SceneRenderer& driver, std::string_view name) {
     for (const glm::dvec3 eye :
          {glm::dvec3(2.0, -3.0, 2.5), glm::dvec3(0.0, -60.0, 0.01), glm::dvec3(0.2, -1.5, 0.001)}) {
         panel.look(eye, {0.0, 0.0, 0.0});
@@ -251,8 +252,7 @@ TEST_F(MeshTechniquesGlTest, EveryTechniqueDrawsEveryShapeFromFarNearAndGrazing)
         scene::plane_mesh({2.0F, 2.0F}), scene::box_mesh({1.0F, 2.0F, 1.5F}),
         scene::sphere_mesh(1.0F, 24), scene::torus_mesh(1.0F, 0.4F, 24),
         scene::cylinder_mesh(1.0F, 2.0F, 24)};
-    render::Driver driver =
-        test::must(render::Driver::create({.size = {48, 36}, .shader_dir = {}, .software = true}));
+    session::SceneRenderer driver = test::must(test::make_renderer({48, 36}));
     for (const scene::Mesh& shape : shapes) {
         Panel panel(noise_tile(16, 16, 12), 2.0F);
         panel.node->get<scene::MeshNode>()->mesh = std::make_shared<const scene::Mesh>(shape);
@@ -272,8 +272,7 @@ TEST_F(MeshTechniquesGlTest, WhatNoMeshCanShowIsRefusedWithTheReason) {
     panel.node->get<scene::MeshNode>()->mesh =
         std::make_shared<const scene::Mesh>(scene::box_mesh(glm::vec3(1.0F)));
     panel.material().technique = scene::make_technique(scene::TechniqueId::prewarp);
-    render::Driver driver = test::must(
-        render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true}));
+    session::SceneRenderer driver = test::must(test::make_renderer(mesh_picture));
     const auto drawn = driver.draw(panel.scene);
     ASSERT_FALSE(drawn);
     EXPECT_NE(drawn.error().message.find("not flat found, one plane was expected; relief draws"),
@@ -419,12 +418,10 @@ TEST_F(MeshTechniquesGlTest, OptionsDoOnMeshesWhatTheySay) {
 TEST_F(MeshTechniquesGlTest, AMeshOfOneColourNeitherLooksForASurfaceNorUploadsATile) {
     Panel panel(wave_tile(32));
     panel.material().technique = scene::make_technique(scene::TechniqueId::exact);
-    render::Driver driver = test::must(
-        render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true}));
+    session::SceneRenderer driver = test::must(test::make_renderer(mesh_picture));
     const auto with_tile = test::must(driver.draw(panel.scene));
     panel.detail().set = nullptr;
-    render::Driver other = test::must(
-        render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true}));
+    session::SceneRenderer other = test::must(test::make_renderer(mesh_picture));
     const auto without = test::must(other.draw(panel.scene));
     EXPECT_EQ(without.uploads, with_tile.uploads - 4); // colour, heights, normals, pyramid
     EXPECT_EQ(without.upload_bytes, sizeof(float) * (4U * 6U + 6U) + sizeof(render::FrameBlock));

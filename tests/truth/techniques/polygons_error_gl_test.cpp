@@ -13,6 +13,7 @@
 #include "engine/truth/geometric_error.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 #include "tests/terrain/chance.h"
@@ -90,8 +91,7 @@ Promise promise_over(terrain::Heightfield heightfield, int poses, unsigned seed,
     scene::Scene scene;
     scene::Node& node = test::add_terrain(scene, std::move(heightfield), {}, options);
     scene::Node& camera = scene.add_camera();
-    render::Driver driver =
-        test::must(render::Driver::create({.size = picture, .shader_dir = {}, .software = true}));
+    session::SceneRenderer driver = test::must(test::make_renderer(picture));
     Promise promise;
     for (int i = 0; i < poses; ++i) {
         const double error = std::exp(chance.between(-1.4, 1.4));
@@ -178,8 +178,7 @@ TEST_F(PolygonsErrorGlTest, ALevelSurfaceTakesTheFewestTriangles) {
     scene.add_camera(test::camera_at({0.0, -200.0, 80.0}, {0.0, 0.0, 0.0}));
     node.get<scene::TerrainNode>()->material.technique =
         scene::parse_technique("polygons:error=0.1").value();
-    render::Driver driver =
-        test::must(render::Driver::create({.size = picture, .shader_dir = {}, .software = true}));
+    session::SceneRenderer driver = test::must(test::make_renderer(picture));
     EXPECT_EQ(test::must(driver.draw(scene)).triangles, 16U);
 }
 

@@ -10,6 +10,7 @@
 #include "engine/truth/draw.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/session/made_session.h"
 
 namespace reljef::test {
 
@@ -26,8 +27,7 @@ struct ReliefSetting {
 class ReliefStage {
 public:
     explicit ReliefStage(Grid<float> heights, const ReliefSetting& setting = {})
-        : size_(setting.size), driver_(must(render::Driver::create(
-                                   {.size = setting.size, .shader_dir = {}, .software = true}))) {
+        : size_(setting.size), driver_(must(test::make_renderer(setting.size))) {
         const Image white(heights.cols(), heights.rows(), Rgba8{255, 255, 255, 255});
         terrain_ = &add_terrain(
             scene_, plane_heightfield(std::move(heights), setting.spacing),
@@ -74,7 +74,7 @@ private:
     }
 
     glm::ivec2 size_;
-    render::Driver driver_;
+    session::SceneRenderer driver_;
     scene::Scene scene_;
     scene::Node* terrain_ = nullptr;
     scene::Node* camera_ = nullptr;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/render/residency/hull_mesh.h"
+#include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 #include "tests/truth/techniques/tile_panel.h"
 
@@ -57,7 +58,7 @@ TileErrors errors_everywhere(const Panel& panel, const std::vector<PlacedRelief>
 
 // One tile over the whole square.
 Panel bordered_panel(Grid<float> heights, float offset,
-                     std::shared_ptr<render::Driver> driver = panel_driver()) {
+                     std::shared_ptr<session::SceneRenderer> driver = panel_driver()) {
     Panel panel(std::move(heights), 1.0F, std::move(driver));
     panel.detail().border = TileBorder::discard;
     panel.detail().offset = offset;

@@ -17,6 +17,7 @@
 #include "terrains/generators.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 
 namespace reljef::truth {
@@ -79,8 +80,7 @@ protected:
     static HitBuffer shown(Stage& stage, const std::string& technique) {
         stage.terrain->get<scene::TerrainNode>()->material.technique =
             scene::parse_technique(technique).value();
-        render::Driver driver = test::must(
-            render::Driver::create({.size = picture_size, .shader_dir = {}, .software = true}));
+        session::SceneRenderer driver = test::must(test::make_renderer(picture_size));
         return test::must(driver.draw_hits(stage.scene));
     }
     static GeometricErrors errors(Stage& stage, const std::string& technique) {
@@ -181,8 +181,7 @@ TEST_F(TechniquesGlTest, ExactIsFiniteWhateverTheExaggeration) {
             ->material.technique = scene::make_technique(scene::TechniqueId::exact);
         scene.add_camera(scene::pose_camera(Pose::overview, scene.root().world_bounds(),
                                             [](double, double) { return 0.0; }));
-        render::Driver driver = test::must(
-            render::Driver::create({.size = picture_size, .shader_dir = {}, .software = true}));
+        session::SceneRenderer driver = test::must(test::make_renderer(picture_size));
         const HitBuffer hits = test::must(driver.draw_hits(scene));
         int terrain = 0;
         for (const Hit& hit : hits.samples()) {
@@ -346,8 +345,7 @@ TEST_F(TechniquesGlTest, ThoseOfMeshesAreRefusedForATerrainWithWhatWorks) {
         Stage stage(test::hills(33, 33, 4.0));
         stage.terrain->get<scene::TerrainNode>()->material.technique =
             scene::make_technique(info.id);
-        render::Driver driver = test::must(
-            render::Driver::create({.size = picture_size, .shader_dir = {}, .software = true}));
+        session::SceneRenderer driver = test::must(test::make_renderer(picture_size));
         const auto drawn = driver.draw(stage.scene);
         ASSERT_FALSE(drawn) << info.name;
         EXPECT_NE(drawn.error().message.find("a mesh with a tile of detail was expected"),
@@ -366,8 +364,7 @@ TEST_F(TechniquesGlTest, OverTheCurvedEarthTheyAreRefusedByName) {
     terrain.get<scene::TerrainNode>()->material.technique =
         scene::make_technique(scene::TechniqueId::relief);
     scene.add_camera(test::camera_at({0.0, -25000.0, 9000.0}, {0.0, 0.0, 0.0}));
-    render::Driver driver = test::must(
-        render::Driver::create({.size = picture_size, .shader_dir = {}, .software = true}));
+    session::SceneRenderer driver = test::must(test::make_renderer(picture_size));
     const auto drawn = driver.draw(scene);
     ASSERT_FALSE(drawn);
     EXPECT_NE(drawn.error().message.find("technique relief: placement ellipsoid"),

@@ -16,6 +16,7 @@
 #include "engine/truth/relief_plane.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::truth {
@@ -123,9 +124,8 @@ inline glm::dvec4 layers_at(const Grid<glm::vec4>& layers, glm::dvec2 coordinate
 }
 
 // Panels that share one compile each program once.
-inline std::shared_ptr<render::Driver> panel_driver() {
-    return std::make_shared<render::Driver>(test::must(
-        render::Driver::create({.size = mesh_picture, .shader_dir = {}, .software = true})));
+inline std::shared_ptr<session::SceneRenderer> panel_driver() {
+    return std::make_shared<session::SceneRenderer>(test::must(test::make_renderer(mesh_picture)));
 }
 
 // A level square with a tile on it, and the exact relief of that tile.
@@ -134,10 +134,10 @@ struct Panel {
     scene::Node* node = nullptr;
     scene::Node* camera = nullptr;
     glm::ivec2 texels{0};
-    std::shared_ptr<render::Driver> driver;
+    std::shared_ptr<session::SceneRenderer> driver;
 
     explicit Panel(Grid<float> heights, float repeats = 3.0F,
-                   std::shared_ptr<render::Driver> shared = panel_driver())
+                   std::shared_ptr<session::SceneRenderer> shared = panel_driver())
         : driver(std::move(shared)) {
         texels = {heights.cols(), heights.rows()};
         scene::Material material;
