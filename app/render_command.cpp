@@ -303,7 +303,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     terrain.streamed = !choice.truth && session::may_stream(choice.view);
     terrain.pictures_streamed = terrain.streamed && session::may_stream_pictures(choice.view);
     session::SceneOptions view = choice.view;
-    view.bounds_error = !choice.truth;
+    view.prepares_maps = !choice.truth;
     auto scene =
         session::open_scene(std::move(*description), terrain, view, log, interrupt.token());
     if (!scene) {
@@ -355,7 +355,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "print what the last frame took and skipped, and all frames' times and memory");
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
-        if (choice->truth && choice->view.max_error) {
+        if (choice->truth && choice->view.max_error.value_or(0.0) > 0.0) {
             throw CLI::ValidationError("--max-error: found beside --truth, which has no error; one "
                                        "of them was expected");
         }

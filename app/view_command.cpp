@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <variant>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,7 +15,9 @@
 #include "app/viewer/viewer.h"
 #include "engine/io/image/image.h"
 #include "engine/platform/window.h"
+#include "engine/session/background.h"
 #include "engine/session/device.h"
+#include "engine/session/log.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
@@ -30,6 +36,8 @@ struct ViewerChoice {
 constexpr std::chrono::milliseconds between_titles{500};
 // How long a still window waits for an event before it looks whether it was asked to stop.
 constexpr std::chrono::milliseconds still{100};
+// The same while the terrain is opened or maps are made: their progress is shown.
+constexpr std::chrono::milliseconds opening_pause{20};
 // The same where something moves and yet nothing new is seen.
 constexpr std::chrono::milliseconds stuck{10};
 
@@ -59,6 +67,7 @@ public:
                 }
             }
             session::log_stream_faults(scene_.scene, log_);
+            viewer_.relay_to(log_);
             log_raised_path();
             serve_requests();
             show_title();
@@ -73,6 +82,9 @@ private:
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
+        if (viewer_.is_preparing() && !viewer_.is_moving()) {
+            return drawn_ == 0 ? std::chrono::milliseconds(0) : opening_pause;
+        }
         if (!viewer_.is_moving() && frames_ == 0 && !session::awaits_tiles(scene_.scene)) {
             return drawn_ == 0 ? std::chrono::milliseconds(0) : still;
         }
@@ -199,26 +211,89 @@ Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice
     return platform::make_window(options);
 }
 
+bool asks_to_end(const std::vector<Event>& events) {
+    return std::any_of(events.begin(), events.end(), [](const Event& event) {
+        const auto* const key = std::get_if<KeyEvent>(&event);
+        return std::holds_alternative<CloseEvent>(event) ||
+               (key != nullptr && key->pressed && key->key == Key::escape);
+    });
+}
+
+// Shows the progress of work in the background in the window's title and on stderr.
+class ProgressDisplay {
+public:
+    ProgressDisplay(platform::Window& window, session::Log& log) : window_(window), log_(log) {}
+
+    void show(const session::RelayedLog::Progress& progress) {
+        if (progress.label != label_) {
+            label_ = progress.label;
+            task_ = label_.empty() ? nullptr : log_.start(label_);
+        }
+        if (task_ != nullptr) {
+            task_->update(progress.fraction);
+            window_.set_title(
+                fmt::format("reljef - {} {:.0f} %", label_, 100.0 * progress.fraction));
+        }
+    }
+
+private:
+    platform::Window& window_;
+    session::Log& log_;
+    std::string label_;
+    std::unique_ptr<session::Task> task_;
+};
+
+// Opens the scene in the background, so that the window answers meanwhile. Nothing where the user
+// closes it.
+Result<std::optional<session::TerrainScene>> open_beside(platform::Window& window,
+                                                         const ViewerChoice& choice,
+                                                         session::Log& log,
+                                                         const cli::Interrupt& interrupt) {
+    using Opened = Result<session::TerrainScene>;
+    session::RelayedLog relayed;
+    session::Background<Opened> opening([&](const std::stop_token& stop) -> Opened {
+        session::SourceOptions terrain = choice.terrain;
+        terrain.streamed = session::may_stream(choice.view);
+        terrain.pictures_streamed = session::may_stream_pictures(choice.view);
+        session::SceneOptions view = choice.view;
+        view.prepares_maps = false; // the viewer does, and shows a coarser picture meanwhile
+        return session::open_scene(terrain, view, relayed, stop);
+    });
+    ProgressDisplay display(window, log);
+    bool is_closed = false;
+    while (!opening.is_done()) {
+        is_closed =
+            asks_to_end(window.wait_events(opening_pause)) || window.should_close() || is_closed;
+        if (is_closed || interrupt.requested()) {
+            opening.request_stop();
+        }
+        relayed.relay_to(log);
+        display.show(relayed.progress());
+    }
+    relayed.relay_to(log);
+    Opened scene = opening.take();
+    if (is_closed) {
+        return std::optional<session::TerrainScene>();
+    }
+    return scene ? Result<std::optional<session::TerrainScene>>(std::move(*scene)) : scene.error();
+}
+
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     auto window = open_window(choice);
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
     cli::ConsoleLog log(choice.terrain.quiet);
-    session::SourceOptions terrain = choice.terrain;
-    terrain.streamed = session::may_stream(choice.view);
-    terrain.pictures_streamed = session::may_stream_pictures(choice.view);
-    auto description = session::describe(choice.terrain.terrain);
-    if (!description) {
-        return description.error();
+    auto opened = open_beside(**window, choice, log, interrupt);
+    if (!opened) {
+        return opened.error();
     }
-    auto scene =
-        session::open_scene(std::move(*description), terrain, choice.view, log, interrupt.token());
-    if (!scene) {
-        return scene.error();
+    if (!*opened) {
+        return {};
     }
+    session::TerrainScene& scene = **opened;
     auto path =
-        session::open_path(*scene, choice.view.path.empty() ? "flyover" : choice.view.path, log);
+        session::open_path(scene, choice.view.path.empty() ? "flyover" : choice.view.path, log);
     if (!path) {
         return path.error();
     }
@@ -233,11 +308,11 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
         fmt::print("{}", Viewer::keys());
         std::fflush(stdout);
     }
-    Viewer viewer(*scene, std::move(*path), (*window)->framebuffer_size());
+    Viewer viewer(scene, std::move(*path), (*window)->framebuffer_size(), choice.terrain.threads);
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }
-    return WindowLoop(**window, *renderer, *scene, viewer, log, choice).run(interrupt);
+    return WindowLoop(**window, *renderer, scene, viewer, log, choice).run(interrupt);
 }
 
 void expect_window(const cli::ViewChoice& view) {

@@ -117,6 +117,20 @@ Result<void> set_detail_number(session::DetailChoice& choice, const std::string&
     return {};
 }
 
+// 0: none.
+Result<std::optional<double>> parse_max_error(const std::string& text) {
+    if (text == "none") {
+        return std::optional(0.0);
+    }
+    const auto bound = number_from<double>(text);
+    if (!bound || !(*bound >= view::least_error && *bound <= view::most_error)) {
+        return Error{fmt::format("--max-error: '{}' found, a number from {} to {} or none was "
+                                 "expected",
+                                 text, view::least_error, view::most_error)};
+    }
+    return std::optional(*bound);
+}
+
 Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
     const auto kind = platform::context_kind_from_string(text);
     if (!kind && text != "auto") {
@@ -158,11 +172,11 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: mixed, as "
         "suits each model)",
         "ID[:key=value,...]");
-    add_parsed(command, "--max-error", choice.max_error,
-               number_in("--max-error", view::least_error, view::most_error),
-               "polygons: no pixel farther from where it belongs, with as few triangles as that "
-               "takes (every sample a vertex)",
-               "PX");
+    add_parsed(
+        command, "--max-error", choice.max_error, parse_max_error,
+        "polygons: at most PX pixels of error, with as few triangles as possible; none draws "
+        "every sample (1, where no technique is named)",
+        "PX|none");
     add_parsed(
         command, "--detail", choice.detail, parse_detail,
         "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
@@ -357,8 +371,8 @@ void check_view_options(const ViewChoice& choice) {
     if (choice.eye && choice.look && *choice.eye == *choice.look) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
     }
-    if (choice.max_error && choice.technique &&
-        choice.technique->id != scene::TechniqueId::polygons) {
+    const bool is_bounded = choice.max_error.value_or(0.0) > 0.0;
+    if (is_bounded && choice.technique && choice.technique->id != scene::TechniqueId::polygons) {
         throw CLI::ValidationError(
             fmt::format("--max-error: technique {} found, polygons was expected",
                         scene::technique_info(choice.technique->id).name));
@@ -369,7 +383,7 @@ void check_view_options(const ViewChoice& choice) {
                         scene::technique_info(choice.technique->id).name));
     }
     const scene::Technique plain = scene::make_technique(scene::TechniqueId::polygons);
-    if (choice.max_error && choice.technique && choice.technique->values != plain.values) {
+    if (is_bounded && choice.technique && choice.technique->values != plain.values) {
         throw CLI::ValidationError(
             fmt::format("--max-error: --technique {} found beside it, which says how coarse "
                         "triangles may be too; one of them was expected",

@@ -21,6 +21,8 @@ namespace {
 constexpr double seconds_across = 20.0;
 // How long a first step lasts at most, seconds.
 constexpr double first_step = 1.0 / 60.0;
+// What is shown of a terrain until the maps of its technique are made.
+constexpr std::string_view coarse_technique = "polygons:lods=5";
 // Of a path, seconds.
 constexpr double least_duration = 1e-9;
 // Metres: less is no more than rounding.
@@ -152,15 +154,26 @@ std::string Viewer::keys() {
     return text;
 }
 
-Viewer::Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size)
+Viewer::Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size, int threads)
     : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
-      techniques_(techniques_with(material().technique, scene)),
+      techniques_(techniques_with(material().technique, scene)), switch_(scene, threads),
       flight_(make_flight(scene, start_)) {
+    show_coarse_until_prepared();
     if (camera().projection == scene::ProjectionKind::orthographic) {
         map_.emplace(camera(), scene_.bounds, size_);
     } else {
         show_camera(flight_.camera());
     }
+}
+
+// Levels by distance need nothing that is not there.
+void Viewer::show_coarse_until_prepared() {
+    const scene::Technique technique = material().technique;
+    if (session::missing_maps(scene_, technique).empty()) {
+        return;
+    }
+    switch_.request(scene::parse_technique(coarse_technique).value());
+    switch_.request(technique);
 }
 
 const scene::Material& Viewer::material() const {
@@ -230,6 +243,7 @@ void Viewer::advance(double seconds) {
         step = std::min(step, first_step);
     }
     rested_ = !is_moving();
+    redraw_ = switch_.update() || redraw_;
     before_ = camera();
     last_step_ = step;
     if (playing_) {
@@ -329,19 +343,16 @@ void Viewer::toggle_follow_ground() {
 
 void Viewer::next_technique() {
     const auto found =
-        std::find_if(techniques_.begin(), techniques_.end(), [&](const auto& technique) {
-            return technique.id == material().technique.id;
-        });
+        std::find_if(techniques_.begin(), techniques_.end(),
+                     [&](const auto& technique) { return technique.id == switch_.target().id; });
     const auto index = static_cast<std::size_t>(found - techniques_.begin());
     choose_technique((index + 1) % techniques_.size());
 }
 
 void Viewer::choose_technique(std::size_t index) {
-    if (index < techniques_.size() && techniques_[index].id != material().technique.id) {
-        for (scene::Material* const shown : scene_.materials()) {
-            shown->technique = techniques_[index];
-        }
-        redraw_ = true;
+    if (index < techniques_.size() && techniques_[index] != switch_.target()) {
+        switch_.request(techniques_[index]);
+        redraw_ = redraw_ || !switch_.is_preparing();
     }
 }
 
@@ -358,9 +369,14 @@ std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timi
     const std::string rate = timing.frames_per_second
                                  ? fmt::format("{:.1f} fps", *timing.frames_per_second)
                                  : std::string("still");
-    return fmt::format("reljef - {} - {} - {} ({:.1f} ms) - {} triangles - {}",
-                       surface.terrain().name, scene::to_string(material().technique), rate,
-                       timing.last_ms, stats.triangles, place());
+    const auto preparing = preparation();
+    const std::string progress =
+        preparing.label.empty()
+            ? std::string()
+            : fmt::format(" ({} {:.0f} %)", preparing.label, 100.0 * preparing.fraction);
+    return fmt::format("reljef - {} - {}{} - {} ({:.1f} ms) - {} triangles - {}",
+                       surface.terrain().name, scene::to_string(material().technique), progress,
+                       rate, timing.last_ms, stats.triangles, place());
 }
 
 std::string Viewer::place() const {

@@ -8,6 +8,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "app/viewer/technique_switch.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
 #include "engine/scene/motion/fly_path.h"
@@ -29,8 +30,9 @@ struct FrameTiming {
 class Viewer {
 public:
     /// Precondition: `scene` is as make_scene() gives it and outlives the viewer. `size` is the
-    /// picture's, pixels.
-    Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size);
+    /// picture's, pixels. While the maps of the scene's technique are made, a coarser one is shown.
+    /// `threads` 0: as many as the machine has.
+    Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size, int threads = 0);
 
     /// What each key does, for people: a line each.
     static std::string keys();
@@ -60,6 +62,12 @@ public:
     /// By how many metres the path was kept above the ground at most, so far.
     [[nodiscard]] double path_raised() const { return path_raised_; }
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
+    /// Whether maps of a technique are being made; it is shown when they are there.
+    [[nodiscard]] bool is_preparing() const { return switch_.is_preparing(); }
+    /// What is being made, and how far it is.
+    [[nodiscard]] session::RelayedLog::Progress preparation() const { return switch_.progress(); }
+    /// Hands on what was reported since the last call.
+    void relay_to(session::Log& log) { switch_.relay_to(log); }
 
     /// Name, technique, frame rate, triangles and where the eye is, for the window's title.
     [[nodiscard]] std::string title(const view::FrameStats& stats, const FrameTiming& timing) const;
@@ -76,6 +84,7 @@ private:
     void turn_light();
     void toggle_mouse_look();
     void toggle_follow_ground();
+    void show_coarse_until_prepared();
     void next_technique();
     void choose_technique(std::size_t index);
     void ask_for_screenshot() { screenshot_ = true; }
@@ -93,6 +102,7 @@ private:
     glm::ivec2 size_;
     scene::Camera start_;
     std::vector<scene::Technique> techniques_; // as asked for, in the catalogue's order
+    TechniqueSwitch switch_;
     scene::FreeFlight flight_;
     std::optional<ViewerMap> map_; // while it is shown
     double path_time_ = 0.0;

@@ -39,8 +39,14 @@ Result<session::TerrainScene> flight_scene(const FlightOptions& options, session
     terrain.streamed = session::may_stream(options.view);
     terrain.pictures_streamed = session::may_stream_pictures(options.view);
     auto source = session::open_terrain(terrain, log, stop);
-    return source ? session::make_scene(std::move(*source), terrain, options.view, log, stop)
-                  : source.error();
+    if (!source) {
+        return source.error();
+    }
+    session::SceneOptions view = options.view;
+    if (!view.technique) {
+        view.max_error = view.max_error.value_or(0.0); // measured as it is: every sample of a tile
+    }
+    return session::make_scene(std::move(*source), terrain, view, log, stop);
 }
 
 Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,

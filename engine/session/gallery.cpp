@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/session/prepared_maps.h"
 #include "engine/session/texture_sets.h"
 #include "terrains/gallery/gallery.h"
 
@@ -71,7 +72,7 @@ public:
             return set.error();
         }
         if (technique_) {
-            if (auto made = add_cones(*set, *technique_, terrain_, log_, stop_); !made) {
+            if (auto made = add_cones(*set, *technique_, terrain_.threads, log_, stop_); !made) {
                 return made.error();
             }
         }
@@ -95,7 +96,7 @@ Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescript
                                                          const std::string& file,
                                                          const SceneOptions& view) {
     using Choice = std::optional<scene::Technique>;
-    if (view.max_error) {
+    if (view.max_error.value_or(0.0) > 0.0) {
         return usage_error(
             fmt::format("--max-error: {} found, a terrain was expected: its models are drawn as "
                         "they are",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/session/prepared_maps.h"
 #include "engine/session/texture_sets.h"
 
 namespace reljef::session {
@@ -57,7 +58,7 @@ open_detail(const io::SceneDescription& description, const SourceOptions& terrai
     if (!set) {
         return set.error();
     }
-    if (auto made = add_cones(*set, *technique, terrain, log, stop); !made) {
+    if (auto made = add_cones(*set, *technique, terrain.threads, log, stop); !made) {
         return made.error();
     }
     log_texture_notes(*set, log);

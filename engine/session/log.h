@@ -1,8 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "engine/core/worker_pool.h"
 
@@ -38,6 +41,32 @@ public:
     [[nodiscard]] virtual std::unique_ptr<Task> start(const std::string& label);
 
     void note(std::string_view sentence) { message(MessageKind::note, sentence); }
+};
+
+/// Takes messages and progress from a thread in the background and hands them to another thread.
+class RelayedLog : public Log {
+public:
+    void message(MessageKind kind, std::string_view sentence) override;
+    [[nodiscard]] std::unique_ptr<Task> start(const std::string& label) override;
+
+    /// Hands the messages since the last call to another log.
+    void relay_to(Log& log);
+
+    /// The task under way, "reading alps.tif", and how far it is, [0,1]; an empty label where there
+    /// is none.
+    struct Progress {
+        std::string label;
+        double fraction = 0.0;
+    };
+    [[nodiscard]] Progress progress() const;
+
+private:
+    friend class RelayedTask;
+    void set_progress(Progress progress);
+
+    mutable std::mutex mutex_;
+    std::vector<std::pair<MessageKind, std::string>> messages_;
+    Progress progress_;
 };
 
 } // namespace reljef::session

@@ -5,10 +5,12 @@
 namespace reljef::session {
 
 scene::Technique technique_of(const SceneOptions& options) {
-    const scene::Technique technique =
-        options.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
-    return options.max_error ? scene::with_parameter(technique, "error", *options.max_error)
-                             : technique;
+    if (options.technique && options.max_error.value_or(0.0) == 0.0) {
+        return *options.technique;
+    }
+    return scene::with_parameter(
+        options.technique.value_or(scene::make_technique(scene::TechniqueId::polygons)), "error",
+        options.max_error.value_or(default_max_error));
 }
 
 bool may_stream(const SceneOptions& options) {
@@ -17,9 +19,10 @@ bool may_stream(const SceneOptions& options) {
 
 bool may_stream_pictures(const SceneOptions& options) {
     const scene::Technique technique = technique_of(options);
-    const bool promised =
+    const bool is_bounded =
         technique.id == scene::TechniqueId::polygons && scene::parameter(technique, "error") > 0.0;
-    return may_stream(options) && !promised;
+    const bool is_named = options.technique || options.max_error;
+    return may_stream(options) && !(is_named && is_bounded);
 }
 
 } // namespace reljef::session

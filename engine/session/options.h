@@ -57,13 +57,18 @@ struct DetailChoice {
     std::optional<double> scale; ///< absent: the scene file's, else the texture's own
 };
 
+/// The error bound of a terrain for which neither a technique nor a bound is named, pixels.
+inline constexpr double default_max_error = 1.0;
+
 /// How a terrain is drawn, and from where.
 struct SceneOptions {
     /// Absent: polygons; in the gallery each model's own.
     std::optional<scene::Technique> technique;
     bool mixed = false; ///< each of the gallery's models has its own, whatever the scene file says
-    std::optional<double> max_error;    ///< pixels, of polygons; absent: as the technique says
-    std::optional<DetailChoice> detail; ///< absent: the scene file's, else none
+    /// Pixels that polygons may be off; 0: none, every sample is drawn. Absent: default_max_error
+    /// where no technique is named either, else as the technique says.
+    std::optional<double> max_error;
+    std::optional<DetailChoice> detail;               ///< absent: the scene file's, else none
     std::optional<scene::Technique> detail_technique; ///< absent: the scene file's, else relief
     bool wireframe = false;
     double vertical_fov = 57.3; ///< degrees
@@ -73,8 +78,8 @@ struct SceneOptions {
     std::optional<GeodeticView> geodetic;
     std::optional<scene::Pose> pose;
     std::optional<glm::dvec2> sun; ///< azimuth, altitude, degrees; absent: the scene file's
-    /// Makes what bounds the error of polygons when the scene is opened; the truth needs none.
-    bool bounds_error = true;
+    /// Makes the maps that the technique needs when the scene is opened (prepared_maps.h).
+    bool prepares_maps = true;
 };
 
 /// The technique with its error bound.
@@ -83,8 +88,8 @@ scene::Technique technique_of(const SceneOptions& options);
 /// Whether the technique draws a terrain tile by tile.
 bool may_stream(const SceneOptions& options);
 
-/// Whether images may make a terrain a stream of tiles: not where an error is bounded, as the error
-/// of streamed tiles is an estimate.
+/// Whether images may make a terrain a stream of tiles: not where an error bound is named, as the
+/// error of streamed tiles is an estimate.
 bool may_stream_pictures(const SceneOptions& options);
 
 } // namespace reljef::session

@@ -7,13 +7,12 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/io/cache/bisection_cache.h"
-#include "engine/io/cache/cone_cache.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/scene/motion/animators.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
 #include "engine/session/ground_detail.h"
+#include "engine/session/prepared_maps.h"
 #include "engine/session/streaming.h"
 
 namespace reljef::session {
@@ -224,38 +223,11 @@ std::optional<std::string> missing_geoid(const TerrainScene& scene, const Source
                        datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
 }
 
-Result<void> prepare_bisection(TerrainScene& scene, const SourceOptions& terrain, Log& log,
-                               const std::stop_token& stop) {
-    auto& shown = *scene.terrain->get<scene::TerrainNode>();
-    const scene::Technique& technique = shown.material.technique;
-    if (technique.id != scene::TechniqueId::polygons || shown.stream != nullptr ||
-        scene::parameter(technique, "error") <= 0.0) {
-        return {};
-    }
-    const std::string& name = shown.surface->terrain().name;
-    const auto task = log.start("bounding the errors of " + name);
-    io::BisectionCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-    options.parallel = {static_cast<unsigned>(terrain.threads), stop, task->callback()};
-    auto cached =
-        io::cached_bisection(shown.surface->heightfield(), shown.surface->placement(), options);
-    if (!cached) {
-        return Error{fmt::format("{}: stopped while its errors were bounded", name)};
-    }
-    if (!cached->note.empty()) {
-        log.note(cached->note);
-    }
-    shown.bisection = std::move(cached->bisection);
-    return {};
-}
-
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop) {
     auto source = open_terrain(std::move(description), terrain, log, stop);
     if (!source) {
         return source.error();
-    }
-    if (auto ready = prepare_technique(*source, technique_of(view), terrain, log, stop); !ready) {
-        return ready.error();
     }
     auto scene = make_scene(std::move(*source), terrain, view, log, stop);
     if (!scene) {
@@ -264,11 +236,15 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
     if (const auto note = missing_geoid(*scene, terrain)) {
         log.note(*note);
     }
-    if (auto ready = view.bounds_error ? prepare_bisection(*scene, terrain, log, stop)
-                                       : Result<void>();
-        !ready) {
-        return ready.error();
+    if (!view.prepares_maps) {
+        return scene;
     }
+    const auto maps =
+        prepare_maps(missing_maps(*scene, technique_of(view)), terrain.threads, log, stop);
+    if (!maps) {
+        return maps.error();
+    }
+    apply_maps(*scene, *maps);
     return scene;
 }
 

@@ -43,13 +43,8 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
 /// no geoid is applied, and the user did not ask for that.
 std::optional<std::string> missing_geoid(const TerrainScene& scene, const SourceOptions& terrain);
 
-/// Reads the bisection that bounds a terrain's error from the cache, or makes and keeps it. Nothing
-/// to do for techniques without a bound and for streamed terrain. Fails when it was stopped.
-Result<void> prepare_bisection(TerrainScene& scene, const SourceOptions& terrain, Log& log,
-                               const std::stop_token& stop);
-
-/// Opens a terrain and sets up its scene: open_terrain, prepare_technique, make_scene,
-/// missing_geoid, prepare_bisection.
+/// Opens a terrain and sets up its scene: open_terrain, make_scene, missing_geoid and, where
+/// `view.prepares_maps`, prepare_maps.
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop);
 

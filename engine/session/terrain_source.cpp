@@ -223,8 +223,8 @@ Result<void> refuse_folder_options(const SourceOptions& choice,
     return option != nullptr ? usage_error(message) : Error{message};
 }
 
-Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescription description, Log& log,
-                                  const std::stop_token& stop) {
+Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescription description,
+                                  Log& log, const std::stop_token& stop) {
     if (is_set(description)) {
         auto tiles = open_set(choice, description, stop);
         if (!tiles) {
@@ -397,26 +397,6 @@ Result<void> report_faults(const std::string& terrain, std::size_t faults) {
                        : Error{fmt::format("{}: {} of the files asked for could not be read and {} "
                                            "left out",
                                            terrain, faults, faults == 1 ? "is" : "are")};
-}
-
-Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
-                               const SourceOptions& choice, Log& log, const std::stop_token& stop) {
-    const Grid<float>& heights = source.terrain.heightfield.heights;
-    if (technique.id != scene::TechniqueId::cone || heights.cols() < 2 || heights.rows() < 2) {
-        return {};
-    }
-    const auto task = log.start("cones of " + source.description.name);
-    io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-    options.parallel = {static_cast<unsigned>(choice.threads), stop, task->callback()};
-    auto cached = io::cached_cones(terrain::unit_heights(heights.view()).view(), options);
-    if (!cached) {
-        return Error{fmt::format("{}: stopped while its cones were made", source.terrain.name)};
-    }
-    if (!cached->note.empty()) {
-        log.note(cached->note);
-    }
-    source.terrain.cones = std::move(cached->cones);
-    return {};
 }
 
 } // namespace reljef::session

@@ -8,7 +8,6 @@
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tile_set.h"
 #include "engine/scene/streamed_tile.h"
-#include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
 #include "engine/session/options.h"
 #include "engine/terrain/field/heightfield.h"
@@ -56,11 +55,6 @@ Result<TerrainSource> open_terrain(const SourceOptions& options, Log& log,
 /// The same for a scene that is described already; `options.terrain` is not read.
 Result<TerrainSource> open_terrain(io::SceneDescription description, const SourceOptions& options,
                                    Log& log, const std::stop_token& stop);
-
-/// Makes what the technique needs besides the heights and takes seconds, or reads it from the
-/// cache: the cones. Fails when it was stopped.
-Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
-                               const SourceOptions& options, Log& log, const std::stop_token& stop);
 
 /// The files of heights that TERRAIN names, and the part of them that is of use.
 struct HeightSource {

@@ -5,34 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "engine/io/cache/cone_cache.h"
 #include "engine/io/image/texture_files.h"
-#include "engine/material/tile_cones.h"
 #include "terrains/gallery/detail_tiles.h"
 
 namespace reljef::session {
-namespace {
-
-Result<void> add_cones_of(material::TextureSet& set, material::KnownCones side,
-                          const SourceOptions& choice, Log& log, const std::stop_token& stop) {
-    const auto task = log.start("cones of " + set.name);
-    io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-    options.parallel = {static_cast<unsigned>(choice.threads), stop, task->callback()};
-    const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
-    const Grid<float> field = material::cone_field(heights.view(), side.border);
-    auto cached = io::cached_cones(field.view(), options);
-    if (!cached) {
-        return Error{fmt::format("{}: stopped while its cones were made", set.name)};
-    }
-    if (!cached->note.empty()) {
-        set.notes.push_back(cached->note);
-    }
-    side.of_field = std::move(cached->cones);
-    set.cones.push_back(std::move(side));
-    return {};
-}
-
-} // namespace
 
 Result<material::TextureSet> open_textures(const TextureRequest& request,
                                            const SourceOptions& choice) {
@@ -56,23 +32,6 @@ Result<material::TextureSet> open_textures(const TextureRequest& request,
     io::TextureOptions options{.width = request.width};
     options.scale = request.scale ? static_cast<float>(*request.scale) : options.scale;
     return io::read_texture_set(*files, options);
-}
-
-Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique,
-                       const SourceOptions& choice, Log& log, const std::stop_token& stop) {
-    if (technique.id != scene::TechniqueId::cone) {
-        return {};
-    }
-    const bool wraps =
-        technique.options.border.value_or(scene::BorderRule::wrap) == scene::BorderRule::wrap;
-    material::KnownCones side{wraps ? material::TileBorder::wrap : material::TileBorder::clamp,
-                              false, nullptr};
-    if (auto made = add_cones_of(set, side, choice, log, stop);
-        !made || !technique.options.two_sided) {
-        return made;
-    }
-    side.from_behind = true;
-    return add_cones_of(set, side, choice, log, stop);
 }
 
 void log_texture_notes(const material::TextureSet& set, Log& log) {

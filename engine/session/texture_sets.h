@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 #include "engine/core/result.h"
@@ -29,11 +28,6 @@ struct TextureRequest {
 /// an option asked), and where pictures cannot be read.
 Result<material::TextureSet> open_textures(const TextureRequest& request,
                                            const SourceOptions& options);
-
-/// Makes the cones over the sides of a tile that the technique sees, with the border it asks for,
-/// or reads them from the cache; none where the technique needs none. Fails when it was stopped.
-Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique,
-                       const SourceOptions& options, Log& log, const std::stop_token& stop);
 
 /// Reports what is odd about the maps.
 void log_texture_notes(const material::TextureSet& set, Log& log);

@@ -8,7 +8,11 @@
 
 namespace reljef::app {
 
-inline session::TerrainScene scene_of(Grid<float> heights, const session::SceneOptions& view = {}) {
+/// Draws every sample where neither a technique nor a bound is named: no map is to be made.
+inline session::TerrainScene scene_of(Grid<float> heights, session::SceneOptions view = {}) {
+    if (!view.technique) {
+        view.max_error = view.max_error.value_or(0.0);
+    }
     session::TerrainSource source;
     source.terrain.name = "hill";
     auto& heightfield = source.terrain.heightfield;

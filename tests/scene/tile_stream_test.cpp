@@ -186,7 +186,7 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
         std::this_thread::sleep_for(1ms);
     }
     EXPECT_NE(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
-    stream.request({}); // it is there, and drawn
+    stream.request({}, std::array{TreeTile{0, 0, 0}}); // it is in memory, and drawn
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
     EXPECT_EQ(readings, 3);
@@ -216,7 +216,7 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
     stream.request(std::array{tile});
     for (int frame = 0; frame < 200 && (stream.is_busy() || readings < 2); ++frame) {
         if (stream.find(tile) != nullptr) {
-            stream.request({});
+            stream.request({}, std::array{tile});
         }
         std::this_thread::sleep_for(2ms);
     }

@@ -49,10 +49,11 @@ Result<ResidentMaps> make_light_parts(const scene::TerrainSurface& surface,
     return sun ? with_place(surface, std::move(*sky), std::move(*sun)) : sun.error();
 }
 
-Result<gl::Texture2D> cone_texture(const terrain::Terrain& terrain, const Grid<float>& heights,
-                                   view::FrameStats& stats) {
+// Makes the cones where there are none.
+Result<gl::Texture2D> cone_texture(const std::shared_ptr<const material::ConeMaps>& cones,
+                                   const Grid<float>& heights, view::FrameStats& stats) {
     const Grid<glm::vec2> texels =
-        cone_texels(terrain.cones ? *terrain.cones : *material::cone_maps(heights.view()));
+        cone_texels(cones ? *cones : *material::cone_maps(heights.view()));
     auto texture = gl::Texture2D::create({.size = {texels.cols(), texels.rows()},
                                           .format = gl::Format::rg32f,
                                           .filter = gl::Filter::nearest});
@@ -258,7 +259,7 @@ Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::Frame
             return kept;
         }
     }
-    return needs_cones ? keep(cone_texture(surface.terrain(), heights, stats), relief->cones)
+    return needs_cones ? keep(cone_texture(draw.terrain->cones, heights, stats), relief->cones)
                        : Result<void>();
 }
 

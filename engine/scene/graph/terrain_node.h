@@ -6,6 +6,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
+#include "engine/material/cone_map.h"
 #include "engine/scene/graph/texture_detail.h"
 #include "engine/scene/technique/ground_detail.h"
 #include "engine/scene/technique/technique.h"
@@ -91,8 +92,9 @@ struct TerrainNode {
     std::shared_ptr<TileStream> stream = {};
     /// Shown where the technique is polygons; null: none.
     std::shared_ptr<const GroundDetail> detail = {};
-    /// Of the surface, where it was made or read before; null: made when it is first needed.
+    /// Of the surface, where they were made or read before; null: made when they are first needed.
     std::shared_ptr<const terrain::Bisection> bisection = {};
+    std::shared_ptr<const material::ConeMaps> cones = {}; ///< over its heights, from 0 to 1
 
     friend bool operator==(const TerrainNode&, const TerrainNode&) = default;
 };

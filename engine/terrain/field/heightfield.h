@@ -13,10 +13,6 @@
 #include "engine/core/grid.h"
 #include "engine/geo/georeference.h"
 
-namespace reljef::material {
-struct ConeMaps;
-}
-
 namespace reljef::terrain {
 
 /// Lowest and highest height, metres.
@@ -51,8 +47,6 @@ struct Terrain {
         notes; ///< what the reader should be told: undeclared voids, a reduced read
     std::vector<std::string> faults =
         {}; ///< files that were to be read and failed, a sentence each; the rest is there
-    /// Of the heights from 0 (lowest) to 1 (highest of all samples); null until they are wanted.
-    std::shared_ptr<const material::ConeMaps> cones = {};
 };
 
 /// Lowest and highest of the samples that are no voids; {0,0} when there is none.

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <random>
+#include <thread>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -75,6 +76,12 @@ struct ViewerTest : testing::Test {
         viewer.receive(MouseButtonEvent{MouseButton::left, true, from});
         viewer.receive(MouseMoveEvent{to});
         viewer.receive(MouseButtonEvent{MouseButton::left, false, to});
+    }
+    void wait_for_maps() {
+        while (viewer.is_preparing()) {
+            viewer.advance(frame);
+            std::this_thread::yield();
+        }
     }
     scene::Camera camera() { return *scene.camera->get<scene::Camera>(); }
     scene::Material& material() { return scene.terrain->get<scene::TerrainNode>()->material; }
@@ -246,6 +253,7 @@ TEST_F(ViewerTest, TAndDigitsSwitchTechniques) {
     for (std::size_t i = 1; i <= catalogue.size(); ++i) {
         viewer.take_redraw();
         press(Key::t);
+        wait_for_maps();
         EXPECT_EQ(material().technique.id == first, i == catalogue.size());
         EXPECT_TRUE(viewer.take_redraw());
     }

@@ -1,0 +1,179 @@
+#include "engine/session/prepared_maps.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/io/cache/bisection_cache.h"
+#include "engine/io/cache/cone_cache.h"
+#include "engine/material/tile_cones.h"
+
+namespace reljef::session {
+namespace {
+
+// The sides of a detail texture that `cone` searches.
+std::vector<material::KnownCones> sides_of(const scene::Technique& technique) {
+    const bool wraps =
+        technique.options.border.value_or(scene::BorderRule::wrap) == scene::BorderRule::wrap;
+    const auto border = wraps ? material::TileBorder::wrap : material::TileBorder::clamp;
+    std::vector<material::KnownCones> sides{{border, false, nullptr}};
+    if (technique.options.two_sided) {
+        sides.push_back({border, true, nullptr});
+    }
+    return sides;
+}
+
+std::vector<material::KnownCones> missing_sides(const material::TextureSet& set,
+                                                const scene::Technique& technique) {
+    std::vector<material::KnownCones> sides = sides_of(technique);
+    std::erase_if(sides, [&](const material::KnownCones& side) {
+        return std::any_of(
+            set.cones.begin(), set.cones.end(), [&](const material::KnownCones& known) {
+                return known.border == side.border && known.from_behind == side.from_behind;
+            });
+    });
+    return sides;
+}
+
+Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& heights,
+                                                             const std::string& name, int threads,
+                                                             Log& log,
+                                                             const std::stop_token& stop) {
+    const auto task = log.start("cones of " + name);
+    io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    options.parallel = {static_cast<unsigned>(threads), stop, task->callback()};
+    auto cached = io::cached_cones(heights.view(), options);
+    if (!cached) {
+        return Error{fmt::format("{}: stopped while its cones were made", name)};
+    }
+    if (!cached->note.empty()) {
+        log.note(cached->note);
+    }
+    return std::move(cached->cones);
+}
+
+Result<void> add_side(material::TextureSet& set, material::KnownCones side, int threads, Log& log,
+                      const std::stop_token& stop) {
+    const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
+    auto cones =
+        cones_over(material::cone_field(heights.view(), side.border), set.name, threads, log, stop);
+    if (!cones) {
+        return cones.error();
+    }
+    side.of_field = std::move(*cones);
+    set.cones.push_back(std::move(side));
+    return {};
+}
+
+Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::TerrainSurface& surface,
+                                                               int threads, Log& log,
+                                                               const std::stop_token& stop) {
+    const std::string& name = surface.terrain().name;
+    const auto task = log.start("bounding the errors of " + name);
+    io::BisectionCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    options.parallel = {static_cast<unsigned>(threads), stop, task->callback()};
+    auto cached = io::cached_bisection(surface.heightfield(), surface.placement(), options);
+    if (!cached) {
+        return Error{fmt::format("{}: stopped while its errors were bounded", name)};
+    }
+    if (!cached->note.empty()) {
+        log.note(cached->note);
+    }
+    return std::move(cached->bisection);
+}
+
+void find_missing(MissingMaps& missing, const scene::TerrainNode& node,
+                  const scene::Technique& technique) {
+    const Grid<float>& heights = node.surface->heightfield().heights;
+    const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
+    missing.cones = technique.id == scene::TechniqueId::cone && has_cells && node.cones == nullptr;
+    missing.bisection = technique.id == scene::TechniqueId::polygons && node.stream == nullptr &&
+                        scene::parameter(technique, "error") > 0.0 && node.bisection == nullptr;
+    if (missing.cones || missing.bisection) {
+        missing.surface = node.surface;
+    }
+}
+
+} // namespace
+
+MissingMaps missing_maps(const TerrainScene& scene, const scene::Technique& technique) {
+    MissingMaps missing;
+    if (scene.models.empty()) {
+        find_missing(missing, *scene.terrain->get<scene::TerrainNode>(), technique);
+        return missing;
+    }
+    if (technique.id != scene::TechniqueId::cone) {
+        return missing;
+    }
+    for (const scene::Material* const material : scene.materials()) {
+        const MissingMaps::Set& set = material->detail.set;
+        if (set == nullptr) {
+            continue;
+        }
+        if (auto sides = missing_sides(*set, technique); !sides.empty()) {
+            missing.set_cones.emplace(set, std::move(sides));
+        }
+    }
+    return missing;
+}
+
+Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& log,
+                                  const std::stop_token& stop) {
+    PreparedMaps made;
+    made.surface = missing.surface;
+    if (missing.cones) {
+        const Grid<float>& heights = missing.surface->heightfield().heights;
+        auto cones = cones_over(terrain::unit_heights(heights.view()),
+                                missing.surface->terrain().name, threads, log, stop);
+        if (!cones) {
+            return cones.error();
+        }
+        made.cones = std::move(*cones);
+    }
+    if (missing.bisection) {
+        auto bisection = bisection_of(*missing.surface, threads, log, stop);
+        if (!bisection) {
+            return bisection.error();
+        }
+        made.bisection = std::move(*bisection);
+    }
+    for (const auto& [set, sides] : missing.set_cones) {
+        material::TextureSet with_cones = *set;
+        for (const material::KnownCones& side : sides) {
+            if (auto added = add_side(with_cones, side, threads, log, stop); !added) {
+                return added.error();
+            }
+        }
+        made.sets.emplace(set, std::make_shared<const material::TextureSet>(std::move(with_cones)));
+    }
+    return made;
+}
+
+void apply_maps(TerrainScene& scene, const PreparedMaps& maps) {
+    auto& node = *scene.terrain->get<scene::TerrainNode>();
+    if (maps.surface == node.surface) {
+        node.cones = maps.cones != nullptr ? maps.cones : node.cones;
+        node.bisection = maps.bisection != nullptr ? maps.bisection : node.bisection;
+    }
+    for (scene::Material* const material : scene.materials()) {
+        const auto found = maps.sets.find(material->detail.set);
+        if (found != maps.sets.end()) {
+            material->detail.set = found->second;
+        }
+    }
+}
+
+Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique, int threads,
+                       Log& log, const std::stop_token& stop) {
+    if (technique.id != scene::TechniqueId::cone) {
+        return {};
+    }
+    for (const material::KnownCones& side : missing_sides(set, technique)) {
+        if (auto added = add_side(set, side, threads, log, stop); !added) {
+            return added;
+        }
+    }
+    return {};
+}
+
+} // namespace reljef::session
