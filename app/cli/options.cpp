@@ -153,7 +153,7 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
             if (!technique) {
                 return technique.error();
             }
-            return std::optional(std::move(*technique));
+            return std::optional(*technique);
         },
         "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: mixed, as "
         "suits each model)",
@@ -354,10 +354,12 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
 }
 
 scene::Technique technique_of(const ViewChoice& choice) {
-    const scene::Technique technique =
-        choice.technique.value_or(scene::make_technique(scene::TechniqueId::polygons));
-    return choice.max_error ? scene::with_parameter(technique, "error", *choice.max_error)
-                            : technique;
+    scene::Technique technique = choice.technique.value_or(scene::Technique{});
+    auto* const polygons = std::get_if<scene::Polygons>(&technique.parameters);
+    if (polygons != nullptr && choice.max_error) {
+        polygons->error = *choice.max_error;
+    }
+    return technique;
 }
 
 bool may_stream(const ViewChoice& choice) {
@@ -365,10 +367,7 @@ bool may_stream(const ViewChoice& choice) {
 }
 
 bool may_stream_pictures(const ViewChoice& choice) {
-    const scene::Technique technique = technique_of(choice);
-    const bool promised =
-        technique.id == scene::TechniqueId::polygons && scene::parameter(technique, "error") > 0.0;
-    return may_stream(choice) && !promised;
+    return may_stream(choice) && scene::error_bound(technique_of(choice)) == 0.0;
 }
 
 void check_view_options(const ViewChoice& choice) {
@@ -376,18 +375,19 @@ void check_view_options(const ViewChoice& choice) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
     }
     if (choice.max_error && choice.technique &&
-        choice.technique->id != scene::TechniqueId::polygons) {
+        choice.technique->id() != scene::TechniqueId::polygons) {
         throw CLI::ValidationError(
             fmt::format("--max-error: technique {} found, polygons was expected",
-                        scene::technique_info(choice.technique->id).name));
+                        scene::technique_info(choice.technique->id()).name));
     }
-    if (choice.detail && choice.technique && choice.technique->id != scene::TechniqueId::polygons) {
+    if (choice.detail && choice.technique &&
+        choice.technique->id() != scene::TechniqueId::polygons) {
         throw CLI::ValidationError(
             fmt::format("--detail: technique {} found, polygons was expected, which it lies on",
-                        scene::technique_info(choice.technique->id).name));
+                        scene::technique_info(choice.technique->id()).name));
     }
-    const scene::Technique plain = scene::make_technique(scene::TechniqueId::polygons);
-    if (choice.max_error && choice.technique && choice.technique->values != plain.values) {
+    const scene::TechniqueParameters plain = scene::Polygons{};
+    if (choice.max_error && choice.technique && choice.technique->parameters != plain) {
         throw CLI::ValidationError(
             fmt::format("--max-error: --technique {} found beside it, which says how coarse "
                         "triangles may be too; one of them was expected",

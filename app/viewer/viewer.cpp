@@ -85,7 +85,8 @@ std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
         if (!scene.check(scene::make_technique(info.id))) {
             continue;
         }
-        techniques.push_back(info.id == asked_for.id ? asked_for : scene::make_technique(info.id));
+        techniques.push_back(info.id == asked_for.id() ? asked_for
+                                                       : scene::make_technique(info.id));
     }
     return techniques;
 }
@@ -330,14 +331,14 @@ void Viewer::toggle_follow_ground() {
 void Viewer::next_technique() {
     const auto found =
         std::find_if(techniques_.begin(), techniques_.end(), [&](const auto& technique) {
-            return technique.id == material().technique.id;
+            return technique.id() == material().technique.id();
         });
     const auto index = static_cast<std::size_t>(found - techniques_.begin());
     choose_technique((index + 1) % techniques_.size());
 }
 
 void Viewer::choose_technique(std::size_t index) {
-    if (index < techniques_.size() && techniques_[index].id != material().technique.id) {
+    if (index < techniques_.size() && techniques_[index].id() != material().technique.id()) {
         for (scene::Material* const shown : scene_.materials()) {
             shown->technique = techniques_[index];
         }

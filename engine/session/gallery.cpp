@@ -56,7 +56,7 @@ public:
          const cli::TerrainChoice& terrain, std::optional<scene::Technique> technique,
          std::stop_token stop)
         : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
-          technique_(std::move(technique)), stop_(std::move(stop)) {}
+          technique_(technique), stop_(std::move(stop)) {}
 
     Result<Set> of(const terrains::GalleryModel& model) {
         const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
@@ -105,7 +105,7 @@ Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescript
         return Choice(view.technique);
     }
     auto technique = scene::parse_technique(description.gallery_technique);
-    return technique ? Result<Choice>(Choice(std::move(*technique)))
+    return technique ? Result<Choice>(Choice(*technique))
                      : Error{fmt::format("{}: [gallery] {}", file, technique.error().message)};
 }
 

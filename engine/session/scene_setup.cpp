@@ -34,7 +34,7 @@ scene::TerrainOptions terrain_options(const cli::TerrainChoice& choice, const cl
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    if (!options.placement && view.technique && scene::needs_plane(view.technique->id)) {
+    if (!options.placement && view.technique && scene::needs_plane(view.technique->id())) {
         options.placement = terrain::PlacementKind::plane; // the only one it draws
     }
     return options;
@@ -233,8 +233,7 @@ Result<void> prepare_bisection(TerrainScene& scene, const cli::TerrainChoice& te
                                const std::stop_token& stop) {
     auto& shown = *scene.terrain->get<scene::TerrainNode>();
     const scene::Technique& technique = shown.material.technique;
-    if (technique.id != scene::TechniqueId::polygons || shown.stream != nullptr ||
-        scene::parameter(technique, "error") <= 0.0) {
+    if (shown.stream != nullptr || scene::error_bound(technique) <= 0.0) {
         return {};
     }
     const std::string& name = shown.surface->terrain().name;

@@ -424,7 +424,7 @@ Result<void> report_faults(const std::string& terrain, std::size_t faults) {
 Result<void> prepare_technique(TerrainSource& source, const scene::Technique& technique,
                                const cli::TerrainChoice& choice, const std::stop_token& stop) {
     const Grid<float>& heights = source.terrain.heightfield.heights;
-    if (technique.id != scene::TechniqueId::cone || heights.cols() < 2 || heights.rows() < 2) {
+    if (technique.id() != scene::TechniqueId::cone || heights.cols() < 2 || heights.rows() < 2) {
         return {};
     }
     cli::ProgressLine line("cones of " + source.description.name, choice.quiet);

@@ -66,7 +66,7 @@ Result<material::TextureSet> open_textures(const TextureRequest& request,
 
 Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique,
                        const cli::TerrainChoice& choice, const std::stop_token& stop) {
-    if (technique.id != scene::TechniqueId::cone) {
+    if (technique.id() != scene::TechniqueId::cone) {
         return {};
     }
     const bool wraps =
