@@ -30,8 +30,8 @@ constexpr ParameterInfo parameter_row(NumberInfo row, std::string_view replaced_
             set_parameter_value<member>};
 }
 
-constexpr double most_steps = 4096.0;
-constexpr double most_halvings = 32.0;
+constexpr double max_step_count = 4096.0;
+constexpr double max_halvings = 32.0;
 
 constexpr std::array polygons_parameters{
     parameter_row<&Polygons::max_levels>(
@@ -71,13 +71,13 @@ constexpr std::array iterated_parameters{
 // The parameter n of those that take equal steps.
 template <class Kind>
 constexpr ParameterInfo linear_steps_parameter = parameter_row<&Kind::linear_steps>(
-    {.name = "n", .low = 1.0, .high = most_steps, .meaning = "equal steps along the ray"});
+    {.name = "n", .low = 1.0, .high = max_step_count, .meaning = "equal steps along the ray"});
 
 constexpr std::array steep_parameters{linear_steps_parameter<Steep>};
 constexpr std::array relief_parameters{
     linear_steps_parameter<Relief>,
     parameter_row<&Relief::bisection_steps>(
-        {.name = "k", .high = most_halvings, .meaning = "times the bracket is halved"})};
+        {.name = "k", .high = max_halvings, .meaning = "times the bracket is halved"})};
 constexpr std::array interval_parameters{
     linear_steps_parameter<Interval>,
     parameter_row<&Interval::secant_steps>(
@@ -85,25 +85,23 @@ constexpr std::array interval_parameters{
 constexpr std::array pom_parameters{
     parameter_row<&Pom::min_steps>({.name = "min",
                                     .low = 1.0,
-                                    .high = most_steps,
+                                    .high = max_step_count,
                                     .meaning = "equal steps seen from straight above"}),
     parameter_row<&Pom::max_steps>({.name = "max",
                                     .low = 1.0,
-                                    .high = most_steps,
+                                    .high = max_step_count,
                                     .meaning = "equal steps seen along the ground"})};
 
 // The parameter k of those that end with a chord.
 template <class Kind>
 constexpr ParameterInfo halvings_parameter = parameter_row<&Kind::bisection_steps>(
-    {.name = "k",
-     .high = most_halvings,
-     .meaning = "times the bracket is halved before the chord"});
+    {.name = "k", .high = max_halvings, .meaning = "times the bracket is halved before the chord"});
 
 constexpr std::array cone_parameters{
     parameter_row<&Cone::relaxed>(
         {.name = "relaxed", .meaning = "1: cones that a ray may meet the surface in once"}),
     parameter_row<&Cone::max_steps>(
-        {.name = "n", .low = 1.0, .high = most_steps, .meaning = "cones at the most"}),
+        {.name = "n", .low = 1.0, .high = max_step_count, .meaning = "cones at the most"}),
     halvings_parameter<Cone>,
     parameter_row<&Cone::min_step>(
         {.name = "step",
