@@ -15,24 +15,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const scene::ParameterInfo& parameter) {
-    Json json{{"name", parameter.name},   {"default", parameter.default_value},
-              {"low", parameter.low},     {"high", parameter.high},
-              {"whole", parameter.whole}, {"meaning", parameter.meaning}};
-    if (parameter.least > parameter.low) {
-        json["least"] = parameter.least;
+Json to_json(const scene::NumberInfo& number) {
+    Json json{{"name", number.name},   {"default", number.default_value},
+              {"low", number.low},     {"high", number.high},
+              {"whole", number.whole}, {"meaning", number.meaning}};
+    if (number.least > number.low) {
+        json["least"] = number.least;
     }
     return json;
 }
 
 Json to_json(const scene::OptionInfo& option) {
     Json numbers = Json::array();
-    for (const scene::ParameterInfo& number : option.numbers) {
+    for (const scene::NumberInfo& number : option.numbers) {
         numbers.push_back(to_json(number));
     }
-    return {
-        {"name", option.name},       {"form", option.form},     {"default", option.default_value},
-        {"meaning", option.meaning}, {"source", option.source}, {"numbers", numbers}};
+    return {{"name", option.name},
+            {"form", scene::form_of(option)},
+            {"default", option.default_value},
+            {"meaning", option.meaning},
+            {"source", option.source},
+            {"numbers", numbers}};
 }
 
 Json catalogue_json() {
@@ -68,16 +71,20 @@ std::vector<std::string_view> takers_of(const scene::OptionInfo& option) {
     return takers;
 }
 
+void print_number(const scene::NumberInfo& number) {
+    fmt::print("{:<12}   {}={} ({} to {}): {}\n", "", number.name, number.default_value, number.low,
+               number.high, number.meaning);
+}
+
 void print_options() {
     fmt::print("\nOptions, behind the parameters of those that take them: "
                "relief:n=11,k=8,shadow=soft,0.3\n");
     for (const scene::OptionInfo& option : scene::option_catalogue()) {
         fmt::print("{:<12} {}={} ({})\n{:<12} {}\n{:<12} with {}\n", option.name, option.name,
-                   option.form, option.default_value, "", option.meaning, "",
+                   scene::form_of(option), option.default_value, "", option.meaning, "",
                    fmt::join(takers_of(option), ", "));
-        for (const scene::ParameterInfo& number : option.numbers) {
-            fmt::print("{:<12}   {}={} ({} to {}): {}\n", "", number.name, number.default_value,
-                       number.low, number.high, number.meaning);
+        for (const scene::OptionNumberInfo& number : option.numbers) {
+            print_number(number);
         }
     }
 }
@@ -87,8 +94,7 @@ void print_text() {
         fmt::print("{:<12} {}\n{:<12} {}\n", technique.name, technique.meaning, "",
                    technique.source);
         for (const scene::ParameterInfo& parameter : technique.parameters) {
-            fmt::print("{:<12}   {}={} ({} to {}): {}\n", "", parameter.name,
-                       parameter.default_value, parameter.low, parameter.high, parameter.meaning);
+            print_number(parameter);
         }
     }
     print_options();

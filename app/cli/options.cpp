@@ -167,7 +167,7 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
             if (!technique) {
                 return technique.error();
             }
-            return std::optional(std::move(*technique));
+            return std::optional(*technique);
         },
         "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: mixed, as "
         "suits each model)",
@@ -372,18 +372,19 @@ void check_view_options(const ViewChoice& choice) {
         throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
     }
     const bool is_bounded = choice.max_error.value_or(0.0) > 0.0;
-    if (is_bounded && choice.technique && choice.technique->id != scene::TechniqueId::polygons) {
+    if (is_bounded && choice.technique && choice.technique->id() != scene::TechniqueId::polygons) {
         throw CLI::ValidationError(
             fmt::format("--max-error: technique {} found, polygons was expected",
-                        scene::technique_info(choice.technique->id).name));
+                        scene::technique_info(choice.technique->id()).name));
     }
-    if (choice.detail && choice.technique && choice.technique->id != scene::TechniqueId::polygons) {
+    if (choice.detail && choice.technique &&
+        choice.technique->id() != scene::TechniqueId::polygons) {
         throw CLI::ValidationError(
             fmt::format("--detail: technique {} found, polygons was expected, which it lies on",
-                        scene::technique_info(choice.technique->id).name));
+                        scene::technique_info(choice.technique->id()).name));
     }
-    const scene::Technique plain = scene::make_technique(scene::TechniqueId::polygons);
-    if (is_bounded && choice.technique && choice.technique->values != plain.values) {
+    const scene::TechniqueParameters plain = scene::Polygons{};
+    if (is_bounded && choice.technique && choice.technique->parameters != plain) {
         throw CLI::ValidationError(
             fmt::format("--max-error: --technique {} found beside it, which says how coarse "
                         "triangles may be too; one of them was expected",

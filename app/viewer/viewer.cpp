@@ -87,7 +87,8 @@ std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
         if (!scene.check(scene::make_technique(info.id))) {
             continue;
         }
-        techniques.push_back(info.id == asked_for.id ? asked_for : scene::make_technique(info.id));
+        techniques.push_back(info.id == asked_for.id() ? asked_for
+                                                       : scene::make_technique(info.id));
     }
     return techniques;
 }
@@ -343,8 +344,9 @@ void Viewer::toggle_follow_ground() {
 
 void Viewer::next_technique() {
     const auto found =
-        std::find_if(techniques_.begin(), techniques_.end(),
-                     [&](const auto& technique) { return technique.id == switch_.target().id; });
+        std::find_if(techniques_.begin(), techniques_.end(), [&](const auto& technique) {
+            return technique.id() == switch_.target().id();
+        });
     const auto index = static_cast<std::size_t>(found - techniques_.begin());
     choose_technique((index + 1) % techniques_.size());
 }

@@ -3,10 +3,10 @@
 namespace reljef::bench {
 
 Setting setting_of(const scene::Technique& technique) {
-    const scene::TechniqueInfo& info = scene::technique_info(technique.id);
+    const scene::TechniqueInfo& info = scene::technique_info(technique.id());
     Setting setting{std::string(info.name), {}, scene::to_string(technique)};
-    for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-        setting.parameters.push_back({std::string(info.parameters[i].name), technique.values[i]});
+    for (const scene::ParameterInfo& parameter : info.parameters) {
+        setting.parameters.push_back({std::string(parameter.name), parameter.get(technique)});
     }
     for (const scene::OptionNumber& number : scene::option_numbers(technique.options)) {
         setting.parameters.push_back({number.name, number.value});

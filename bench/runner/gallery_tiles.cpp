@@ -95,7 +95,7 @@ void expect_suited(const std::vector<scene::Technique>& techniques,
     }
     const auto is_drawn = [&](const scene::Technique& technique) {
         return std::any_of(stages.begin(), stages.end(),
-                           [&](const StageChoice& stage) { return suits(technique.id, stage); });
+                           [&](const StageChoice& stage) { return suits(technique.id(), stage); });
     };
     if (!techniques.empty() && std::none_of(techniques.begin(), techniques.end(), is_drawn)) {
         cli::refuse(fmt::format("--technique: {} found, which shows nothing of {}; the gallery "

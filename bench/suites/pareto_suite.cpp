@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-
-#include <fmt/format.h>
+#include <numeric>
 
 #include "bench/report/pareto_front.h"
 #include "bench/runner/gallery_tiles.h"
@@ -21,11 +20,11 @@ constexpr scene::Pose tile_pose = scene::Pose::oblique; // that of the sources' 
 
 constexpr int most_view_cols = 512; // there are hundreds of rows
 
-bool is_wide(const scene::ParameterInfo& parameter) {
+bool is_wide(const scene::NumberInfo& parameter) {
     return parameter.low > 0.0 && parameter.high > 10.0 * parameter.low;
 }
 
-double value_at(const scene::ParameterInfo& parameter, double share) {
+double value_at(const scene::NumberInfo& parameter, double share) {
     if (share == 0.0 || share == 1.0) {
         return share == 0.0 ? parameter.low : parameter.high;
     }
@@ -62,7 +61,7 @@ std::vector<scene::TechniqueInfo> by_cost(std::vector<scene::TechniqueInfo> info
 }
 
 // The values of a parameter but its default, by how many of them lie between.
-std::vector<std::vector<double>> values_by_distance(const scene::ParameterInfo& parameter) {
+std::vector<std::vector<double>> values_by_distance(const scene::NumberInfo& parameter) {
     const std::vector<double> values = values_over_range(parameter);
     const auto usual = std::find(values.begin(), values.end(), parameter.default_value);
     std::vector<std::vector<double>> rings(values.size() - 1);
@@ -77,17 +76,32 @@ std::vector<std::vector<double>> values_by_distance(const scene::ParameterInfo& 
 // A technique with one parameter as far from its default as `ring` says.
 std::vector<scene::Technique> settings_of_ring(const scene::TechniqueInfo& info, std::size_t ring) {
     std::vector<scene::Technique> settings;
-    for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-        const auto rings = values_by_distance(info.parameters[i]);
+    for (const scene::ParameterInfo& parameter : info.parameters) {
+        const auto rings = values_by_distance(parameter);
         for (const double value : ring < rings.size() ? rings[ring] : std::vector<double>()) {
             scene::Technique setting = scene::make_technique(info.id);
-            setting.values[i] = value;
+            parameter.set(setting, value);
             if (is_accepted(setting)) {
-                settings.push_back(std::move(setting));
+                settings.push_back(setting);
             }
         }
     }
     return settings;
+}
+
+// The words of an option but its default, by their places, or its range. Where the default is none
+// of its words, the first stands for all of them.
+std::vector<std::size_t> choices_of(const scene::OptionInfo& option) {
+    const auto usual = static_cast<std::size_t>(
+        std::find(option.words.begin(), option.words.end(), option.default_value) -
+        option.words.begin());
+    if (usual == option.words.size()) {
+        return {0};
+    }
+    std::vector<std::size_t> choices(option.words.size());
+    std::iota(choices.begin(), choices.end(), std::size_t{0});
+    std::erase(choices, usual);
+    return choices;
 }
 
 // The cheap kinds first; the options of what is measured nowhere else.
@@ -103,8 +117,7 @@ std::vector<scene::Technique> usual_settings(const StageChoice& stage) {
 }
 
 std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& settings) {
-    const std::string texture =
-        scene::to_string(scene::make_technique(scene::TechniqueId::texture));
+    const std::string texture = scene::to_string(scene::Technique{scene::Texture{}});
     std::vector<Candidate> candidates{candidate_named(texture)};
     for (const scene::Technique& technique : settings) {
         if (scene::to_string(technique) != texture) {
@@ -139,7 +152,7 @@ std::vector<scene::Technique> settings_on(const StageChoice& stage, const Pareto
     std::vector<scene::Technique> settings;
     std::copy_if(
         options.techniques.begin(), options.techniques.end(), std::back_inserter(settings),
-        [&](const scene::Technique& setting) { return takes_any || suits(setting.id, stage); });
+        [&](const scene::Technique& setting) { return takes_any || suits(setting.id(), stage); });
     return settings;
 }
 
@@ -151,11 +164,12 @@ bool lacks_a_technique(const Front& front, const std::vector<LeftOut>& left_out)
 
 } // namespace
 
-std::vector<double> values_over_range(const scene::ParameterInfo& parameter) {
+std::vector<double> values_over_range(const scene::NumberInfo& parameter) {
     std::vector<double> values{parameter.default_value};
     for (int i = 0; i < most_values; ++i) {
         values.push_back(value_at(parameter, i / (most_values - 1.0)));
     }
+    std::erase_if(values, [&](double value) { return !parameter.allows(value); });
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
     return values;
@@ -178,10 +192,14 @@ settings_over_range(const std::vector<scene::TechniqueInfo>& techniques) {
 
 std::vector<scene::Technique> settings_of_options() {
     std::vector<scene::Technique> settings;
-    for (const char* const option :
-         {"steps=8..32", "fade=0..1", "shadow=hard", "shadow=soft", "edges=smooth", "sides=two",
-          "border=wrap", "depth=write", "silhouettes=true"}) {
-        settings.push_back(scene::parse_technique(fmt::format("relief:{}", option)).value());
+    for (const scene::OptionInfo& option : scene::option_catalogue()) {
+        for (const std::size_t choice : choices_of(option)) {
+            scene::Technique setting{scene::Relief{}};
+            option.choose(setting.options, choice);
+            if (is_accepted(setting)) {
+                settings.push_back(setting);
+            }
+        }
     }
     return settings;
 }

@@ -28,7 +28,7 @@ inline constexpr int most_values = 5;
 /// Values over the range of a parameter, its ends and its default among them, at most `most_values`
 /// and the default; in even steps of the logarithm where the range is above 0 and its end over ten
 /// times its beginning, else in even steps. Whole where it is. Ascending, none twice.
-std::vector<double> values_over_range(const scene::ParameterInfo& parameter);
+std::vector<double> values_over_range(const scene::NumberInfo& parameter);
 
 /// Every technique of a list as it is by default, the cheapest first by its kind: the flat one,
 /// parallax, searches, exact, what is prepared beforehand, triangles; then each with one parameter

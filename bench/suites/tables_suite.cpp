@@ -26,16 +26,16 @@ std::vector<scene::Technique> techniques_on(const StageChoice& stage,
     }
     std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(techniques),
                  [&](const scene::Technique& technique) {
-                     return stage.tile.empty() || suits(technique.id, stage);
+                     return stage.tile.empty() || suits(technique.id(), stage);
                  });
     return techniques;
 }
 
 std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& others) {
-    const scene::Technique texture = scene::make_technique(scene::TechniqueId::texture);
+    const scene::Technique texture{scene::Texture{}};
     std::vector<Candidate> candidates{candidate_of(texture)};
     for (const scene::Technique& technique : others) {
-        if (technique.id != texture.id) {
+        if (technique.id() != texture.id()) {
             candidates.push_back(candidate_of(technique));
         }
     }

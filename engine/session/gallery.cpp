@@ -106,7 +106,7 @@ Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescript
         return Choice(view.technique);
     }
     auto technique = scene::parse_technique(description.gallery_technique);
-    return technique ? Result<Choice>(Choice(std::move(*technique)))
+    return technique ? Result<Choice>(Choice(*technique))
                      : Error{fmt::format("{}: [gallery] {}", file, technique.error().message)};
 }
 

@@ -65,7 +65,7 @@ open_detail(const io::SceneDescription& description, const SourceOptions& terrai
     scene::GroundDetail detail;
     detail.width = asked->width;
     detail.scale = asked->scale ? static_cast<float>(*asked->scale) : set->scale;
-    detail.technique = std::move(*technique);
+    detail.technique = *technique;
     detail.set = std::make_shared<const material::TextureSet>(std::move(*set));
     return Detail(std::make_shared<const scene::GroundDetail>(std::move(detail)));
 }

@@ -1,16 +1,20 @@
 #include "engine/session/options.h"
 
+#include <variant>
+
 #include "engine/scene/graph/terrain_node.h"
 
 namespace reljef::session {
 
 scene::Technique technique_of(const SceneOptions& options) {
-    if (options.technique && options.max_error.value_or(0.0) == 0.0) {
-        return *options.technique;
+    scene::Technique technique = options.technique.value_or(scene::Technique{});
+    auto* const polygons = std::get_if<scene::Polygons>(&technique.parameters);
+    if (polygons != nullptr && !options.technique) {
+        polygons->error = options.max_error.value_or(default_max_error);
+    } else if (polygons != nullptr && options.max_error.value_or(0.0) > 0.0) {
+        polygons->error = *options.max_error;
     }
-    return scene::with_parameter(
-        options.technique.value_or(scene::make_technique(scene::TechniqueId::polygons)), "error",
-        options.max_error.value_or(default_max_error));
+    return technique;
 }
 
 bool may_stream(const SceneOptions& options) {
@@ -18,10 +22,8 @@ bool may_stream(const SceneOptions& options) {
 }
 
 bool may_stream_pictures(const SceneOptions& options) {
-    const scene::Technique technique = technique_of(options);
-    const bool is_bounded =
-        technique.id == scene::TechniqueId::polygons && scene::parameter(technique, "error") > 0.0;
     const bool is_named = options.technique || options.max_error;
+    const bool is_bounded = scene::error_bound(technique_of(options)) > 0.0;
     return may_stream(options) && !(is_named && is_bounded);
 }
 

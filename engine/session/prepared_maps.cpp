@@ -86,9 +86,10 @@ void find_missing(MissingMaps& missing, const scene::TerrainNode& node,
                   const scene::Technique& technique) {
     const Grid<float>& heights = node.surface->heightfield().heights;
     const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
-    missing.cones = technique.id == scene::TechniqueId::cone && has_cells && node.cones == nullptr;
-    missing.bisection = technique.id == scene::TechniqueId::polygons && node.stream == nullptr &&
-                        scene::parameter(technique, "error") > 0.0 && node.bisection == nullptr;
+    missing.cones =
+        technique.id() == scene::TechniqueId::cone && has_cells && node.cones == nullptr;
+    missing.bisection =
+        scene::error_bound(technique) > 0.0 && node.stream == nullptr && node.bisection == nullptr;
     if (missing.cones || missing.bisection) {
         missing.surface = node.surface;
     }
@@ -102,7 +103,7 @@ MissingMaps missing_maps(const TerrainScene& scene, const scene::Technique& tech
         find_missing(missing, *scene.terrain->get<scene::TerrainNode>(), technique);
         return missing;
     }
-    if (technique.id != scene::TechniqueId::cone) {
+    if (technique.id() != scene::TechniqueId::cone) {
         return missing;
     }
     for (const scene::Material* const material : scene.materials()) {
@@ -165,7 +166,7 @@ void apply_maps(TerrainScene& scene, const PreparedMaps& maps) {
 
 Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique, int threads,
                        Log& log, const std::stop_token& stop) {
-    if (technique.id != scene::TechniqueId::cone) {
+    if (technique.id() != scene::TechniqueId::cone) {
         return {};
     }
     for (const material::KnownCones& side : missing_sides(set, technique)) {

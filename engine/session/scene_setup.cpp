@@ -30,7 +30,7 @@ scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOp
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    if (!options.placement && view.technique && scene::needs_plane(view.technique->id)) {
+    if (!options.placement && view.technique && scene::needs_plane(view.technique->id())) {
         options.placement = terrain::PlacementKind::plane; // the only one it draws
     }
     return options;

@@ -7,7 +7,7 @@
 namespace reljef::view {
 
 glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain) {
-    const double error = scene::parameter(terrain.material.technique, "error");
+    const double error = scene::error_bound(terrain.material.technique);
     return glm::vec2(1.0, 2.0) * static_cast<float>(error > 0.0 ? error : 1.0);
 }
 
@@ -21,7 +21,7 @@ glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size) {
 DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, double distance) {
     if (terrain.detail == nullptr ||
-        terrain.material.technique.id != scene::TechniqueId::polygons) {
+        terrain.material.technique.id() != scene::TechniqueId::polygons) {
         return DetailLevel::none;
     }
     const scene::GroundDetail& detail = *terrain.detail;
@@ -34,7 +34,7 @@ DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& 
         return DetailLevel::none;
     }
     const double lift = static_cast<double>(detail.scale) * detail.width;
-    return scene::looks_for_surface(detail.technique.id) &&
+    return scene::looks_for_surface(detail.technique.id()) &&
                    is_seen(lift, seen_height_pixels(terrain).x)
                ? DetailLevel::relief
                : DetailLevel::light;

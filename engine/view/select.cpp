@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -33,21 +34,20 @@ constexpr int overview_levels = terrain::most_patch_levels + 1;
 std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
                                         const scene::Camera& camera, glm::ivec2 size,
                                         const glm::dmat4& world_from_local) {
-    const scene::Technique& technique = terrain.material.technique;
-    if (technique.id != scene::TechniqueId::polygons) {
+    const auto* const polygons =
+        std::get_if<scene::Polygons>(&terrain.material.technique.parameters);
+    if (polygons == nullptr) {
         return std::nullopt;
     }
     const scene::TerrainSurface& surface = *terrain.surface;
-    const double error = scene::parameter(technique, "error");
-    if (error > 0.0 && terrain.stream == nullptr) {
+    if (polygons->error > 0.0 && terrain.stream == nullptr) {
         terrain::ErrorView view =
             error_view(camera, size, world_from_local, surface.placement().kind(),
-                       std::max(error, least_error));
-        view.morph_from = scene::parameter(technique, "morph") > 0.0 ? morph_from : 1.0;
+                       std::max(polygons->error, least_error));
+        view.morph_from = polygons->morph ? morph_from : 1.0;
         return view;
     }
-    const int levels =
-        error > 0.0 ? overview_levels : static_cast<int>(scene::parameter(technique, "lods"));
+    const int levels = polygons->error > 0.0 ? overview_levels : polygons->max_levels;
     if (levels == 1) {
         return std::nullopt;
     }
@@ -108,7 +108,7 @@ private:
     };
 
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        if (scene::geometry_of(terrain.material.technique.id) == scene::Geometry::box) {
+        if (scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::box) {
             add_relief(terrain, world_from_local);
         } else if (!add_streamed(terrain, world_from_local)) {
             add_tiles(terrain, world_from_local);
@@ -144,7 +144,7 @@ private:
             return false;
         }
         const bool flat =
-            scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
+            scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
         TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local,
                                          {.keeps_hidden = !options_.occlusion});
         requests_.push_back({terrain.stream, std::move(choice.wanted), std::move(choice.used)});
@@ -167,7 +167,7 @@ private:
 
     void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         const bool flat =
-            scene::geometry_of(terrain.material.technique.id) == scene::Geometry::flat;
+            scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
         const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
         const Frustum frustum = frustum_.in_local(world_from_local);
         const std::size_t before = seen_.size();

@@ -182,7 +182,7 @@ private:
 
     [[nodiscard]] terrain::ErrorView view_of(const StreamedDraw& draw,
                                              const StreamedShape& shape) const {
-        const double error = scene::parameter(draw.terrain->material.technique, "error");
+        const double error = scene::error_bound(draw.terrain->material.technique);
         const double most = error * share_beside(error_of_vertices(draw) / error);
         return error_view(list_.camera, list_.size,
                           draw.world_from_local * shape.local_from_plane(),
@@ -208,9 +208,8 @@ private:
 } // namespace
 
 bool is_cut(const StreamedDraw& draw) {
-    const scene::Technique& technique = draw.terrain->material.technique;
-    return !draw.flat && !draw.is_hidden && technique.id == scene::TechniqueId::polygons &&
-           scene::parameter(technique, "error") > 0.0;
+    return !draw.flat && !draw.is_hidden &&
+           scene::error_bound(draw.terrain->material.technique) > 0.0;
 }
 
 void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,

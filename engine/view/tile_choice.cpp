@@ -74,8 +74,8 @@ public:
                const glm::dmat4& world_from_local)
         : stream_(*terrain.stream), camera_(camera), world_from_local_(world_from_local),
           frustum_(scene::clip_from_world(camera, size)) {
-        const bool is_solid = terrain.material.technique.id == scene::TechniqueId::polygons;
-        const double error = is_solid ? scene::parameter(terrain.material.technique, "error") : 0.0;
+        const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons;
+        const double error = scene::error_bound(terrain.material.technique);
         most_error_ = error > 0.0 ? error : default_tile_error;
         is_perspective_ = camera.projection == scene::ProjectionKind::perspective;
         pixels_per_metre_ = is_perspective_

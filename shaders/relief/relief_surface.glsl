@@ -8,8 +8,8 @@ bool is_off_tile(vec2 coordinate); // tile_surface.glsl
 #else
 uniform vec3 metres_per_unit; // of the search space's axes
 #endif
-// The technique's parameters, in the catalogue's order; zw: steps seen from straight above and
-// along the ground.
+// The technique's parameters, as relief_options.cpp orders them; of equal steps zw are those seen
+// from straight above and along the ground.
 uniform vec4 search_values;
 
 #ifdef LAYERS

@@ -29,8 +29,7 @@ struct Field {
         detail.scale = 0.1F;
         detail.technique = scene::parse_technique(technique).value();
         terrain->detail = std::make_shared<const scene::GroundDetail>(detail);
-        terrain->material.technique =
-            scene::with_parameter(terrain->material.technique, "error", error);
+        terrain->material.technique = {scene::Polygons{.error = error}, {}};
     }
     [[nodiscard]] view::DetailLevel at(double distance) const {
         return view::seen_detail(*terrain, camera, field_picture, distance);

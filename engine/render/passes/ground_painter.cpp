@@ -29,12 +29,12 @@ glm::vec3 divisible(glm::vec3 mean_color) {
 
 ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLevel level,
                              std::uint32_t features) {
-    const scene::TechniqueId id = detail.technique.id;
     if (level == view::DetailLevel::relief) {
-        return {ShaderKind::relief_terrain, features | relief_features(detail.technique)};
+        return {ShaderKind::relief_terrain, features | technique_features(detail.technique)};
     }
-    const std::uint32_t look =
-        scene::looks_for_surface(id) ? feature_normal_map : look_features(id);
+    const std::uint32_t look = scene::looks_for_surface(detail.technique.id())
+                                   ? feature_normal_map
+                                   : technique_features(detail.technique);
     return {ShaderKind::textured_terrain, features | look};
 }
 

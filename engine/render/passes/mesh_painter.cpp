@@ -32,12 +32,12 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
     }
     const bool wraps = scene::shown_detail(material).border == material::TileBorder::wrap;
     features |= wraps ? feature_wrap : 0U;
+    features |= technique_features(material.technique);
+    if (!scene::looks_for_surface(material.technique.id())) {
+        return {ShaderKind::textured_mesh, features};
+    }
     const bool in_hull = material.technique.options.true_silhouettes;
-    return scene::looks_for_surface(material.technique.id)
-               ? ShaderVariant{in_hull ? ShaderKind::relief_hull : ShaderKind::relief_mesh,
-                               features | relief_features(material.technique)}
-               : ShaderVariant{ShaderKind::textured_mesh,
-                               features | look_features(material.technique.id)};
+    return {in_hull ? ShaderKind::relief_hull : ShaderKind::relief_mesh, features};
 }
 
 // What the programs of meshes with a tile ask for, beside the transform.

@@ -114,7 +114,8 @@ Result<void> paint_relief(const Painting& painting, const view::ReliefDraw& draw
             return painted;
         }
     }
-    auto program = state.use({ShaderKind::relief, painting.features | relief_features(technique)});
+    auto program =
+        state.use({ShaderKind::relief, painting.features | technique_features(technique)});
     if (!program) {
         return program.error();
     }

@@ -10,7 +10,7 @@ namespace reljef::render {
 namespace {
 
 bool is_warped(const scene::TerrainNode& terrain) {
-    return terrain.material.technique.id == scene::TechniqueId::prewarp;
+    return terrain.material.technique.id() == scene::TechniqueId::prewarp;
 }
 
 void bind_ground(gl::Program& program, const ResidentGround& ground) {

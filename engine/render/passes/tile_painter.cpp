@@ -3,26 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/render/shaders/relief_options.h"
-#include "engine/render/shaders/shader_library.h"
-
 namespace reljef::render {
-
-std::uint32_t look_features(scene::TechniqueId id) {
-    switch (id) {
-    case scene::TechniqueId::bump:
-        return feature_bump;
-    case scene::TechniqueId::emboss:
-        return feature_emboss;
-    case scene::TechniqueId::normal:
-    case scene::TechniqueId::displacement:
-        return feature_normal_map;
-    case scene::TechniqueId::prewarp:
-        return feature_normal_map | feature_warped;
-    default:
-        return 0U;
-    }
-}
 
 void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSurface& surface) {
     tile.color.bind(0);
@@ -53,8 +34,8 @@ void set_tile_look(gl::Program& program, const material::TextureSet& set, float 
 }
 
 scene::Technique over_mesh(scene::Technique technique, float mesh_height) {
-    if (is_parallax(technique.id)) {
-        technique.values.front() = -static_cast<double>(mesh_height);
+    if (double* const offset = scene::parallax_offset(technique.parameters)) {
+        *offset = -static_cast<double>(mesh_height);
     }
     return technique;
 }

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <cstdint>
-
 #include "engine/gl/program.h"
 #include "engine/material/texture_set.h"
 #include "engine/render/residency/resident_tile.h"
 #include "engine/scene/technique/technique.h"
 
 namespace reljef::render {
-
-/// How a technique that looks for no surface lights a tile: shader features (shader_library.h).
-std::uint32_t look_features(scene::TechniqueId id);
 
 /// Binds the maps of a tile to where the programs that show it have them (tile_light.glsl,
 /// relief_surface.glsl).

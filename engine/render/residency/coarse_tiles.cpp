@@ -88,7 +88,7 @@ Result<std::vector<ResidentMesh>> uploaded(const NewCut& cut, view::FrameStats& 
 } // namespace
 
 std::span<const ResidentMesh> CoarseTiles::tile(const view::TileDraw& draw) const {
-    const Cut& cut = cuts_.at({draw.terrain, draw.terrain->material.technique.values});
+    const Cut& cut = cuts_.at({draw.terrain, draw.terrain->material.technique.parameters});
     return cut.tiles[static_cast<std::size_t>(draw.tile)].meshes;
 }
 
@@ -145,7 +145,7 @@ Result<void> CoarseTiles::prepare(const view::DrawList& list, const view::Coarse
 
 CoarseTiles::Cut& CoarseTiles::cut_of(const view::CoarseTerrain& terrain) {
     const auto& surface = terrain.terrain->surface;
-    Cut& cut = cuts_[{terrain.terrain, terrain.terrain->material.technique.values}];
+    Cut& cut = cuts_[{terrain.terrain, terrain.terrain->material.technique.parameters}];
     cut.frame = frame_;
     if (cut.owner.lock() != surface) {
         cut = {surface, terrain.coarseness, 0, frame_, {}};

@@ -56,7 +56,7 @@ private:
                                                    const Cut& cut, view::FrameStats& stats);
 
     // A node and the parameters of its technique: one that is taken up again is cut already.
-    using CutKey = std::pair<const scene::TerrainNode*, std::vector<double>>;
+    using CutKey = std::pair<const scene::TerrainNode*, scene::TechniqueParameters>;
 
     int frame_ = 0;
     std::map<CutKey, Cut> cuts_;

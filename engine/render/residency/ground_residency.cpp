@@ -72,7 +72,7 @@ Result<void> GroundResidency::prepare(const view::DrawList& list, view::FrameSta
 
 Result<void> GroundResidency::prepare_tile(const scene::GroundDetail& detail,
                                            view::FrameStats& stats) {
-    return tiles_.prepare(detail.set, ground_side(), detail.technique.id, stats);
+    return tiles_.prepare(detail.set, ground_side(), detail.technique.id(), stats);
 }
 
 Result<void> GroundResidency::prepare_ground(const view::DrawList& list, const view::TileDraw& draw,

@@ -49,8 +49,14 @@ bool has_tile(const view::MeshDraw& draw) {
     return draw.mesh->material.detail.set != nullptr;
 }
 
+// Null where it moves no vertices.
+const scene::Displacement* displacement_of(const view::MeshDraw& draw) {
+    const scene::TechniqueParameters& parameters = draw.mesh->material.technique.parameters;
+    return has_tile(draw) ? std::get_if<scene::Displacement>(&parameters) : nullptr;
+}
+
 bool is_displaced(const view::MeshDraw& draw) {
-    return has_tile(draw) && draw.mesh->material.technique.id == scene::TechniqueId::displacement;
+    return displacement_of(draw) != nullptr;
 }
 
 bool has_hull(const view::MeshDraw& draw) {
@@ -60,7 +66,7 @@ bool has_hull(const view::MeshDraw& draw) {
 // Which surface of its tile is shown.
 TileSide side_of(const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
-    return {layers_for(material.technique.id),
+    return {layers_for(material.technique.id()),
             scene::shown_detail(material).border == material::TileBorder::wrap, draw.from_behind};
 }
 
@@ -167,7 +173,8 @@ Result<void> MeshResidency::prepare(const std::vector<view::MeshDraw>& draws,
                                          : prepare_triangles(draw, stats);
         if (done && has_tile(draw)) {
             const scene::Material& material = draw.mesh->material;
-            done = tiles_.prepare(material.detail.set, side_of(draw), material.technique.id, stats);
+            done =
+                tiles_.prepare(material.detail.set, side_of(draw), material.technique.id(), stats);
         }
         if (!done) {
             return done;
@@ -232,7 +239,7 @@ Result<void> MeshResidency::prepare_displaced(const view::MeshDraw& draw, view::
         return {};
     }
     const scene::Material& material = draw.mesh->material;
-    const double texels = material.technique.values.front();
+    const double texels = displacement_of(draw)->max_texels;
     const scene::TextureDetail detail = scene::shown_detail(material);
     const scene::Mesh fine =
         scene::tessellated(*draw.mesh->mesh, scene::cuts_for(*draw.mesh->mesh, detail, texels));
@@ -250,7 +257,7 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
     std::map<const scene::MeshNode*, gl::Texture2D> before = std::exchange(warps_, {});
     for (const view::MeshDraw& draw : draws) {
         const scene::Material& material = draw.mesh->material;
-        if (!has_tile(draw) || material.technique.id != scene::TechniqueId::prewarp) {
+        if (!has_tile(draw) || material.technique.id() != scene::TechniqueId::prewarp) {
             continue;
         }
         const auto plane = scene::texture_plane(*draw.mesh->mesh);
@@ -273,10 +280,11 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
 const MeshResidency::Displaced* MeshResidency::displaced(const view::MeshDraw& draw) const {
     const scene::Material& material = draw.mesh->material;
     const scene::TextureDetail detail = scene::shown_detail(material);
+    const double texels = displacement_of(draw)->max_texels;
     const auto found =
         std::find_if(displaced_.begin(), displaced_.end(), [&](const Displaced& entry) {
             return entry.owner.lock() == draw.mesh->mesh && entry.detail == detail &&
-                   entry.texels == material.technique.values.front();
+                   entry.texels == texels;
         });
     return found == displaced_.end() ? nullptr : &*found;
 }

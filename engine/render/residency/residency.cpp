@@ -235,9 +235,11 @@ Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::Frame
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const scene::Technique& technique = draw.terrain->material.technique;
     std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
-    const bool looks_in_pyramid = technique.id == scene::TechniqueId::exact || has_beams(technique);
+    const bool looks_in_pyramid =
+        technique.id() == scene::TechniqueId::exact || has_beams(technique);
     const bool needs_greatest = looks_in_pyramid && !(relief && relief->greatest);
-    const bool needs_cones = technique.id == scene::TechniqueId::cone && !(relief && relief->cones);
+    const bool needs_cones =
+        technique.id() == scene::TechniqueId::cone && !(relief && relief->cones);
     if (relief && !needs_greatest && !needs_cones) {
         ++stats.skipped.uploads_unchanged;
         return {};
@@ -267,7 +269,7 @@ Result<void> Residency::prepare_warped(const view::DrawList& list, view::FrameSt
     std::map<const scene::TerrainNode*, gl::Texture2D> before = std::exchange(warped_, {});
     for (const view::TileDraw& draw : list.tiles) {
         const scene::TerrainNode& terrain = *draw.terrain;
-        if (terrain.material.technique.id != scene::TechniqueId::prewarp ||
+        if (terrain.material.technique.id() != scene::TechniqueId::prewarp ||
             warped_.contains(&terrain)) {
             continue;
         }

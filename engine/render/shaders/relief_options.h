@@ -7,9 +7,9 @@
 
 namespace reljef::render {
 
-/// The shader features that a relief technique asks for: how it searches, and its options
-/// (shader_library.h).
-std::uint32_t relief_features(const scene::Technique& technique);
+/// The shader features that a technique asks for (shader_library.h): how it searches or lights, and
+/// its options.
+std::uint32_t technique_features(const scene::Technique& technique);
 
 /// The height in [0,1] that stays where it is when heights fade: of parallax its reference plane,
 /// else the middle.
@@ -23,7 +23,5 @@ void set_relief_options(gl::Program& program, const scene::Technique& technique,
 /// those whose result does not hang on where they begin, and interval, whose steps are then
 /// shorter.
 bool has_beams(const scene::Technique& technique);
-
-bool is_parallax(scene::TechniqueId id);
 
 } // namespace reljef::render

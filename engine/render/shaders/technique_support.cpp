@@ -60,13 +60,13 @@ bool draws(scene::TechniqueId id, bool is_mesh) {
 
 Result<void> check_surface(const scene::Technique& technique, const DrawnSurface& surface,
                            const gl::Limits& limits) {
-    const auto lack = lack_of(technique.id, surface, limits);
+    const auto lack = lack_of(technique.id(), surface, limits);
     if (!lack) {
         return {};
     }
-    const auto nearest = nearest_technique(technique.id, surface, limits);
+    const auto nearest = nearest_technique(technique.id(), surface, limits);
     return Error{
-        fmt::format("technique {}: {}; {}", scene::technique_info(technique.id).name, *lack,
+        fmt::format("technique {}: {}; {}", scene::technique_info(technique.id()).name, *lack,
                     nearest ? fmt::format("{} works here", scene::technique_info(*nearest).name)
                             : std::string("no technique works here"))};
 }

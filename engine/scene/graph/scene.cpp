@@ -88,14 +88,14 @@ Light turned(Light light, const glm::dmat4& world_from_local) {
 }
 
 Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
-    const std::string_view name = technique_info(technique.id).name;
+    const std::string_view name = technique_info(technique.id()).name;
     if (mesh.material.detail.set == nullptr) {
         return {};
     }
     if (const auto reason = reason_against_silhouettes(technique.options); !reason.empty()) {
         return Error{fmt::format("technique {}: silhouettes=true found beside {}", name, reason)};
     }
-    if (!draws_any_mesh(technique.id) && !texture_plane(*mesh.mesh)) {
+    if (!draws_any_mesh(technique.id()) && !texture_plane(*mesh.mesh)) {
         return Error{fmt::format("technique {}: a mesh that is not flat found, one plane was "
                                  "expected; relief draws both",
                                  name)};

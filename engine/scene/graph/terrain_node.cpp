@@ -84,15 +84,16 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
 }
 
 bool draws_tiles(const Technique& technique) {
-    return technique.id == TechniqueId::texture ||
-           (technique.id == TechniqueId::polygons && parameter(technique, "lods") == 1.0);
+    const auto* const polygons = std::get_if<Polygons>(&technique.parameters);
+    return std::holds_alternative<Texture>(technique.parameters) ||
+           (polygons != nullptr && polygons->max_levels == 1);
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {
-    if (!draws_terrain(technique.id)) {
-        return for_meshes_only(technique.id);
+    if (!draws_terrain(technique.id())) {
+        return for_meshes_only(technique.id());
     }
-    const std::string_view name = technique_info(technique.id).name;
+    const std::string_view name = technique_info(technique.id()).name;
     if (technique.options.two_sided) {
         return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a terrain "
                                  "is not seen from beneath, detail tiles are",
@@ -110,7 +111,8 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
                         "ends at its border, detail tiles go on",
                         name)};
     }
-    if (!needs_plane(technique.id) || surface.placement().kind() == terrain::PlacementKind::plane) {
+    if (!needs_plane(technique.id()) ||
+        surface.placement().kind() == terrain::PlacementKind::plane) {
         return {};
     }
     return Error{

@@ -21,7 +21,7 @@ namespace reljef::scene {
 
 /// How a surface looks.
 struct Material {
-    Technique technique = make_technique(TechniqueId::polygons);
+    Technique technique{Polygons{}};
     bool wireframe = false;
     glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain brings its own
     TextureDetail detail;  ///< meshes only; without a set the mesh is of one colour

@@ -20,10 +20,10 @@ bool has_foreign_options(const TechniqueOptions& options) {
 } // namespace
 
 Result<void> check_ground_technique(const Technique& technique) {
-    if (!shows_ground(technique.id)) {
+    if (!shows_ground(technique.id())) {
         return Error{fmt::format("technique {}: a tile of detail on a terrain found, a mesh was "
                                  "expected; normal, relief and exact show both",
-                                 technique_info(technique.id).name)};
+                                 technique_info(technique.id()).name)};
     }
     if (has_foreign_options(technique.options)) {
         return Error{fmt::format("technique {}: a tile of detail on a terrain found with an option "

@@ -16,7 +16,7 @@ struct GroundDetail {
     double width = 4.0; ///< metres that a tile covers, [terrain::least_tile_width, most_tile_width]
     float scale =
         0.05F; ///< a height of 1 lifts a point so many tile widths; (0, terrain::most_tile_scale]
-    Technique technique = make_technique(TechniqueId::relief); ///< as check_ground_technique allows
+    Technique technique{Relief{}}; ///< as check_ground_technique allows
 };
 
 /// Whether a technique shows a tile on a terrain. Fails, with the reason and the name of what

@@ -1,40 +1,23 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "engine/core/result.h"
+#include "engine/scene/technique/technique_catalogue.h"
 #include "engine/scene/technique/technique_options.h"
+#include "engine/scene/technique/technique_parameters.h"
 
 namespace reljef::scene {
 
-/// The range of an error that polygons can promise, pixels: a rasterizer's own takes most of less.
-inline constexpr double least_polygons_error = 0.02;
-inline constexpr double most_polygons_error = 16.0;
+/// How a surface is drawn: by which technique with which parameters, and what else it does.
+struct Technique {
+    TechniqueParameters parameters = Polygons{};
+    TechniqueOptions options{};
 
-/// How a terrain's surface is drawn.
-enum class TechniqueId {
-    texture,           ///< colour over the flat reference surface
-    polygons,          ///< the heightfield as triangles, all or as many as it takes
-    parallax,          ///< one look at the height shifts the place
-    parallax_limited,  ///< the same, by no more than the height
-    parallax_iterated, ///< looked at again from where it was shifted to
-    steep,             ///< equal steps along the ray
-    relief,            ///< equal steps, then halving
-    interval,          ///< equal steps, then the chord
-    pom,               ///< steps by the angle of view, then one chord
-    cone,              ///< from empty cone to empty cone
-    exact,             ///< the true first hit
-    displacement,      ///< the vertices of a mesh cut fine, moved by the height
-    bump,              ///< lit by the height's derivatives
-    emboss,            ///< lit by the difference of two heights
-    normal,            ///< lit by a normal map
-    prewarp,           ///< the surface warped onto the reference plane beforehand
-    lattice,           ///< a sheet with holes
-    dual_layer,        ///< a sheet with another back
-    multi_layer,       ///< two solids, one over the other
+    [[nodiscard]] TechniqueId id() const;
+
+    friend bool operator==(const Technique&, const Technique&) = default;
 };
 
 /// What is drawn so that a technique's pixels are reached.
@@ -61,37 +44,15 @@ bool looks_for_layers(TechniqueId id);
 /// Whether it draws surfaces over a plane only, none that is bent over the Earth.
 bool needs_plane(TechniqueId id);
 
-struct TechniqueInfo {
-    TechniqueId id;
-    std::string_view name; ///< as on the command line
-    std::string_view meaning;
-    std::string_view source; ///< where it is described
-    std::span<const ParameterInfo> parameters;
-};
-
-/// Every technique there is, in the order of the sources.
-std::span<const TechniqueInfo> technique_catalogue();
-const TechniqueInfo& technique_info(TechniqueId id);
-/// Those that draw terrains.
-std::vector<TechniqueInfo> terrain_techniques();
-
-/// A technique with a value for each of its parameters, in the catalogue's order, and what else it
-/// does.
-struct Technique {
-    TechniqueId id = TechniqueId::polygons;
-    std::vector<double> values;
-    TechniqueOptions options{};
-
-    friend bool operator==(const Technique&, const Technique&) = default;
-};
-
-/// The value of one of its parameters. Precondition: it has one of that name.
-double parameter(const Technique& technique, std::string_view name);
-/// The same technique with another value. Preconditions: likewise, and the value is allowed.
-Technique with_parameter(Technique technique, std::string_view name, double value);
-
 /// Whether a mesh is seen from behind, too.
 bool is_two_sided(const Technique& technique);
+
+/// The error in pixels that polygons keep to; 0: they keep to none, or another technique draws.
+double error_bound(const Technique& technique);
+
+/// The offset of the reference plane, which only the parallax techniques have; null of all others.
+const double* parallax_offset(const TechniqueParameters& parameters);
+double* parallax_offset(TechniqueParameters& parameters);
 
 /// The technique with its default parameters and no options.
 Technique make_technique(TechniqueId id);

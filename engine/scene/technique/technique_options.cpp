@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,19 +13,60 @@
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<ParameterInfo, 2> steps_numbers{
-    {{"min", 8.0, 1.0, 4096.0, true, "equal steps seen from straight above"},
-     {"max", 32.0, 1.0, 4096.0, true, "equal steps seen along the ground"}}};
-constexpr std::array<ParameterInfo, 3> fade_numbers{
-    {{"min", 0.0, 0.0, 1.0, false, "of the heights, seen along the ground"},
-     {"max", 1.0, 0.0, 1.0, false, "of the heights, seen from straight above"},
-     {"k", 1.0, 1.0, 64.0, false, "the greater, the later they fade"}}};
-constexpr std::array<ParameterInfo, 1> shadow_numbers{
-    {{"M", 0.2, 0.001, 1.0, false,
-      "soft: how deep in the surface, of the range of heights, a ray has no light left"}}};
-constexpr std::array<ParameterInfo, 1> edges_numbers{
-    {{"E", 0.005, 1e-6, 1.0, false,
-      "smooth: over the surface, of the range of heights, where a ray shows nothing of it"}}};
+// A number of an option that is there or not.
+template <auto option, auto member>
+std::optional<double> option_number(const TechniqueOptions& options) {
+    const auto& held = options.*option;
+    return held ? std::optional(static_cast<double>((*held).*member)) : std::nullopt;
+}
+
+template <auto option, auto member>
+void set_option_number(TechniqueOptions& options, double value) {
+    auto& held = options.*option;
+    check(held.has_value(), "a number of an option that is not there");
+    auto& number = (*held).*member;
+    number = static_cast<std::remove_reference_t<decltype(number)>>(value);
+}
+
+template <auto option, auto member> constexpr OptionNumberInfo number_row(NumberInfo row) {
+    return {number_of(member, row), option_number<option, member>,
+            set_option_number<option, member>};
+}
+
+constexpr auto steps_member = &TechniqueOptions::steps;
+constexpr auto fade_member = &TechniqueOptions::fade;
+constexpr std::array steps_numbers{
+    number_row<steps_member, &StepRange::low>({.name = "min",
+                                               .low = 1.0,
+                                               .high = 4096.0,
+                                               .meaning = "equal steps seen from straight above"}),
+    number_row<steps_member, &StepRange::high>({.name = "max",
+                                                .low = 1.0,
+                                                .high = 4096.0,
+                                                .meaning = "equal steps seen along the ground"})};
+constexpr std::array fade_numbers{
+    number_row<fade_member, &Fade::low>(
+        {.name = "min", .high = 1.0, .meaning = "of the heights, seen along the ground"}),
+    number_row<fade_member, &Fade::high>(
+        {.name = "max", .high = 1.0, .meaning = "of the heights, seen from straight above"}),
+    number_row<fade_member, &Fade::power>({.name = "k",
+                                           .low = 1.0,
+                                           .high = 64.0,
+                                           .meaning = "the greater, the later they fade",
+                                           .is_tacit = true})};
+constexpr std::array shadow_numbers{number_row<&TechniqueOptions::shadow, &Shadow::depth>(
+    {.name = "M",
+     .low = 0.001,
+     .high = 1.0,
+     .meaning =
+         "soft: how deep in the surface, of the range of heights, a ray has no light left"})};
+constexpr std::array edges_numbers{
+    number_row<&TechniqueOptions::smooth_edges, &SmoothEdges::distance>(
+        {.name = "E",
+         .low = 1e-6,
+         .high = 1.0,
+         .meaning = "smooth: over the surface, of the range of heights, where a ray shows nothing "
+                    "of it"})};
 
 constexpr std::array<std::string_view, 3> shadow_words{"none", "hard", "soft"};
 constexpr std::array<std::string_view, 2> edges_words{"none", "smooth"};
@@ -35,64 +75,189 @@ constexpr std::array<std::string_view, 3> border_words{"wrap", "clamp", "discard
 constexpr std::array<std::string_view, 2> depth_words{"none", "write"};
 constexpr std::array<std::string_view, 2> silhouettes_words{"none", "true"};
 
-constexpr OptionInfo steps_info{
-    "steps",
-    "min..max",
-    "as many as the technique has",
-    "equal steps by the angle of view: n = min + (max - min)(1 - cos a)",
-    "GPU surface-detail survey (2008) ch. 3.6.4",
-    steps_numbers};
-constexpr OptionInfo fade_info{
-    "fade",
-    "min..max[,k]",
-    "1..1",
-    "heights by the angle of view: s times min + (max - min)(1 - (1 - cos a)^k)",
-    "GPU surface-detail survey (2008) ch. 3.6.4",
-    fade_numbers};
-constexpr OptionInfo shadow_info{
-    "shadow",
-    "none|hard|soft[,M]",
-    "none",
-    "a ray from the hit to the sun: hard, lit where it meets nothing; soft, 1 - p/M of the light "
-    "at "
-    "its deepest penetration p; none, shadows as computed once for all views",
-    "GPU surface-detail survey (2008) ch. 3.6.5-6; Policarpo, Oliveira and Comba 2005",
-    shadow_numbers};
-constexpr OptionInfo edges_info{
-    "edges",
-    "none|smooth[,E]",
-    "none",
-    "the nearest place that the ray passes by less than E is blended into the one it hits, by "
-    "distance/E",
-    "GPU surface-detail survey (2008) ch. 3.6.7",
-    edges_numbers};
-constexpr OptionInfo sides_info{
-    "sides",
-    "one|two",
-    "one",
-    "two: a detail tile is seen from behind too, heights inverted, normals negated",
-    "GPU surface-detail survey (2008) ch. 3.6.8",
-    {}};
-constexpr OptionInfo border_info{
-    "border",
-    "wrap|clamp|discard",
-    "as the tile has",
-    "what lies beyond a detail tile: its copies, its border drawn out, nothing",
-    "",
-    {}};
-constexpr OptionInfo depth_info{
-    "depth", "none|write",
-    "none",  "write: the depth of the hit, so that meshes cut the relief where it is seen",
-    "",      {}};
+// Of an option that is there or not, and has one value beside.
+template <auto option, std::size_t place>
+std::optional<std::size_t> chosen_if_there(const TechniqueOptions& options) {
+    return options.*option ? std::optional(place) : std::nullopt;
+}
 
-constexpr OptionInfo silhouettes_info{
-    "silhouettes",
-    "none|true",
-    "none",
-    "true: rays enter a mesh's relief through a hull around it, and what leaves that has met "
-    "nothing: its outline is that of its heights, its depth that of the hit",
-    "Hirche, Ehlert, Guthe and Doggett 2004; Porumbescu, Budge, Feng and Joy 2005",
-    {}};
+template <auto option, std::size_t place>
+void choose_if_there(TechniqueOptions& options, std::optional<std::size_t> word) {
+    auto& held = options.*option;
+    held.reset();
+    if (word == place) {
+        held.emplace();
+    }
+}
+
+template <auto flag> std::optional<std::size_t> chosen_flag(const TechniqueOptions& options) {
+    return options.*flag ? std::optional<std::size_t>(1) : std::nullopt;
+}
+
+template <auto flag> void choose_flag(TechniqueOptions& options, std::optional<std::size_t> word) {
+    options.*flag = word == 1U;
+}
+
+constexpr std::size_t hard_word = 1;
+constexpr std::size_t soft_word = 2;
+
+std::optional<std::size_t> chosen_shadow(const TechniqueOptions& options) {
+    return options.shadow ? std::optional(options.shadow->depth == 0.0 ? hard_word : soft_word)
+                          : std::nullopt;
+}
+
+void choose_shadow(TechniqueOptions& options, std::optional<std::size_t> word) {
+    options.shadow.reset();
+    if (word == hard_word) {
+        options.shadow = Shadow{.depth = 0.0};
+    } else if (word == soft_word) {
+        options.shadow = Shadow{};
+    }
+}
+
+std::optional<std::size_t> chosen_border(const TechniqueOptions& options) {
+    return options.border ? std::optional(static_cast<std::size_t>(*options.border)) : std::nullopt;
+}
+
+void choose_border(TechniqueOptions& options, std::optional<std::size_t> word) {
+    options.border = word ? std::optional(static_cast<BorderRule>(*word)) : std::nullopt;
+}
+
+bool looks_once(TechniqueId id) {
+    return id == TechniqueId::parallax || id == TechniqueId::parallax_limited ||
+           id == TechniqueId::parallax_iterated;
+}
+
+std::string_view reason_without_ray(TechniqueId id) {
+    return looks_for_surface(id) ? "" : "it looks for no surface along a ray; relief and exact do";
+}
+
+std::string_view reason_without_path(TechniqueId id) {
+    return looks_once(id) ? "it follows no ray; relief and exact do" : reason_without_ray(id);
+}
+
+std::string_view reason_against_steps(TechniqueId id) {
+    if (!looks_for_surface(id)) {
+        return reason_without_ray(id);
+    }
+    if (id == TechniqueId::pom) {
+        return "its own min and max say the same";
+    }
+    if (looks_for_layers(id)) {
+        return "its steps are as many from wherever it is seen; steep, relief and interval take it";
+    }
+    const bool steps_equally =
+        id == TechniqueId::steep || id == TechniqueId::relief || id == TechniqueId::interval;
+    return steps_equally ? "" : "it takes no equal steps; steep, relief and interval do";
+}
+
+std::string_view reason_against_edges(TechniqueId id) {
+    return looks_for_layers(id)
+               ? "what its rays miss may lie behind a hole; relief and exact take it"
+               : reason_without_path(id);
+}
+
+std::string_view reason_against_sides(TechniqueId id) {
+    return looks_for_layers(id) ? "it is seen from both sides as it is" : reason_without_ray(id);
+}
+
+std::string_view reason_against_border(TechniqueId id) {
+    return looks_for_surface(id) ? ""
+                                 : "it shows what lies beyond the tile as its material says; "
+                                   "relief and exact take it";
+}
+
+std::string_view reason_against_silhouettes_of(TechniqueId id) {
+    return looks_for_layers(id) ? "its sheets show both sides as they are; relief and exact take it"
+                                : reason_without_path(id);
+}
+
+constexpr std::array<OptionInfo, 8> option_infos{
+    {{.name = "steps",
+      .default_value = "as many as the technique has",
+      .meaning = "equal steps by the angle of view: n = min + (max - min)(1 - cos a)",
+      .source = "GPU surface-detail survey (2008) ch. 3.6.4",
+      .words = {},
+      .numbers = steps_numbers,
+      .chosen = chosen_if_there<steps_member, 0>,
+      .choose = choose_if_there<steps_member, 0>,
+      .reason_against = reason_against_steps},
+     {.name = "fade",
+      .default_value = "1..1",
+      .meaning = "heights by the angle of view: s times min + (max - min)(1 - (1 - cos a)^k)",
+      .source = "GPU surface-detail survey (2008) ch. 3.6.4",
+      .words = {},
+      .numbers = fade_numbers,
+      .chosen = chosen_if_there<fade_member, 0>,
+      .choose = choose_if_there<fade_member, 0>,
+      .reason_against = reason_without_ray},
+     {.name = "shadow",
+      .default_value = "none",
+      .meaning = "a ray from the hit to the sun: hard, lit where it meets nothing; soft, 1 - p/M "
+                 "of the light at its deepest penetration p; none, shadows as computed once for "
+                 "all views",
+      .source = "GPU surface-detail survey (2008) ch. 3.6.5-6; Policarpo, Oliveira and Comba 2005",
+      .words = shadow_words,
+      .numbers = shadow_numbers,
+      .chosen = chosen_shadow,
+      .choose = choose_shadow,
+      .reason_against = reason_without_path},
+     {.name = "edges",
+      .default_value = "none",
+      .meaning = "the nearest place that the ray passes by less than E is blended into the one it "
+                 "hits, by distance/E",
+      .source = "GPU surface-detail survey (2008) ch. 3.6.7",
+      .words = edges_words,
+      .numbers = edges_numbers,
+      .chosen = chosen_if_there<&TechniqueOptions::smooth_edges, 1>,
+      .choose = choose_if_there<&TechniqueOptions::smooth_edges, 1>,
+      .reason_against = reason_against_edges},
+     {.name = "sides",
+      .default_value = "one",
+      .meaning = "two: a detail tile is seen from behind too, heights inverted, normals negated",
+      .source = "GPU surface-detail survey (2008) ch. 3.6.8",
+      .words = sides_words,
+      .numbers = {},
+      .chosen = chosen_flag<&TechniqueOptions::two_sided>,
+      .choose = choose_flag<&TechniqueOptions::two_sided>,
+      .reason_against = reason_against_sides},
+     {.name = "border",
+      .default_value = "as the tile has",
+      .meaning = "what lies beyond a detail tile: its copies, its border drawn out, nothing",
+      .source = "",
+      .words = border_words,
+      .numbers = {},
+      .chosen = chosen_border,
+      .choose = choose_border,
+      .reason_against = reason_against_border},
+     {.name = "depth",
+      .default_value = "none",
+      .meaning = "write: the depth of the hit, so that meshes cut the relief where it is seen",
+      .source = "",
+      .words = depth_words,
+      .numbers = {},
+      .chosen = chosen_flag<&TechniqueOptions::writes_depth>,
+      .choose = choose_flag<&TechniqueOptions::writes_depth>,
+      .reason_against = reason_without_ray},
+     {.name = "silhouettes",
+      .default_value = "none",
+      .meaning = "true: rays enter a mesh's relief through a hull around it, and what leaves that "
+                 "has met nothing: its outline is that of its heights, its depth that of the hit",
+      .source = "Hirche, Ehlert, Guthe and Doggett 2004; Porumbescu, Budge, Feng and Joy 2005",
+      .words = silhouettes_words,
+      .numbers = {},
+      .chosen = chosen_flag<&TechniqueOptions::true_silhouettes>,
+      .choose = choose_flag<&TechniqueOptions::true_silhouettes>,
+      .reason_against = reason_against_silhouettes_of}}};
+
+static_assert(std::all_of(option_infos.begin(), option_infos.end(),
+                          [](const OptionInfo& info) {
+                              return std::all_of(info.numbers.begin(), info.numbers.end(),
+                                                 [](const OptionNumberInfo& number) {
+                                                     return number.allows(number.default_value);
+                                                 });
+                          }),
+              "every default lies in its range");
 
 // One assignment: key=value,more.
 struct Assignment {
@@ -118,324 +283,175 @@ Assignment assignment_of(std::string_view text) {
 Error unexpected(const OptionInfo& info, const Assignment& found) {
     return Error{fmt::format(
         "option {}: {}={}{} found, {}={} was expected", info.name, info.name, found.value,
-        found.more ? fmt::format(",{}", *found.more) : std::string(), info.name, info.form)};
+        found.more ? fmt::format(",{}", *found.more) : std::string(), info.name, form_of(info))};
 }
 
-Result<double> number_of(const OptionInfo& info, std::size_t index, std::string_view text) {
-    return parse_number(fmt::format("option {}", info.name), info.numbers[index], text);
+// The numbers behind its range, or behind its last word.
+std::span<const OptionNumberInfo> numbers_behind(const OptionInfo& info) {
+    return info.words.empty() ? info.numbers.subspan(2) : info.numbers;
 }
 
-// The two numbers of "min..max".
-Result<std::pair<double, double>> range_of(const OptionInfo& info, const Assignment& found) {
+Result<double> number_in(const OptionInfo& info, const OptionNumberInfo& number,
+                         std::string_view text) {
+    return parse_number(fmt::format("option {}", info.name), number, text);
+}
+
+// Sets the number behind a word or a range, where there is one: its row is there.
+Result<void> set_behind(TechniqueOptions& options, const OptionInfo& info,
+                        const Assignment& found) {
+    if (!found.more) {
+        return {};
+    }
+    const OptionNumberInfo& number = numbers_behind(info).front();
+    const auto value = number_in(info, number, *found.more);
+    if (!value) {
+        return value.error();
+    }
+    number.set(options, *value);
+    return {};
+}
+
+Result<void> set_range(TechniqueOptions& options, const OptionInfo& info, const Assignment& found) {
     const auto [low_text, high_text] = cut(found.value, "..");
     if (!high_text) {
         return unexpected(info, found);
     }
-    const auto low = number_of(info, 0, low_text);
-    if (!low) {
-        return low.error();
+    const OptionNumberInfo& low = info.numbers[0];
+    const OptionNumberInfo& high = info.numbers[1];
+    const auto low_value = number_in(info, low, low_text);
+    if (!low_value) {
+        return low_value.error();
     }
-    const auto high = number_of(info, 1, *high_text);
-    if (!high) {
-        return high.error();
+    const auto high_value = number_in(info, high, *high_text);
+    if (!high_value) {
+        return high_value.error();
     }
-    if (*low > *high) {
+    if (*low_value > *high_value) {
         return Error{fmt::format("option {}: {}..{} found, the smaller number first was expected",
                                  info.name, low_text, *high_text)};
     }
-    return std::pair{*low, *high};
-}
-
-// Which of the words the value is.
-Result<std::size_t> word_of(const OptionInfo& info, const Assignment& found,
-                            std::span<const std::string_view> words) {
-    const auto at = std::find(words.begin(), words.end(), found.value);
-    // Only the last word of those with a number takes one.
-    const bool may_have_more = !info.numbers.empty() && at + 1 == words.end();
-    if (at == words.end() || (found.more && !may_have_more)) {
+    if (found.more && numbers_behind(info).empty()) {
         return unexpected(info, found);
     }
-    return static_cast<std::size_t>(at - words.begin());
+    info.choose(options, 0);
+    low.set(options, *low_value);
+    high.set(options, *high_value);
+    return set_behind(options, info, found);
 }
 
-// The number behind a word, or its default.
-Result<double> number_behind(const OptionInfo& info, const Assignment& found) {
-    return found.more ? number_of(info, 0, *found.more) : info.numbers.front().default_value;
+Result<void> set_word(TechniqueOptions& options, const OptionInfo& info, const Assignment& found) {
+    const auto at = std::find(info.words.begin(), info.words.end(), found.value);
+    const auto word = static_cast<std::size_t>(at - info.words.begin());
+    const bool may_have_more = !info.numbers.empty() && word + 1 == info.words.size();
+    if (word == info.words.size() || (found.more && !may_have_more)) {
+        return unexpected(info, found);
+    }
+    info.choose(options, word);
+    return set_behind(options, info, found);
 }
 
-Result<void> set_steps(TechniqueOptions& options, const Assignment& found) {
-    const auto range = range_of(steps_info, found);
-    if (!range || found.more) {
-        return range ? unexpected(steps_info, found) : range.error();
-    }
-    options.steps = StepRange{range->first, range->second};
-    return {};
+const OptionInfo* option_named(std::string_view name) {
+    const auto* const found =
+        std::find_if(option_infos.begin(), option_infos.end(),
+                     [&](const OptionInfo& info) { return info.name == name; });
+    return found == option_infos.end() ? nullptr : found;
 }
 
-Result<void> set_fade(TechniqueOptions& options, const Assignment& found) {
-    const auto range = range_of(fade_info, found);
-    if (!range) {
-        return range.error();
+// The value of an option that is not as made.
+std::string value_text(const OptionInfo& info, std::size_t word, const TechniqueOptions& options) {
+    const bool is_range = info.words.empty();
+    std::string text = is_range ? fmt::format("{}..{}", *info.numbers[0].get(options),
+                                              *info.numbers[1].get(options))
+                                : std::string(info.words[word]);
+    if (!is_range && word + 1 < info.words.size()) {
+        return text;
     }
-    const auto power = found.more ? number_of(fade_info, 2, *found.more) : 1.0;
-    if (!power) {
-        return power.error();
+    for (const OptionNumberInfo& number : numbers_behind(info)) {
+        const double value = *number.get(options);
+        const bool is_usual = number.is_tacit && value == number.default_value;
+        text += is_usual ? "" : fmt::format(",{}", value);
     }
-    options.fade = Fade{range->first, range->second, *power};
-    return {};
-}
-
-Result<void> set_shadow(TechniqueOptions& options, const Assignment& found) {
-    const auto word = word_of(shadow_info, found, shadow_words);
-    if (!word) {
-        return word.error();
-    }
-    const auto depth = number_behind(shadow_info, found);
-    if (!depth) {
-        return depth.error();
-    }
-    if (*word > 0) {
-        options.shadow = Shadow{*word == 1 ? 0.0 : *depth};
-    }
-    return {};
-}
-
-Result<void> set_edges(TechniqueOptions& options, const Assignment& found) {
-    const auto word = word_of(edges_info, found, edges_words);
-    if (!word) {
-        return word.error();
-    }
-    const auto distance = number_behind(edges_info, found);
-    if (!distance) {
-        return distance.error();
-    }
-    if (*word > 0) {
-        options.smooth_edges = *distance;
-    }
-    return {};
-}
-
-Result<void> set_sides(TechniqueOptions& options, const Assignment& found) {
-    const auto word = word_of(sides_info, found, sides_words);
-    if (!word) {
-        return word.error();
-    }
-    options.two_sided = *word == 1;
-    return {};
-}
-
-Result<void> set_border(TechniqueOptions& options, const Assignment& found) {
-    const auto word = word_of(border_info, found, border_words);
-    if (!word) {
-        return word.error();
-    }
-    options.border = static_cast<BorderRule>(*word);
-    return {};
-}
-
-Result<void> set_depth(TechniqueOptions& options, const Assignment& found) {
-    const auto word = word_of(depth_info, found, depth_words);
-    if (!word) {
-        return word.error();
-    }
-    options.writes_depth = *word == 1;
-    return {};
-}
-
-Result<void> set_silhouettes(TechniqueOptions& options, const Assignment& found) {
-    const auto word = word_of(silhouettes_info, found, silhouettes_words);
-    if (!word) {
-        return word.error();
-    }
-    options.true_silhouettes = *word == 1;
-    return {};
-}
-
-struct Entry {
-    OptionInfo info;
-    Result<void> (*set)(TechniqueOptions&, const Assignment&);
-};
-
-constexpr std::array<Entry, 8> entries{{{steps_info, set_steps},
-                                        {fade_info, set_fade},
-                                        {shadow_info, set_shadow},
-                                        {edges_info, set_edges},
-                                        {sides_info, set_sides},
-                                        {border_info, set_border},
-                                        {depth_info, set_depth},
-                                        {silhouettes_info, set_silhouettes}}};
-
-constexpr auto option_infos = [] {
-    std::array<OptionInfo, entries.size()> list;
-    std::transform(entries.begin(), entries.end(), list.begin(),
-                   [](const Entry& entry) { return entry.info; });
-    return list;
-}();
-
-const Entry* entry_of(std::string_view name) {
-    const auto* const found = std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) {
-        return entry.info.name == name;
-    });
-    return found == entries.end() ? nullptr : found;
-}
-
-bool steps_equally(TechniqueId id) {
-    return id == TechniqueId::steep || id == TechniqueId::relief || id == TechniqueId::interval;
-}
-
-bool looks_once(TechniqueId id) {
-    return id == TechniqueId::parallax || id == TechniqueId::parallax_limited ||
-           id == TechniqueId::parallax_iterated;
-}
-
-std::string_view reason_without_ray(std::string_view option) {
-    return option == "border"
-               ? "it shows what lies beyond the tile as its material says; relief and exact take it"
-               : "it looks for no surface along a ray; relief and exact do";
-}
-
-// Why one that looks for layers cannot.
-std::string_view reason_with_layers(std::string_view option) {
-    if (option == "steps") {
-        return "its steps are as many from wherever it is seen; steep, relief and interval take it";
-    }
-    if (option == "edges") {
-        return "what its rays miss may lie behind a hole; relief and exact take it";
-    }
-    if (option == "silhouettes") {
-        return "its sheets show both sides as they are; relief and exact take it";
-    }
-    return option == "sides" ? "it is seen from both sides as it is" : std::string_view();
-}
-
-// Why a technique cannot take an option; empty where it can.
-std::string_view reason_against(TechniqueId id, std::string_view option) {
-    if (geometry_of(id) != Geometry::box) {
-        return reason_without_ray(option);
-    }
-    if (option == "steps" && id == TechniqueId::pom) {
-        return "its own min and max say the same";
-    }
-    if (looks_for_layers(id)) {
-        return reason_with_layers(option);
-    }
-    if (option == "steps" && !steps_equally(id)) {
-        return "it takes no equal steps; steep, relief and interval do";
-    }
-    if ((option == "shadow" || option == "edges" || option == "silhouettes") && looks_once(id)) {
-        return "it follows no ray; relief and exact do";
-    }
-    return {};
-}
-
-void add_range(std::vector<OptionNumber>& numbers, const std::string& name, double low,
-               double high) {
-    numbers.push_back({name + ".min", low});
-    numbers.push_back({name + ".max", high});
+    return text;
 }
 
 } // namespace
+
+std::optional<double> OptionNumberInfo::get(const TechniqueOptions& options) const {
+    return getter(options);
+}
+
+void OptionNumberInfo::set(TechniqueOptions& options, double value) const {
+    check(allows(value), "a number of an option out of its range");
+    setter(options, value);
+}
 
 std::span<const OptionInfo> option_catalogue() {
     return option_infos;
 }
 
+std::string form_of(const OptionInfo& info) {
+    std::string form = info.words.empty()
+                           ? fmt::format("{}..{}", info.numbers[0].name, info.numbers[1].name)
+                           : fmt::format("{}", fmt::join(info.words, "|"));
+    for (const OptionNumberInfo& number : numbers_behind(info)) {
+        form += fmt::format("[,{}]", number.name);
+    }
+    return form;
+}
+
 std::vector<OptionInfo> options_of(TechniqueId id) {
     std::vector<OptionInfo> taken;
     std::copy_if(option_infos.begin(), option_infos.end(), std::back_inserter(taken),
-                 [&](const OptionInfo& info) { return reason_against(id, info.name).empty(); });
+                 [&](const OptionInfo& info) { return info.reason_against(id).empty(); });
     return taken;
 }
 
 bool is_option(std::string_view assignment) {
-    return entry_of(assignment_of(assignment).key) != nullptr;
+    return option_named(assignment_of(assignment).key) != nullptr;
 }
 
 Result<void> set_option(TechniqueOptions& options, TechniqueId id, std::string_view assignment) {
     const Assignment found = assignment_of(assignment);
-    const Entry* const entry = entry_of(found.key);
-    check(entry != nullptr, "set_option of what is no option");
-    const auto reason = reason_against(id, found.key);
+    const OptionInfo* const info = option_named(found.key);
+    check(info != nullptr, "set_option of what is no option");
+    const auto reason = info->reason_against(id);
     if (!reason.empty()) {
         return Error{fmt::format("technique {}: option '{}' found, {}", technique_info(id).name,
                                  found.key, reason)};
     }
-    return entry->set(options, found);
+    TechniqueOptions changed = options;
+    auto set =
+        info->words.empty() ? set_range(changed, *info, found) : set_word(changed, *info, found);
+    if (set) {
+        options = changed;
+    }
+    return set;
 }
 
 std::string to_string(const TechniqueOptions& options) {
     std::string text;
-    if (options.steps) {
-        text += fmt::format(",steps={}..{}", options.steps->low, options.steps->high);
+    for (const OptionInfo& info : option_infos) {
+        if (const auto word = info.chosen(options)) {
+            text += fmt::format(",{}={}", info.name, value_text(info, *word, options));
+        }
     }
-    if (options.fade) {
-        text += fmt::format(",fade={}..{}", options.fade->low, options.fade->high);
-        text += options.fade->power == 1.0 ? "" : fmt::format(",{}", options.fade->power);
-    }
-    if (options.shadow) {
-        text += options.shadow->depth == 0.0
-                    ? ",shadow=hard"
-                    : fmt::format(",shadow=soft,{}", options.shadow->depth);
-    }
-    if (options.smooth_edges) {
-        text += fmt::format(",edges=smooth,{}", *options.smooth_edges);
-    }
-    text += options.two_sided ? ",sides=two" : "";
-    if (options.border) {
-        text += fmt::format(",border={}", border_words[static_cast<std::size_t>(*options.border)]);
-    }
-    text += options.writes_depth ? ",depth=write" : "";
-    text += options.true_silhouettes ? ",silhouettes=true" : "";
     return text;
 }
 
 std::vector<OptionNumber> option_numbers(const TechniqueOptions& options) {
     std::vector<OptionNumber> numbers;
-    if (options.steps) {
-        add_range(numbers, "steps", options.steps->low, options.steps->high);
-    }
-    if (options.fade) {
-        add_range(numbers, "fade", options.fade->low, options.fade->high);
-        numbers.push_back({"fade.k", options.fade->power});
-    }
-    if (options.shadow) {
-        numbers.push_back({"shadow.M", options.shadow->depth});
-    }
-    if (options.smooth_edges) {
-        numbers.push_back({"edges.E", *options.smooth_edges});
-    }
-    if (options.two_sided) {
-        numbers.push_back({"sides", 1.0});
-    }
-    if (options.border) {
-        numbers.push_back({"border", static_cast<double>(*options.border)});
-    }
-    if (options.writes_depth) {
-        numbers.push_back({"depth", 1.0});
-    }
-    if (options.true_silhouettes) {
-        numbers.push_back({"silhouettes", 1.0});
+    for (const OptionInfo& info : option_infos) {
+        const auto word = info.chosen(options);
+        if (word && info.numbers.empty()) {
+            numbers.push_back({std::string(info.name), static_cast<double>(*word)});
+        }
+        for (const OptionNumberInfo& number : info.numbers) {
+            if (const auto value = number.get(options)) {
+                numbers.push_back({fmt::format("{}.{}", info.name, number.name), *value});
+            }
+        }
     }
     return numbers;
-}
-
-Result<double> parse_number(std::string_view subject, const ParameterInfo& parameter,
-                            std::string_view text) {
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = code == std::errc{} && end == text.data() + text.size();
-    const bool fits = is_number && value >= parameter.low && value <= parameter.high &&
-                      (value == parameter.low || value >= parameter.least) &&
-                      (!parameter.whole || value == std::round(value));
-    if (!fits) {
-        const bool has_gap = parameter.least > parameter.low;
-        return Error{fmt::format("{}: {}={} found, {}a {}number from {} to {} was expected",
-                                 subject, parameter.name, text,
-                                 has_gap ? fmt::format("{} or ", parameter.low) : std::string(),
-                                 parameter.whole ? "whole " : "",
-                                 has_gap ? parameter.least : parameter.low, parameter.high)};
-    }
-    return value;
 }
 
 } // namespace reljef::scene

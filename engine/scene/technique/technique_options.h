@@ -1,6 +1,6 @@
 #pragma once
 
-#include <limits>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,29 +9,16 @@
 
 #include "engine/core/result.h"
 #include "engine/material/texture_set.h"
+#include "engine/scene/technique/number_info.h"
+#include "engine/scene/technique/technique_parameters.h"
 
 namespace reljef::scene {
-
-enum class TechniqueId;
-
-/// One number a technique or an option can be told.
-struct ParameterInfo {
-    std::string_view name;
-    double default_value = 0.0;
-    double low = 0.0;   ///< least value allowed
-    double high = 0.0;  ///< greatest value allowed
-    bool whole = false; ///< whole numbers only
-    std::string_view meaning;
-    bool is_tacit = false; ///< named in a technique's text only where it is not the default
-    /// Of the values above `low` the least allowed, where it is above `low`.
-    double least = std::numeric_limits<double>::lowest();
-};
 
 /// Equal steps by the angle of view: n = low + (high − low)(1 − cos α), α between the view ray and
 /// the surface's normal.
 struct StepRange {
-    double low = 8.0;
-    double high = 32.0;
+    int low = 8;
+    int high = 32;
     friend bool operator==(const StepRange&, const StepRange&) = default;
 };
 
@@ -47,8 +34,15 @@ struct Fade {
 /// A second ray, from the hit to the sun. Soft: of its deepest penetration p, in [0,1] of the range
 /// of heights, clamp(1 − p/depth) of the sun's light is left. Hard: what is left as depth → 0.
 struct Shadow {
-    double depth = 0.0; ///< 0: hard
+    double depth = 0.2; ///< 0: hard
     friend bool operator==(const Shadow&, const Shadow&) = default;
+};
+
+/// A ray that passes the surface by less than the distance shows that place blended into the one it
+/// hits.
+struct SmoothEdges {
+    double distance = 0.005; ///< in [0,1] of the range of heights
+    friend bool operator==(const SmoothEdges&, const SmoothEdges&) = default;
 };
 
 /// What lies beyond the border of a detail tile.
@@ -59,9 +53,7 @@ struct TechniqueOptions {
     std::optional<StepRange> steps;
     std::optional<Fade> fade;
     std::optional<Shadow> shadow;
-    /// A ray that passes the surface by less than this, in [0,1] of the range of heights, shows
-    /// that place blended into the one it hits.
-    std::optional<double> smooth_edges;
+    std::optional<SmoothEdges> smooth_edges;
     bool two_sided = false;           ///< seen from behind, too
     std::optional<BorderRule> border; ///< absent: as the surface has it
     bool writes_depth = false;        ///< of the hit, so that meshes cut the relief
@@ -69,17 +61,40 @@ struct TechniqueOptions {
     friend bool operator==(const TechniqueOptions&, const TechniqueOptions&) = default;
 };
 
+/// A number of an option: its row, and the member that holds it.
+struct OptionNumberInfo : NumberInfo {
+    std::optional<double> (*getter)(const TechniqueOptions&) = nullptr;
+    void (*setter)(TechniqueOptions&, double) = nullptr;
+
+    /// Absent where the option is.
+    [[nodiscard]] std::optional<double> get(const TechniqueOptions& options) const;
+    /// Preconditions: the option is there, and allows(value).
+    void set(TechniqueOptions& options, double value) const;
+};
+
+/// What an option is told: one of its words, with its numbers behind the last of them; or, where it
+/// has no words, a range of its first two numbers with the others behind it.
 struct OptionInfo {
     std::string_view name;
-    std::string_view form;          ///< of its value: "min..max[,k]"
     std::string_view default_value; ///< as in its text
     std::string_view meaning;
     std::string_view source; ///< where it is described
-    std::span<const ParameterInfo> numbers;
+    std::span<const std::string_view> words;
+    std::span<const OptionNumberInfo> numbers;
+    /// The place of its word, or 0 for its range; absent where it is as made.
+    std::optional<std::size_t> (*chosen)(const TechniqueOptions&) = nullptr;
+    /// Chooses the word of that place, or a range for 0, with the numbers' defaults; absent: makes
+    /// it as made.
+    void (*choose)(TechniqueOptions&, std::optional<std::size_t>) = nullptr;
+    /// Why a technique cannot take it; empty where it can.
+    std::string_view (*reason_against)(TechniqueId) = nullptr;
 };
 
 /// Every option there is, in the order of the sources.
 std::span<const OptionInfo> option_catalogue();
+
+/// The form of an option's value: "min..max[,k]".
+std::string form_of(const OptionInfo& info);
 
 /// Those that make sense with a technique.
 std::vector<OptionInfo> options_of(TechniqueId id);
@@ -101,10 +116,5 @@ struct OptionNumber {
     double value = 0.0;
 };
 std::vector<OptionNumber> option_numbers(const TechniqueOptions& options);
-
-/// A number in the range of a parameter; fails with `subject`, the parameter, what was found and
-/// what was expected.
-Result<double> parse_number(std::string_view subject, const ParameterInfo& parameter,
-                            std::string_view text);
 
 } // namespace reljef::scene

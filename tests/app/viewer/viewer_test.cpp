@@ -249,16 +249,16 @@ TEST_F(ViewerTest, TimeThatIsNoTimeChangesNothing) {
 
 TEST_F(ViewerTest, TAndDigitsSwitchTechniques) {
     const auto catalogue = scene::terrain_techniques();
-    const auto first = material().technique.id;
+    const auto first = material().technique.id();
     for (std::size_t i = 1; i <= catalogue.size(); ++i) {
         viewer.take_redraw();
         press(Key::t);
         wait_for_maps();
-        EXPECT_EQ(material().technique.id == first, i == catalogue.size());
+        EXPECT_EQ(material().technique.id() == first, i == catalogue.size());
         EXPECT_TRUE(viewer.take_redraw());
     }
     press(Key::digit1);
-    EXPECT_EQ(material().technique.id, catalogue[0].id);
+    EXPECT_EQ(material().technique.id(), catalogue[0].id);
     viewer.take_redraw();
     press(Key::digit1);
     EXPECT_FALSE(viewer.take_redraw()) << "the one it is";

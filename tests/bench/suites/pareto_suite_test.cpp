@@ -49,8 +49,8 @@ TEST(SettingsOverRange, begin_with_every_technique_the_cheap_kinds_first) {
     const std::size_t techniques = scene::terrain_techniques().size();
     std::vector<std::string> names;
     for (std::size_t i = 0; i < techniques; ++i) {
-        EXPECT_EQ(settings[i].values, scene::make_technique(settings[i].id).values);
-        names.emplace_back(scene::technique_info(settings[i].id).name);
+        EXPECT_EQ(settings[i], scene::make_technique(settings[i].id()));
+        names.emplace_back(scene::technique_info(settings[i].id()).name);
     }
     const auto place = [&](const std::string& name) {
         const auto found = std::find(names.begin(), names.end(), name);
@@ -136,6 +136,19 @@ TEST(ParetoSuite, technique_that_nothing_suits_costs_no_measuring) {
     const Results results = run_pareto(options, {});
     ASSERT_TRUE(results.stopped);
     EXPECT_THAT(results.stopped->message, HasSubstr("--technique"));
+}
+
+TEST(SettingsOfOptions, hold_each_choice_that_is_not_the_default) {
+    std::vector<std::string> labels;
+    for (const scene::Technique& setting : settings_of_options()) {
+        labels.push_back(scene::to_string(setting));
+    }
+    EXPECT_THAT(labels,
+                ElementsAre("relief:n=11,k=8,steps=8..32", "relief:n=11,k=8,fade=0..1",
+                            "relief:n=11,k=8,shadow=hard", "relief:n=11,k=8,shadow=soft,0.2",
+                            "relief:n=11,k=8,edges=smooth,0.005", "relief:n=11,k=8,sides=two",
+                            "relief:n=11,k=8,border=wrap", "relief:n=11,k=8,depth=write",
+                            "relief:n=11,k=8,silhouettes=true"));
 }
 
 TEST(SettingsOfOptions, hold_every_option_there_is) {

@@ -1,6 +1,6 @@
 #include "engine/scene/technique/technique_options.h"
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -8,6 +8,7 @@
 
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/technique/technique.h"
+#include "tests/scene/technique/random_technique.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_heightfield.h"
 
@@ -17,78 +18,89 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-bool takes(TechniqueId id, std::string_view name) {
-    const auto taken = options_of(id);
-    return std::any_of(taken.begin(), taken.end(),
-                       [&](const OptionInfo& info) { return info.name == name; });
-}
-
-const OptionInfo& info_of(std::string_view name) {
-    const auto list = option_catalogue();
-    return *std::find_if(list.begin(), list.end(),
-                         [&](const OptionInfo& info) { return info.name == name; });
-}
-
-// Any allowed value, now and then an end of the range.
-double any_value(const ParameterInfo& parameter, test::Chance& chance) {
-    if (chance.one_in(4)) {
-        return chance.one_in(2) ? parameter.low : parameter.high;
-    }
-    const double value = chance.between(parameter.low, parameter.high);
-    return parameter.whole ? std::round(value) : value;
-}
-
-std::pair<double, double> any_range(const OptionInfo& info, test::Chance& chance) {
-    return std::minmax(any_value(info.numbers[0], chance), any_value(info.numbers[1], chance),
-                       std::less<>());
-}
-
-TechniqueOptions any_options(TechniqueId id, test::Chance& chance) {
-    const auto has = [&](std::string_view name) { return takes(id, name) && chance.one_in(2); };
-    TechniqueOptions options;
-    if (has("steps")) {
-        const auto [low, high] = any_range(info_of("steps"), chance);
-        options.steps = StepRange{low, high};
-    }
-    if (has("fade")) {
-        const auto [low, high] = any_range(info_of("fade"), chance);
-        options.fade = Fade{low, high, any_value(info_of("fade").numbers[2], chance)};
-    }
-    if (has("shadow")) {
-        options.shadow =
-            Shadow{chance.one_in(2) ? 0.0 : any_value(info_of("shadow").numbers[0], chance)};
-    }
-    if (has("edges")) {
-        options.smooth_edges = any_value(info_of("edges").numbers[0], chance);
-    }
-    options.two_sided = has("sides");
-    if (has("border")) {
-        options.border = static_cast<BorderRule>(chance.whole(0, 2));
-    }
-    options.writes_depth = has("depth");
-    options.true_silhouettes = has("silhouettes");
-    return options;
-}
-
 TEST(TechniqueOptions, AnyTechniqueComesBackFromItsText) {
     test::Chance chance(4);
-    const auto catalogue = technique_catalogue();
-    for (int i = 0; i < 5000; ++i) {
-        const TechniqueInfo& info = catalogue[static_cast<std::size_t>(
-            chance.whole(0, static_cast<int>(catalogue.size()) - 1))];
-        Technique technique{info.id, {}, any_options(info.id, chance)};
-        for (const ParameterInfo& parameter : info.parameters) {
-            technique.values.push_back(any_value(parameter, chance));
+    for (int i = 0; i < 500; ++i) {
+        for (const TechniqueInfo& info : technique_catalogue()) {
+            const Technique technique = random_technique(info, chance);
+            const std::string text = to_string(technique);
+            const auto again = parse_technique(text);
+            ASSERT_TRUE(again) << again.error().message;
+            EXPECT_EQ(*again, technique) << text;
+            EXPECT_EQ(to_string(*again), text);
         }
-        if (info.id == TechniqueId::polygons && parameter(technique, "error") > 0.0) {
-            technique.values.front() = 1.0; // levels by distance, or an error
-        }
-        const std::string text = to_string(technique);
-        const auto again = parse_technique(text);
-        ASSERT_TRUE(again) << again.error().message;
-        EXPECT_EQ(*again, technique) << text;
-        EXPECT_EQ(to_string(*again), text);
     }
+}
+
+// One of another option, or of none, would do what was not asked for.
+TEST(TechniqueOptions, EveryChoiceIsItsOwnAndIsTakenBack) {
+    for (const OptionInfo& info : option_catalogue()) {
+        EXPECT_EQ(info.chosen(TechniqueOptions{}), std::nullopt) << info.name;
+        for (std::size_t word = 0; word < std::max<std::size_t>(info.words.size(), 1); ++word) {
+            TechniqueOptions options;
+            info.choose(options, word);
+            const bool is_usual = options == TechniqueOptions{};
+            EXPECT_EQ(is_usual, !info.words.empty() && info.words[word] == info.default_value);
+            EXPECT_EQ(info.chosen(options), is_usual ? std::nullopt : std::optional(word));
+            for (const OptionInfo& other : option_catalogue()) {
+                EXPECT_EQ(other.chosen(options).has_value(), !is_usual && other.name == info.name);
+            }
+            info.choose(options, std::nullopt);
+            EXPECT_EQ(options, TechniqueOptions{}) << info.name;
+        }
+    }
+}
+
+TEST(TechniqueOptions, EveryNumberReadsAndWritesItsOwnMemberOnly) {
+    test::Chance chance(6);
+    for (const OptionInfo& info : option_catalogue()) {
+        TechniqueOptions options;
+        for (const OptionNumberInfo& number : info.numbers) {
+            EXPECT_EQ(number.get(options), std::nullopt);
+        }
+        info.choose(options, info.words.empty() ? 0 : info.words.size() - 1);
+        const TechniqueOptions usual = options;
+        for (const OptionNumberInfo& number : info.numbers) {
+            EXPECT_EQ(number.get(options), number.default_value) << info.name << number.name;
+            for (int i = 0; i < 100; ++i) {
+                const double value = random_value(number, chance);
+                number.set(options, value);
+                for (const OptionNumberInfo& other : info.numbers) {
+                    EXPECT_EQ(other.get(options),
+                              other.name == number.name ? value : other.default_value);
+                }
+            }
+            number.set(options, number.default_value);
+            EXPECT_EQ(options, usual);
+        }
+    }
+}
+
+TEST(TechniqueOptions, AnOptionThatIsRefusedChangesNothing) {
+    TechniqueOptions options;
+    options.fade = Fade{0.5, 1.0, 2.0};
+    options.shadow = Shadow{0.5};
+    const TechniqueOptions before = options;
+    for (const char* text : {"fade=0..1,0", "fade=1..0", "shadow=soft,7", "shadow=hard,1"}) {
+        EXPECT_FALSE(set_option(options, TechniqueId::relief, text)) << text;
+        EXPECT_EQ(options, before) << text;
+    }
+}
+
+TEST(TechniqueOptions, ErrorsAreWholeSentences) {
+    const auto error_of = [](const char* text) { return parse_technique(text).error().message; };
+    EXPECT_EQ(error_of("relief:fade=0..1,0.5"),
+              "option fade: k=0.5 found, a number from 1 to 64 was expected");
+    EXPECT_EQ(error_of("relief:fade=0"), "option fade: fade=0 found, fade=min..max[,k] was "
+                                         "expected");
+    EXPECT_EQ(error_of("relief:steps=8..32,2"),
+              "option steps: steps=8..32,2 found, steps=min..max was expected");
+    EXPECT_EQ(error_of("relief:edges=smooth,0"),
+              "option edges: E=0 found, a number from 1e-06 to 1 was expected");
+    EXPECT_EQ(error_of("relief:shadow=hard,0.3"),
+              "option shadow: shadow=hard,0.3 found, shadow=none|hard|soft[,M] was expected");
+    EXPECT_EQ(error_of("lattice:sides=two"), "technique lattice: option 'sides' found, it is seen "
+                                             "from both sides as it is");
 }
 
 TechniqueOptions parsed(const std::string& text) {
@@ -102,20 +114,24 @@ TEST(TechniqueOptions, AllOfThemAreReadInAnyOrderAmongTheParameters) {
         "relief:depth=write,n=12,steps=8..32,fade=0.2..1,3,k=7,shadow=soft,0.3,edges=smooth,0.05,"
         "sides=two,border=wrap");
     ASSERT_TRUE(technique) << technique.error().message;
-    EXPECT_THAT(technique->values, testing::ElementsAre(12.0, 7.0));
-    const TechniqueOptions expected{
-        StepRange{8.0, 32.0}, Fade{0.2, 1.0, 3.0}, Shadow{0.3}, 0.05, true, BorderRule::wrap, true};
-    EXPECT_EQ(technique->options, expected);
+    const TechniqueOptions expected{StepRange{8, 32},
+                                    Fade{0.2, 1.0, 3.0},
+                                    Shadow{0.3},
+                                    SmoothEdges{0.05},
+                                    true,
+                                    BorderRule::wrap,
+                                    true};
+    const Technique relief{Relief{.linear_steps = 12, .bisection_steps = 7}, expected};
+    EXPECT_EQ(*technique, relief);
     EXPECT_EQ(to_string(*technique),
               "relief:n=12,k=7,steps=8..32,fade=0.2..1,3,shadow=soft,0.3,edges=smooth,0.05,"
               "sides=two,border=wrap,depth=write");
 }
 
 TEST(TechniqueOptions, NumbersThatAreLeftOutAreTheDefault) {
-    EXPECT_EQ(parsed("exact:shadow=soft").shadow,
-              Shadow{info_of("shadow").numbers[0].default_value});
-    EXPECT_EQ(parsed("exact:edges=smooth").smooth_edges, info_of("edges").numbers[0].default_value);
-    EXPECT_EQ(parsed("exact:fade=0..1").fade, (Fade{0.0, 1.0, 1.0}));
+    EXPECT_EQ(parsed("exact:shadow=soft").shadow, Shadow{});
+    EXPECT_EQ(parsed("exact:edges=smooth").smooth_edges, SmoothEdges{});
+    EXPECT_EQ(parsed("exact:fade=0.2..0.9").fade, (Fade{0.2, 0.9, 1.0}));
     EXPECT_EQ(parsed("exact:shadow=none,edges=none,sides=one,depth=none"), TechniqueOptions{});
 }
 

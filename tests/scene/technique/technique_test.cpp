@@ -17,44 +17,29 @@ TEST(Technique, EveryOneInTheCatalogueComesBackFromItsText) {
         EXPECT_TRUE(names.insert(info.name).second) << info.name << " is there twice";
         EXPECT_EQ(&technique_info(info.id), &info);
         const Technique technique = make_technique(info.id);
-        EXPECT_EQ(technique.values.size(), info.parameters.size());
+        EXPECT_EQ(technique.id(), info.id);
         const auto again = parse_technique(to_string(technique));
         ASSERT_TRUE(again) << to_string(technique);
-        EXPECT_EQ(again->id, technique.id);
-        EXPECT_EQ(again->values, technique.values);
+        EXPECT_EQ(*again, technique);
         const auto bare = parse_technique(info.name);
         ASSERT_TRUE(bare);
-        EXPECT_EQ(bare->values, technique.values);
-    }
-}
-
-TEST(Technique, DefaultsLieInTheirRange) {
-    for (const TechniqueInfo& info : technique_catalogue()) {
-        EXPECT_FALSE(info.meaning.empty());
-        EXPECT_FALSE(info.source.empty());
-        for (const ParameterInfo& parameter : info.parameters) {
-            EXPECT_GE(parameter.default_value, parameter.low) << info.name;
-            EXPECT_LE(parameter.default_value, parameter.high) << info.name;
-        }
+        EXPECT_EQ(*bare, technique);
     }
 }
 
 TEST(Technique, ReadsAParameter) {
     const auto technique = parse_technique("polygons:lods=1");
     ASSERT_TRUE(technique);
-    EXPECT_EQ(technique->id, TechniqueId::polygons);
-    EXPECT_THAT(technique->values, testing::ElementsAre(1.0, 0.0, 0.0));
+    EXPECT_EQ(*technique, Technique{Polygons{}});
     EXPECT_EQ(to_string(*technique), "polygons:lods=1");
-    EXPECT_EQ(to_string(make_technique(TechniqueId::texture)), "texture");
+    EXPECT_EQ(to_string(Technique{Texture{}}), "texture");
 }
 
 TEST(Technique, NamesAnOptionOnlyWhereItIsNotTheDefault) {
-    const Technique polygons = make_technique(TechniqueId::polygons);
-    EXPECT_EQ(to_string(polygons), "polygons:lods=1");
-    const Technique bounded = with_parameter(polygons, "error", 0.5);
-    EXPECT_EQ(parameter(bounded, "error"), 0.5);
+    EXPECT_EQ(to_string(Technique{Polygons{}}), "polygons:lods=1");
+    const Technique bounded{Polygons{.error = 0.5}};
     EXPECT_EQ(to_string(bounded), "polygons:error=0.5");
-    EXPECT_EQ(parse_technique("polygons:error=0.5")->values, bounded.values);
+    EXPECT_EQ(parse_technique("polygons:error=0.5").value(), bounded);
 }
 
 std::string error_of(std::string_view text) {
@@ -91,6 +76,27 @@ TEST(Technique, AValueOutOfRangeIsToldWithTheRange) {
             << value;
     }
     EXPECT_THAT(error_of("polygons:lods"), HasSubstr("lods= found"));
+}
+
+TEST(Technique, ErrorsAreWholeSentences) {
+    EXPECT_EQ(error_of("polygon"),
+              "technique 'polygon' found, one of texture, polygons, displacement, bump, emboss, "
+              "normal, parallax, parallax-limited, parallax-iterated, steep, relief, interval, "
+              "pom, cone, exact, lattice, dual-layer, multi-layer, prewarp was expected");
+    EXPECT_EQ(error_of("cone:m=1"), "technique cone: parameter 'm' found, one of relaxed, n, k, "
+                                    "step was expected");
+    EXPECT_EQ(error_of("exact:n=1"), "technique exact: parameter 'n' found, it has none");
+    EXPECT_EQ(error_of("relief:n=1,k=2,n=3"),
+              "technique relief: 'n' found twice, once was expected");
+    EXPECT_EQ(error_of("cone:relaxed=2"),
+              "technique cone: relaxed=2 found, a whole number from 0 to 1 was expected");
+    EXPECT_EQ(error_of("polygons:error=0.01"),
+              "technique polygons: error=0.01 found, 0 or a number from 0.02 to 16 was expected");
+    EXPECT_EQ(error_of("polygons:lods=2,error=1"),
+              "technique polygons: lods and error found, one of them was expected");
+    EXPECT_EQ(error_of("relief:n"),
+              "technique relief: n= found, a whole number from 1 to 4096 was expected");
+    EXPECT_EQ(error_of("relief:"), "technique 'relief:' found, key=value was expected at its end");
 }
 
 // As --max-error has it: less than a rasterizer can keep is no promise.

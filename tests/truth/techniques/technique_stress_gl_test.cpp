@@ -44,7 +44,7 @@ std::vector<std::string> techniques_with_and_without() {
             technique.options.shadow =
                 option.name == "shadow" ? scene::Shadow{0.2} : technique.options.shadow;
             technique.options.smooth_edges =
-                option.name == "edges" ? 0.05 : technique.options.smooth_edges;
+                option.name == "edges" ? scene::SmoothEdges{0.05} : technique.options.smooth_edges;
             technique.options.writes_depth =
                 option.name == "depth" || technique.options.writes_depth;
         }
@@ -145,13 +145,13 @@ scene::TechniqueOptions any_options(scene::TechniqueId id, test::Chance& chance)
             continue;
         }
         if (option.name == "steps") {
-            options.steps = scene::StepRange{4.0, static_cast<double>(chance.whole(4, 40))};
+            options.steps = scene::StepRange{4, chance.whole(4, 40)};
         } else if (option.name == "fade") {
             options.fade = scene::Fade{chance.between(0.0, 0.5), 1.0, chance.between(1.0, 5.0)};
         } else if (option.name == "shadow") {
             options.shadow = scene::Shadow{chance.one_in(2) ? 0.0 : chance.between(0.01, 1.0)};
         } else if (option.name == "edges") {
-            options.smooth_edges = chance.between(0.001, 0.2);
+            options.smooth_edges = scene::SmoothEdges{chance.between(0.001, 0.2)};
         } else if (option.name == "depth") {
             options.writes_depth = true;
         }
@@ -174,7 +174,7 @@ TEST_F(TechniqueStressGlTest, AnyOptionsGoTogetherAndShadingMovesNoHit) {
         const auto index = chance.whole(0, static_cast<int>(catalogue.size()) - 1);
         scene::Technique technique =
             scene::make_technique(catalogue[static_cast<std::size_t>(index)].id);
-        technique.options = any_options(technique.id, chance);
+        technique.options = any_options(technique.id(), chance);
         const std::string text = to_string(technique);
         stage.look(scene::camera_from_angles(
             {chance.between(-60.0, 60.0), chance.between(-60.0, 60.0), chance.between(0.0, 60.0)},

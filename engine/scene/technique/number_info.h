@@ -1,0 +1,48 @@
+#pragma once
+
+#include <limits>
+#include <string_view>
+#include <type_traits>
+
+#include "engine/core/result.h"
+
+namespace reljef::scene {
+
+/// One number that a technique or an option can be told: a row of their tables.
+struct NumberInfo {
+    std::string_view name; ///< the key that a user types
+    double default_value = 0.0;
+    double low = 0.0;   ///< least value allowed
+    double high = 0.0;  ///< greatest value allowed
+    bool whole = false; ///< whole numbers only
+    std::string_view meaning;
+    bool is_tacit = false; ///< named in a technique's text only where it is not the default
+    /// Of the values above `low` the least allowed, where it is above `low`.
+    double least = std::numeric_limits<double>::lowest();
+
+    [[nodiscard]] constexpr bool allows(double value) const {
+        const bool is_in_range = value >= low && value <= high && (value == low || value >= least);
+        return is_in_range &&
+               (!whole || value == static_cast<double>(static_cast<long long>(value)));
+    }
+};
+
+/// The row of a member: its default is the struct's own, and a member that holds no fractions is
+/// whole. A bool goes from 0 to 1.
+template <class Owner, class Value>
+constexpr NumberInfo number_of(Value Owner::*member, NumberInfo row) {
+    row.default_value = static_cast<double>(Owner{}.*member);
+    row.whole = !std::is_floating_point_v<Value>;
+    if constexpr (std::is_same_v<Value, bool>) {
+        row.low = 0.0;
+        row.high = 1.0;
+    }
+    return row;
+}
+
+/// A number that its row allows; fails with `subject`, the number's name, what was found and what
+/// was expected.
+Result<double> parse_number(std::string_view subject, const NumberInfo& number,
+                            std::string_view text);
+
+} // namespace reljef::scene

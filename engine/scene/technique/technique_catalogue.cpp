@@ -1,0 +1,252 @@
+#include "engine/scene/technique/technique_catalogue.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::scene {
+namespace {
+
+template <class Owner, class Value> Owner owner_of(Value Owner::*member);
+template <class Owner, class Value> Value value_of(Value Owner::*member);
+
+template <auto member> double parameter_value(const Technique& technique) {
+    const auto* const held = std::get_if<decltype(owner_of(member))>(&technique.parameters);
+    check(held != nullptr, "a parameter of another technique");
+    return static_cast<double>(held->*member);
+}
+
+template <auto member> void set_parameter_value(Technique& technique, double value) {
+    auto* const held = std::get_if<decltype(owner_of(member))>(&technique.parameters);
+    check(held != nullptr, "a parameter of another technique");
+    held->*member = static_cast<decltype(value_of(member))>(value);
+}
+
+template <auto member>
+constexpr ParameterInfo parameter_row(NumberInfo row, std::string_view replaced_by = {}) {
+    return {number_of(member, row), replaced_by, parameter_value<member>,
+            set_parameter_value<member>};
+}
+
+constexpr double max_step_count = 4096.0;
+constexpr double max_halvings = 32.0;
+
+constexpr std::array polygons_parameters{
+    parameter_row<&Polygons::max_levels>(
+        {.name = "lods",
+         .low = 1.0,
+         .high = 5.0,
+         .meaning = "levels of detail at most, by distance; 1: every sample is a vertex"},
+        "error"),
+    parameter_row<&Polygons::error>(
+        {.name = "error",
+         .high = most_polygons_error,
+         .meaning = "pixels that no pixel is farther from where it belongs, instead of levels; 0: "
+                    "by levels",
+         .is_tacit = true,
+         .least = least_polygons_error}),
+    parameter_row<&Polygons::morph>(
+        {.name = "morph",
+         .meaning = "with error, 1: vertices rise to their places as the view nears, so that "
+                    "nothing jumps",
+         .is_tacit = true})};
+
+template <class Kind>
+constexpr ParameterInfo offset_parameter =
+    parameter_row<&Kind::offset>({.name = "offset",
+                                  .low = -1.0,
+                                  .high = 0.0,
+                                  .meaning = "where the reference plane lies: 0 lowest, -1 highest "
+                                             "height; a mesh lies at its material's"});
+
+constexpr std::array parallax_parameters{offset_parameter<Parallax>};
+constexpr std::array limited_parameters{offset_parameter<ParallaxLimited>};
+constexpr std::array iterated_parameters{
+    offset_parameter<ParallaxIterated>,
+    parameter_row<&ParallaxIterated::iterations>(
+        {.name = "k", .low = 1.0, .high = 64.0, .meaning = "times the height is looked at again"})};
+
+// The parameter n of those that take equal steps.
+template <class Kind>
+constexpr ParameterInfo linear_steps_parameter = parameter_row<&Kind::linear_steps>(
+    {.name = "n", .low = 1.0, .high = max_step_count, .meaning = "equal steps along the ray"});
+
+constexpr std::array steep_parameters{linear_steps_parameter<Steep>};
+constexpr std::array relief_parameters{
+    linear_steps_parameter<Relief>,
+    parameter_row<&Relief::bisection_steps>(
+        {.name = "k", .high = max_halvings, .meaning = "times the bracket is halved"})};
+constexpr std::array interval_parameters{
+    linear_steps_parameter<Interval>,
+    parameter_row<&Interval::secant_steps>(
+        {.name = "k", .low = 1.0, .high = 32.0, .meaning = "chords drawn through the bracket"})};
+constexpr std::array pom_parameters{
+    parameter_row<&Pom::min_steps>({.name = "min",
+                                    .low = 1.0,
+                                    .high = max_step_count,
+                                    .meaning = "equal steps seen from straight above"}),
+    parameter_row<&Pom::max_steps>({.name = "max",
+                                    .low = 1.0,
+                                    .high = max_step_count,
+                                    .meaning = "equal steps seen along the ground"})};
+
+// The parameter k of those that end with a chord.
+template <class Kind>
+constexpr ParameterInfo halvings_parameter = parameter_row<&Kind::bisection_steps>(
+    {.name = "k", .high = max_halvings, .meaning = "times the bracket is halved before the chord"});
+
+constexpr std::array cone_parameters{
+    parameter_row<&Cone::relaxed>(
+        {.name = "relaxed", .meaning = "1: cones that a ray may meet the surface in once"}),
+    parameter_row<&Cone::max_steps>(
+        {.name = "n", .low = 1.0, .high = max_step_count, .meaning = "cones at the most"}),
+    halvings_parameter<Cone>,
+    parameter_row<&Cone::min_step>(
+        {.name = "step",
+         .high = 16.0,
+         .meaning = "samples a step goes at least; 0: passes over nothing"})};
+
+template <class Kind>
+constexpr std::array layers_parameters{linear_steps_parameter<Kind>, halvings_parameter<Kind>};
+
+constexpr std::array displacement_parameters{parameter_row<&Displacement::max_texels>(
+    {.name = "texels",
+     .low = 1.0,
+     .high = 256.0,
+     .meaning = "of the heights between two vertices, at most"})};
+constexpr std::array emboss_parameters{
+    parameter_row<&Emboss::delta>({.name = "delta",
+                                   .low = 0.25,
+                                   .high = 64.0,
+                                   .meaning = "texels towards the light to the second height"})};
+
+// What is told of a technique beside its parameters.
+struct TechniqueText {
+    std::string_view name;
+    std::string_view meaning;
+    std::string_view source;
+};
+
+template <class Kind>
+constexpr TechniqueInfo technique_row(const TechniqueText& text,
+                                      std::span<const ParameterInfo> parameters = {}) {
+    return {Kind::id, text.name, text.meaning, text.source, Kind{}, parameters};
+}
+
+constexpr std::array catalogue{
+    technique_row<Texture>(
+        {"texture", "diffuse colour over the flat reference surface, lit by the height gradient",
+         "GPU surface-detail survey (2008) ch. 1; Janković 2010 ch. 2"}),
+    technique_row<Polygons>(
+        {"polygons",
+         "the heightfield as triangles: all, fewer by distance, or as few as an error allows",
+         "Janković 2010 ch. 2.7 test 4; Lindstrom and Pascucci 2001"},
+        polygons_parameters),
+    technique_row<Displacement>(
+        {"displacement", "a mesh cut fine, its vertices moved along the normal by the height",
+         "GPU surface-detail survey (2008) ch. 3.1; Cook 1984"},
+        displacement_parameters),
+    technique_row<Bump>(
+        {"bump", "a mesh lit by the height's derivatives: N + F_u (N x P_v) - F_v (N x P_u)",
+         "Janković 2010 ch. 2.2; Blinn 1978"}),
+    technique_row<Emboss>(
+        {"emboss", "h(t) - h(t + delta l.xy) added to a mesh's diffuse light; nothing shines",
+         "GPU surface-detail survey (2008) ch. 3.3; Schlag 1994"},
+        emboss_parameters),
+    technique_row<Normal>(
+        {"normal", "a mesh lit by its normal map, with half vector and ambient light",
+         "GPU surface-detail survey (2008) ch. 3.4; Cohen, Olano and Manocha 1998"}),
+    technique_row<Parallax>(
+        {"parallax",
+         "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
+         "Janković 2010 ch. 2.3; Kaneko et al. 2001"},
+        parallax_parameters),
+    technique_row<ParallaxLimited>({"parallax-limited",
+                                    "parallax with offset limiting: t + (h + b) s v.xy",
+                                    "GPU surface-detail survey (2008) ch. 3.5; Welsh 2004"},
+                                   limited_parameters),
+    technique_row<ParallaxIterated>(
+        {"parallax-iterated", "parallax looked at again from where it led, the heights averaged",
+         "GPU surface-detail survey (2008) ch. 3.5"},
+        iterated_parameters),
+    technique_row<Steep>({"steep", "equal steps along the ray until one lies below the surface",
+                          "GPU surface-detail survey (2008) ch. 3.6.1; McGuire and McGuire 2005"},
+                         steep_parameters),
+    technique_row<Relief>({"relief", "equal steps, then the bracket halved",
+                           "Janković 2010 ch. 2.4.6; Policarpo, Oliveira and Comba 2005"},
+                          relief_parameters),
+    technique_row<Interval>({"interval", "equal steps, then chords through the bracket",
+                             "Janković 2010 ch. 2.4.9; Risser, Shah and Pattanaik 2006"},
+                            interval_parameters),
+    technique_row<Pom>({"pom", "steps by the angle of view, then one chord",
+                        "Janković 2010 ch. 2.3.3; Tatarchuk 2005"},
+                       pom_parameters),
+    technique_row<Cone>({"cone", "from cone to cone that holds nothing, or one crossing",
+                         "Dummer 2006; Policarpo and Oliveira 2007 (GPU Gems 3 ch. 18)"},
+                        cone_parameters),
+    technique_row<Exact>({"exact",
+                          "the ray against the bilinear surface itself: the true first hit",
+                          "Tevs, Ihrke and Seidel 2008"}),
+    technique_row<Lattice>(
+        {"lattice", "a mesh as a sheet with its heights on both sides of it: height 0 is a hole",
+         "GPU surface-detail survey (2008) ch. 3.6.9"},
+        layers_parameters<Lattice>),
+    technique_row<DualLayer>(
+        {"dual-layer", "a mesh as a sheet with one height map on its front and another on its back",
+         "GPU surface-detail survey (2008) ch. 3.6.10"},
+        layers_parameters<DualLayer>),
+    technique_row<MultiLayer>(
+        {"multi-layer", "a mesh as two solids, one over the other: four heights a place",
+         "GPU surface-detail survey (2008) ch. 3.6.11; Policarpo and Oliveira 2006"},
+        layers_parameters<MultiLayer>),
+    technique_row<Prewarp>(
+        {"prewarp",
+         "the surface warped forward onto the reference plane, rows and then columns, each frame: "
+         "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
+         "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000"})};
+
+static_assert(catalogue.size() == std::variant_size_v<TechniqueParameters>,
+              "every technique has its row");
+static_assert(std::all_of(catalogue.begin(), catalogue.end(),
+                          [](const TechniqueInfo& info) {
+                              return std::all_of(info.parameters.begin(), info.parameters.end(),
+                                                 [](const ParameterInfo& parameter) {
+                                                     return parameter.allows(
+                                                         parameter.default_value);
+                                                 });
+                          }),
+              "every default lies in its range");
+
+} // namespace
+
+double ParameterInfo::get(const Technique& technique) const {
+    return getter(technique);
+}
+
+void ParameterInfo::set(Technique& technique, double value) const {
+    check(allows(value), "a parameter out of its range");
+    setter(technique, value);
+}
+
+std::span<const TechniqueInfo> technique_catalogue() {
+    return catalogue;
+}
+
+const TechniqueInfo& technique_info(TechniqueId id) {
+    const auto* const found =
+        std::find_if(catalogue.begin(), catalogue.end(),
+                     [&](const TechniqueInfo& info) { return info.id == id; });
+    check(found != catalogue.end(), "technique without a catalogue entry");
+    return *found;
+}
+
+std::vector<TechniqueInfo> terrain_techniques() {
+    std::vector<TechniqueInfo> infos;
+    std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(infos),
+                 [](const TechniqueInfo& info) { return draws_terrain(info.id); });
+    return infos;
+}
+
+} // namespace reljef::scene
