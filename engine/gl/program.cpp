@@ -85,14 +85,6 @@ GLuint block_index(GLuint program, std::string_view name) {
                          : glGetUniformBlockIndex(program, std::string(name).c_str());
 }
 
-template <class Set> bool set_at(int location, const Set& set) {
-    if (location < 0) {
-        return false;
-    }
-    set(location);
-    return true;
-}
-
 } // namespace
 
 Result<Program> Program::create(std::span<const StageSource> stages) {
@@ -154,78 +146,36 @@ bool Program::has_uniform(std::string_view name) const {
     return location(name) >= 0;
 }
 
-bool Program::set_uniform(std::string_view name, bool value) {
-    return set_uniform(name, value ? 1 : 0);
+void Program::write(int location, int value) {
+    glProgramUniform1i(id(), location, value);
 }
 
-bool Program::set_uniform(std::string_view name, int value) {
-    return set_at(location(name), [&](int at) { glProgramUniform1i(id(), at, value); });
+void Program::write(int location, float value) {
+    glProgramUniform1f(id(), location, value);
 }
 
-bool Program::set_uniform(std::string_view name, unsigned int value) {
-    return set_at(location(name), [&](int at) { glProgramUniform1ui(id(), at, value); });
+void Program::write(int location, const glm::ivec2& value) {
+    glProgramUniform2iv(id(), location, 1, glm::value_ptr(value));
 }
 
-bool Program::set_uniform(std::string_view name, float value) {
-    return set_at(location(name), [&](int at) { glProgramUniform1f(id(), at, value); });
+void Program::write(int location, const glm::vec2& value) {
+    glProgramUniform2fv(id(), location, 1, glm::value_ptr(value));
 }
 
-bool Program::set_uniform(std::string_view name, const glm::ivec2& value) {
-    return set_at(location(name),
-                  [&](int at) { glProgramUniform2iv(id(), at, 1, glm::value_ptr(value)); });
+void Program::write(int location, const glm::vec3& value) {
+    glProgramUniform3fv(id(), location, 1, glm::value_ptr(value));
 }
 
-bool Program::set_uniform(std::string_view name, const glm::vec2& value) {
-    return set_at(location(name),
-                  [&](int at) { glProgramUniform2fv(id(), at, 1, glm::value_ptr(value)); });
+void Program::write(int location, const glm::vec4& value) {
+    glProgramUniform4fv(id(), location, 1, glm::value_ptr(value));
 }
 
-bool Program::set_uniform(std::string_view name, const glm::vec3& value) {
-    return set_at(location(name),
-                  [&](int at) { glProgramUniform3fv(id(), at, 1, glm::value_ptr(value)); });
+void Program::write(int location, const glm::mat3& value) {
+    glProgramUniformMatrix3fv(id(), location, 1, GL_FALSE, glm::value_ptr(value));
 }
 
-bool Program::set_uniform(std::string_view name, const glm::vec4& value) {
-    return set_at(location(name),
-                  [&](int at) { glProgramUniform4fv(id(), at, 1, glm::value_ptr(value)); });
-}
-
-bool Program::set_uniform(std::string_view name, const glm::mat3& value) {
-    return set_at(location(name), [&](int at) {
-        glProgramUniformMatrix3fv(id(), at, 1, GL_FALSE, glm::value_ptr(value));
-    });
-}
-
-bool Program::set_uniform(std::string_view name, const glm::mat4& value) {
-    return set_at(location(name), [&](int at) {
-        glProgramUniformMatrix4fv(id(), at, 1, GL_FALSE, glm::value_ptr(value));
-    });
-}
-
-bool Program::set_uniform(std::string_view name, std::span<const float> values) {
-    return set_at(location(name), [&](int at) {
-        glProgramUniform1fv(id(), at, static_cast<GLsizei>(values.size()), values.data());
-    });
-}
-
-bool Program::set_uniform(std::string_view name, std::span<const glm::vec4> values) {
-    const float* first = values.empty() ? nullptr : glm::value_ptr(values.front());
-    return set_at(location(name), [&](int at) {
-        glProgramUniform4fv(id(), at, static_cast<GLsizei>(values.size()), first);
-    });
-}
-
-bool Program::bind_sampler(std::string_view name, unsigned int unit) {
-    return set_uniform(name, static_cast<int>(unit));
-}
-
-bool Program::bind_block(std::string_view name, unsigned int binding) {
-    const GLuint block = block_index(id(), name);
-    if (block == GL_INVALID_INDEX) {
-        return false;
-    }
-    glUniformBlockBinding(id(), block, binding);
-    return true;
+void Program::write(int location, const glm::mat4& value) {
+    glProgramUniformMatrix4fv(id(), location, 1, GL_FALSE, glm::value_ptr(value));
 }
 
 int Program::block_size(std::string_view name) const {

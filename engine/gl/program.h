@@ -33,6 +33,29 @@ struct StageSource {
     std::vector<std::string> included{};
 };
 
+/// GLSL's name of a uniform's type. Other types do not compile.
+template <class T> struct GlslType;
+template <> struct GlslType<int> { static constexpr std::string_view name = "int"; };
+template <> struct GlslType<float> { static constexpr std::string_view name = "float"; };
+template <> struct GlslType<glm::ivec2> { static constexpr std::string_view name = "ivec2"; };
+template <> struct GlslType<glm::vec2> { static constexpr std::string_view name = "vec2"; };
+template <> struct GlslType<glm::vec3> { static constexpr std::string_view name = "vec3"; };
+template <> struct GlslType<glm::vec4> { static constexpr std::string_view name = "vec4"; };
+template <> struct GlslType<glm::mat3> { static constexpr std::string_view name = "mat3"; };
+template <> struct GlslType<glm::mat4> { static constexpr std::string_view name = "mat4"; };
+
+/// A uniform outside blocks as shaders declare it: `uniform TYPE NAME;`.
+struct UniformDeclaration {
+    std::string_view name;
+    std::string_view type;
+
+    friend auto operator<=>(const UniformDeclaration&, const UniformDeclaration&) = default;
+};
+template <class T> struct Uniform : UniformDeclaration {
+    constexpr explicit Uniform(std::string_view glsl_name)
+        : UniformDeclaration{glsl_name, GlslType<T>::name} {}
+};
+
 /// A linked program. Default-constructed and moved-from ones hold nothing (id 0).
 class Program {
 public:
@@ -48,27 +71,16 @@ public:
     /// Array names come without [0].
     [[nodiscard]] bool has_uniform(std::string_view name) const;
 
-    /// Sets a uniform of exactly that GLSL type (bool, int, uint, float, ivec2, vec2, vec3, vec4,
-    /// mat3, mat4, float[], vec4[]), whether or not the program is in use. Returns false, and does
-    /// nothing, when the program does not use it.
-    bool set_uniform(std::string_view name, bool value);
-    bool set_uniform(std::string_view name, int value);
-    bool set_uniform(std::string_view name, unsigned int value);
-    bool set_uniform(std::string_view name, float value);
-    bool set_uniform(std::string_view name, const glm::ivec2& value);
-    bool set_uniform(std::string_view name, const glm::vec2& value);
-    bool set_uniform(std::string_view name, const glm::vec3& value);
-    bool set_uniform(std::string_view name, const glm::vec4& value);
-    bool set_uniform(std::string_view name, const glm::mat3& value);
-    bool set_uniform(std::string_view name, const glm::mat4& value);
-    bool set_uniform(std::string_view name, std::span<const float> values);
-    bool set_uniform(std::string_view name, std::span<const glm::vec4> values);
+    /// Sets a uniform, whether or not the program is in use. Returns false, and does nothing, when
+    /// the program does not use it. A value of another type does not compile.
+    template <class T> bool set(const Uniform<T>& uniform, const T& value) {
+        const int at = location(uniform.name);
+        if (at >= 0) {
+            write(at, value);
+        }
+        return at >= 0;
+    }
 
-    /// The texture unit that a sampler reads. False when the program does not use it.
-    bool bind_sampler(std::string_view name, unsigned int unit);
-    /// The binding point of a uniform block, see Buffer::bind_uniform_block(). False when the
-    /// program does not use it.
-    bool bind_block(std::string_view name, unsigned int binding);
     /// Bytes that the program expects of a uniform block; 0 when it does not use it.
     [[nodiscard]] int block_size(std::string_view name) const;
 
@@ -79,6 +91,14 @@ private:
 
     [[nodiscard]] int location(std::string_view name) const;
     void read_uniform_locations();
+    void write(int location, int value);
+    void write(int location, float value);
+    void write(int location, const glm::ivec2& value);
+    void write(int location, const glm::vec2& value);
+    void write(int location, const glm::vec3& value);
+    void write(int location, const glm::vec4& value);
+    void write(int location, const glm::mat3& value);
+    void write(int location, const glm::mat4& value);
 
     UniqueId<delete_program> id_;
     Locations locations_;

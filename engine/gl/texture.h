@@ -75,7 +75,7 @@ public:
 
     void set_filter(Filter filter);
     void set_wrap(Wrap wrap);
-    /// What texture units sample: GLSL `layout(binding = unit)` or Program::bind_sampler().
+    /// What texture units sample: GLSL `layout(binding = unit)`.
     void bind(unsigned int unit) const;
 
     [[nodiscard]] unsigned int id() const { return id_.get(); }

@@ -134,10 +134,10 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
 }
 
 Result<void> Driver::draw_content(const view::DrawList& list, bool hits, view::FrameStats& stats) {
-    DrawState state(shaders_, stats);
+    DrawState state(shaders_, blocks_, stats);
     const gl::Framebuffer& picture = hits ? hit_target_ : color_target_;
     picture.clear_depth();
-    frame_block_.bind_uniform_block(0);
+    frame_block_.bind_uniform_block(FrameBlock::layout.binding);
     const Painting painting{.list = list,
                             .residency = residency_,
                             .hits = hits,

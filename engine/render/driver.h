@@ -13,6 +13,7 @@
 #include "engine/gl/limits.h"
 #include "engine/gl/timer_query.h"
 #include "engine/render/passes/beams.h"
+#include "engine/render/residency/block_buffers.h"
 #include "engine/render/residency/residency.h"
 #include "engine/render/shaders/shader_library.h"
 #include "engine/view/frame_stats.h"
@@ -63,6 +64,7 @@ private:
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;
+    BlockBuffers blocks_;
     Residency residency_;
 };
 

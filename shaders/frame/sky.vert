@@ -1,8 +1,6 @@
-// One triangle over the whole picture, at the far end of the reversed depth.
-uniform vec4 ray_corner; // xyz: ray through the lower left corner
-uniform vec4 ray_right;  // xyz: from there across the picture
-uniform vec4 ray_up;
+#include "frame/frame_block.glsl"
 
+// One triangle over the whole picture, at the far end of the reversed depth.
 out vec3 ray;
 
 void main() {

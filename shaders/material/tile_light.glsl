@@ -1,15 +1,13 @@
 // What a tile of detail sends to the eye, lit per pixel.
-layout(binding = 0) uniform sampler2D color_map;  // linear albedo
+layout(binding = color_map_unit) uniform sampler2D color_map;  // linear albedo
 #ifdef LAYERS
-layout(binding = 4) uniform sampler2D normal_map;   // x of the layers' normals in tangent space
-layout(binding = 5) uniform sampler2D normal_map_v; // y
+layout(binding = normal_map_unit) uniform sampler2D normal_map;   // x of the layers' normals in tangent space
+layout(binding = normal_map_v_unit) uniform sampler2D normal_map_v; // y
 #else
-layout(binding = 4) uniform sampler2D normal_map; // x and y of the normal in tangent space
+layout(binding = normal_map_unit) uniform sampler2D normal_map; // x and y of the normal in tangent space
 #endif
 
 uniform mat3 world_from_normal;
-uniform float normal_scale; // relief scale that the normal map was made for
-uniform vec2 shine;         // what a mirror adds; exponent (Blinn 1977)
 
 // The mip level for a pixel that moves over the map so far from pixel to pixel; no coarser than
 // for a surface that is seen eight times longer than wide.

@@ -11,9 +11,6 @@
 #include "relief/relief_linear.glsl"
 #endif
 
-uniform float mesh_height; // of the tile's heights in [0,1]: where the mesh lies
-uniform float near_depth;  // metres, in perspective
-
 // A ray that is so flat that it would cross more tiles than these on its way through the heights is
 // taken to cross no more: what it looks for is hidden by what stands before it.
 const float most_tiles = 64.0;

@@ -3,8 +3,6 @@
 #define SHADOW
 #include "relief/relief_shadow.glsl"
 
-uniform vec2 rms_rise; // of the tile's heights, from sample to sample along u and v
-
 // Where a pixel covers several samples, one place says little of the others: then it asks some in a
 // row, and, from the first of these levels of the height map to the second, more and more what the
 // whole tile sees.

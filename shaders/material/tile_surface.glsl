@@ -1,6 +1,7 @@
 // A tile of detail on a mesh, as a fragment sees it. Tangent space: x where u grows, y where v
 // grows, z off the side of the mesh that is seen; metres of the mesh. From behind, heights are what
 // is left of 1.
+#include "frame/detail_block.glsl"
 #ifdef GROUND
 #include "terrain/ground.glsl"
 #elif defined(HULL)
@@ -14,10 +15,6 @@ in vec2 tiles_per_metre; // along x and y
 #endif
 
 uniform mat3 local_from_relative; // directions
-uniform float perspective;        // 1, or 0: all rays run along the view axis
-uniform float lift;               // metres that a height of 1 lifts a point
-uniform float bounded;            // 1: there is nothing beyond the tile
-uniform float side;               // -1: the mesh is seen from behind
 
 #if !defined(GROUND) && !defined(HULL)
 // Local directions from tangent space: orthonormal.

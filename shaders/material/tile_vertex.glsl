@@ -1,3 +1,5 @@
+#include "frame/detail_block.glsl"
+
 // The vertices of a mesh that carries a tile of detail.
 layout(location = 0) in vec3 position; // local metres
 layout(location = 1) in vec3 normal;
@@ -6,7 +8,6 @@ layout(location = 3) in vec4 tangent; // w: handedness
 layout(location = 4) in vec2 density; // texture coordinates a metre, along the tangent and across
 
 uniform mat4 relative_from_local; // world directions relative to the eye, metres
-uniform vec2 repeats;             // tiles along texture coordinates 0 to 1
 
 out vec3 relative; // from the eye, metres
 out vec3 local_normal;

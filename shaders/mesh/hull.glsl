@@ -9,7 +9,6 @@ flat in vec4 heights;        // of the corners, 0 or 1 and a little beyond
 flat in mat4x3 corner_normals;
 flat in vec4 parted; // 1 where beyond the side across from a corner normals are others
 
-uniform vec2 repeats;          // tiles along texture coordinates 0 to 1
 uniform vec4 coordinate_range; // of the texture where the hull is lowest: least and greatest
 
 vec2 tile_coordinate = vec2(0.0);

@@ -1,14 +1,15 @@
+#include "frame/bindings.inc"
+
 // A pixel here is the beam of all rays of a block of pixels: down to which height it meets nothing of a
 // relief (Laine and Karras 2010, beam optimization; here on a pyramid of greatest heights).
-layout(binding = 2) uniform sampler2D greatest_heights; // level 0: of a cell's corners
+layout(binding = greatest_heights_unit) uniform sampler2D greatest_heights; // level 0: of a cell's corners
 uniform ivec2 last_cell;
 uniform int top_level;
-uniform float pixels_a_block;
 // Of the search space, of the place (1, x, y) on the picture, as gl_FragCoord.
 uniform mat3 origin_of_ray;
 uniform mat3 direction_of_ray;
 uniform float begin_height; // where beams begin
-uniform float lift;         // in heights: rounding puts no ray below the surface above it
+uniform float beam_lift;    // in heights: rounding puts no ray below the surface above it
 
 layout(location = 0) out float clear_height;
 
@@ -89,8 +90,9 @@ float clear_down_to(Beam beam) {
 }
 
 void main() {
-    vec2 low = floor(gl_FragCoord.xy) * pixels_a_block;
-    Beam beam = beam_of(low, low + pixels_a_block);
+    float extent = float(pixels_a_beam);
+    vec2 low = floor(gl_FragCoord.xy) * extent;
+    Beam beam = beam_of(low, low + extent);
     bool falls = all(lessThan(beam.directions[2], vec4(0.0)));
-    clear_height = falls ? clear_down_to(beam) + lift : begin_height + lift;
+    clear_height = falls ? clear_down_to(beam) + beam_lift : begin_height + beam_lift;
 }

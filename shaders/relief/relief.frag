@@ -29,17 +29,12 @@ in vec3 back;
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
-uniform vec3 box_begin; // of the search space
-uniform vec3 box_end;
-uniform float perspective;    // 1, or 0: all rays run along the view axis
-uniform float near_depth;     // metres, in perspective
-uniform vec2 range_of_height; // metres: lowest, highest less lowest
 uniform float texels_per_metre_away; // of a pixel that faces the eye
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
-layout(binding = 0) uniform sampler2D lit_map; // what the surface sends to the eye, linear
+layout(binding = lit_map_unit) uniform sampler2D lit_map; // what the surface sends to the eye, linear
 #ifdef SHADOW
-layout(binding = 3) uniform sampler2D sun_map; // of the sun's light alone, lit_map of the rest
+layout(binding = sun_map_unit) uniform sampler2D sun_map; // of the sun's light alone, lit_map of the rest
 #endif
 
 #ifdef HIT
@@ -53,7 +48,7 @@ layout(location = 0) out vec4 color;
 float entry_before(vec3 point, vec3 direction) {
     vec3 away = vec3(equal(direction, vec3(0.0)));
     vec3 inverse = (1.0 - away) / (direction + away);
-    vec3 first = min((box_begin - point) * inverse, (box_end - point) * inverse) - away * 3e38;
+    vec3 first = min((box_begin.xyz - point) * inverse, (box_end.xyz - point) * inverse) - away * 3e38;
     float nearest = max(max(first.x, first.y), first.z);
     float begin = near_depth / dot(back, view_forward.xyz) - 1.0;
     return min(perspective > 0.5 ? max(nearest, begin) : nearest, 0.0);
@@ -84,7 +79,7 @@ vec3 lit_at(vec2 place, float level) {
     vec3 lit = textureLod(lit_map, coordinate, level).rgb;
 #ifdef SHADOW
     vec3 sun_direction = space_from_relative * to_sun.xyz;
-    lit += sun_at(place, sun_direction, box_begin, box_end) * textureLod(sun_map, coordinate, level).rgb;
+    lit += sun_at(place, sun_direction, box_begin.xyz, box_end.xyz) * textureLod(sun_map, coordinate, level).rgb;
 #endif
     return lit;
 }
@@ -133,7 +128,7 @@ void main() {
     gl_FragDepth = clip.z / clip.w;
 #endif
 #ifdef HIT
-    float height = range_of_height.x + range_of_height.y * height_at(place);
+    float height = height_span.x + height_span.y * height_at(place);
     hit = vec4(place, height, dot(relative, view_forward.xyz));
 #else
     float metres = length(relative);

@@ -3,10 +3,10 @@
 // that does not rise meets at most once: where it is found below the surface, the hit lies behind
 // the last place above it.
 #ifdef TILE
-layout(binding = 6) uniform sampler2D cone_map;
+layout(binding = cone_map_unit) uniform sampler2D cone_map;
 uniform ivec2 last_cell;
 #else
-layout(binding = 4) uniform sampler2D cone_map;
+layout(binding = relief_cone_map_unit) uniform sampler2D cone_map;
 #endif
 
 // Of a cell, samples per unit: plain, relaxed.

@@ -1,6 +1,5 @@
 // The place that a ray narrowly misses on its way to its hit (GPU surface-detail survey 2008 ch.
 // 3.6.7): where the same search, so much lower, meets the surface, and then where the ray is nearest.
-uniform float edge_distance; // of the range of heights
 
 float clearance(vec3 point) {
     return point.z - height_at(point.xy);

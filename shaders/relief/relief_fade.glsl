@@ -1,8 +1,6 @@
 // Heights that are less the flatter one looks (GPU surface-detail survey 2008 ch. 3.6.4):
 // low + (high - low)(1 - (1 - cos a)^power) of them is left, about the height of the reference
 // plane. That is the same surface met by a ray that is stretched along z.
-uniform vec4 fade_values; // low, high, power, height of the reference plane
-
 float share_of_heights(vec3 span) {
     const float flattest = 1.0 / 4096.0; // as far as the box reaches beyond the heights
     float upright = abs(normalize(span * metres_per_unit).z);

@@ -12,8 +12,6 @@ vec3 way_out(vec3 point, vec3 direction, vec3 low, vec3 high) {
 }
 
 #ifdef SOFT_SHADOW
-uniform float shadow_depth; // of the range of heights: how deep there is no light left
-
 float shadow_steps(vec3 span) {
 #ifdef EQUAL_STEPS
     return steps_for(span);

@@ -1,16 +1,16 @@
+#include "frame/technique_block.glsl"
+
 // The surface a relief technique looks for, in samples: x column, y row, z height in [0,1] of the
 // range.
-layout(binding = 1) uniform sampler2D height_map;
+layout(binding = height_map_unit) uniform sampler2D height_map;
 uniform vec2 height_texel; // 1 / samples
 #ifdef TILE
 vec3 metres_per_unit = vec3(1.0); // of the search space's axes, at this fragment of a mesh
 bool is_off_tile(vec2 coordinate); // tile_surface.glsl
 #else
-uniform vec3 metres_per_unit; // of the search space's axes
+#include "frame/relief_block.glsl"
+#define metres_per_unit space_scale.xyz
 #endif
-// The technique's parameters, as relief_options.cpp orders them; of equal steps zw are those seen
-// from straight above and along the ground.
-uniform vec4 search_values;
 
 #ifdef LAYERS
 // Between the first and the second, and between the third and the fourth, is solid.

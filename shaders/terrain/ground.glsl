@@ -5,7 +5,6 @@ in vec3 local_from_eye; // metres
 
 uniform mat3 world_from_local; // directions
 uniform vec3 tiles_at_eye;     // from the local origin, along each axis, less whole ones
-uniform float tile_width;      // metres
 
 vec3 relative = vec3(0.0); // from the eye, metres
 vec2 tile_coordinate = vec2(0.0);

@@ -3,13 +3,10 @@
 uniform vec2 tile_sample;        // col, row of the terrain tile's first sample
 uniform vec4 lit_from_sample;    // texture coordinate = sample · xy + zw
 uniform vec4 ground_from_sample; // likewise
-uniform vec3 mean_color;         // of the tile, linear
-uniform vec2 metres_a_pixel;     // at the eye, and more for each metre away
-uniform vec4 seen_pixels; // from .. to: of a tile's width, for its look; of its heights, to be looked for
 
-layout(binding = 3) uniform sampler2D lit_map;    // what the surface sends to the eye, linear
-layout(binding = 7) uniform sampler2D albedo_map; // linear
-layout(binding = 8) uniform sampler2D ground_map; // local normal; w: share of the sun's disc seen
+layout(binding = ground_lit_map_unit) uniform sampler2D lit_map;    // what the surface sends to the eye, linear
+layout(binding = albedo_map_unit) uniform sampler2D albedo_map; // linear
+layout(binding = ground_map_unit) uniform sampler2D ground_map; // local normal; w: share of the sun's disc seen
 
 layout(location = 0) out vec4 color;
 
@@ -20,7 +17,7 @@ vec3 seen_in(mat3 space, vec3 albedo, vec2 right, vec2 up, float visibility, flo
 // The terrain's colour, in the places of the tile as much brighter or darker as these are than all.
 vec3 tinted(vec3 albedo, vec2 coordinate, vec2 right, vec2 up) {
     vec3 tile = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
-    return min(albedo * tile / mean_color, vec3(1.0));
+    return min(albedo * tile / mean_color.rgb, vec3(1.0));
 }
 
 vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_share) {

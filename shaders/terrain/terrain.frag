@@ -9,10 +9,10 @@ in vec2 height_and_depth;
 uniform vec2 tile_sample;     // col, row of the tile's first sample
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
-layout(binding = 0) uniform sampler2D lit_map; // what the surface sends to the eye, linear
+layout(binding = lit_map_unit) uniform sampler2D lit_map; // what the surface sends to the eye, linear
 #ifdef WARPED
 // A texel for each sample: what is seen there, column, row (< 0: nothing) and height.
-layout(binding = 4) uniform sampler2D warped_places;
+layout(binding = warped_places_unit) uniform sampler2D warped_places;
 #endif
 
 #ifdef HIT

@@ -66,6 +66,10 @@ TEST(Project, KeepsGlInItsRooms) {
     EXPECT_THAT(complaints_about(all_code(), gl_outside_its_rooms), IsEmpty());
 }
 
+TEST(Project, SetsNoUniformByString) {
+    EXPECT_THAT(complaints_about(all_code(), uniforms_by_string), IsEmpty());
+}
+
 TEST(Project, IncludesInEveryHeaderWhatItNames) {
     EXPECT_THAT(missing_includes(all_code()), IsEmpty());
 }

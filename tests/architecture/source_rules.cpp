@@ -421,6 +421,23 @@ Complaints gl_outside_its_rooms(const SourceFile& file) {
     return complaints;
 }
 
+Complaints uniforms_by_string(const SourceFile& file) {
+    static const std::regex by_string(
+        R"(\bset\w*\s*\(\s*"|\bUniform(?:Declaration)?\b|\bgl\w*Uniform\w*|\bbind\w*\s*\(\s*[\d"])");
+    Complaints complaints;
+    if (!file.path.starts_with("engine/render/") ||
+        file.path.starts_with("engine/render/shaders/")) {
+        return complaints;
+    }
+    const std::string code = code_of(file.text);
+    for (std::sregex_iterator match(code.begin(), code.end(), by_string), end; match != end;
+         ++match) {
+        complaints.push_back(file.path + " has " + match->str() +
+                             ": uniforms and bindings are named in engine/render/shaders");
+    }
+    return complaints;
+}
+
 Complaints machine_paths(const SourceFile& file) {
     static const std::regex path(R"((?:^|[^\w.\-}])(/(?:work|home|root|Users|tmp)/[\w.\-/]*))");
     Complaints complaints;

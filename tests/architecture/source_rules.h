@@ -46,6 +46,10 @@ Complaints libraries_outside_their_room(const SourceFile& file);
 /// engine/platform, engine/render and the tests with a context.
 Complaints gl_outside_its_rooms(const SourceFile& file);
 
+/// What sets uniforms by their names, or binds to units and binding points by number, in
+/// engine/render: engine/render/shaders alone declares them.
+Complaints uniforms_by_string(const SourceFile& file);
+
 /// Folders that exist on one machine only.
 Complaints machine_paths(const SourceFile& file);
 

@@ -165,6 +165,25 @@ TEST(Gl, OnlyCallsAreMeant) {
                 ElementsAre(HasSubstr("glDrawArrays")));
 }
 
+TEST(UniformsByString, StayWhereUniformsAreDeclared) {
+    for (const char* const text :
+         {"program.set_uniform(\"eye\", eye);", "program->set( \"eye\", eye);",
+          "program.set(gl::Uniform<float>(\"eye\"), 1.0F);", "glProgramUniform1f(id, 3, 1.0F);",
+          "glGetUniformLocation(id, \"eye\");", "maps.lit.bind(0);", "block.bind_uniform_block(2);",
+          "program.bind_sampler(\"map\", unit);"}) {
+        EXPECT_THAT(uniforms_by_string(file_with("engine/render/passes/a.cpp", text)), SizeIs(1))
+            << text;
+        EXPECT_THAT(uniforms_by_string(file_with("engine/render/shaders/a.h", text)), IsEmpty());
+        EXPECT_THAT(uniforms_by_string(file_with("tests/gl/a_gl_test.cpp", text)), IsEmpty());
+    }
+    for (const char* const text :
+         {"program.set(uniforms.eye, eye);", "maps.lit.bind(bindings::lit_map_unit);",
+          "painting.picture.bind();", "// set_uniform(\"eye\")", "offset(\"x\");"}) {
+        EXPECT_THAT(uniforms_by_string(file_with("engine/render/passes/a.cpp", text)), IsEmpty())
+            << text;
+    }
+}
+
 TEST(MachinePaths, AreFoundInTextAndComments) {
     EXPECT_THAT(machine_paths(file_with("a.cpp", "open(\"/ho"
                                                  "me/ann/x.tif\")")),

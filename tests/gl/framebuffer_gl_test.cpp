@@ -34,7 +34,7 @@ TEST_F(FramebufferGlTest, tiny_depths_are_kept_exactly) {
     // 1e-9 is a surface a thousand million near planes away; 24 bits would make it 0.
     for (const float depth : {1e-9F, 3e-5F, 0.25F, 1.0F}) {
         framebuffer.clear_depth();
-        program.set_uniform("depth", depth);
+        program.set(Uniform<float>("depth"), depth);
         test::cover(program);
         EXPECT_EQ(read_depth(framebuffer)(3, 4), depth);
     }

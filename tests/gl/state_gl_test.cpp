@@ -28,8 +28,8 @@ public:
         : program_(test::cover_program("uniform vec4 paint;\nvoid main() { color = paint; }")) {}
 
     void draw(float depth, float paint) {
-        program_.set_uniform("depth", depth);
-        program_.set_uniform("paint", glm::vec4(paint, paint, paint, 0.5F));
+        program_.set(Uniform<float>("depth"), depth);
+        program_.set(Uniform<glm::vec4>("paint"), glm::vec4(paint, paint, paint, 0.5F));
         test::cover(program_);
     }
 

@@ -178,11 +178,10 @@ TEST_F(TextureGlTest, sampling_follows_filter_and_wrap) {
     std::ranges::generate(grid.samples(), [&] { return unit(generator); });
     const Framebuffer target = test::float_target({61, 47});
     Program program = test::cover_program(
-        "uniform sampler2D map;\nuniform vec2 size;\n"
+        "layout(binding = 3) uniform sampler2D map;\nuniform vec2 size;\n"
         "void main() { color.xy = gl_FragCoord.xy / size * 3.0 - 1.0;\n"
         "              color.z = textureLod(map, color.xy, 0.0).r; color.w = 1.0; }");
-    program.set_uniform("size", glm::vec2(target.size()));
-    program.bind_sampler("map", 3);
+    program.set(Uniform<glm::vec2>("size"), glm::vec2(target.size()));
     for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear}) {
         for (const Wrap wrap : {Wrap::clamp, Wrap::repeat}) {
             Texture2D texture = must(Texture2D::create(

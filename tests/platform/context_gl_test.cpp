@@ -67,7 +67,7 @@ void use(float shade) {
                                 "void main() { color = vec4(shade); }"}};
     auto program = gl::Program::create(stages);
     ASSERT_TRUE(program) << program.error().message;
-    program->set_uniform("shade", shade);
+    program->set(gl::Uniform<float>("shade"), shade);
     const gl::VertexArray none = gl::VertexArray::create();
     framebuffer->bind();
     program->use();

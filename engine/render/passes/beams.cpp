@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 
 namespace reljef::render {
@@ -38,9 +40,10 @@ Result<void> BeamTarget::prepare(const view::DrawList& list) {
     if (!needed || picture_size_ == list.size) {
         return {};
     }
-    auto made = gl::Framebuffer::create({.size = (list.size + pixels_a_beam - 1) / pixels_a_beam,
-                                         .colors = {gl::Format::r32f},
-                                         .depth = false});
+    auto made = gl::Framebuffer::create(
+        {.size = (list.size + bindings::pixels_a_beam - 1) / bindings::pixels_a_beam,
+         .colors = {gl::Format::r32f},
+         .depth = false});
     if (!made) {
         return made.error();
     }
@@ -51,14 +54,13 @@ Result<void> BeamTarget::prepare(const view::DrawList& list) {
 
 void set_beams(gl::Program& program, const ResidentRelief& relief, const PictureRays& rays) {
     check(relief.greatest.has_value(), "beams over a relief without its greatest heights");
-    relief.greatest->bind(2);
-    program.set_uniform("last_cell", relief.heights.size() - 2);
-    program.set_uniform("top_level", relief.greatest->levels() - 1);
-    program.set_uniform("pixels_a_block", static_cast<float>(pixels_a_beam));
-    program.set_uniform("origin_of_ray", rays.origin_of_ray);
-    program.set_uniform("direction_of_ray", rays.direction_of_ray);
-    program.set_uniform("begin_height", rays.begin_height);
-    program.set_uniform("lift", static_cast<float>(relief.space.box.high.z - 1.0));
+    relief.greatest->bind(bindings::greatest_heights_unit);
+    program.set(uniforms.last_cell, relief.heights.size() - 2);
+    program.set(uniforms.top_level, relief.greatest->levels() - 1);
+    program.set(uniforms.origin_of_ray, rays.origin_of_ray);
+    program.set(uniforms.direction_of_ray, rays.direction_of_ray);
+    program.set(uniforms.begin_height, rays.begin_height);
+    program.set(uniforms.beam_lift, static_cast<float>(relief.space.box.high.z - 1.0));
 }
 
 } // namespace reljef::render

@@ -12,9 +12,6 @@
 
 namespace reljef::render {
 
-/// Pixels along a side of the block whose rays are one beam.
-inline constexpr int pixels_a_beam = 8;
-
 /// The rays of a picture in a relief's search space: origin and direction of the ray through a
 /// place (x, y) of the picture, in pixels from its lower left corner, are these times (1, x, y).
 struct PictureRays {

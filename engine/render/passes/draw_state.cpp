@@ -2,8 +2,9 @@
 
 namespace reljef::render {
 
-DrawState::DrawState(ShaderLibrary& shaders, view::FrameStats& stats)
-    : shaders_(shaders), stats_(stats) {
+DrawState::DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats)
+    : shaders_(shaders), blocks_(blocks), stats_(stats) {
+    blocks_.begin_frame();
     gl::set_reversed_depth();
     gl::set_culling(culling_);
     gl::set_polygon_mode(gl::PolygonMode::fill);
@@ -22,6 +23,20 @@ Result<gl::Program*> DrawState::use(ShaderVariant variant) {
     program_->use();
     ++stats_.state_changes;
     return program_;
+}
+
+Result<void> DrawState::set_block(unsigned int binding, std::span<const std::byte> content) {
+    auto buffer = blocks_.buffer(content, stats_);
+    if (!buffer) {
+        return buffer.error();
+    }
+    const gl::Buffer*& bound = bound_[binding];
+    if (bound != *buffer) {
+        bound = *buffer;
+        bound->bind_uniform_block(binding);
+        ++stats_.state_changes;
+    }
+    return {};
 }
 
 void DrawState::set_culling(gl::Culling culling) {

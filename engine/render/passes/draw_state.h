@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <optional>
+#include <span>
 
 #include "engine/core/result.h"
 #include "engine/gl/draw.h"
 #include "engine/gl/program.h"
 #include "engine/gl/state.h"
+#include "engine/render/residency/block_buffers.h"
 #include "engine/render/residency/resident_mesh.h"
 #include "engine/render/shaders/shader_library.h"
 #include "engine/view/frame_stats.h"
@@ -17,10 +21,14 @@ namespace reljef::render {
 class DrawState {
 public:
     /// Sets what a frame begins with: reversed depth, filled triangles, their backs left out.
-    DrawState(ShaderLibrary& shaders, view::FrameStats& stats);
+    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats);
 
     /// The variant's program, in use. Fails as ShaderLibrary::program.
     Result<gl::Program*> use(ShaderVariant variant);
+    /// What all programs read from that uniform block. Fails where the driver has no memory.
+    template <class Block> Result<void> set(const Block& block) {
+        return set_block(Block::layout.binding, std::as_bytes(std::span(&block, 1)));
+    }
     /// Which sides of triangles are left out.
     void set_culling(gl::Culling culling);
     void set_wireframe(bool wireframe);
@@ -32,10 +40,14 @@ public:
     [[nodiscard]] view::FrameStats& stats() { return stats_; }
 
 private:
+    Result<void> set_block(unsigned int binding, std::span<const std::byte> content);
+
     ShaderLibrary& shaders_;
+    BlockBuffers& blocks_;
     view::FrameStats& stats_;
     std::optional<ShaderVariant> variant_;
     gl::Program* program_ = nullptr;
+    std::map<unsigned int, const gl::Buffer*> bound_; // by binding point
     gl::Culling culling_ = gl::Culling::back;
     bool wireframe_ = false;
 };

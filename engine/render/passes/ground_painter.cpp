@@ -5,6 +5,7 @@
 
 #include "engine/render/passes/tile_painter.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 
 namespace reljef::render {
@@ -38,28 +39,27 @@ ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLeve
     return {ShaderKind::textured_terrain, features | look};
 }
 
-void set_ground(gl::Program& program, const scene::TerrainNode& terrain,
-                const glm::dmat4& world_from_local, const scene::Camera& camera, glm::ivec2 size,
-                const TileResidency& tiles) {
+Result<void> set_ground(gl::Program& program, const Painting& painting,
+                        const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
     const scene::GroundDetail& detail = *terrain.detail;
+    const TileResidency& tiles = painting.residency.ground().tiles();
     const ResidentTile& tile = tiles.tile(detail.set, ground_side());
-    bind_tile(program, tile, tiles.surface(detail.set, ground_side()));
+    const ResidentSurface& surface = tiles.surface(detail.set, ground_side());
+    bind_tile(program, tile, surface);
     const glm::dmat3 directions(world_from_local);
+    program.set(uniforms.local_from_relative, glm::mat3(glm::inverse(directions)));
+    program.set(uniforms.world_from_normal, world_from_normal(world_from_local));
+    program.set(uniforms.tiles_at_eye,
+                tiles_at_eye(world_from_local, painting.list.camera, detail.width));
     const auto width = static_cast<float>(detail.width);
-    program.set_uniform("local_from_relative", glm::mat3(glm::inverse(directions)));
-    program.set_uniform("world_from_normal", world_from_normal(world_from_local));
-    program.set_uniform("perspective", is_perspective(camera) ? 1.0F : 0.0F);
-    program.set_uniform("near_depth", static_cast<float>(camera.near));
-    program.set_uniform("side", 1.0F);
-    program.set_uniform("bounded", 0.0F);
-    program.set_uniform("tiles_at_eye", tiles_at_eye(world_from_local, camera, detail.width));
-    program.set_uniform("tile_width", width);
-    program.set_uniform("mean_color", divisible(tile.mean_color));
-    program.set_uniform("metres_a_pixel", view::metres_a_pixel(camera, size));
-    program.set_uniform("seen_pixels",
-                        glm::vec4(view::seen_tile_pixels, view::seen_height_pixels(terrain)));
-    set_tile_look(program, *detail.set, detail.scale * width, sunk);
-    set_relief_options(program, over_mesh(detail.technique, sunk), 0.5);
+    DetailBlock block = detail_block(*detail.set, surface, detail.scale * width, sunk);
+    block.detail_repeats.z = width;
+    block.mean_color = glm::vec4(divisible(tile.mean_color), 0.0F);
+    block.seen_pixels = glm::vec4(view::seen_tile_pixels, view::seen_height_pixels(terrain));
+    if (auto set = painting.state.set(block); !set) {
+        return set;
+    }
+    return painting.state.set(technique_block(over_mesh(detail.technique, sunk), 0.5));
 }
 
 } // namespace reljef::render

@@ -3,7 +3,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "engine/gl/program.h"
-#include "engine/render/residency/tile_residency.h"
+#include "engine/render/passes/painting.h"
 #include "engine/render/shaders/shader_library.h"
 #include "engine/view/ground_view.h"
 
@@ -14,9 +14,9 @@ namespace reljef::render {
 ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLevel level,
                              std::uint32_t features);
 
-/// What these programs ask for beside the terrain's maps and its place.
-void set_ground(gl::Program& program, const scene::TerrainNode& terrain,
-                const glm::dmat4& world_from_local, const scene::Camera& camera, glm::ivec2 size,
-                const TileResidency& tiles);
+/// What these programs ask for beside the terrain's maps and its place. Fails where the driver has
+/// no memory.
+Result<void> set_ground(gl::Program& program, const Painting& painting,
+                        const scene::TerrainNode& terrain, const glm::dmat4& world_from_local);
 
 } // namespace reljef::render

@@ -3,7 +3,9 @@
 #include <glm/matrix.hpp>
 
 #include "engine/render/passes/tile_painter.h"
+#include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 #include "engine/scene/graph/texture_plane.h"
 
@@ -18,11 +20,11 @@ float mesh_height(const view::MeshDraw& draw) {
 
 // From the tile's coordinates over the mesh to the warp's own, which go from 0 to 1 over it.
 void bind_warp(gl::Program& program, const view::MeshDraw& draw, const gl::Texture2D& warp) {
-    warp.bind(6);
+    warp.bind(bindings::warped_map_unit);
     const auto plane = scene::texture_plane(*draw.mesh->mesh);
     const glm::dvec2 size = plane->high - plane->low;
     const glm::dvec2 per_tile = 1.0 / (size * glm::dvec2(draw.mesh->material.detail.repeats));
-    program.set_uniform("warp_from_tile", glm::vec4(per_tile, -plane->low / size));
+    program.set(uniforms.warp_from_tile, glm::vec4(per_tile, -plane->low / size));
 }
 
 // `features` are the scene's.
@@ -40,33 +42,40 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
     return {in_hull ? ShaderKind::relief_hull : ShaderKind::relief_mesh, features};
 }
 
-// What the programs of meshes with a tile ask for, beside the transform.
-void set_tile(gl::Program& program, const view::MeshDraw& draw, const MeshResidency& residency,
-              const scene::Camera& camera) {
+DetailBlock mesh_detail(const view::MeshDraw& draw, const MeshResidency& residency) {
     const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    const double lift = scene::relief_height(*draw.mesh->mesh, detail);
+    DetailBlock block = detail_block(*detail.set, residency.surface(draw), static_cast<float>(lift),
+                                     mesh_height(draw));
+    const bool bounded = detail.border == material::TileBorder::discard;
+    block.detail_heights.w = draw.from_behind ? -1.0F : 1.0F;
+    block.detail_repeats = glm::vec4(detail.repeats, 0.0F, bounded ? 1.0F : 0.0F);
+    return block;
+}
+
+// What the programs of meshes with a tile ask for, beside the transform.
+Result<void> set_tile(gl::Program& program, const view::MeshDraw& draw, const Painting& painting) {
+    const MeshResidency& residency = painting.residency.meshes();
     bind_tile(program, residency.tile(draw), residency.surface(draw));
     if (const gl::Texture2D* const warp = residency.warp(draw)) {
         bind_warp(program, draw, *warp);
     }
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
-    program.set_uniform("local_from_relative", glm::mat3(local_from_world));
-    program.set_uniform("perspective", is_perspective(camera) ? 1.0F : 0.0F);
-    program.set_uniform("near_depth", static_cast<float>(camera.near));
-    program.set_uniform("repeats", detail.repeats);
-    set_tile_look(program, *detail.set,
-                  static_cast<float>(scene::relief_height(*draw.mesh->mesh, detail)),
-                  mesh_height(draw));
-    program.set_uniform("side", draw.from_behind ? -1.0F : 1.0F);
-    program.set_uniform("bounded", detail.border == material::TileBorder::discard ? 1.0F : 0.0F);
-    set_relief_options(program, over_mesh(draw.mesh->material.technique, mesh_height(draw)),
-                       static_cast<double>(mesh_height(draw)));
+    program.set(uniforms.local_from_relative, glm::mat3(local_from_world));
+    ++painting.state.stats().state_changes;
+    if (auto set = painting.state.set(mesh_detail(draw, residency)); !set) {
+        return set;
+    }
+    return painting.state.set(
+        technique_block(over_mesh(draw.mesh->material.technique, mesh_height(draw)),
+                        static_cast<double>(mesh_height(draw))));
 }
 
 void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull) {
     if (hull.count == 0) {
         return;
     }
-    program.set_uniform("coordinate_range", hull.coordinate_range);
+    program.set(uniforms.coordinate_range, hull.coordinate_range);
     constexpr int strip_vertices = 6; // relief_hull.vert
     hull.vertex_array.bind();
     gl::draw_arrays(gl::Primitive::triangle_strip, 0, strip_vertices, hull.count);
@@ -87,14 +96,15 @@ Result<void> paint_mesh(const Painting& painting, const view::MeshDraw& draw) {
     }
     state.set_culling(draw.from_behind ? gl::Culling::front : gl::Culling::back);
     state.set_wireframe(material.wireframe);
-    (*program)->set_uniform("relative_from_local",
-                            relative_from_local(camera, draw.world_from_local));
-    (*program)->set_uniform("world_from_normal", world_from_normal(draw.world_from_local));
-    (*program)->set_uniform("albedo", material.color);
+    (*program)->set(uniforms.relative_from_local,
+                    relative_from_local(camera, draw.world_from_local));
+    (*program)->set(uniforms.world_from_normal, world_from_normal(draw.world_from_local));
+    (*program)->set(uniforms.albedo, material.color);
     const bool has_tile = material.detail.set != nullptr;
     if (has_tile) {
-        set_tile(**program, draw, residency, camera);
-        ++state.stats().state_changes;
+        if (auto set = set_tile(**program, draw, painting); !set) {
+            return set;
+        }
     }
     if (has_tile && material.technique.options.true_silhouettes) {
         draw_hull(state, **program, residency.hull(draw));

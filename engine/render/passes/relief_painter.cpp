@@ -5,7 +5,9 @@
 #include <glm/matrix.hpp>
 
 #include "engine/render/passes/beams.h"
+#include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 
 namespace reljef::render {
@@ -32,44 +34,44 @@ Result<void> paint_beams(const Painting& painting, const view::ReliefDraw& draw)
 }
 
 void bind_light(gl::Program& program, const ResidentMaps& maps) {
-    maps.lit.bind(0);
+    maps.lit.bind(bindings::lit_map_unit);
     if (maps.sun) {
-        maps.sun->bind(3);
+        maps.sun->bind(bindings::sun_map_unit);
     }
-    program.set_uniform("lit_from_sample", maps.lit_from_sample);
+    program.set(uniforms.lit_from_sample, maps.lit_from_sample);
 }
 
 void set_heights(gl::Program& program, const ResidentRelief& relief) {
-    relief.heights.bind(1);
+    relief.heights.bind(bindings::height_map_unit);
     if (relief.greatest) {
-        relief.greatest->bind(2);
-        program.set_uniform("top_level", relief.greatest->levels() - 1);
+        relief.greatest->bind(bindings::greatest_heights_unit);
+        program.set(uniforms.top_level, relief.greatest->levels() - 1);
     }
     if (relief.cones) {
-        relief.cones->bind(4);
+        relief.cones->bind(bindings::relief_cone_map_unit);
     }
     const glm::ivec2 samples = relief.heights.size();
-    program.set_uniform("height_texel", 1.0F / glm::vec2(samples));
-    program.set_uniform("last_cell", samples - 2);
+    program.set(uniforms.height_texel, 1.0F / glm::vec2(samples));
+    program.set(uniforms.last_cell, samples - 2);
 }
 
 void set_space(gl::Program& program, const scene::Camera& camera, const ReliefSpace& space,
                const glm::dmat4& world_from_local) {
     const glm::dmat3 local_from_world(glm::inverse(world_from_local));
     const glm::dvec3 eye = local_eye(camera, world_from_local);
-    program.set_uniform("relative_from_local", relative_from_local(camera, world_from_local));
-    program.set_uniform("box_low", glm::vec3(space.local_box.low));
-    program.set_uniform("box_high", glm::vec3(space.local_box.high));
-    program.set_uniform("space_from_relative",
-                        glm::mat3(space.space_from_local * local_from_world));
-    program.set_uniform("eye_in_space",
-                        glm::vec3(space.space_from_local * eye + space.space_of_origin));
-    program.set_uniform("box_begin", glm::vec3(space.box.low));
-    program.set_uniform("box_end", glm::vec3(space.box.high));
-    program.set_uniform("perspective", is_perspective(camera) ? 1.0F : 0.0F);
-    program.set_uniform("near_depth", static_cast<float>(camera.near));
-    program.set_uniform("range_of_height", glm::vec2(space.lowest, space.range));
-    program.set_uniform("metres_per_unit", space.metres_per_unit);
+    program.set(uniforms.relative_from_local, relative_from_local(camera, world_from_local));
+    program.set(uniforms.space_from_relative, glm::mat3(space.space_from_local * local_from_world));
+    program.set(uniforms.eye_in_space,
+                glm::vec3(space.space_from_local * eye + space.space_of_origin));
+}
+
+ReliefBlock relief_block(const ReliefSpace& space) {
+    return {.box_low = glm::vec4(glm::vec3(space.local_box.low), 0.0F),
+            .box_high = glm::vec4(glm::vec3(space.local_box.high), 0.0F),
+            .box_begin = glm::vec4(glm::vec3(space.box.low), 0.0F),
+            .box_end = glm::vec4(glm::vec3(space.box.high), 0.0F),
+            .space_scale = glm::vec4(space.metres_per_unit, 0.0F),
+            .height_span = glm::vec4(space.lowest, space.range, 0.0, 0.0)};
 }
 
 // Texels of the lit map that a pixel facing the eye covers, a metre away.
@@ -87,7 +89,8 @@ float texels_per_metre_away(const Painting& painting, const view::ReliefDraw& dr
     return ray.x * std::max(texels_per_metre.x, texels_per_metre.y);
 }
 
-void set_relief(gl::Program& program, const Painting& painting, const view::ReliefDraw& draw) {
+Result<void> set_relief(gl::Program& program, const Painting& painting,
+                        const view::ReliefDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
     const ResidentRelief& relief = painting.residency.relief(draw);
     if (!painting.hits) {
@@ -97,12 +100,14 @@ void set_relief(gl::Program& program, const Painting& painting, const view::Reli
     set_heights(program, relief);
     set_space(program, painting.list.camera, relief.space, draw.world_from_local);
     if (has_beams(technique)) {
-        painting.beams.color().bind(5);
-        program.set_uniform("pixels_a_block", pixels_a_beam);
+        painting.beams.color().bind(bindings::clear_heights_unit);
     }
-    set_relief_options(program, technique, reference_height(technique));
-    program.set_uniform("texels_per_metre_away",
-                        texels_per_metre_away(painting, draw, relief.space));
+    program.set(uniforms.texels_per_metre_away,
+                texels_per_metre_away(painting, draw, relief.space));
+    if (auto set = painting.state.set(relief_block(relief.space)); !set) {
+        return set;
+    }
+    return painting.state.set(technique_block(technique, reference_height(technique)));
 }
 
 Result<void> paint_relief(const Painting& painting, const view::ReliefDraw& draw) {
@@ -120,7 +125,9 @@ Result<void> paint_relief(const Painting& painting, const view::ReliefDraw& draw
         return program.error();
     }
     state.set_wireframe(draw.terrain->material.wireframe);
-    set_relief(**program, painting, draw);
+    if (auto set = set_relief(**program, painting, draw); !set) {
+        return set;
+    }
     constexpr int box_vertices = 14; // relief.vert
     gl::draw_arrays(gl::Primitive::triangle_strip, 0, box_vertices);
     view::FrameStats& stats = state.stats();

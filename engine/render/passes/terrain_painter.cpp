@@ -4,6 +4,8 @@
 
 #include "engine/core/geometry.h"
 #include "engine/render/passes/ground_painter.h"
+#include "engine/render/shaders/bindings.h"
+#include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 
 namespace reljef::render {
@@ -14,9 +16,9 @@ bool is_warped(const scene::TerrainNode& terrain) {
 }
 
 void bind_ground(gl::Program& program, const ResidentGround& ground) {
-    ground.albedo.bind(7);
-    ground.surface.bind(8);
-    program.set_uniform("ground_from_sample", ground.ground_from_sample);
+    ground.albedo.bind(bindings::albedo_map_unit);
+    ground.surface.bind(bindings::ground_map_unit);
+    program.set(uniforms.ground_from_sample, ground.ground_from_sample);
 }
 
 // What a terrain's tiles share is set once for all that follow each other.
@@ -60,7 +62,9 @@ private:
     }
 
     [[nodiscard]] bool has_ground() const { return detail_ != view::DetailLevel::none; }
-    [[nodiscard]] unsigned lit_unit() const { return has_ground() ? 3U : 0U; }
+    [[nodiscard]] unsigned lit_unit() const {
+        return has_ground() ? bindings::ground_lit_map_unit : bindings::lit_map_unit;
+    }
 
     [[nodiscard]] bool is_set_for(const scene::TerrainNode& terrain,
                                   view::DetailLevel detail) const {
@@ -78,10 +82,10 @@ private:
         detail_ = detail;
         state_.set_wireframe(terrain.material.wireframe);
         if (has_ground()) {
-            set_ground(*program_, terrain, world_from_local, painting_.list.camera,
-                       painting_.list.size, painting_.residency.ground().tiles());
-        } else if (is_warped(terrain)) {
-            painting_.residency.warped(terrain).bind(4);
+            return set_ground(*program_, painting_, terrain, world_from_local);
+        }
+        if (is_warped(terrain)) {
+            painting_.residency.warped(terrain).bind(bindings::warped_places_unit);
         }
         return {};
     }
@@ -101,7 +105,7 @@ private:
         }
         const ResidentMaps& maps = painting_.residency.maps(terrain);
         maps.lit.bind(lit_unit());
-        program_->set_uniform("lit_from_sample", maps.lit_from_sample);
+        program_->set(uniforms.lit_from_sample, maps.lit_from_sample);
         if (has_ground()) {
             bind_ground(*program_, painting_.residency.ground().ground(terrain));
         }
@@ -111,15 +115,15 @@ private:
     void set_place(const glm::dmat4& world_from_local) {
         const SplitPoint eye =
             split_into_floats(local_eye(painting_.list.camera, world_from_local));
-        program_->set_uniform("eye", eye.rounded);
-        program_->set_uniform("eye_rest", eye.rest);
-        program_->set_uniform("world_from_local", glm::mat3(glm::dmat3(world_from_local)));
+        program_->set(uniforms.eye, eye.rounded);
+        program_->set(uniforms.eye_rest, eye.rest);
+        program_->set(uniforms.world_from_local, glm::mat3(glm::dmat3(world_from_local)));
     }
 
     void draw_samples(const view::TileDraw& draw) {
         const auto& tile = draw.terrain->surface->tiles()[static_cast<std::size_t>(draw.tile)];
         view::FrameStats& stats = state_.stats();
-        program_->set_uniform("tile_sample", glm::vec2(tile.col, tile.row));
+        program_->set(uniforms.tile_sample, glm::vec2(tile.col, tile.row));
         const std::size_t before = stats.triangles;
         for (const ResidentMesh& mesh : painting_.residency.tile(draw)) {
             state_.draw(mesh, gl::IndexType::uint16);
@@ -135,8 +139,8 @@ private:
     void draw_streamed(const view::StreamedDraw& draw) {
         const ResidentStreamed& resident = painting_.residency.streamed().tile(draw);
         if (painting_.hits) {
-            program_->set_uniform("tile_sample",
-                                  glm::vec2(draw.terrain->stream->maker().first(draw.tile->id)));
+            program_->set(uniforms.tile_sample,
+                          glm::vec2(draw.terrain->stream->maker().first(draw.tile->id)));
         } else {
             bind_maps(resident);
         }
@@ -147,8 +151,8 @@ private:
     // A streamed tile has maps of its own.
     void bind_maps(const ResidentStreamed& resident) {
         resident.lit->bind(lit_unit());
-        program_->set_uniform("tile_sample", glm::vec2(0.0F));
-        program_->set_uniform("lit_from_sample", resident.lit_from_sample);
+        program_->set(uniforms.tile_sample, glm::vec2(0.0F));
+        program_->set(uniforms.lit_from_sample, resident.lit_from_sample);
         if (has_ground()) {
             bind_ground(*program_, *resident.ground);
         }

@@ -3,34 +3,39 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/render/shaders/bindings.h"
+#include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/shader_library.h"
+#include "engine/render/shaders/uniforms.h"
+
 namespace reljef::render {
 
 void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSurface& surface) {
-    tile.color.bind(0);
-    surface.heights.bind(1);
+    tile.color.bind(bindings::color_map_unit);
+    surface.heights.bind(bindings::height_map_unit);
     if (surface.greatest) {
-        surface.greatest->bind(2);
-        program.set_uniform("top_level", surface.greatest->levels() - 1);
+        surface.greatest->bind(bindings::greatest_heights_unit);
+        program.set(uniforms.top_level, surface.greatest->levels() - 1);
     }
-    tile.normals.bind(4);
+    tile.normals.bind(bindings::normal_map_unit);
     if (surface.normals) {
-        surface.normals->along_u.bind(4);
-        surface.normals->along_v.bind(5);
+        surface.normals->along_u.bind(bindings::normal_map_unit);
+        surface.normals->along_v.bind(bindings::normal_map_v_unit);
     }
     if (surface.cones) {
-        surface.cones->bind(6);
+        surface.cones->bind(bindings::cone_map_unit);
     }
-    program.set_uniform("height_texel", 1.0F / glm::vec2(surface.heights.size()));
-    program.set_uniform("last_cell", surface.cells - 1);
-    program.set_uniform("rms_rise", surface.rms_rise);
+    program.set(uniforms.height_texel, 1.0F / glm::vec2(surface.heights.size()));
+    program.set(uniforms.last_cell, surface.cells - 1);
 }
 
-void set_tile_look(gl::Program& program, const material::TextureSet& set, float lift,
-                   float mesh_height) {
-    program.set_uniform("lift", std::max(lift, std::numeric_limits<float>::min()));
-    program.set_uniform("mesh_height", mesh_height);
-    program.set_uniform("normal_scale", set.scale);
-    program.set_uniform("shine", glm::vec2(set.specular, set.shininess));
+DetailBlock detail_block(const material::TextureSet& set, const ResidentSurface& surface,
+                         float lift, float mesh_height) {
+    DetailBlock block{};
+    block.detail_heights = {std::max(lift, std::numeric_limits<float>::min()), mesh_height,
+                            set.scale, 1.0F};
+    block.detail_look = {set.specular, set.shininess, surface.rms_rise.x, surface.rms_rise.y};
+    return block;
 }
 
 scene::Technique over_mesh(scene::Technique technique, float mesh_height) {

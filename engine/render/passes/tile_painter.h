@@ -3,6 +3,7 @@
 #include "engine/gl/program.h"
 #include "engine/material/texture_set.h"
 #include "engine/render/residency/resident_tile.h"
+#include "engine/render/shaders/uniform_blocks.h"
 #include "engine/scene/technique/technique.h"
 
 namespace reljef::render {
@@ -11,10 +12,11 @@ namespace reljef::render {
 /// relief_surface.glsl).
 void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSurface& surface);
 
-/// Sets how high and how it shines. `lift`: metres that a height of 1 lifts a point, > 0.
-/// `mesh_height`: of the heights in [0,1] as they are seen, where what carries the tile lies.
-void set_tile_look(gl::Program& program, const material::TextureSet& set, float lift,
-                   float mesh_height);
+/// How high a tile rises and how it shines, seen from the front. `lift`: metres that a height of 1
+/// lifts a point. `mesh_height`: of the heights in [0,1] as they are seen, where what carries the
+/// tile lies.
+DetailBlock detail_block(const material::TextureSet& set, const ResidentSurface& surface,
+                         float lift, float mesh_height);
 
 /// The same technique over what lies at that height: that is the reference plane of parallax.
 scene::Technique over_mesh(scene::Technique technique, float mesh_height);

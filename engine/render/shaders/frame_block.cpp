@@ -2,8 +2,26 @@
 
 #include "engine/render/shaders/view_values.h"
 #include "engine/view/error_view.h"
+#include "engine/view/ground_view.h"
 
 namespace reljef::render {
+namespace {
+
+void set_rays(FrameBlock& block, const view::DrawList& list) {
+    const auto direction_at = [&](glm::dvec2 pixel) {
+        return scene::view_ray(list.camera, list.size, pixel).direction;
+    };
+    const glm::dvec2 extent(list.size);
+    const glm::dvec3 corner = direction_at({0.0, extent.y});
+    const glm::dvec3 right = direction_at(extent);
+    const glm::dvec3 up = direction_at({0.0, 0.0});
+    block.ray_corner = glm::vec4(glm::vec3(corner), 0.0F);
+    block.ray_right = glm::vec4(glm::vec3(right - corner), 0.0F);
+    block.ray_up = glm::vec4(glm::vec3(up - corner), 0.0F);
+    block.ray_from_pixel = ray_from_pixel(list.camera, list.size);
+}
+
+} // namespace
 
 FrameBlock frame_block(const view::DrawList& list) {
     FrameBlock block{};
@@ -11,7 +29,10 @@ FrameBlock frame_block(const view::DrawList& list) {
                                          scene::view_from_world_rotation(list.camera));
     block.view_forward = glm::vec4(glm::vec3(scene::view_axes(list.camera).forward), 0.0F);
     block.vertex_grid = glm::vec4(glm::vec2(list.size) * (0.5F * view::vertex_steps), 0.0F, 0.0F);
-    block.ray_from_pixel = ray_from_pixel(list.camera, list.size);
+    block.projection =
+        glm::vec4(is_perspective(list.camera) ? 1.0F : 0.0F, static_cast<float>(list.camera.near),
+                  view::metres_a_pixel(list.camera, list.size));
+    set_rays(block, list);
     if (list.sun) {
         block.to_sun = glm::vec4(glm::vec3(scene::to_light(*list.sun)), 0.0F);
         block.sun_color = glm::vec4(list.sun->color, 0.0F);

@@ -137,19 +137,21 @@ double reference_height(const scene::Technique& technique) {
     return offset == nullptr ? 0.5 : -*offset;
 }
 
-void set_relief_options(gl::Program& program, const scene::Technique& technique, double reference) {
+TechniqueBlock technique_block(const scene::Technique& technique, double reference) {
     const scene::TechniqueOptions& options = technique.options;
-    program.set_uniform("search_values", search_of(technique).values);
+    TechniqueBlock block{};
+    block.search_values = search_of(technique).values;
     if (options.fade) {
-        program.set_uniform("fade_values", glm::vec4(options.fade->low, options.fade->high,
-                                                     options.fade->power, reference));
+        block.fade_values =
+            glm::vec4(options.fade->low, options.fade->high, options.fade->power, reference);
     }
     if (options.shadow) {
-        program.set_uniform("shadow_depth", static_cast<float>(options.shadow->depth));
+        block.option_values.x = static_cast<float>(options.shadow->depth);
     }
     if (options.smooth_edges) {
-        program.set_uniform("edge_distance", static_cast<float>(options.smooth_edges->distance));
+        block.option_values.y = static_cast<float>(options.smooth_edges->distance);
     }
+    return block;
 }
 
 } // namespace reljef::render

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "engine/gl/program.h"
+#include "engine/render/shaders/uniform_blocks.h"
 #include "engine/scene/technique/technique.h"
 
 namespace reljef::render {
@@ -15,9 +15,9 @@ std::uint32_t technique_features(const scene::Technique& technique);
 /// else the middle.
 double reference_height(const scene::Technique& technique);
 
-/// Sets the uniforms that say a relief's parameters and options. `reference` is the height in [0,1]
-/// that stays where it is when heights fade.
-void set_relief_options(gl::Program& program, const scene::Technique& technique, double reference);
+/// A relief's parameters and options. `reference` is the height in [0,1] that stays where it is
+/// when heights fade.
+TechniqueBlock technique_block(const scene::Technique& technique, double reference);
 
 /// Whether the rays of a terrain's relief begin where their beam may meet something (beams.h):
 /// those whose result does not hang on where they begin, and interval, whose steps are then

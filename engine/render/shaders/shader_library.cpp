@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/render/shaders/frame_block.h"
 
 namespace reljef::render {
 namespace {
@@ -136,6 +137,19 @@ private:
     gl::StageSource source_;
 };
 
+// Whether the program reads its blocks as they are written.
+Result<void> check_blocks(const gl::Program& program, std::string_view name) {
+    for (const BlockLayout& block : block_layouts) {
+        const int size = program.block_size(block.name);
+        if (size != 0 && static_cast<std::size_t>(size) != block.size) {
+            return Error{fmt::format("shader {}: uniform block {} of {} bytes found, {} were "
+                                     "expected",
+                                     name, block.name, size, block.size)};
+        }
+    }
+    return {};
+}
+
 Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& folder) {
     const std::string name(name_of(variant.kind));
     const std::string header = header_of(variant.features);
@@ -148,7 +162,14 @@ Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& 
         return fragment.error();
     }
     const std::array stages{std::move(*vertex), std::move(*fragment)};
-    return gl::Program::create(stages);
+    auto program = gl::Program::create(stages);
+    if (!program) {
+        return program;
+    }
+    if (auto good = check_blocks(*program, name); !good) {
+        return good.error();
+    }
+    return program;
 }
 
 } // namespace

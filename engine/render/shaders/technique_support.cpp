@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/render/shaders/bindings.h"
+
 namespace reljef::render {
 namespace {
 
@@ -32,18 +34,27 @@ bool uses_pyramid(scene::TechniqueId id) {
     return id == scene::TechniqueId::exact;
 }
 
-// One more than the highest binding in its shaders: relief*.glsl, tile_light.glsl, terrain.frag.
-int texture_units(scene::TechniqueId id, bool is_mesh) {
-    if (id == scene::TechniqueId::prewarp || id == scene::TechniqueId::cone) {
-        return is_mesh ? 7 : 5;
+// The highest that its shaders read: relief*.glsl, tile_light.glsl, terrain.frag.
+unsigned int last_texture_unit(scene::TechniqueId id, bool is_mesh) {
+    if (id == scene::TechniqueId::prewarp) {
+        return is_mesh ? bindings::warped_map_unit : bindings::warped_places_unit;
     }
-    if (scene::looks_for_layers(id) || (uses_pyramid(id) && !is_mesh)) {
-        return 6;
+    if (id == scene::TechniqueId::cone) {
+        return is_mesh ? bindings::cone_map_unit : bindings::relief_cone_map_unit;
+    }
+    if (scene::looks_for_layers(id)) {
+        return bindings::normal_map_v_unit;
     }
     if (is_mesh) {
-        return id == scene::TechniqueId::texture || id == scene::TechniqueId::polygons ? 2 : 5;
+        const bool is_plain =
+            id == scene::TechniqueId::texture || id == scene::TechniqueId::polygons;
+        return is_plain ? bindings::height_map_unit : bindings::normal_map_unit;
     }
-    return scene::geometry_of(id) == scene::Geometry::box ? 4 : 1;
+    if (uses_pyramid(id)) {
+        return bindings::clear_heights_unit;
+    }
+    return scene::geometry_of(id) == scene::Geometry::box ? bindings::sun_map_unit
+                                                          : bindings::lit_map_unit;
 }
 
 // Of the maps that hold the heights, which may not be made smaller. Triangles have none.
@@ -83,7 +94,7 @@ std::optional<std::string> lack_of(scene::TechniqueId id, const DrawnSurface& su
     if (version_of(limits.version) < shader_version) {
         return fmt::format("OpenGL {} found, 4.5 was expected", limits.version);
     }
-    const int units = texture_units(id, surface.is_mesh);
+    const int units = static_cast<int>(last_texture_unit(id, surface.is_mesh)) + 1;
     const int units_there = std::min(limits.max_texture_units, limits.max_fragment_texture_units);
     if (units > units_there) {
         return fmt::format("{} texture units found, {} were expected", units_there, units);

@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <glad/gl.h>
 
 #include "engine/render/shaders/frame_block.h"
+#include "engine/render/shaders/uniforms.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/support/temporary_folder.h"
 
@@ -38,13 +44,222 @@ std::vector<ShaderVariant> covering_variants() {
     return variants;
 }
 
-TEST_F(ShaderLibraryGlTest, EveryVariantCompilesAndLinks) {
-    ShaderLibrary shaders;
-    for (const ShaderVariant& variant : covering_variants()) {
-        const auto program = shaders.program(variant);
-        ASSERT_TRUE(program) << program.error().message;
-        EXPECT_NE((*program)->id(), 0U);
+// What the driver says of a uniform. In a block: its offset; a sampler: its unit.
+struct ActiveUniform {
+    gl::UniformDeclaration declaration;
+    std::optional<int> offset;
+    std::optional<int> unit;
+};
+
+struct ActiveBlock {
+    std::string name;
+    int size = 0;
+    int binding = 0;
+};
+
+struct CompiledVariant {
+    std::string name;
+    std::map<std::string, ActiveUniform> uniforms;
+    std::vector<ActiveBlock> blocks;
+};
+
+std::string_view glsl_type(GLint type) {
+    switch (type) {
+    case GL_INT:
+        return "int";
+    case GL_FLOAT:
+        return "float";
+    case GL_INT_VEC2:
+        return "ivec2";
+    case GL_FLOAT_VEC2:
+        return "vec2";
+    case GL_FLOAT_VEC3:
+        return "vec3";
+    case GL_FLOAT_VEC4:
+        return "vec4";
+    case GL_FLOAT_MAT3:
+        return "mat3";
+    case GL_FLOAT_MAT4:
+        return "mat4";
+    case GL_SAMPLER_2D:
+        return "sampler2D";
+    default:
+        return "a type that no uniform has";
     }
+}
+
+std::string resource_name(GLuint program, GLenum interface, GLuint index) {
+    std::array<GLchar, 256> name{};
+    glGetProgramResourceName(program, interface, index, static_cast<GLsizei>(name.size()), nullptr,
+                             name.data());
+    return name.data();
+}
+
+template <std::size_t N>
+std::array<GLint, N> properties_of(GLuint program, GLenum interface, GLuint index,
+                                   const std::array<GLenum, N>& asked) {
+    std::array<GLint, N> found{};
+    glGetProgramResourceiv(program, interface, index, static_cast<GLsizei>(N), asked.data(),
+                           static_cast<GLsizei>(N), nullptr, found.data());
+    return found;
+}
+
+GLuint count_of(GLuint program, GLenum interface) {
+    GLint count = 0;
+    glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &count);
+    return static_cast<GLuint>(count);
+}
+
+CompiledVariant inspect(const gl::Program& program, std::string name) {
+    CompiledVariant variant{std::move(name), {}, {}};
+    const GLuint id = program.id();
+    for (GLuint i = 0; i < count_of(id, GL_UNIFORM); ++i) {
+        const auto [type, location, block, offset] =
+            properties_of(id, GL_UNIFORM, i,
+                          std::array<GLenum, 4>{GL_TYPE, GL_LOCATION, GL_BLOCK_INDEX, GL_OFFSET});
+        const std::string uniform_name = resource_name(id, GL_UNIFORM, i);
+        ActiveUniform& uniform = variant.uniforms[uniform_name];
+        uniform.declaration.type = glsl_type(type);
+        if (block >= 0) {
+            uniform.offset = offset;
+        } else if (type == GL_SAMPLER_2D) {
+            GLint unit = -1;
+            glGetUniformiv(id, location, &unit);
+            uniform.unit = unit;
+        }
+    }
+    for (GLuint i = 0; i < count_of(id, GL_UNIFORM_BLOCK); ++i) {
+        const auto [size, binding] = properties_of(
+            id, GL_UNIFORM_BLOCK, i, std::array<GLenum, 2>{GL_BUFFER_DATA_SIZE, GL_BUFFER_BINDING});
+        variant.blocks.push_back({resource_name(id, GL_UNIFORM_BLOCK, i), size, binding});
+    }
+    return variant;
+}
+
+// Compiled once for all tests of this process. Empty where a variant does not compile.
+const std::vector<CompiledVariant>& compiled_variants() {
+    static const std::vector<CompiledVariant> all = [] {
+        ShaderLibrary shaders;
+        std::vector<CompiledVariant> made;
+        for (const ShaderVariant& variant : covering_variants()) {
+            const auto program = shaders.program(variant);
+            if (!program) {
+                ADD_FAILURE() << program.error().message;
+                return std::vector<CompiledVariant>();
+            }
+            made.push_back(
+                inspect(**program, fmt::format("kind {}, features {:#x}",
+                                               static_cast<int>(variant.kind), variant.features)));
+        }
+        return made;
+    }();
+    return all;
+}
+
+// Offset of each member of shaders/frame/FILE, where all are vec4 and mat4.
+std::map<std::string, int> member_offsets(std::string_view file) {
+    const auto shaders = embedded_shaders();
+    const auto found = std::find_if(shaders.begin(), shaders.end(),
+                                    [&](const EmbeddedShader& s) { return s.name == file; });
+    const std::string text(found == shaders.end() ? "" : found->text);
+    static const std::regex member(R"((vec4|mat4) (\w+);)");
+    std::map<std::string, int> offsets;
+    int offset = 0;
+    for (std::sregex_iterator match(text.begin(), text.end(), member), end; match != end; ++match) {
+        offsets[match->str(2)] = offset;
+        offset += match->str(1) == "mat4" ? 64 : 16;
+    }
+    return offsets;
+}
+
+TEST_F(ShaderLibraryGlTest, EveryVariantCompilesAndLinks) {
+    EXPECT_GT(compiled_variants().size(), 100U);
+}
+
+TEST_F(ShaderLibraryGlTest, EveryUniformOutsideBlocksIsDeclaredWithItsType) {
+    const auto declared = declared_uniforms();
+    for (const CompiledVariant& variant : compiled_variants()) {
+        for (const auto& [name, uniform] : variant.uniforms) {
+            if (uniform.offset || uniform.unit) {
+                continue;
+            }
+            const gl::UniformDeclaration active{name, uniform.declaration.type};
+            EXPECT_THAT(declared, testing::Contains(active))
+                << active.type << ' ' << name << " of " << variant.name;
+        }
+    }
+}
+
+TEST_F(ShaderLibraryGlTest, EveryDeclaredUniformIsInAShader) {
+    std::set<gl::UniformDeclaration> names;
+    for (const gl::UniformDeclaration& declared : declared_uniforms()) {
+        EXPECT_TRUE(names.insert(declared).second) << declared.name << " is declared twice";
+        const auto& variants = compiled_variants();
+        EXPECT_TRUE(std::any_of(variants.begin(), variants.end(),
+                                [&](const auto& variant) {
+                                    const auto found =
+                                        variant.uniforms.find(std::string(declared.name));
+                                    return found != variant.uniforms.end() &&
+                                           !found->second.offset &&
+                                           found->second.declaration.type == declared.type;
+                                }))
+            << declared.type << ' ' << declared.name;
+    }
+}
+
+TEST_F(ShaderLibraryGlTest, MapsOfOneProgramHaveUnitsOfTheirOwn) {
+    for (const CompiledVariant& variant : compiled_variants()) {
+        std::map<int, std::string> names;
+        for (const auto& [name, uniform] : variant.uniforms) {
+            if (uniform.unit) {
+                const auto [other, is_new] = names.emplace(*uniform.unit, name);
+                EXPECT_TRUE(is_new) << name << " and " << other->second << " of " << variant.name;
+            }
+        }
+    }
+}
+
+TEST_F(ShaderLibraryGlTest, BlocksLieAsTheDriverSays) {
+    const std::map<std::string_view, std::map<std::string, int>> offsets{
+        {"FrameBlock", member_offsets("frame/frame_block.inc")},
+        {"TechniqueBlock", member_offsets("frame/technique_block.inc")},
+        {"ReliefBlock", member_offsets("frame/relief_block.inc")},
+        {"DetailBlock", member_offsets("frame/detail_block.inc")}};
+    std::set<std::string_view> seen;
+    for (const CompiledVariant& variant : compiled_variants()) {
+        std::map<std::string, int> expected;
+        for (const ActiveBlock& block : variant.blocks) {
+            const auto layout =
+                std::find_if(block_layouts.begin(), block_layouts.end(),
+                             [&](const BlockLayout& known) { return known.name == block.name; });
+            ASSERT_NE(layout, block_layouts.end()) << block.name;
+            EXPECT_EQ(block.size, static_cast<int>(layout->size)) << block.name;
+            EXPECT_EQ(block.binding, static_cast<int>(layout->binding)) << block.name;
+            const auto& members = offsets.at(layout->name);
+            expected.insert(members.begin(), members.end());
+            seen.insert(layout->name);
+        }
+        std::map<std::string, int> found;
+        for (const auto& [name, uniform] : variant.uniforms) {
+            if (uniform.offset) {
+                found[name] = *uniform.offset;
+            }
+        }
+        EXPECT_EQ(found, expected) << variant.name;
+    }
+    EXPECT_EQ(seen.size(), block_layouts.size());
+}
+
+TEST_F(ShaderLibraryGlTest, ABlockOfAnotherSizeIsAnError) {
+    const test::TemporaryFolder folder;
+    folder.write("frame/technique_block.inc",
+                 "vec4 search_values, fade_values, option_values, more;\n");
+    ShaderLibrary shaders(folder.path());
+    const auto failed = shaders.program({ShaderKind::relief, feature_bisect});
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message,
+                AllOf(HasSubstr("relief/relief"), HasSubstr("TechniqueBlock"),
+                      HasSubstr("64 bytes"), HasSubstr("48")));
 }
 
 TEST_F(ShaderLibraryGlTest, CompilesAVariantOnce) {
@@ -53,38 +268,6 @@ TEST_F(ShaderLibraryGlTest, CompilesAVariantOnce) {
     EXPECT_EQ(test::must(shaders.program({ShaderKind::sky, feature_lit | feature_fog})), first)
         << "fog means nothing to the sky";
     EXPECT_NE(test::must(shaders.program({ShaderKind::sky, 0})), first);
-}
-
-struct Member {
-    const char* name;
-    std::size_t offset;
-};
-
-TEST_F(ShaderLibraryGlTest, TheFrameBlockLiesAsTheDriverSays) {
-    ShaderLibrary shaders;
-    const std::array members{Member{"clip_from_relative", offsetof(FrameBlock, clip_from_relative)},
-                             Member{"view_forward", offsetof(FrameBlock, view_forward)},
-                             Member{"to_sun", offsetof(FrameBlock, to_sun)},
-                             Member{"sun_color", offsetof(FrameBlock, sun_color)},
-                             Member{"ambient_color", offsetof(FrameBlock, ambient_color)},
-                             Member{"sky_zenith", offsetof(FrameBlock, sky_zenith)},
-                             Member{"sky_horizon", offsetof(FrameBlock, sky_horizon)},
-                             Member{"ray_from_pixel", offsetof(FrameBlock, ray_from_pixel)}};
-    for (const ShaderVariant& variant : covering_variants()) {
-        if (variant.kind == ShaderKind::beams) {
-            continue; // has its own rays
-        }
-        const gl::Program& program = *test::must(shaders.program(variant));
-        EXPECT_EQ(program.block_size("FrameBlock"), static_cast<int>(sizeof(FrameBlock)));
-        for (const Member& member : members) {
-            GLuint index = GL_INVALID_INDEX;
-            glGetUniformIndices(program.id(), 1, &member.name, &index);
-            ASSERT_NE(index, GL_INVALID_INDEX) << member.name;
-            GLint offset = -1;
-            glGetActiveUniformsiv(program.id(), 1, &index, GL_UNIFORM_OFFSET, &offset);
-            EXPECT_EQ(offset, static_cast<GLint>(member.offset)) << member.name;
-        }
-    }
 }
 
 TEST_F(ShaderLibraryGlTest, AFileInTheFolderComesBeforeTheEmbeddedOne) {

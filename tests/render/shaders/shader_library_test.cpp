@@ -1,7 +1,9 @@
 #include "engine/render/shaders/shader_library.h"
 
 #include <algorithm>
+#include <regex>
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +103,26 @@ TEST(EmbeddedShaders, HaveNamesAndTexts) {
     }
     EXPECT_TRUE(names.contains("terrain/terrain.vert"));
     EXPECT_TRUE(names.contains("frame/frame_block.inc"));
+}
+
+TEST(EmbeddedShaders, NameTheBindingsOfAllBlocksAndMaps) {
+    static const std::regex constant(R"(const u?int (\w+) =)");
+    static const std::regex literal(R"(binding\s*=\s*\d)");
+    static const std::regex map(R"((.*)uniform sampler2D (\w+))");
+    std::string bindings;
+    std::string others;
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+        (shader.name == "frame/bindings.inc" ? bindings : others) += shader.text;
+    }
+    EXPECT_FALSE(std::regex_search(others, literal));
+    for (std::sregex_iterator match(others.begin(), others.end(), map), end; match != end;
+         ++match) {
+        EXPECT_NE(match->str(1).find("_unit)"), std::string::npos) << match->str();
+    }
+    for (std::sregex_iterator match(bindings.begin(), bindings.end(), constant), end; match != end;
+         ++match) {
+        EXPECT_NE(others.find(match->str(1)), std::string::npos) << match->str(1);
+    }
 }
 
 } // namespace

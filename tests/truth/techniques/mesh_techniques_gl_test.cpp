@@ -423,7 +423,8 @@ TEST_F(MeshTechniquesGlTest, AMeshOfOneColourNeitherLooksForASurfaceNorUploadsAT
     panel.detail().set = nullptr;
     session::SceneRenderer other = test::must(test::make_renderer(mesh_picture));
     const auto without = test::must(other.draw(panel.scene));
-    EXPECT_EQ(without.uploads, with_tile.uploads - 4); // colour, heights, normals, pyramid
+    EXPECT_EQ(without.uploads, with_tile.uploads - 6)
+        << "colour, heights, normals, pyramid; the blocks of technique and tile";
     EXPECT_EQ(without.upload_bytes, sizeof(float) * (4U * 6U + 6U) + sizeof(render::FrameBlock));
 }
 

@@ -1,0 +1,34 @@
+#include "engine/render/residency/block_buffers.h"
+
+#include <cstring>
+#include <utility>
+
+#include "engine/render/residency/resident_mesh.h"
+
+namespace reljef::render {
+
+void BlockBuffers::begin_frame() {
+    std::erase_if(buffers_, [](const auto& entry) { return !entry.second.in_use; });
+    for (auto& [content, entry] : buffers_) {
+        entry.in_use = false;
+    }
+}
+
+Result<const gl::Buffer*> BlockBuffers::buffer(std::span<const std::byte> content,
+                                               view::FrameStats& stats) {
+    std::string key(content.size(), '\0');
+    std::memcpy(key.data(), content.data(), content.size());
+    const auto found = buffers_.find(key);
+    if (found != buffers_.end()) {
+        found->second.in_use = true;
+        return &found->second.buffer;
+    }
+    auto made = gl::Buffer::create(content);
+    if (!made) {
+        return made.error();
+    }
+    count_upload(stats, content.size());
+    return &buffers_.emplace(std::move(key), Entry{std::move(*made)}).first->second.buffer;
+}
+
+} // namespace reljef::render

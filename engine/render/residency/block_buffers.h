@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/gl/buffer.h"
+#include "engine/view/frame_stats.h"
+
+namespace reljef::render {
+
+/// A buffer for each content of uniform blocks that frames ask for. None is ever rewritten: where
+/// draws still read a buffer, some drivers would wait for them or copy it. Needs a current context;
+/// destroy while it is current.
+class BlockBuffers {
+public:
+    /// Drops the buffers that the last frame did not ask for.
+    void begin_frame();
+
+    /// The buffer that holds these bytes, made when first asked for. Valid for the frame. Fails
+    /// when the driver has no memory. Precondition: not empty.
+    Result<const gl::Buffer*> buffer(std::span<const std::byte> content, view::FrameStats& stats);
+
+    [[nodiscard]] std::size_t count() const { return buffers_.size(); }
+
+private:
+    struct Entry {
+        gl::Buffer buffer;
+        bool in_use = true; // by this frame
+    };
+    std::map<std::string, Entry> buffers_; // by their bytes
+};
+
+} // namespace reljef::render

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/gl/program.h"
+
+namespace reljef::render {
+
+/// All uniforms outside blocks: what changes from draw to draw. A name has one type in all shaders,
+/// which say what it means.
+struct Uniforms {
+    // A tile of a terrain: terrain.vert, terrain.frag.
+    gl::Uniform<glm::vec3> eye{"eye"};
+    gl::Uniform<glm::vec3> eye_rest{"eye_rest"};
+    gl::Uniform<glm::mat3> world_from_local{"world_from_local"};
+    gl::Uniform<glm::vec2> tile_sample{"tile_sample"};
+    gl::Uniform<glm::vec4> lit_from_sample{"lit_from_sample"}; // relief.frag too
+    // With a detail texture: ground.glsl, ground_color.glsl.
+    gl::Uniform<glm::vec4> ground_from_sample{"ground_from_sample"};
+    gl::Uniform<glm::vec3> tiles_at_eye{"tiles_at_eye"};
+
+    // A mesh: mesh.vert, tile_vertex.glsl, relief_hull.vert; the first of a relief's box too.
+    gl::Uniform<glm::mat4> relative_from_local{"relative_from_local"};
+    gl::Uniform<glm::mat3> world_from_normal{"world_from_normal"};
+    gl::Uniform<glm::vec3> albedo{"albedo"};
+    // With a detail texture: tile_surface.glsl, textured_mesh.frag, hull.glsl.
+    gl::Uniform<glm::mat3> local_from_relative{"local_from_relative"};
+    gl::Uniform<glm::vec4> warp_from_tile{"warp_from_tile"};
+    gl::Uniform<glm::vec4> coordinate_range{"coordinate_range"};
+
+    // Heights in a texture: relief_surface.glsl, relief_walk.glsl.
+    gl::Uniform<glm::vec2> height_texel{"height_texel"};
+    gl::Uniform<glm::ivec2> last_cell{"last_cell"};
+    gl::Uniform<int> top_level{"top_level"};
+
+    // A terrain's relief: relief.frag.
+    gl::Uniform<glm::mat3> space_from_relative{"space_from_relative"};
+    gl::Uniform<glm::vec3> eye_in_space{"eye_in_space"};
+    gl::Uniform<float> texels_per_metre_away{"texels_per_metre_away"};
+
+    // Its beams: beams.frag.
+    gl::Uniform<glm::mat3> origin_of_ray{"origin_of_ray"};
+    gl::Uniform<glm::mat3> direction_of_ray{"direction_of_ray"};
+    gl::Uniform<float> begin_height{"begin_height"};
+    gl::Uniform<float> beam_lift{"beam_lift"};
+};
+inline constexpr Uniforms uniforms;
+
+inline constexpr std::size_t uniform_count = sizeof(Uniforms) / sizeof(gl::UniformDeclaration);
+
+/// The same as a list. All members are declarations, and nothing but these.
+inline std::array<gl::UniformDeclaration, uniform_count> declared_uniforms() {
+    static_assert(sizeof(gl::Uniform<float>) == sizeof(gl::UniformDeclaration));
+    return std::bit_cast<std::array<gl::UniformDeclaration, uniform_count>>(uniforms);
+}
+
+} // namespace reljef::render
