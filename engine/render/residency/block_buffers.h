@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <span>
-#include <vector>
+#include <string>
 
 #include "engine/core/result.h"
 #include "engine/gl/buffer.h"
@@ -30,7 +31,7 @@ private:
         gl::Buffer buffer;
         bool in_use = true; // by this frame
     };
-    std::map<std::vector<std::byte>, Entry> buffers_;
+    std::map<std::string, Entry, std::less<>> buffers_; // by the bytes
 };
 
 } // namespace reljef::render
