@@ -1,6 +1,6 @@
 #include "engine/render/residency/block_buffers.h"
 
-#include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "engine/render/residency/resident_mesh.h"
@@ -16,8 +16,7 @@ void BlockBuffers::begin_frame() {
 
 Result<const gl::Buffer*> BlockBuffers::buffer(std::span<const std::byte> content,
                                                view::FrameStats& stats) {
-    std::string key(content.size(), '\0');
-    std::memcpy(key.data(), content.data(), content.size());
+    const std::string_view key(reinterpret_cast<const char*>(content.data()), content.size());
     const auto found = buffers_.find(key);
     if (found != buffers_.end()) {
         found->second.in_use = true;
@@ -28,7 +27,7 @@ Result<const gl::Buffer*> BlockBuffers::buffer(std::span<const std::byte> conten
         return made.error();
     }
     count_upload(stats, content.size());
-    return &buffers_.emplace(std::move(key), Entry{std::move(*made)}).first->second.buffer;
+    return &buffers_.emplace(key, Entry{std::move(*made)}).first->second.buffer;
 }
 
 } // namespace reljef::render

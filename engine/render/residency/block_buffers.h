@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -30,7 +31,7 @@ private:
         gl::Buffer buffer;
         bool in_use = true; // by this frame
     };
-    std::map<std::string, Entry> buffers_; // by their bytes
+    std::map<std::string, Entry, std::less<>> buffers_; // by the bytes
 };
 
 } // namespace reljef::render
