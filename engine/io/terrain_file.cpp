@@ -88,24 +88,28 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
         return good.error();
     }
     GdalMessages messages;
-    auto dataset = open_whole_raster(path, messages);
-    if (!dataset) {
-        return dataset.error();
+    auto raster = open_whole_raster(path, messages);
+    if (!raster) {
+        return raster.error();
     }
+    GDALDataset& dataset = *raster->dataset;
     terrain::Terrain terrain;
     terrain.name = path.filename().string();
-    const auto plan = plan_reading(**dataset, name, options, terrain.notes);
+    if (raster->mixed_overviews.value_or(false)) {
+        terrain.notes.emplace_back(mixed_overviews_note);
+    }
+    const auto plan = plan_reading(dataset, name, options, terrain.notes);
     if (!plan) {
         return plan.error();
     }
-    auto place = place_of(**dataset, plan->grid, name, options, terrain.notes);
+    auto place = place_of(dataset, plan->grid, name, options, terrain.notes);
     if (!place) {
         return place.error();
     }
     note_messages(messages, terrain.notes);
     RasterOptions reading = options;
     reading.progress = part(options.progress, 0.0, options.imagery.empty() ? 1.0 : 0.5);
-    auto samples = samples_with_heights(**dataset, *plan, name, reading, messages, terrain.notes);
+    auto samples = samples_with_heights(dataset, *plan, name, reading, messages, terrain.notes);
     if (!samples) {
         return samples.error();
     }
@@ -116,7 +120,7 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
     }
     if (!options.imagery.empty()) {
         reading.progress = part(options.progress, 0.5, 1.0);
-        auto color = read_imagery(**dataset, *place, reading, terrain.notes, terrain.faults);
+        auto color = read_imagery(dataset, *place, reading, terrain.notes, terrain.faults);
         if (!color) {
             return color.error();
         }

@@ -277,7 +277,9 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
                                        part.high.x - part.low.x, part.high.y - part.low.y};
     TileValues result;
     result.plan = plan_window(**dataset, window, std::max(1, reduction / taps_a_side));
-    auto values = read_heights(**dataset, result.plan, path.string(), reading.options, messages);
+    std::vector<std::string> found;
+    auto values =
+        read_heights(**dataset, result.plan, path.string(), reading.options, messages, found);
     if (!values) {
         if (!reading.options.stop.stop_requested() && !is_tile_pyramid(path)) {
             dataset->spoil();
@@ -288,6 +290,9 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
         return values.error();
     }
     reading.failing->forget(path);
+    for (const std::string& words : found) {
+        reading.new_notes->add(path, words);
+    }
     result.values = std::move(*values);
     // Blocks come whole, however few of their samples are of use.
     const auto passed_over = static_cast<std::size_t>(result.plan.reduction);

@@ -91,7 +91,7 @@ struct TileReading {
     std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
     DatasetPool* pool = nullptr;                    ///< where the files are open
     FailingFiles* failing = nullptr;                ///< on servers
-    NewNotes* new_notes = nullptr;                  ///< on files that were replaced
+    NewNotes* new_notes = nullptr;                  ///< on files: replaced, or with voids
 };
 
 /// The averages of a layer's samples over cells, of the newest tile where there are several; NaN

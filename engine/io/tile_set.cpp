@@ -216,6 +216,18 @@ TileReading TileSet::State::reading(const std::stop_token& stop) const {
     return reading;
 }
 
+Result<Dataset> TileSet::State::open_raster_of_set(const std::filesystem::path& path,
+                                                   const GdalMessages& messages) const {
+    auto raster = whole.open(path, messages);
+    if (!raster) {
+        return raster.error();
+    }
+    if (raster->mixed_overviews.value_or(false)) {
+        new_notes.add(path, mixed_overviews_note);
+    }
+    return std::move(raster->dataset);
+}
+
 Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOptions& options) {
     auto state = std::make_shared<State>();
     state->name = path.string();

@@ -34,12 +34,15 @@ struct TileSet::State {
     mutable WholeRasters whole;
     mutable DatasetPool pool{
         [this](const std::filesystem::path& path, const GdalMessages& messages) {
-            return whole.open(path, messages);
+            return open_raster_of_set(path, messages);
         }};
     mutable FailingFiles failing; ///< what a server does not give is not asked for by every tile
     mutable NewNotes new_notes;
 
     [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
+    /// With a note where its overviews are of no use.
+    [[nodiscard]] Result<Dataset> open_raster_of_set(const std::filesystem::path& path,
+                                                     const GdalMessages& messages) const;
 };
 
 /// Of the samples of a grid.

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/mixed_overviews.h"
 
 namespace reljef::io {
 namespace {
@@ -153,6 +154,13 @@ std::optional<std::string> missing_overviews(const TileSet& tiles) {
             continue;
         }
         const auto dataset = open_raster(file.path, messages);
+        if (dataset && overviews_mix_voids(**dataset, file.path).value_or(false)) {
+            return fmt::format("{0}: its overviews are averages of heights and of voids that it "
+                               "does not declare, so that views from afar take long; "
+                               "'gdal_edit.py -a_nodata VALUE {0}' and then 'gdaladdo -r average "
+                               "{0} 4 16 64 256' make them anew",
+                               file.path.string());
+        }
         if (dataset && (*dataset)->GetRasterBand(1)->GetOverviewCount() == 0) {
             return fmt::format("{0}: {1}×{2} samples without overviews, so that views from afar "
                                "take long; 'gdaladdo -r average {0} 4 16 64 256' adds them, "

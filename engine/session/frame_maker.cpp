@@ -61,6 +61,20 @@ std::string streams_text(std::span<const scene::TileStreamStats> streams) {
     return text;
 }
 
+// Above what is there once it is there. Returns by how many metres.
+double raise(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop, int most) {
+    double raised = 0.0;
+    for (int i = 0; i < most; ++i) {
+        maker.wait_for_tiles(scene.scene, stop);
+        const double rise = keep_above_ground(scene);
+        if (rise == 0.0) {
+            break;
+        }
+        raised += rise;
+    }
+    return raised;
+}
+
 std::string times_text(const FrameTimes& times) {
     const Summary drawing = summarize(times.drawing_ms);
     const Summary waiting = summarize(times.waiting_ms);
@@ -188,18 +202,24 @@ std::string TruthFrames::stats() const {
 }
 
 double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
-                        FrameMaker& maker, const std::stop_token& stop) {
+                        FrameMaker& maker, const std::stop_token& stop, Underground underground) {
     fly_to(scene, path, index, frames);
-    double raised = 0.0;
-    for (int i = 0; i < most_rises; ++i) {
-        maker.wait_for_tiles(scene.scene, stop);
-        const double rise = keep_above_ground(scene);
-        if (rise == 0.0) {
-            break;
-        }
-        raised += rise;
+    return underground == Underground::allowed ? 0.0 : raise(scene, maker, stop, most_rises);
+}
+
+Lift stand_above_ground(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop,
+                        Underground underground) {
+    if (underground == Underground::allowed) {
+        return {};
     }
-    return raised;
+    maker.wait_for_tiles(scene.scene, stop);
+    const glm::dvec3 eye = scene.scene.camera().eye;
+    Lift lift = lift_camera(scene);
+    if (lift) {
+        lift.metres += raise(scene, maker, stop, most_rises - 1);
+        lift.way = scene.scene.camera().eye - eye;
+    }
+    return lift;
 }
 
 } // namespace reljef::session

@@ -13,6 +13,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/device.h"
+#include "engine/session/ground.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_setup.h"
 #include "engine/truth/draw.h"
@@ -91,9 +92,18 @@ private:
     double draw_ms_ = 0.0;
 };
 
+/// What becomes of cameras below the ground.
+enum class Underground { lifted, allowed };
+
 /// As fly_to, above the ground that the frame shows (see keep_above_ground in ground.h): waits for
-/// it before. Returns by how many metres the camera was raised.
+/// it before. Returns by how many metres the camera was raised; 0 where it may be underground.
 double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
-                        FrameMaker& maker, const std::stop_token& stop);
+                        FrameMaker& maker, const std::stop_token& stop,
+                        Underground underground = Underground::lifted);
+
+/// Lifts a camera that stands still and is below the ground that its view shows (see lift_camera in
+/// ground.h): waits for that ground before, and for what the lifted camera shows.
+Lift stand_above_ground(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop,
+                        Underground underground = Underground::lifted);
 
 } // namespace reljef::session

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -59,6 +60,16 @@ Around heights_around(const scene::TerrainNode& terrain, glm::dvec2 sample) {
 double highest_at(const scene::TerrainNode& terrain, glm::dvec2 sample) {
     const Around there = heights_around(terrain, sample);
     return highest_of(there.heights, there.place);
+}
+
+// From a place up to a height along its own vertical: at the same latitude and longitude.
+glm::dvec3 way_up(const terrain::Placement& placement, glm::dvec3 sample, double height) {
+    return placement.world_from_sample({sample.x, sample.y, height}) -
+           placement.world_from_sample(sample);
+}
+
+std::string metres_text(double metres) {
+    return metres < 10.0 ? fmt::format("{:.2g}", metres) : fmt::format("{:.1f}", metres);
 }
 
 constexpr double largest_share = 0.25; // of the height above the ground, for a step along a ray
@@ -182,10 +193,62 @@ double keep_above_ground(TerrainScene& scene) {
     if (!(sample->z < least)) {
         return 0.0;
     }
-    const glm::dvec3 rise = placement.world_from_sample({sample->x, sample->y, least}) - camera.eye;
+    const glm::dvec3 rise = way_up(placement, *sample, least);
     camera.eye += rise;
     camera.look += rise;
     return glm::length(rise);
+}
+
+Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance) {
+    const scene::TerrainSurface& surface = *terrain.surface;
+    const auto sample = sample_of(surface, eye);
+    if (!sample || terrain::touches_void(surface.heightfield(), glm::dvec2(*sample))) {
+        return {};
+    }
+    const double exaggeration = surface.placement().exaggeration();
+    const Around there = heights_around(terrain, glm::dvec2(*sample));
+    const double ground = terrain::bilinear_height(there.heights, there.place);
+    const double depth = exaggeration * (ground - sample->z);
+    if (!(depth > on_ground && std::isfinite(depth))) {
+        return {};
+    }
+    const double highest = highest_of(there.heights, there.place);
+    Lift lift;
+    lift.depth = depth;
+    lift.way = way_up(surface.placement(), *sample, highest + clearance / exaggeration);
+    lift.metres = glm::length(lift.way);
+    return lift;
+}
+
+Lift lift_camera(TerrainScene& scene) {
+    auto& camera = *scene.camera->get<scene::Camera>();
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        return {};
+    }
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const Lift lift = lift_of(terrain, camera.eye, least_clearance(scene));
+    camera.eye += lift.way;
+    camera.look += lift.way;
+    return lift;
+}
+
+Lift lift_keys(const TerrainScene& scene, std::span<scene::FlyKey> keys) {
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const double clearance = least_clearance(scene);
+    Lift deepest;
+    for (scene::FlyKey& key : keys) {
+        const Lift lift = lift_of(terrain, key.eye, clearance);
+        key.eye += lift.way;
+        key.look += lift.way;
+        deepest = lift.depth > deepest.depth ? lift : deepest;
+    }
+    return deepest;
+}
+
+std::string lift_note(const Lift& lift, std::string_view what) {
+    return fmt::format("{}: {} m below the ground: lifted to {} m above it; "
+                       "--allow-underground keeps it",
+                       what, metres_text(lift.depth), metres_text(lift.metres - lift.depth));
 }
 
 } // namespace reljef::session

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "engine/scene/motion/free_flight.h"
 #include "engine/session/scene_setup.h"
@@ -26,5 +29,34 @@ double least_clearance(const TerrainScene& scene);
 /// Raises the camera, and what it looks at, along the place's own vertical to the least clearance.
 /// Returns by how many metres; 0 where it stays, and beside the terrain.
 double keep_above_ground(TerrainScene& scene);
+
+/// How a camera that stands below the ground comes to stand above it. Scene metres along the
+/// place's own vertical, the exaggeration included.
+struct Lift {
+    double depth = 0.0;  ///< below the ground
+    double metres = 0.0; ///< from there up; 0: the camera stays
+    glm::dvec3 way{0.0}; ///< the same as a step in the scene, for the eye and what it looks at
+    explicit operator bool() const { return metres > 0.0; }
+};
+
+/// An eye less than this below the ground stands on it: what coordinates lose by rounding, metres.
+inline constexpr double on_ground = 1e-3;
+
+/// Lifts an eye below the ground to at least `clearance` metres above all that may be drawn there,
+/// along its own vertical. An eye on or above the ground, beside the terrain, or over a void stays.
+/// The ground is that of the finest tile that is there, and of the overview before.
+Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance);
+
+/// Lifts the scene's camera, with what it looks at, by the ground that is there. A map (an
+/// orthographic camera) stays.
+Lift lift_camera(TerrainScene& scene);
+
+/// Lifts those keys of a path that are below the ground, each with what it looks at. Returns the
+/// deepest one's; none where all stay.
+Lift lift_keys(const TerrainScene& scene, std::span<scene::FlyKey> keys);
+
+/// What to tell of a lift: "--eye: 12.3 m below the ground: lifted to 0.5 m above it;
+/// --allow-underground keeps it". `what` names the option, or the file with its key.
+std::string lift_note(const Lift& lift, std::string_view what);
 
 } // namespace reljef::session

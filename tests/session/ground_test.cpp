@@ -96,6 +96,41 @@ TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
     EXPECT_TRUE(frame.requests.front().missing.empty());
 }
 
+TEST_F(StreamedCanyon, ACameraInTheFineCanyonStaysWhereTheOverviewHasRock) {
+    for (const auto placement :
+         {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        session::TerrainScene scene = scene_of(placement);
+        auto& camera = *scene.camera->get<scene::Camera>();
+        camera.eye = {0.0, -300.0, 5.0};
+        camera.look = {0.0, 0.0, 5.0};
+        const scene::Camera before = camera;
+        TilesOnly maker;
+        EXPECT_FALSE(session::stand_above_ground(scene, maker, {}));
+        EXPECT_EQ(camera, before);
+    }
+}
+
+TEST_F(StreamedCanyon, ACameraUnderThePlateauIsLiftedUnlessItMayBeThere) {
+    session::TerrainScene scene = scene_of();
+    auto& camera = *scene.camera->get<scene::Camera>();
+    camera.eye = {500.0, -300.0, 200.0};
+    camera.look = {500.0, 0.0, 100.0};
+    const scene::Camera before = camera;
+    TilesOnly maker;
+    EXPECT_FALSE(session::stand_above_ground(scene, maker, {}, session::Underground::allowed));
+    EXPECT_EQ(camera, before);
+    const session::Lift lift = session::stand_above_ground(scene, maker, {});
+    EXPECT_NEAR(lift.depth, 800.0, 1e-9);
+    EXPECT_NEAR(lift.metres, 800.0 + session::least_clearance(scene), 1e-9);
+    EXPECT_EQ(camera.eye, before.eye + lift.way);
+    EXPECT_EQ(camera.look.z, before.look.z + lift.way.z);
+    const scene::FlyPath path = northward_path(before.eye);
+    EXPECT_EQ(
+        session::fly_above_ground(scene, path, 0, 2, maker, {}, session::Underground::allowed),
+        0.0);
+    EXPECT_EQ(camera.eye, before.eye);
+}
+
 // From beside the terrain, as the pose overview looks, and from afar. Without finer tiles the
 // ground is that of the overview, of which the exact ray cast knows.
 TEST_F(StreamedCanyon, TheScaleIsKnownFromBesideTheTerrain) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -107,31 +108,43 @@ std::filesystem::file_time_type time_of(const std::filesystem::path& path) {
 
 } // namespace
 
-Result<Dataset> open_whole_raster(const std::filesystem::path& path, const GdalMessages& messages) {
+Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
+                                        const GdalMessages& messages) {
     auto dataset = open_raster(path, messages);
-    if (!dataset || !is_ascii_grid(**dataset)) {
-        return dataset;
+    if (!dataset) {
+        return dataset.error();
     }
-    const auto whole = check_is_whole(**dataset, path);
-    return whole ? std::move(dataset) : whole.error();
-}
-
-Result<Dataset> WholeRasters::open(const std::filesystem::path& path,
-                                   const GdalMessages& messages) {
-    const auto changed = time_of(path);
-    {
-        const std::lock_guard lock(mutex_);
-        const auto known = whole_.find(path);
-        if (known != whole_.end() && known->second == changed) {
-            return open_raster(path, messages);
+    if (is_ascii_grid(**dataset)) {
+        if (auto whole = check_is_whole(**dataset, path); !whole) {
+            return whole.error();
         }
     }
-    auto dataset = open_whole_raster(path, messages);
-    if (dataset && is_ascii_grid(**dataset)) {
+    return without_mixed_overviews(std::move(*dataset), path, messages);
+}
+
+Result<CheckedRaster> WholeRasters::open(const std::filesystem::path& path,
+                                         const GdalMessages& messages) {
+    const auto changed = time_of(path);
+    const auto known = [&]() -> std::optional<Known> {
         const std::lock_guard lock(mutex_);
-        whole_[path] = changed;
+        const auto found = whole_.find(path);
+        return found != whole_.end() && found->second.changed == changed
+                   ? std::optional(found->second)
+                   : std::nullopt;
+    }();
+    if (known) {
+        auto dataset = known->mixed_overviews ? open_without_overviews(path, messages)
+                                              : open_raster(path, messages);
+        return dataset ? Result<CheckedRaster>(
+                             CheckedRaster{std::move(*dataset), known->mixed_overviews})
+                       : dataset.error();
     }
-    return dataset;
+    auto raster = open_whole_raster(path, messages);
+    if (raster && raster->mixed_overviews) {
+        const std::lock_guard lock(mutex_);
+        whole_[path] = {changed, *raster->mixed_overviews};
+    }
+    return raster;
 }
 
 } // namespace reljef::io

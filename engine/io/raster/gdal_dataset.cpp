@@ -205,7 +205,10 @@ std::string size_text(double bytes) {
                         : fmt::format("{:.1f} MB", bytes / 1e6);
 }
 
-Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {
+namespace {
+
+Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
+                          const char* const* options) {
     register_drivers();
     const bool remote = is_remote(path);
     if (auto file = remote ? Result<void>() : check_file(path); !file) {
@@ -218,7 +221,7 @@ Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) 
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     // What lies beside a file on a server is not asked for: it would cost a request for each name.
     constexpr std::array<const char*, 1> nothing_beside{nullptr};
-    Dataset dataset(GDALDataset::Open(name->c_str(), flags, nullptr, nullptr,
+    Dataset dataset(GDALDataset::Open(name->c_str(), flags, nullptr, options,
                                       remote ? nothing_beside.data() : nullptr));
     if (dataset == nullptr) {
         return Error{
@@ -234,6 +237,17 @@ Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) 
         return blocks.error();
     }
     return dataset;
+}
+
+} // namespace
+
+Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {
+    return open_with(path, messages, nullptr);
+}
+
+Result<Dataset> open_without_overviews(const fs::path& path, const GdalMessages& messages) {
+    constexpr std::array<const char*, 2> options{"OVERVIEW_LEVEL=NONE", nullptr};
+    return open_with(path, messages, options.data());
 }
 
 } // namespace reljef::io

@@ -58,6 +58,9 @@ bool is_remote(const std::filesystem::path& path);
 /// A file's raster, read-only; inside a .zip the first that GDAL opens. At least one band; no band
 /// is stored in blocks so large that reading one would take more than 256 MB.
 Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);
+/// The same, as if the file had no overviews.
+Result<Dataset> open_without_overviews(const std::filesystem::path& path,
+                                       const GdalMessages& messages);
 
 /// The drivers are registered once, however many threads ask, and GDAL's cache of blocks, which all
 /// readers share, is kept to 256 MB.

@@ -121,6 +121,7 @@ Result<SampleDecoder> SampleDecoder::create(GDALDataset& dataset, const std::str
     const double scale = band.GetScale();
     const double offset = band.GetOffset();
     decoder.sentinels_ = can_be_negative(type) && scale == 1.0 && offset == 0.0;
+    decoder.floating_ = GDALDataTypeIsFloating(type) != 0;
     decoder.not_finite_declared_ = declares_not_finite(band);
     const HeightUnit unit = height_unit_of(dataset, band);
     if (!unit.known) {
@@ -202,6 +203,23 @@ std::string SampleDecoder::undeclared_voids_note() const {
     return found.empty() ? ""
                          : fmt::format("{}, which the file does not declare: taken for voids",
                                        fmt::join(found, " and "));
+}
+
+std::vector<std::string> SampleDecoder::found_words() const {
+    std::vector<std::string> words;
+    if (found_sentinels_ > 0) {
+        words.emplace_back("undeclared -32768 or -32767, taken for voids");
+    }
+    if (found_not_finite_ > 0) {
+        words.emplace_back("undeclared NaN or infinity, taken for voids");
+    }
+    if (found_absurd_ > 0) {
+        words.push_back(fmt::format("values beyond ±{} m, taken for voids", highest_height));
+    }
+    if (found_usual_voids_ > 0) {
+        words.push_back(fmt::format("undeclared {}, taken for heights", usual_void));
+    }
+    return words;
 }
 
 std::string SampleDecoder::doubtful_heights_note() const {

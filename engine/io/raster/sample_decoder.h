@@ -42,10 +42,15 @@ public:
     void decode(std::span<double> first, std::span<const double> others,
                 std::span<const unsigned char> mask);
 
+    /// Whether a stored value can be a void that is not declared.
+    [[nodiscard]] bool can_find_voids() const { return sentinels_ || floating_; }
+
     /// What was found without being declared; empty when nothing.
     [[nodiscard]] std::string undeclared_voids_note() const;
     /// What was taken for heights and may have been meant for voids; empty when nothing.
     [[nodiscard]] std::string doubtful_heights_note() const;
+    /// Both in few words each, without numbers: of parts that are read again and again.
+    [[nodiscard]] std::vector<std::string> found_words() const;
 
 private:
     [[nodiscard]] double metres(double value);
@@ -57,6 +62,7 @@ private:
     std::array<double, 256> palette_{};
     std::optional<double> nodata_; ///< as the band's own type holds it
     bool sentinels_ = false;       ///< −32768 and −32767 are voids
+    bool floating_ = false;
     bool not_finite_declared_ = false;
     double scale_ = 1.0;
     double offset_ = 0.0;

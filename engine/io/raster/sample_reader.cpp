@@ -204,7 +204,7 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
 
 Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const std::string& name, const RasterOptions& options,
-                                  const GdalMessages& messages) {
+                                  const GdalMessages& messages, std::vector<std::string>& notes) {
     std::vector<std::string> ignored;
     auto decoder = SampleDecoder::create(dataset, name, options, ignored);
     if (!decoder) {
@@ -216,6 +216,9 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
             read_plan(dataset, plan, samples_of_window, *decoder, name, options, messages, store);
         !read) {
         return read.error();
+    }
+    for (std::string& words : decoder->found_words()) {
+        notes.push_back(std::move(words));
     }
     return heights;
 }

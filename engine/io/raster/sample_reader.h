@@ -46,9 +46,10 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
                              const RasterOptions& options, const GdalMessages& messages,
                              std::vector<std::string>& notes);
 
-/// The same, with the digits of double: metres, void_value at voids. Without notes.
+/// The same, with the digits of double: metres, void_value at voids. The notes are those on voids
+/// alone, without numbers (SampleDecoder::found_words).
 Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const std::string& name, const RasterOptions& options,
-                                  const GdalMessages& messages);
+                                  const GdalMessages& messages, std::vector<std::string>& notes);
 
 } // namespace reljef::io

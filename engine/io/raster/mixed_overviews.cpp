@@ -1,0 +1,183 @@
+#include "engine/io/raster/mixed_overviews.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/grid.h"
+#include "engine/io/raster/sample_decoder.h"
+#include "engine/io/raster/tile_pyramid.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr double most_overview_samples = 512.0 * 512.0; // of the overview that is looked at
+constexpr double most_remote_samples = 256.0 * 256.0;   // where they come from a server
+constexpr double most_of_coarsest = 2048.0 * 2048.0;    // where there is no such overview
+constexpr std::size_t most_suspects = 8;
+// The least that a void takes from the average of all samples that an overview's sample stands for.
+constexpr double least_drop = 16384.0;
+constexpr int most_samples_aside = 256; // of the part that one suspect stands for
+constexpr double rounding = 1.0;        // of an average that is stored as a whole number
+
+double samples_of_band(GDALRasterBand& band) {
+    return static_cast<double>(band.GetXSize()) * band.GetYSize();
+}
+
+/// The finest overview of at most so many samples, else the coarsest; null where that is large.
+GDALRasterBand* small_overview(GDALRasterBand& band, double most) {
+    GDALRasterBand* finest = nullptr;
+    GDALRasterBand* coarsest = nullptr;
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+        GDALRasterBand* overview = band.GetOverview(i);
+        if (overview == nullptr || overview->GetXSize() < 2 || overview->GetYSize() < 2) {
+            continue;
+        }
+        const double samples = samples_of_band(*overview);
+        coarsest =
+            coarsest == nullptr || samples < samples_of_band(*coarsest) ? overview : coarsest;
+        const bool finer = finest == nullptr || samples > samples_of_band(*finest);
+        finest = samples <= most && finer ? overview : finest;
+    }
+    const bool readable = coarsest != nullptr && samples_of_band(*coarsest) <= most_of_coarsest;
+    return finest != nullptr ? finest : readable ? coarsest : nullptr;
+}
+
+/// The stored values of a part of a band; empty where it cannot be read.
+Grid<double> stored_values(GDALRasterBand& band, const RasterOptions::Window& part) {
+    Grid<double> values(part.cols, part.rows);
+    const bool read =
+        band.RasterIO(GF_Read, part.col, part.row, part.cols, part.rows, values.samples().data(),
+                      part.cols, part.rows, GDT_Float64, 0, 0, nullptr) == CE_None;
+    return read ? std::move(values) : Grid<double>();
+}
+
+/// A sample of an overview that is lower than one beside it.
+struct Suspect {
+    double drop = 0.0; ///< stored values
+    int col = 0;
+    int row = 0;
+};
+
+double drop_at(const Grid<double>& values, const Grid<double>& heights, int col, int row) {
+    double drop = 0.0;
+    for (const auto& [c, r] : {std::pair{col - 1, row}, std::pair{col + 1, row},
+                               std::pair{col, row - 1}, std::pair{col, row + 1}}) {
+        const bool inside = c >= 0 && r >= 0 && c < values.cols() && r < values.rows();
+        if (inside && !std::isnan(heights(c, r))) {
+            drop = std::max(drop, values(c, r) - values(col, row));
+        }
+    }
+    return drop;
+}
+
+/// Where the overview falls most steeply, by at least so much; `heights` are NaN at voids.
+std::vector<Suspect> suspects_in(const Grid<double>& values, const Grid<double>& heights,
+                                 double least) {
+    std::vector<Suspect> suspects;
+    for (int row = 0; row < values.rows(); ++row) {
+        for (int col = 0; col < values.cols(); ++col) {
+            const double drop =
+                std::isnan(heights(col, row)) ? 0.0 : drop_at(values, heights, col, row);
+            if (drop >= least) {
+                suspects.push_back({drop, col, row});
+            }
+        }
+    }
+    const auto end =
+        suspects.begin() + static_cast<std::ptrdiff_t>(std::min(suspects.size(), most_suspects));
+    std::partial_sort(suspects.begin(), end, suspects.end(),
+                      [](const Suspect& a, const Suspect& b) { return a.drop > b.drop; });
+    suspects.erase(end, suspects.end());
+    return suspects;
+}
+
+/// Full samples along an overview's.
+int full_samples(int full, int reduced) {
+    return std::max(1, (full + reduced - 1) / reduced);
+}
+
+/// The full samples that one of an overview stands for, and half as many around them.
+RasterOptions::Window stands_for(const Suspect& suspect, GDALRasterBand& band,
+                                 GDALRasterBand& overview) {
+    const auto side = [](int at, int full, int reduced) {
+        const int step = full_samples(full, reduced);
+        const int begin = static_cast<int>(static_cast<std::int64_t>(at) * full / reduced);
+        const int first = std::clamp(begin - step / 2, 0, full - 1);
+        const int end = std::clamp(begin + step + step / 2 + 1, first + 1, full);
+        return std::pair{first, std::min(end - first, most_samples_aside)};
+    };
+    const auto [col, cols] = side(suspect.col, band.GetXSize(), overview.GetXSize());
+    const auto [row, rows] = side(suspect.row, band.GetYSize(), overview.GetYSize());
+    return {col, row, cols, rows};
+}
+
+/// NaN at voids.
+Grid<double> decoded(Grid<double> values, SampleDecoder decoder) {
+    decoder.decode(values.samples(), {}, {});
+    return values;
+}
+
+/// Whether an overview's value is below all heights that it stands for, beside undeclared voids.
+bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder) {
+    Grid<double> heights = values;
+    decoder.decode(heights.samples(), {}, {});
+    if (decoder.undeclared_voids_note().empty()) {
+        return false;
+    }
+    bool below_all = true;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const bool is_void = std::isnan(heights.samples()[i]);
+        below_all = below_all && (is_void || value < values.samples()[i] - rounding);
+    }
+    return below_all;
+}
+
+} // namespace
+
+std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesystem::path& path) {
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    if (is_tile_pyramid(path) || kind_of_values(dataset) != ValueKind::plain ||
+        band.GetOverviewCount() == 0) {
+        return false;
+    }
+    const GdalMessages unheard;
+    std::vector<std::string> ignored;
+    const auto decoder = SampleDecoder::create(dataset, path.string(), {}, ignored);
+    GDALRasterBand* overview =
+        small_overview(band, is_remote(path) ? most_remote_samples : most_overview_samples);
+    if (!decoder || overview == nullptr || !decoder->can_find_voids()) {
+        return false;
+    }
+    const Grid<double> values =
+        stored_values(*overview, {0, 0, overview->GetXSize(), overview->GetYSize()});
+    if (values.empty()) {
+        return std::nullopt;
+    }
+    const double share = samples_of_band(*overview) / samples_of_band(band);
+    const Grid<double> heights = decoded(values, *decoder);
+    for (const Suspect& suspect : suspects_in(values, heights, least_drop * share)) {
+        const Grid<double> below = stored_values(band, stands_for(suspect, band, *overview));
+        if (below.empty()) {
+            return std::nullopt;
+        }
+        if (is_mixture(values(suspect.col, suspect.row), below, *decoder)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Result<CheckedRaster> without_mixed_overviews(Dataset opened, const std::filesystem::path& path,
+                                              const GdalMessages& messages) {
+    const auto mixed = overviews_mix_voids(*opened, path);
+    auto dataset =
+        mixed.value_or(false) ? open_without_overviews(path, messages) : std::move(opened);
+    return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), mixed})
+                   : dataset.error();
+}
+
+} // namespace reljef::io
