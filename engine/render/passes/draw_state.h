@@ -19,7 +19,8 @@ public:
     /// Sets what a frame begins with: reversed depth, filled triangles, their backs left out.
     DrawState(ShaderLibrary& shaders, view::FrameStats& stats);
 
-    /// The variant's program, in use. Fails as ShaderLibrary::program.
+    /// The variant's program, in use; one that looks for a surface does so for each sample of a
+    /// pixel. Fails as ShaderLibrary::program.
     Result<gl::Program*> use(ShaderVariant variant);
     /// Which sides of triangles are left out.
     void set_culling(gl::Culling culling);
@@ -32,12 +33,15 @@ public:
     [[nodiscard]] view::FrameStats& stats() { return stats_; }
 
 private:
+    void set_sample_shading(bool on);
+
     ShaderLibrary& shaders_;
     view::FrameStats& stats_;
     std::optional<ShaderVariant> variant_;
     gl::Program* program_ = nullptr;
     gl::Culling culling_ = gl::Culling::back;
     bool wireframe_ = false;
+    bool shades_samples_ = false;
 };
 
 } // namespace reljef::render

@@ -10,7 +10,7 @@ FrameBlock frame_block(const view::DrawList& list) {
     block.clip_from_relative = glm::mat4(scene::clip_from_view(list.camera, list.size) *
                                          scene::view_from_world_rotation(list.camera));
     block.view_forward = glm::vec4(glm::vec3(scene::view_axes(list.camera).forward), 0.0F);
-    block.vertex_grid = glm::vec4(glm::vec2(list.size) * (0.5F * view::vertex_steps), 0.0F, 0.0F);
+    block.vertex_grid = glm::vec4(glm::vec2(list.size) * (0.5F * view::vertex_steps), 1.0F, 0.0F);
     block.ray_from_pixel = ray_from_pixel(list.camera, list.size);
     if (list.sun) {
         block.to_sun = glm::vec4(glm::vec3(scene::to_light(*list.sun)), 0.0F);

@@ -24,9 +24,9 @@ class ShaderLibraryGlTest : public test::GlTest {};
 // Of a relief's many combinations those with at most one option, and those with as good as all:
 // whatever parts of a shader may have to do with each other is there.
 std::vector<ShaderVariant> covering_variants() {
-    constexpr std::uint32_t options = feature_fog | feature_view_steps | feature_fade |
-                                      feature_smooth_edges | feature_write_depth |
-                                      feature_hard_shadow | feature_soft_shadow;
+    constexpr std::uint32_t options =
+        feature_fog | feature_view_steps | feature_fade | feature_smooth_edges |
+        feature_write_depth | feature_hard_shadow | feature_soft_shadow | feature_multisampled;
     std::vector<ShaderVariant> variants = all_variants();
     std::erase_if(variants, [](const ShaderVariant& variant) {
         const int count = std::popcount(variant.features & options);
@@ -71,8 +71,8 @@ TEST_F(ShaderLibraryGlTest, TheFrameBlockLiesAsTheDriverSays) {
                              Member{"sky_horizon", offsetof(FrameBlock, sky_horizon)},
                              Member{"ray_from_pixel", offsetof(FrameBlock, ray_from_pixel)}};
     for (const ShaderVariant& variant : covering_variants()) {
-        if (variant.kind == ShaderKind::beams) {
-            continue; // has its own rays
+        if (variant.kind == ShaderKind::beams || variant.kind == ShaderKind::average) {
+            continue; // these have nothing of a scene
         }
         const gl::Program& program = *test::must(shaders.program(variant));
         EXPECT_EQ(program.block_size("FrameBlock"), static_cast<int>(sizeof(FrameBlock)));
