@@ -72,6 +72,7 @@ struct ViewChoice {
     std::optional<DetailChoice> detail; ///< absent: the scene file's, else none
     std::optional<scene::Technique> detail_technique; ///< absent: the scene file's, else relief
     bool wireframe = false;
+    std::optional<int> samples; ///< of a pixel; absent: 4 where the picture has triangles, else 1
     double vertical_fov = 57.3;
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;
     std::optional<glm::dvec3> eye;
@@ -106,6 +107,8 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 /// Of these, what says which heights there are and how they are read, not how they are drawn.
 void add_source_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
+/// --samples, for what draws pictures to be looked at.
+void add_samples_option(CLI::App& command, ViewChoice& choice);
 /// The technique with --max-error.
 scene::Technique technique_of(const ViewChoice& choice);
 /// Whether the technique draws a terrain that is read part by part.
