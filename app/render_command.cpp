@@ -47,6 +47,7 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
     options.context_options.visible = false;
     options.renderer.driver.size = choice.view.size;
     options.renderer.driver.shader_dir = choice.view.shader_dir;
+    options.renderer.driver.samples = choice.view.samples.value_or(render::automatic_samples);
     auto device = session::Device::create(options);
     return device ? Result<Maker>(
                         Maker(new session::DeviceFrames(std::move(*device), log, {choice.stats})))
@@ -324,6 +325,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<RenderChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
+    cli::add_samples_option(*arguments, choice->view);
     arguments
         ->add_option(
             "-o,--output", choice->output,
@@ -341,7 +343,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "--truth", choice->truth,
         "draw with exact rays on the CPU: the picture that every technique approximates");
     for (const char* option :
-         {"--wireframe", "--context", "--technique", "--shader-dir", "--detail"}) {
+         {"--wireframe", "--context", "--technique", "--shader-dir", "--detail", "--samples"}) {
         truth->excludes(arguments->get_option(option));
     }
     arguments

@@ -300,7 +300,8 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     auto renderer = session::SceneRenderer::create(
         {.driver = {.size = (*window)->framebuffer_size(),
                     .shader_dir = choice.view.shader_dir,
-                    .software = (*window)->context().is_software()}});
+                    .software = (*window)->context().is_software(),
+                    .samples = choice.view.samples.value_or(render::automatic_samples)}});
     if (!renderer) {
         return renderer.error();
     }
@@ -330,6 +331,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<ViewerChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
+    cli::add_samples_option(*arguments, choice->view);
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         expect_window(choice->view);

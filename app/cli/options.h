@@ -29,6 +29,7 @@ struct TerrainChoice : session::SourceOptions {
 struct ViewChoice : session::SceneOptions {
     std::optional<platform::ContextKind> context; ///< absent: auto
     glm::ivec2 size{1024, 768};                   ///< pixels
+    std::optional<int> samples; ///< of a pixel; absent: 4 where the picture has triangles, else 1
     std::string path; ///< a built-in path ("orbit", "flyover") or a path file; empty: none
     int frames = 1;
     double frames_per_second = 25.0;
@@ -56,6 +57,8 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 /// Of these, what says which heights there are and how they are read, not how they are drawn.
 void add_source_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
+/// --samples, for programs that draw pictures to look at.
+void add_samples_option(CLI::App& command, ViewChoice& choice);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

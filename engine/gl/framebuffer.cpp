@@ -1,14 +1,43 @@
 #include "engine/gl/framebuffer.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glad/gl.h>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "engine/gl/limits.h"
+#include "engine/gl/memory.h"
+#include "engine/gl/texture_format.h"
 
 namespace reljef::gl {
 
 namespace {
+
+std::vector<int> counts_of(Format format) {
+    GLint count = 0;
+    glGetInternalformativ(GL_RENDERBUFFER, traits(format).internal, GL_NUM_SAMPLE_COUNTS, 1,
+                          &count);
+    std::vector<int> counts(static_cast<std::size_t>(std::max(count, 0)));
+    if (!counts.empty()) {
+        glGetInternalformativ(GL_RENDERBUFFER, traits(format).internal, GL_SAMPLES, count,
+                              counts.data());
+    }
+    return counts;
+}
+
+Result<void> check_samples(const FramebufferOptions& options) {
+    if (options.samples == 1) {
+        return {};
+    }
+    const std::vector<int> counts = sample_counts(options);
+    if (std::find(counts.begin(), counts.end(), options.samples) == counts.end()) {
+        return Error{fmt::format("framebuffer with {} samples a pixel: expected one of {}",
+                                 options.samples, fmt::join(counts, ", "))};
+    }
+    return {};
+}
 
 Result<void> check_options(const FramebufferOptions& options) {
     const Limits limits = query_limits();
@@ -22,7 +51,22 @@ Result<void> check_options(const FramebufferOptions& options) {
         return Error{fmt::format("framebuffer with {} colours: expected at most {}",
                                  options.colors.size(), limits.max_color_attachments)};
     }
-    return {};
+    return check_samples(options);
+}
+
+// The name of a renderbuffer; fails where the driver has no memory for it.
+Result<GLuint> make_renderbuffer(const FramebufferOptions& options, Format format) {
+    GLuint name = 0;
+    glCreateRenderbuffers(1, &name);
+    glNamedRenderbufferStorageMultisample(name, options.samples, traits(format).internal,
+                                          options.size.x, options.size.y);
+    if (ran_out_of_memory()) {
+        delete_renderbuffer(name);
+        return Error{fmt::format("framebuffer of {} x {} pixels with {} samples each: the driver "
+                                 "has no memory for it",
+                                 options.size.x, options.size.y, options.samples)};
+    }
+    return name;
 }
 
 Result<Texture2D> make_target(glm::ivec2 size, Format format) {
@@ -61,6 +105,29 @@ void draw_to_all(GLuint framebuffer, std::size_t colors) {
 
 } // namespace
 
+std::vector<int> sample_counts(const FramebufferOptions& options) {
+    std::vector<Format> formats = options.colors;
+    if (options.depth) {
+        formats.push_back(Format::depth32f);
+    }
+    std::vector<int> common;
+    for (std::size_t index = 0; index < formats.size(); ++index) {
+        const std::vector<int> counts = counts_of(formats[index]);
+        const auto is_missing = [&](int count) {
+            return std::find(counts.begin(), counts.end(), count) == counts.end();
+        };
+        if (index == 0) {
+            common = counts;
+        } else {
+            std::erase_if(common, is_missing);
+        }
+    }
+    common.push_back(1);
+    std::sort(common.begin(), common.end());
+    common.erase(std::unique(common.begin(), common.end()), common.end());
+    return common;
+}
+
 Result<Framebuffer> Framebuffer::create(const FramebufferOptions& options) {
     if (const auto possible = check_options(options); !possible) {
         return possible.error();
@@ -70,28 +137,59 @@ Result<Framebuffer> Framebuffer::create(const FramebufferOptions& options) {
     Framebuffer framebuffer;
     framebuffer.id_ = UniqueId<delete_framebuffer>(name);
     framebuffer.size_ = options.size;
+    framebuffer.samples_ = options.samples;
+    const auto attached = options.samples == 1 ? framebuffer.attach_textures(options)
+                                               : framebuffer.attach_samples(options);
+    if (!attached) {
+        return attached.error();
+    }
+    draw_to_all(name, options.colors.size());
+    if (const auto complete = check_complete(name, options.size); !complete) {
+        return complete.error();
+    }
+    return framebuffer;
+}
+
+Result<void> Framebuffer::attach_textures(const FramebufferOptions& options) {
     for (const Format format : options.colors) {
         auto color = make_target(options.size, format);
         if (!color) {
             return color.error();
         }
-        const auto index = static_cast<GLenum>(framebuffer.colors_.size());
-        glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0 + index, color->id(), 0);
-        framebuffer.colors_.push_back(std::move(*color));
+        const auto index = static_cast<GLenum>(colors_.size());
+        glNamedFramebufferTexture(id(), GL_COLOR_ATTACHMENT0 + index, color->id(), 0);
+        colors_.push_back(std::move(*color));
     }
-    draw_to_all(name, options.colors.size());
     if (options.depth) {
         auto depth = make_target(options.size, Format::depth32f);
         if (!depth) {
             return depth.error();
         }
-        glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->id(), 0);
-        framebuffer.depth_ = std::move(*depth);
+        glNamedFramebufferTexture(id(), GL_DEPTH_ATTACHMENT, depth->id(), 0);
+        depth_ = std::move(*depth);
     }
-    if (const auto complete = check_complete(name, options.size); !complete) {
-        return complete.error();
+    return {};
+}
+
+Result<void> Framebuffer::attach_samples(const FramebufferOptions& options) {
+    for (const Format format : options.colors) {
+        const auto color = make_renderbuffer(options, format);
+        if (!color) {
+            return color.error();
+        }
+        const auto index = static_cast<GLenum>(sample_colors_.size());
+        sample_colors_.emplace_back(*color);
+        glNamedFramebufferRenderbuffer(id(), GL_COLOR_ATTACHMENT0 + index, GL_RENDERBUFFER, *color);
     }
-    return framebuffer;
+    if (options.depth) {
+        const auto depth = make_renderbuffer(options, Format::depth32f);
+        if (!depth) {
+            return depth.error();
+        }
+        sample_depth_ = Renderbuffer(*depth);
+        glNamedFramebufferRenderbuffer(id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, *depth);
+    }
+    return {};
 }
 
 void Framebuffer::bind() const {
@@ -101,7 +199,7 @@ void Framebuffer::bind() const {
 }
 
 void Framebuffer::clear_color(glm::vec4 linear, std::size_t index) const {
-    check(index < colors_.size(), "framebuffer has no such colour");
+    check(index < color_count(), "framebuffer has no such colour");
     glEnable(GL_FRAMEBUFFER_SRGB);
     glClearNamedFramebufferfv(id(), GL_COLOR, static_cast<GLint>(index), glm::value_ptr(linear));
 }
@@ -122,13 +220,26 @@ void Framebuffer::blit_to_window(glm::ivec2 window_size, std::size_t index) cons
                            GL_COLOR_BUFFER_BIT, window_size == size_ ? GL_NEAREST : GL_LINEAR);
 }
 
+void Framebuffer::resolve_to(const Framebuffer& target, std::size_t index) const {
+    check(index < color_count() && index < target.color_count(), "framebuffer has no such colour");
+    check(size_ == target.size_ && target.samples_ == 1, "resolved to another kind of framebuffer");
+    const auto attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index);
+    // With the conversion on, samples are decoded before the mean is taken.
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glNamedFramebufferReadBuffer(id(), attachment);
+    glNamedFramebufferDrawBuffer(target.id(), attachment);
+    glBlitNamedFramebuffer(id(), target.id(), 0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    draw_to_all(target.id(), target.color_count());
+}
+
 const Texture2D& Framebuffer::color(std::size_t index) const {
     check(index < colors_.size(), "framebuffer has no such colour");
     return colors_[index];
 }
 
 const Texture2D& Framebuffer::depth() const {
-    check(has_depth(), "framebuffer has no depth");
+    check(depth_.id() != 0U, "framebuffer has no depth texture");
     return depth_;
 }
 

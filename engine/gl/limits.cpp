@@ -43,6 +43,7 @@ Limits query_limits() {
             .max_texture_units = integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS),
             .max_fragment_texture_units = integer(GL_MAX_TEXTURE_IMAGE_UNITS),
             .max_color_attachments = integer(GL_MAX_COLOR_ATTACHMENTS),
+            .max_samples = integer(GL_MAX_SAMPLES),
             .max_viewport = pair(GL_MAX_VIEWPORT_DIMS),
             .max_uniform_block_bytes = bytes(GL_MAX_UNIFORM_BLOCK_SIZE),
             .max_storage_block_bytes = bytes(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),

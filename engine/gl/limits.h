@@ -18,6 +18,7 @@ struct Limits {
     int max_texture_units = 0;          ///< of all stages together
     int max_fragment_texture_units = 0; ///< of the fragment stage
     int max_color_attachments = 0;
+    int max_samples = 0; ///< of a pixel; not every smaller number need be there (sample_counts)
     glm::ivec2 max_viewport{0, 0};
     std::size_t max_uniform_block_bytes = 0;
     std::size_t max_storage_block_bytes = 0;

@@ -53,6 +53,11 @@ void set_blending(bool on) {
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
+void set_sample_shading(bool on) {
+    enable(GL_SAMPLE_SHADING, on);
+    glMinSampleShading(on ? 1.0F : 0.0F);
+}
+
 void set_viewport(glm::ivec2 origin, glm::ivec2 size) {
     glViewport(origin.x, origin.y, size.x, size.y);
 }

@@ -24,6 +24,9 @@ void set_polygon_mode(PolygonMode mode);
 void set_polygon_offset(float slope_factor, float units);
 /// Straight alpha over what is there.
 void set_blending(bool on);
+/// Runs the fragment shader for each sample of a pixel, its inputs taken there, instead of once for
+/// the pixel. Changes nothing where a pixel has one sample.
+void set_sample_shading(bool on);
 /// Pixels, the origin at the lower left.
 void set_viewport(glm::ivec2 origin, glm::ivec2 size);
 

@@ -12,6 +12,10 @@ void delete_texture(unsigned int id) {
     glDeleteTextures(1, &id);
 }
 
+void delete_renderbuffer(unsigned int id) {
+    glDeleteRenderbuffers(1, &id);
+}
+
 void delete_vertex_array(unsigned int id) {
     glDeleteVertexArrays(1, &id);
 }

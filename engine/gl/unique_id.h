@@ -7,6 +7,7 @@ namespace reljef::gl {
 /// Deletes the object of that name; 0 and a moved-from owner's 0 are no object.
 void delete_buffer(unsigned int id);
 void delete_texture(unsigned int id);
+void delete_renderbuffer(unsigned int id);
 void delete_vertex_array(unsigned int id);
 void delete_framebuffer(unsigned int id);
 void delete_shader(unsigned int id);

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include <fmt/format.h>
+
 #include "engine/gl/read_pixels.h"
 #include "engine/render/passes/draw_state.h"
 #include "engine/render/passes/mesh_painter.h"
@@ -27,13 +29,41 @@ glm::vec4 channels_of(const Hit& hit) {
     return {hit.col, hit.row, hit.height, hit.depth};
 }
 
+int samples_of(const view::DrawList& list, int samples) {
+    const bool has_triangles =
+        !list.tiles.empty() || !list.streamed_tiles.empty() || !list.meshes.empty();
+    constexpr int of_triangles = 4;
+    return samples != automatic_samples ? samples : has_triangles ? of_triangles : 1;
+}
+
+// A picture's later passes draw the same again: what they take counts, what they show does not.
+void add_work(view::FrameStats& stats, const view::FrameStats& pass) {
+    stats.draws += pass.draws;
+    stats.state_changes += pass.state_changes;
+    stats.uploads += pass.uploads;
+    stats.upload_bytes += pass.upload_bytes;
+}
+
 } // namespace
+
+Result<void> check_samples(int samples) {
+    for (const int possible : {automatic_samples, 1, 2, 4, 8, 16}) {
+        if (samples == possible) {
+            return {};
+        }
+    }
+    return Error{
+        fmt::format("picture with {} samples a pixel: expected 1, 2, 4, 8 or 16", samples)};
+}
 
 Driver::Driver(const DriverOptions& options, gl::Framebuffer target)
     : options_(options), limits_(gl::query_limits()), color_target_(std::move(target)),
       no_vertices_(gl::VertexArray::create()), shaders_(options.shader_dir) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
+    if (auto possible = check_samples(options.samples); !possible) {
+        return possible.error();
+    }
     auto target = gl::Framebuffer::create({.size = options.size});
     if (!target) {
         return target.error();
@@ -69,9 +99,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
         timer.begin();
     }
     const auto drawing = Clock::now();
-    color_target_.bind();
-    color_target_.clear_color(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
-    if (auto done = draw_content(list, false, stats); !done) {
+    if (auto done = draw_picture(list, stats); !done) {
         return done.error();
     }
     if (timer.id() != 0U) {
@@ -79,6 +107,10 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     }
     stats.cpu_ms = milliseconds_since(start);
     if (wait) {
+        if (options_.software && samples_of(list, options_.samples) > 1) {
+            // The mean of samples has waited for them; gpu_ms counts that.
+            stats.cpu_ms -= milliseconds_since(drawing);
+        }
         glFinish();
         const auto measured = timer.poll();
         stats.gpu_ms = measured ? std::chrono::duration<double, std::milli>(*measured).count()
@@ -102,7 +134,7 @@ Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
     }
     hit_target_.bind();
     hit_target_.clear_color(channels_of(Hit{}));
-    if (auto done = draw_content(list, true, stats); !done) {
+    if (auto done = draw_content(list, hit_target_, true, stats); !done) {
         return done.error();
     }
     const Grid<glm::vec4> channels = gl::read_float_color(hit_target_);
@@ -123,25 +155,80 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     if (auto good = check_support(list, limits_); !good) {
         return good;
     }
-    const FrameBlock block = frame_block(list);
-    frame_block_.write(0, std::as_bytes(std::span(&block, 1)));
-    ++stats.uploads;
-    stats.upload_bytes += sizeof(block);
+    write_frame_block(list, stats);
     if (auto there = beam_target_.prepare(list); !there) {
         return there;
     }
     return residency_.prepare(list, !hits, stats);
 }
 
-Result<void> Driver::draw_content(const view::DrawList& list, bool hits, view::FrameStats& stats) {
+void Driver::write_frame_block(const view::DrawList& list, view::FrameStats& stats) {
+    const FrameBlock block = frame_block(list);
+    frame_block_.write(0, std::as_bytes(std::span(&block, 1)));
+    ++stats.uploads;
+    stats.upload_bytes += sizeof(block);
+}
+
+Result<void> Driver::draw_picture(const view::DrawList& list, view::FrameStats& stats) {
+    const int samples = samples_of(list, options_.samples);
+    if (samples == 1) {
+        return draw_pass(list, color_target_, stats);
+    }
+    if (!sample_target_.is_for(size(), samples)) {
+        sample_target_ = {};
+        auto made = SampleTarget::create(size(), samples);
+        if (!made) {
+            return made.error();
+        }
+        sample_target_ = std::move(*made);
+    }
+    return draw_samples(list, stats);
+}
+
+Result<void> Driver::draw_samples(const view::DrawList& list, view::FrameStats& stats) {
+    const SamplePlan plan = sample_target_.plan();
+    if (plan.passes == 1) {
+        return draw_sample_pass(list, 0, stats);
+    }
+    view::DrawList shifted = list;
+    for (int pass = 0; pass < plan.passes; ++pass) {
+        view::FrameStats again;
+        view::FrameStats& counted = pass == 0 ? stats : again;
+        shifted.camera.shift = list.camera.shift + pass_shift(plan, pass);
+        write_frame_block(shifted, counted);
+        if (auto drawn = draw_sample_pass(shifted, pass, counted); !drawn) {
+            return drawn;
+        }
+        add_work(stats, again);
+    }
+    return {};
+}
+
+Result<void> Driver::draw_sample_pass(const view::DrawList& list, int pass,
+                                      view::FrameStats& stats) {
+    if (auto drawn = draw_pass(list, sample_target_.picture(), stats); !drawn) {
+        return drawn;
+    }
     DrawState state(shaders_, blocks_, stats);
-    const gl::Framebuffer& picture = hits ? hit_target_ : color_target_;
+    return sample_target_.add_pass(pass, color_target_, state, no_vertices_);
+}
+
+Result<void> Driver::draw_pass(const view::DrawList& list, const gl::Framebuffer& picture,
+                               view::FrameStats& stats) {
+    picture.bind();
+    picture.clear_color(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+    return draw_content(list, picture, false, stats);
+}
+
+Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuffer& picture,
+                                  bool hits, view::FrameStats& stats) {
+    DrawState state(shaders_, blocks_, stats);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
     const Painting painting{.list = list,
                             .residency = residency_,
                             .hits = hits,
-                            .features = scene_features(list, hits),
+                            .features = scene_features(list, hits, picture.samples()),
                             .picture = picture,
                             .beams = beam_target_.framebuffer(),
                             .no_vertices = no_vertices_,

@@ -13,6 +13,7 @@
 #include "engine/gl/limits.h"
 #include "engine/gl/timer_query.h"
 #include "engine/render/passes/beams.h"
+#include "engine/render/passes/sample_target.h"
 #include "engine/render/residency/block_buffers.h"
 #include "engine/render/residency/residency.h"
 #include "engine/render/shaders/shader_library.h"
@@ -21,10 +22,19 @@
 
 namespace reljef::render {
 
+/// 4 samples a pixel for a picture with triangles, else 1.
+inline constexpr int automatic_samples = 0;
+
+/// Fails where a pixel of a picture cannot have that many samples.
+Result<void> check_samples(int samples);
+
 struct DriverOptions {
     glm::ivec2 size{1024, 768};       ///< of the picture, pixels
     std::filesystem::path shader_dir; ///< files there come before the built-in shaders
     bool software = true;             ///< the renderer is a CPU: time by a clock, not by queries
+    /// Of a pixel: 1, 2, 4, 8, 16 or automatic_samples. Where a surface is searched along rays,
+    /// each sample has its own ray. A hit is always that of the pixel's centre.
+    int samples = 1;
 };
 
 /// Draws selected frames with the current context, into its own framebuffer object with reversed
@@ -32,7 +42,7 @@ struct DriverOptions {
 /// Destroy while its context is current.
 class Driver {
 public:
-    /// Fails when the size is outside what the driver can draw.
+    /// Fails when the size is outside what the driver can draw, and as check_samples().
     static Result<Driver> create(const DriverOptions& options = {});
 
     /// Draws a frame of size(); fails as check_techniques() and check_support() do. `wait` also
@@ -54,12 +64,20 @@ private:
     Driver(const DriverOptions& options, gl::Framebuffer target);
 
     Result<void> prepare(const view::DrawList& list, bool hits, view::FrameStats& stats);
-    Result<void> draw_content(const view::DrawList& list, bool hits, view::FrameStats& stats);
+    void write_frame_block(const view::DrawList& list, view::FrameStats& stats);
+    Result<void> draw_picture(const view::DrawList& list, view::FrameStats& stats);
+    Result<void> draw_samples(const view::DrawList& list, view::FrameStats& stats);
+    Result<void> draw_sample_pass(const view::DrawList& list, int pass, view::FrameStats& stats);
+    Result<void> draw_pass(const view::DrawList& list, const gl::Framebuffer& picture,
+                           view::FrameStats& stats);
+    Result<void> draw_content(const view::DrawList& list, const gl::Framebuffer& picture, bool hits,
+                              view::FrameStats& stats);
 
     DriverOptions options_;
     gl::Limits limits_;
     gl::Framebuffer color_target_;
     gl::Framebuffer hit_target_; // made when first asked for
+    SampleTarget sample_target_; // likewise
     BeamTarget beam_target_;
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;

@@ -2,16 +2,23 @@
 // grows, z off the side of the mesh that is seen; metres of the mesh. From behind, heights are what
 // is left of 1.
 #include "frame/detail_block.glsl"
+#include "frame/fragment.glsl"
 #ifdef GROUND
 #include "terrain/ground.glsl"
 #elif defined(HULL)
 #include "mesh/hull.glsl"
 #else
-in vec3 relative; // from the eye, metres
-in vec3 local_normal;
-in vec4 local_tangent; // w: handedness
-in vec2 tile_coordinate;
-in vec2 tiles_per_metre; // along x and y
+in vec3 vertex_relative;
+in vec3 vertex_normal;
+in vec4 vertex_tangent;
+in vec2 vertex_coordinate;
+in vec2 vertex_tiles_per_metre;
+
+vec3 relative = INSIDE(vertex_relative); // from the eye, metres
+vec3 local_normal = INSIDE(vertex_normal);
+vec4 local_tangent = INSIDE(vertex_tangent); // w: handedness
+vec2 tile_coordinate = INSIDE(vertex_coordinate);
+vec2 tiles_per_metre = INSIDE(vertex_tiles_per_metre); // along x and y
 #endif
 
 uniform mat3 local_from_relative; // directions

@@ -9,18 +9,24 @@ layout(location = 4) in vec2 density; // texture coordinates a metre, along the 
 
 uniform mat4 relative_from_local; // world directions relative to the eye, metres
 
-out vec3 relative; // from the eye, metres
-out vec3 local_normal;
-out vec4 local_tangent;
-out vec2 tile_coordinate;
-out vec2 tiles_per_metre;
+out vec3 vertex_relative; // from the eye, metres
+out vec3 vertex_normal;
+out vec4 vertex_tangent;
+out vec2 vertex_coordinate;
+out vec2 vertex_tiles_per_metre;
+#ifdef MULTISAMPLED
+out float one;
+#endif
 
 void main() {
     vec4 place = relative_from_local * vec4(position, 1.0);
-    relative = place.xyz;
-    local_normal = normal;
-    local_tangent = tangent;
-    tile_coordinate = texture_coordinate * repeats;
-    tiles_per_metre = density * repeats;
+    vertex_relative = place.xyz;
+    vertex_normal = normal;
+    vertex_tangent = tangent;
+    vertex_coordinate = texture_coordinate * repeats;
+    vertex_tiles_per_metre = density * repeats;
+#ifdef MULTISAMPLED
+    one = vertex_grid.z;
+#endif
     gl_Position = clip_from_relative * place;
 }

@@ -1,13 +1,16 @@
 // A tile of detail in a hull around a mesh, as a fragment on the far side of one of the hull's
 // tetrahedra sees it. Over a tetrahedron texture coordinates and height are linear, so that a ray is
 // straight in them, too (Hirche, Ehlert, Guthe and Doggett 2004).
-in vec3 relative; // from the eye, metres
-in vec4 shares;   // of the corners in this place: they add up to 1
+in vec3 vertex_relative;
+in vec4 vertex_shares;
 flat in mat3 shares_of_way;  // columns: what a local metre along x, y, z adds to those of corners 1 to 3
 flat in mat4x2 coordinates;  // of the corners
 flat in vec4 heights;        // of the corners, 0 or 1 and a little beyond
 flat in mat4x3 corner_normals;
 flat in vec4 parted; // 1 where beyond the side across from a corner normals are others
+
+vec3 relative = INSIDE(vertex_relative); // from the eye, metres
+vec4 shares = INSIDE(vertex_shares);     // of the corners in this place: they add up to 1
 
 uniform vec4 coordinate_range; // of the texture where the hull is lowest: least and greatest
 

@@ -1,6 +1,8 @@
 #include "frame/frame_block.glsl"
 #include "frame/surface_light.glsl"
 #include "frame/air.glsl"
+#include "frame/fragment.glsl"
+#include "frame/distance.glsl"
 
 in vec3 world_normal;
 #ifdef HIT
@@ -19,7 +21,7 @@ void main() {
 #ifdef HIT
     hit = vec4(-1.0, -1.0, 0.0, view_depth);
 #else
-    vec3 lit = lit_color(albedo, normalize(world_normal), 1.0);
+    vec3 lit = lit_color(albedo, normalize(INSIDE(world_normal)), 1.0);
     color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);
 #endif
 }

@@ -7,6 +7,10 @@ uniform mat4 relative_from_local;
 uniform mat3 world_from_normal;
 
 out vec3 world_normal;
+#ifdef MULTISAMPLED
+out vec3 way_from_eye; // metres
+out float one;
+#endif
 #ifdef HIT
 out float view_depth; // metres along the view axis
 #endif
@@ -14,6 +18,10 @@ out float view_depth; // metres along the view axis
 void main() {
     vec4 relative = relative_from_local * vec4(position, 1.0);
     world_normal = world_from_normal * normal;
+#ifdef MULTISAMPLED
+    way_from_eye = relative.xyz;
+    one = vertex_grid.z;
+#endif
 #ifdef HIT
     view_depth = dot(relative.xyz, view_forward.xyz);
 #endif

@@ -2,6 +2,7 @@
 // moved inwards to the lowest and outwards to the highest. What leaves it has met nothing.
 #define TILE
 #define HULL
+#define PER_SAMPLE
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"

@@ -14,8 +14,11 @@ layout(location = 9) in vec4 normal_3;
 
 uniform mat4 relative_from_local; // world directions relative to the eye, metres
 
-out vec3 relative;
-out vec4 shares;
+out vec3 vertex_relative;
+out vec4 vertex_shares;
+#ifdef MULTISAMPLED
+out float one;
+#endif
 flat out mat3 shares_of_way;
 flat out mat4x2 coordinates;
 flat out vec4 heights;
@@ -26,9 +29,12 @@ void main() {
     mat4 corners = mat4(corner_0, corner_1, corner_2, corner_3);
     int corner = gl_VertexID & 3;
     vec4 place = relative_from_local * vec4(corners[corner].xyz, 1.0);
-    relative = place.xyz;
-    shares = vec4(0.0);
-    shares[corner] = 1.0;
+    vertex_relative = place.xyz;
+    vertex_shares = vec4(0.0);
+    vertex_shares[corner] = 1.0;
+#ifdef MULTISAMPLED
+    one = vertex_grid.z;
+#endif
     shares_of_way = inverse(mat3(corner_1.xyz - corner_0.xyz, corner_2.xyz - corner_0.xyz,
                                  corner_3.xyz - corner_0.xyz));
     coordinates = mat4x2(coordinates_01.xy, coordinates_01.zw, coordinates_23.xy, coordinates_23.zw);

@@ -1,5 +1,6 @@
 // Each pixel looks for the tile's surface along its ray, in the plane that touches the mesh there.
 #define TILE
+#define PER_SAMPLE
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"

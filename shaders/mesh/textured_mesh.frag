@@ -38,8 +38,8 @@ void main() {
 #ifdef HIT
     hit = tile_hit(coordinate * tile_samples() - 0.5, relative);
 #else
-    vec2 right = dFdx(tile_coordinate);
-    vec2 up = dFdy(tile_coordinate);
+    vec2 right = dFdx(FROM_PIXEL_TO_PIXEL(vertex_coordinate));
+    vec2 up = dFdy(FROM_PIXEL_TO_PIXEL(vertex_coordinate));
     vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
     vec3 lit = lit_tile(albedo, coordinate, tangent_space(), right, up, 1.0);
     color = vec4(seen_through_air(lit, length(relative)), 1.0);

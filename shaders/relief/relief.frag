@@ -1,4 +1,6 @@
+#define PER_SAMPLE
 #include "frame/frame_block.glsl"
+#include "frame/fragment.glsl"
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"
 #if defined(EXACT)
@@ -24,7 +26,9 @@
 #include "relief/relief_edges.glsl"
 #endif
 
-in vec3 back;
+in vec3 vertex_back;
+
+vec3 back = INSIDE(vertex_back); // where the view ray leaves the box, relative to the eye
 
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;

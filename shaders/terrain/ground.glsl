@@ -6,6 +6,7 @@ in vec3 local_from_eye; // metres
 uniform mat3 world_from_local; // directions
 uniform vec3 tiles_at_eye;     // from the local origin, along each axis, less whole ones
 
+vec3 from_eye = vec3(0.0); // local metres
 vec3 relative = vec3(0.0); // from the eye, metres
 vec2 tile_coordinate = vec2(0.0);
 vec2 tiles_per_metre = vec2(1.0);

@@ -24,7 +24,7 @@ vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_sha
     vec3 normal = normalize(ground.xyz);
     vec3 shares = shares_of_axes(normal);
     int axis = most_faced_axis(shares);
-    vec3 at = tiles_at_eye + local_from_eye / tile_width;
+    vec3 at = tiles_at_eye + from_eye / tile_width;
     tiles_per_metre = vec2(1.0 / tile_width);
     vec3 shown = vec3(0.0);
     for (float left = 1.0; left > 1e-3; left -= shares[axis], axis = (axis + 1) % 3) {
@@ -40,15 +40,34 @@ vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_sha
     return shown;
 }
 
+vec4 looked_up(sampler2D map, vec4 map_from_sample) {
+    vec2 place = tile_sample + INSIDE(tile_place);
+    vec2 coordinate = place * map_from_sample.xy + map_from_sample.zw;
+#ifdef MULTISAMPLED
+    return textureGrad(map, coordinate,
+                       dFdx(FROM_PIXEL_TO_PIXEL(tile_place)) * map_from_sample.xy,
+                       dFdy(FROM_PIXEL_TO_PIXEL(tile_place)) * map_from_sample.xy);
+#else
+    return texture(map, coordinate);
+#endif
+}
+
+#ifdef MULTISAMPLED
+float distance_to_eye() {
+    return length(relative);
+}
+#else
+#include "frame/distance.glsl"
+#endif
+
 void main() {
-    vec2 sample_place = tile_sample + tile_place;
-    vec2 on_ground = sample_place * ground_from_sample.xy + ground_from_sample.zw;
-    vec3 plain = texture(lit_map, sample_place * lit_from_sample.xy + lit_from_sample.zw).rgb;
-    vec3 albedo = texture(albedo_map, on_ground).rgb;
-    vec4 ground = texture(ground_map, on_ground);
-    vec3 across = dFdx(local_from_eye);
-    vec3 down = dFdy(local_from_eye);
-    relative = world_from_local * local_from_eye;
+    vec3 plain = looked_up(lit_map, lit_from_sample).rgb;
+    vec3 albedo = looked_up(albedo_map, ground_from_sample).rgb;
+    vec4 ground = looked_up(ground_map, ground_from_sample);
+    from_eye = INSIDE(local_from_eye);
+    vec3 across = dFdx(FROM_PIXEL_TO_PIXEL(local_from_eye));
+    vec3 down = dFdy(FROM_PIXEL_TO_PIXEL(local_from_eye));
+    relative = world_from_local * from_eye;
     float pixel = metres_a_pixel.x + metres_a_pixel.y * length(relative);
     float share = smoothstep(seen_pixels.x, seen_pixels.y, tile_width / pixel);
     float height_share = smoothstep(seen_pixels.z, seen_pixels.w, lift / pixel);

@@ -2,6 +2,7 @@
 #define GROUND
 #define TILE
 #define WRAP
+#define PER_SAMPLE
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"

@@ -1,5 +1,7 @@
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
+#include "frame/fragment.glsl"
+#include "frame/distance.glsl"
 
 in vec2 tile_place;
 #ifdef HIT
@@ -22,9 +24,9 @@ layout(location = 0) out vec4 color;
 #endif
 
 void main() {
-    vec2 place = tile_sample + tile_place;
+    vec2 place = tile_sample + INSIDE(tile_place);
 #ifdef WARPED
-    vec2 coordinate = place * lit_from_sample.xy;
+    vec2 coordinate = (tile_sample + tile_place) * lit_from_sample.xy;
     vec2 across = dFdx(coordinate);
     vec2 down = dFdy(coordinate);
     vec2 texel = 1.0 / vec2(textureSize(warped_places, 0));
@@ -41,6 +43,11 @@ void main() {
 #elif defined(WARPED)
     vec3 lit =
         textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw, across, down).rgb;
+#elif defined(MULTISAMPLED)
+    vec3 lit = textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw,
+                           dFdx(tile_place) * lit_from_sample.xy,
+                           dFdy(tile_place) * lit_from_sample.xy)
+                   .rgb;
 #else
     vec3 lit = texture(lit_map, place * lit_from_sample.xy + lit_from_sample.zw).rgb;
 #endif

@@ -18,6 +18,11 @@ out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
 #ifdef GROUND
 out vec3 local_from_eye; // metres
+#elif defined(MULTISAMPLED)
+out vec3 way_from_eye; // metres
+#endif
+#ifdef MULTISAMPLED
+out float one;
 #endif
 
 // Where the rasterizer puts the vertex anyway, before it interpolates: else triangles seen edge-on show
@@ -37,6 +42,11 @@ void main() {
     tile_place = place;
 #ifdef GROUND
     local_from_eye = from_eye;
+#elif defined(MULTISAMPLED)
+    way_from_eye = relative;
+#endif
+#ifdef MULTISAMPLED
+    one = vertex_grid.z;
 #endif
 #ifdef HIT
     height_and_depth = vec2(height, dot(relative, view_forward.xyz));

@@ -236,6 +236,26 @@ TEST(RenderCommand, same_command_same_bits) {
     EXPECT_EQ(*io::read_image(folder.path() / "a.png"), *io::read_image(folder.path() / "b.png"));
 }
 
+TEST(RenderCommand, triangles_have_four_samples_a_pixel_and_rays_one) {
+    RELJEF_RELEASE_ONLY("the driver has tests of its own");
+    const test::TemporaryFolder folder;
+    const auto file = (folder.path() / "a.png").string();
+    const auto drawn = [&](const std::string& technique, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"render", "natural", "--technique", technique,
+                                           "--size", "160x120", "--quiet",     "--context",
+                                           "osmesa", "-o",      file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto result = test::reljef(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return io::read_image(file).value();
+    };
+    const Image one = drawn("polygons", {"--samples", "1"});
+    EXPECT_NE(drawn("polygons", {}), one);
+    EXPECT_EQ(drawn("polygons", {}), drawn("polygons", {"--samples", "4"}));
+    EXPECT_EQ(drawn("exact", {}), drawn("exact", {"--samples", "1"}));
+    EXPECT_NE(drawn("exact", {"--samples", "2"}), drawn("exact", {}));
+}
+
 TEST(RenderCommand, works_from_any_folder) {
     RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;

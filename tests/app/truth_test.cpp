@@ -120,6 +120,7 @@ TEST_F(TruthOption, RefusesWhatMakesNoSenseWithRays) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--truth", "--wireframe"},
                                                  {"--truth", "--technique", "texture"},
                                                  {"--truth", "--context", "osmesa"},
+                                                 {"--truth", "--samples", "4"},
                                                  {"--rays", "2"},
                                                  {"--truth", "--rays", "0"},
                                                  {"--truth", "--rays", "17"},

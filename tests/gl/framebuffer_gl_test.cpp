@@ -1,5 +1,7 @@
 #include "engine/gl/framebuffer.h"
 
+#include <algorithm>
+
 #include <glad/gl.h>
 #include <gmock/gmock.h>
 
@@ -110,9 +112,58 @@ TEST_F(FramebufferGlTest, impossible_options_are_one_sentence) {
               "framebuffer of 8 x 8 pixels: it has neither colour nor depth (status 0x8cd7)");
     EXPECT_THAT(message({.size = {8, 8}, .colors = {Format::depth32f}}),
                 ::testing::HasSubstr("an attachment cannot be drawn to"));
+    EXPECT_THAT(message({.size = {8, 8}, .samples = 3}),
+                ::testing::StartsWith("framebuffer with 3 samples a pixel: expected one of 1, "));
     EXPECT_THAT(message({.size = {8, 8}, .colors = std::vector<Format>(99, Format::rgba8)}),
                 ::testing::StartsWith("framebuffer with 99 colours: expected at most "));
     take_problems();
+}
+
+TEST_F(FramebufferGlTest, every_driver_has_one_and_four_samples) {
+    const std::vector<int> counts = sample_counts({});
+    EXPECT_TRUE(std::is_sorted(counts.begin(), counts.end()));
+    EXPECT_THAT(counts, ::testing::IsSupersetOf({1, 4})); // OpenGL 4.5 core, table 23.66
+    EXPECT_EQ(std::adjacent_find(counts.begin(), counts.end()), counts.end());
+}
+
+TEST_F(FramebufferGlTest, samples_are_averaged_in_linear_light) {
+    const Framebuffer samples = must(Framebuffer::create({.size = {5, 3}, .samples = 4}));
+    const Framebuffer picture = must(Framebuffer::create({.size = {5, 3}}));
+    EXPECT_EQ(samples.samples(), 4);
+    EXPECT_EQ(depth_attribute(samples, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE), 32);
+    EXPECT_EQ(depth_attribute(samples, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE), GL_FLOAT);
+    const Program program = test::cover_program(
+        "void main() { color = vec4(vec3(gl_SampleID < 2 ? 1.0 : 0.0), 1.0); }");
+    samples.bind();
+    samples.clear_color(glm::vec4(0.5F));
+    test::cover(program);
+    glDisable(GL_FRAMEBUFFER_SRGB); // whatever was set before
+    samples.resolve_to(picture);
+    const Image resolved = read_color(picture);
+    for (const Rgba8& pixel : resolved.samples()) {
+        ASSERT_NEAR(pixel.r, 188, 1) << "128 is the mean of the encoded bytes";
+        ASSERT_EQ(pixel.a, 255);
+    }
+    picture.bind();
+    test::cover(test::cover_program("void main() { color = vec4(0.0, 0.0, 0.0, 1.0); }"));
+    EXPECT_EQ(read_color(picture)(4, 2), (Rgba8{0, 0, 0, 255})) << "it can be drawn to again";
+}
+
+TEST_F(FramebufferGlTest, each_sample_has_a_depth_of_its_own) {
+    const Framebuffer samples = must(Framebuffer::create({.size = {4, 4}, .samples = 4}));
+    const Framebuffer picture = must(Framebuffer::create({.size = {4, 4}}));
+    set_reversed_depth();
+    samples.bind();
+    samples.clear_color(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+    samples.clear_depth();
+    Program near_left = test::cover_program("void main() { color = vec4(1.0);\n"
+                                            "gl_FragDepth = gl_SampleID == 0 ? 0.75 : 0.25; }");
+    test::cover(near_left);
+    Program behind = test::cover_program("void main() { color = vec4(0.0, 0.0, 0.0, 1.0); }");
+    behind.set_uniform("depth", 0.5F);
+    test::cover(behind);
+    samples.resolve_to(picture);
+    EXPECT_NEAR(read_color(picture)(1, 1).r, 137, 1) << "one of four is in front";
 }
 
 TEST_F(FramebufferGlTest, moved_from_is_harmless) {

@@ -17,6 +17,7 @@ TEST_F(LimitsGlTest, at_least_what_the_specification_demands) {
     EXPECT_GE(limits.max_texture_units, 96);
     EXPECT_GE(limits.max_fragment_texture_units, 16);
     EXPECT_GE(limits.max_color_attachments, 8);
+    EXPECT_GE(limits.max_samples, 4);
     EXPECT_GE(limits.max_viewport.x, 1024);
     EXPECT_GE(limits.max_viewport.y, 1024);
     EXPECT_GE(limits.max_uniform_block_bytes, 16384U);

@@ -88,7 +88,7 @@ TEST_P(Golden, IsStillDrawn) {
         file.string()};
     arguments.insert(arguments.end(), golden.options.begin(), golden.options.end());
     if (golden.options != std::vector<std::string>{"--truth"}) {
-        arguments.insert(arguments.end(), {"--context", test::context_name()});
+        arguments.insert(arguments.end(), {"--context", test::context_name(), "--samples", "1"});
     }
     const auto run = test::reljef(arguments);
     ASSERT_EQ(run.exit_code, 0) << run.err;

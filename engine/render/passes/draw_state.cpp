@@ -8,6 +8,7 @@ DrawState::DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameSt
     gl::set_reversed_depth();
     gl::set_culling(culling_);
     gl::set_polygon_mode(gl::PolygonMode::fill);
+    gl::set_sample_shading(false);
 }
 
 Result<gl::Program*> DrawState::use(ShaderVariant variant) {
@@ -22,6 +23,8 @@ Result<gl::Program*> DrawState::use(ShaderVariant variant) {
     variant_ = variant;
     program_->use();
     ++stats_.state_changes;
+    set_sample_shading((variant.features & feature_multisampled) != 0 &&
+                       searches_for_surface(variant.kind));
     return program_;
 }
 
@@ -37,6 +40,14 @@ Result<void> DrawState::set_block(unsigned int binding, std::span<const std::byt
         ++stats_.state_changes;
     }
     return {};
+}
+
+void DrawState::set_sample_shading(bool on) {
+    if (on != shades_samples_) {
+        gl::set_sample_shading(on);
+        shades_samples_ = on;
+        ++stats_.state_changes;
+    }
 }
 
 void DrawState::set_culling(gl::Culling culling) {

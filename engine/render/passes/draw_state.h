@@ -23,7 +23,8 @@ public:
     /// Sets what a frame begins with: reversed depth, filled triangles, their backs left out.
     DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats);
 
-    /// The variant's program, in use. Fails as ShaderLibrary::program.
+    /// The variant's program, in use; one that looks for a surface does so for each sample of a
+    /// pixel. Fails as ShaderLibrary::program.
     Result<gl::Program*> use(ShaderVariant variant);
     /// What all programs read from that uniform block. Fails where the driver has no memory.
     template <class Block> Result<void> set(const Block& block) {
@@ -41,6 +42,7 @@ public:
 
 private:
     Result<void> set_block(unsigned int binding, std::span<const std::byte> content);
+    void set_sample_shading(bool on);
 
     ShaderLibrary& shaders_;
     BlockBuffers& blocks_;
@@ -50,6 +52,7 @@ private:
     std::map<unsigned int, const gl::Buffer*> bound_; // by binding point
     gl::Culling culling_ = gl::Culling::back;
     bool wireframe_ = false;
+    bool shades_samples_ = false;
 };
 
 } // namespace reljef::render

@@ -23,7 +23,7 @@ struct Painting {
     DrawState& state;
 };
 
-/// What all of the list's programs are compiled with.
-std::uint32_t scene_features(const view::DrawList& list, bool hits);
+/// What all of the list's programs are compiled with, for a picture with so many samples a pixel.
+std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples = 1);
 
 } // namespace reljef::render

@@ -22,7 +22,8 @@ constexpr std::array kinds{
     std::pair{ShaderKind::relief_hull, std::string_view("mesh/relief_hull")},
     std::pair{ShaderKind::textured_terrain, std::string_view("terrain/textured_terrain")},
     std::pair{ShaderKind::relief_terrain, std::string_view("terrain/relief_terrain")},
-    std::pair{ShaderKind::sky, std::string_view("frame/sky")}};
+    std::pair{ShaderKind::sky, std::string_view("frame/sky")},
+    std::pair{ShaderKind::average, std::string_view("frame/average")}};
 constexpr std::array features_by_name{
     std::pair{feature_lit, std::string_view("LIT")},
     std::pair{feature_fog, std::string_view("FOG")},
@@ -46,7 +47,8 @@ constexpr std::array features_by_name{
     std::pair{feature_emboss, std::string_view("EMBOSS")},
     std::pair{feature_wrap, std::string_view("WRAP")},
     std::pair{feature_beams, std::string_view("BEAMS")},
-    std::pair{feature_layers, std::string_view("LAYERS")}};
+    std::pair{feature_layers, std::string_view("LAYERS")},
+    std::pair{feature_multisampled, std::string_view("MULTISAMPLED")}};
 
 std::string_view name_of(ShaderKind kind) {
     const auto* const found = std::find_if(kinds.begin(), kinds.end(),
@@ -238,20 +240,23 @@ std::uint32_t features_that_mean_something(ShaderKind kind) {
                                      feature_write_depth;
     switch (kind) {
     case ShaderKind::terrain:
-        return any | feature_warped;
+        return any | feature_warped | feature_multisampled;
+    case ShaderKind::mesh:
+        return any | feature_multisampled;
     case ShaderKind::relief:
-        return any | relief | feature_beams;
+        return any | relief | feature_beams | feature_multisampled;
     case ShaderKind::relief_mesh:
-        return any | relief | feature_layers | feature_wrap;
+        return any | relief | feature_layers | feature_wrap | feature_multisampled;
     case ShaderKind::textured_mesh:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
-               feature_warped;
+               feature_warped | feature_multisampled;
     case ShaderKind::textured_terrain:
-        return any | feature_normal_map | feature_bump | feature_emboss;
+        return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled;
     case ShaderKind::relief_hull:
-        return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap;
+        return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap |
+               feature_multisampled;
     case ShaderKind::relief_terrain:
-        return any | search | feature_hard_shadow | feature_soft_shadow;
+        return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled;
     default:
         return any;
     }
@@ -288,6 +293,14 @@ std::uint32_t own_features(ShaderVariant variant) {
     }
 }
 
+// Whether its values are taken elsewhere than in the middle of a pixel.
+bool is_multisampled(ShaderVariant variant) {
+    const bool knows = variant.kind != ShaderKind::beams && variant.kind != ShaderKind::sky &&
+                       variant.kind != ShaderKind::average;
+    return knows && (variant.features & feature_hit) == 0 &&
+           (variant.features & feature_multisampled) != 0;
+}
+
 bool has_ground(ShaderKind kind) {
     return kind == ShaderKind::textured_terrain || kind == ShaderKind::relief_terrain;
 }
@@ -300,11 +313,17 @@ bool has_own_light(ShaderKind kind) {
 
 } // namespace
 
+bool searches_for_surface(ShaderKind kind) {
+    return kind == ShaderKind::relief || kind == ShaderKind::relief_mesh ||
+           kind == ShaderKind::relief_hull || kind == ShaderKind::relief_terrain;
+}
+
 ShaderVariant without_meaningless(ShaderVariant variant) {
     variant.features &= ~(has_ground(variant.kind) ? feature_hit : 0U);
-    const std::uint32_t own = own_features(variant);
+    const std::uint32_t own =
+        own_features(variant) | (is_multisampled(variant) ? feature_multisampled : 0U);
     variant.features &= feature_lit | feature_fog | feature_hit;
-    if (variant.kind == ShaderKind::beams) {
+    if (variant.kind == ShaderKind::beams || variant.kind == ShaderKind::average) {
         return {variant.kind, 0U};
     }
     if (variant.kind == ShaderKind::sky) {

@@ -31,8 +31,12 @@ enum class ShaderKind {
     relief_hull,      ///< the same in a hull around the mesh
     textured_terrain, ///< a terrain with a tile of detail on it
     relief_terrain,   ///< each pixel looks for the tile's surface
-    sky
+    sky,
+    average ///< of several pictures, in linear light
 };
+
+/// Whether each pixel looks for the surface that it shows along a ray.
+bool searches_for_surface(ShaderKind kind);
 
 /// What a variant of a shader is compiled with; a scene that lacks it never pays for it.
 enum ShaderFeature : std::uint32_t {
@@ -59,9 +63,10 @@ enum ShaderFeature : std::uint32_t {
     feature_normal_map = 1U << 17U,
     feature_bump = 1U << 18U,
     feature_emboss = 1U << 19U,
-    feature_wrap = 1U << 20U,   ///< a mesh: the tile goes on in copies of itself
-    feature_beams = 1U << 21U,  ///< a relief: rays begin where their beam may meet something
-    feature_layers = 1U << 22U, ///< how a mesh's relief looks: for solids between layers
+    feature_wrap = 1U << 20U,         ///< a mesh: the tile goes on in copies of itself
+    feature_beams = 1U << 21U,        ///< a relief: rays begin where their beam may meet something
+    feature_layers = 1U << 22U,       ///< how a mesh's relief looks: for solids between layers
+    feature_multisampled = 1U << 23U, ///< pixels have several samples
 };
 
 struct ShaderVariant {
@@ -74,7 +79,7 @@ struct ShaderVariant {
 /// The variant without the features that mean nothing to it: a hit has neither light nor fog, the
 /// sky is not seen through air, it and tiles of detail on terrains are never hit, a terrain's light
 /// is in its map unless a relief casts shadows; parallax follows no ray, and a hit has neither
-/// shadow nor smooth edges.
+/// shadow nor smooth edges, and is that of a pixel's middle.
 ShaderVariant without_meaningless(ShaderVariant variant);
 
 /// Every variant that means something, each once.

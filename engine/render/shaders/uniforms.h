@@ -51,6 +51,9 @@ struct Uniforms {
     gl::Uniform<glm::mat3> direction_of_ray{"direction_of_ray"};
     gl::Uniform<float> begin_height{"begin_height"};
     gl::Uniform<float> beam_lift{"beam_lift"};
+
+    // The mean of pictures: average.frag.
+    gl::Uniform<int> picture_count{"picture_count"};
 };
 inline constexpr Uniforms uniforms;
 

@@ -16,7 +16,9 @@ glm::vec4 ray_from_pixel(const scene::Camera& camera, glm::ivec2 size) {
     const glm::dvec2 pixels(size);
     const double half = std::tan(0.5 * glm::radians(camera.vertical_fov));
     const glm::dvec2 extent{half * pixels.x / pixels.y, half};
-    return glm::vec4(glm::vec2(2.0 * extent / pixels), glm::vec2(-extent));
+    const glm::dvec2 a_pixel = 2.0 * extent / pixels;
+    const glm::dvec2 shift = a_pixel * glm::dvec2(camera.shift.x, -camera.shift.y);
+    return glm::vec4(glm::vec2(a_pixel), glm::vec2(shift - extent));
 }
 
 glm::dvec3 local_eye(const scene::Camera& camera, const glm::dmat4& world_from_local) {

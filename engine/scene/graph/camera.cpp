@@ -18,6 +18,11 @@ glm::dvec3 direction_or(glm::dvec3 vector, glm::dvec3 otherwise) {
 // product keeps fewer than half of a double's 53 bits.
 constexpr double parallel_sine = 0x1p-26;
 
+// The camera's shift as a part of half the picture's sides, right and up.
+glm::dvec2 clip_shift(const Camera& camera, glm::ivec2 size) {
+    return {2.0 * camera.shift.x / size.x, -2.0 * camera.shift.y / size.y};
+}
+
 } // namespace
 
 ViewAxes view_axes(const Camera& camera) {
@@ -43,11 +48,14 @@ glm::dmat4 view_from_world_rotation(const Camera& camera) {
 
 glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size) {
     const double aspect = static_cast<double>(size.x) / size.y;
+    const glm::dvec2 shift = clip_shift(camera, size);
     glm::dmat4 clip(0.0);
     if (camera.projection == ProjectionKind::perspective) {
         const double scale = 1.0 / std::tan(0.5 * glm::radians(camera.vertical_fov));
         clip[0][0] = scale / aspect;
         clip[1][1] = scale;
+        clip[2][0] = shift.x;
+        clip[2][1] = shift.y;
         clip[3][2] = camera.near;
         clip[2][3] = -1.0;
         return clip;
@@ -56,6 +64,8 @@ glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size) {
     clip[0][0] = 2.0 / (camera.view_height * aspect);
     clip[1][1] = 2.0 / camera.view_height;
     clip[2][2] = 1.0 / depth;
+    clip[3][0] = -shift.x;
+    clip[3][1] = -shift.y;
     clip[3][2] = camera.orthographic_far / depth;
     clip[3][3] = 1.0;
     return clip;
@@ -80,8 +90,9 @@ glm::dmat4 clip_from_world(const Camera& camera, glm::ivec2 size) {
 
 Ray view_ray(const Camera& camera, glm::ivec2 size, glm::dvec2 pixel) {
     const ViewAxes axes = view_axes(camera);
-    const double x = 2.0 * pixel.x / size.x - 1.0;
-    const double y = 1.0 - 2.0 * pixel.y / size.y;
+    const glm::dvec2 place = pixel + camera.shift;
+    const double x = 2.0 * place.x / size.x - 1.0;
+    const double y = 1.0 - 2.0 * place.y / size.y;
     const double aspect = static_cast<double>(size.x) / size.y;
     if (camera.projection == ProjectionKind::perspective) {
         const double half = std::tan(0.5 * glm::radians(camera.vertical_fov));
@@ -101,7 +112,8 @@ Projected project(const Camera& camera, glm::ivec2 size, glm::dvec3 world) {
     const double aspect = static_cast<double>(size.x) / size.y;
     const double x = glm::dot(relative, axes.right) / (half * aspect);
     const double y = glm::dot(relative, axes.up) / half;
-    return {{0.5 * (x + 1.0) * size.x, 0.5 * (1.0 - y) * size.y}, depth};
+    const glm::dvec2 place(0.5 * (x + 1.0) * size.x, 0.5 * (1.0 - y) * size.y);
+    return {place - camera.shift, depth};
 }
 
 Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Compass& compass) {

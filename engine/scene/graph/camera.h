@@ -19,6 +19,9 @@ struct Camera {
     double vertical_fov = 57.3; ///< degrees, perspective, (0, 180)
     double view_height = 1.0;   ///< metres from the bottom to the top edge, orthographic
     double near = 0.1;          ///< metres to the nearest depth drawn, perspective
+    /// Pixels, right and down: the picture shows in each place what else lies so far from it. Moves
+    /// where a pixel is sampled.
+    glm::dvec2 shift{0.0};
     /// The nearest and farthest depth drawn, metres along the view, orthographic.
     double orthographic_near = -1e7;
     double orthographic_far = 1e7;

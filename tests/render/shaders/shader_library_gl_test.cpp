@@ -30,9 +30,9 @@ class ShaderLibraryGlTest : public test::GlTest {};
 // Of a relief's many combinations those with at most one option, and those with as good as all:
 // whatever parts of a shader may have to do with each other is there.
 std::vector<ShaderVariant> covering_variants() {
-    constexpr std::uint32_t options = feature_fog | feature_view_steps | feature_fade |
-                                      feature_smooth_edges | feature_write_depth |
-                                      feature_hard_shadow | feature_soft_shadow;
+    constexpr std::uint32_t options =
+        feature_fog | feature_view_steps | feature_fade | feature_smooth_edges |
+        feature_write_depth | feature_hard_shadow | feature_soft_shadow | feature_multisampled;
     std::vector<ShaderVariant> variants = all_variants();
     std::erase_if(variants, [](const ShaderVariant& variant) {
         const int count = std::popcount(variant.features & options);

@@ -23,8 +23,8 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     for (const ShaderKind kind :
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
           ShaderKind::relief_mesh, ShaderKind::relief_hull, ShaderKind::textured_terrain,
-          ShaderKind::relief_terrain, ShaderKind::sky}) {
-        for (std::uint32_t features = 0; features < feature_wrap << 1U; features += 7U) {
+          ShaderKind::relief_terrain, ShaderKind::sky, ShaderKind::average}) {
+        for (std::uint32_t features = 0; features < feature_multisampled << 1U; features += 61U) {
             const ShaderVariant variant = without_meaningless({kind, features});
             ASSERT_EQ(variant.kind, kind);
             ASSERT_TRUE(std::binary_search(variants.begin(), variants.end(), variant));
@@ -33,15 +33,23 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
 }
 
 TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
+    std::size_t multisampled = 0;
+    std::size_t colors = 0;
     for (const ShaderVariant& variant : all_variants()) {
         constexpr std::uint32_t looks = feature_lit | feature_fog;
         const bool hit = (variant.features & feature_hit) != 0;
         EXPECT_FALSE(hit && (variant.features & looks) != 0);
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~feature_lit) != 0);
+        const bool is_multisampled = (variant.features & feature_multisampled) != 0;
+        const bool has_color = !hit && variant.kind != ShaderKind::sky &&
+                               variant.kind != ShaderKind::beams &&
+                               variant.kind != ShaderKind::average;
+        multisampled += is_multisampled ? 1U : 0U;
+        colors += has_color && !is_multisampled ? 1U : 0U;
     }
-    // terrain: fog or not, or a hit, warped or not; mesh: lit or not too; sky: lit or not. relief,
-    // of four parallaxes: each with and without fade and depth; of eight searches: these, and as
-    // colour three shadows and smooth edges or not.
+    // terrain: fog or not, or a hit, warped or not; mesh: lit or not too; sky: lit or not; the mean
+    // of pictures. relief, of four parallaxes: each with and without fade and depth; of eight
+    // searches: these, and as colour three shadows and smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
     // Three of the searches, without fade, are there with beams too; and the beams themselves.
@@ -58,9 +66,11 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     constexpr std::size_t textured_ground = 2U * (4U + 1U);
     constexpr std::size_t hull_searches = 2U * 8U * (1U + 2U * (1U + 3U));
     constexpr std::size_t ground_searches = 2U * (4U * 2U + 8U * (1U + 3U));
-    EXPECT_EQ(all_variants().size(), 2U * 3U + 5U + 2U + parallax + searches + beams + textured +
-                                         mesh_parallax + mesh_searches + layers + textured_ground +
-                                         ground_searches + hull_searches);
+    constexpr std::size_t plain = 2U * 3U + 5U + 2U + 1U;
+    EXPECT_EQ(all_variants().size() - multisampled,
+              plain + parallax + searches + beams + textured + mesh_parallax + mesh_searches +
+                  layers + textured_ground + ground_searches + hull_searches);
+    EXPECT_EQ(multisampled, colors) << "whatever a scene shows";
 }
 
 TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {

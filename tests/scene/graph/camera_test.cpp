@@ -80,6 +80,28 @@ TEST(Camera, LooksAlongTheAxesAsTheSceneFrameSays) {
     EXPECT_DOUBLE_EQ(above.depth, 10.0);
 }
 
+TEST(Camera, AShiftedPictureShowsWhatLiesBesideInTheOther) {
+    Chance chance(7);
+    for (int i = 0; i < 10000; ++i) {
+        const auto kind = i % 2 == 0 ? ProjectionKind::perspective : ProjectionKind::orthographic;
+        const Camera plain = chance.camera(kind);
+        const glm::ivec2 size = chance.size();
+        Camera shifted = plain;
+        shifted.shift = {chance.between(-0.5, 0.5), chance.between(-0.5, 0.5)};
+        const glm::dvec2 pixel(chance.between(0.0, size.x), chance.between(0.0, size.y));
+        const Ray ray = view_ray(shifted, size, pixel);
+        const Ray other = view_ray(plain, size, pixel + shifted.shift);
+        ASSERT_EQ(ray.origin, other.origin);
+        ASSERT_EQ(ray.direction, other.direction);
+        const glm::dvec3 point = ray.origin + chance.between(1.0, 1000.0) * ray.direction;
+        ASSERT_LE(glm::distance(project(shifted, size, point).pixel, pixel), 1e-6);
+        const glm::dvec4 clip = clip_from_world(shifted, size) * glm::dvec4(point, 1.0);
+        const glm::dvec2 place = glm::dvec2(clip) / clip.w;
+        ASSERT_NEAR(0.5 * (place.x + 1.0) * size.x, pixel.x, 1e-6);
+        ASSERT_NEAR(0.5 * (1.0 - place.y) * size.y, pixel.y, 1e-6);
+    }
+}
+
 TEST(Camera, StraightDownAndUpHaveNorthAtTheTop) {
     Camera camera;
     for (const double z : {-1.0, 1.0}) {

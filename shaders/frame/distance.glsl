@@ -1,0 +1,13 @@
+// Metres from the eye to this fragment, in perspective.
+#ifdef MULTISAMPLED
+in vec3 way_from_eye; // metres
+
+float distance_to_eye() {
+    return length(INSIDE(way_from_eye));
+}
+#else
+float distance_to_eye() {
+    vec2 ray = gl_FragCoord.xy * ray_from_pixel.xy + ray_from_pixel.zw;
+    return sqrt(1.0 + dot(ray, ray)) / gl_FragCoord.w;
+}
+#endif
