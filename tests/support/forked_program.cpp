@@ -159,7 +159,6 @@ void answer(int file, Answer what) {
 
 // Starts the program and stays until it ends.
 [[noreturn]] void keep(Request request) {
-    ::signal(SIGCHLD, SIG_DFL);
     const int answers = request.files[2];
     const pid_t process = ::fork();
     if (process == 0) {
@@ -177,7 +176,6 @@ void answer(int file, Answer what) {
 }
 
 [[noreturn]] void serve(int socket) {
-    ::signal(SIGCHLD, SIG_IGN); // keepers are waited for by nobody
     while (auto request = receive_request(socket)) {
         if (::fork() == 0) {
             ::close(socket);
@@ -186,6 +184,10 @@ void answer(int file, Answer what) {
         for (const int file : request->files) {
             ::close(file);
         }
+        while (::waitpid(-1, nullptr, WNOHANG) > 0) {
+        }
+    }
+    while (::waitpid(-1, nullptr, 0) > 0) {
     }
     ::_exit(0);
 }

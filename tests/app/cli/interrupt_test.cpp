@@ -46,7 +46,7 @@ TEST(CtrlC, EndsWhileOnePictureIsDrawn) {
             signal, [](int process) { return test::processor_seconds(process, "llvmpipe") > 0.1; }};
         const auto result =
             test::run_program(RELJEF_BINARY,
-                              {"render", "urban", "--size", "8192x8192", "--context", "osmesa",
+                              {"render", "urban", "--size", "4096x4096", "--context", "osmesa",
                                "--quiet", "-o", (folder.path() / "large.png").string()},
                               options);
         EXPECT_EQ(result.exit_code, 1) << signal;
