@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/cli/command.h"
+#include "app/cli/program.h"
 
 namespace reljef::app {
 
@@ -11,5 +12,8 @@ cli::Command add_info_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_techniques_command(CLI::App& program, cli::Interrupt& interrupt);
+
+/// The program `reljef`.
+cli::Program reljef_program();
 
 } // namespace reljef::app

@@ -1,8 +1,13 @@
 # A room is a static library of one folder. Files are listed, never globbed.
 #
 #   reljef_room(NAME [HEADERS a.h ...] [SOURCES a.cpp ...] [LINK target ...] [PRIVATE_LINK target ...])
-#   reljef_test(ROOM SOURCES a_test.cpp ... [LINK target ...] [ALONE FILTER])
+#   reljef_test(ROOM SOURCES a_test.cpp ... [LINK target ...] [SHARDS COUNT] [COST SECONDS]
+#               [ALONE FILTER] [SANITIZED FILTER])
+#               SHARDS: processes that share the tests
 #               ALONE: tests that need a window, or all of the machine, to themselves
+#               SANITIZED: what the sanitizers run by default (tests of input, memory and threads);
+#                          none without it
+# Tests that run by default have the label `default`; target `default_tests` builds their programs.
 
 add_library(reljef_warnings INTERFACE)
 target_compile_options(reljef_warnings INTERFACE
@@ -80,15 +85,24 @@ function(reljef_check_headers ROOM_TARGET)
   endif()
 endfunction()
 
-# One process that runs each SHARDS-th test of a program; ./dev adds up what the reports tell.
-function(reljef_add_shard NAME PROGRAM SHARDS SHARD)
-  add_test(NAME ${NAME} COMMAND ${CMAKE_COMMAND} -E env
-           GTEST_TOTAL_SHARDS=${SHARDS} GTEST_SHARD_INDEX=${SHARD} $<TARGET_FILE:${PROGRAM}>
-           --gtest_brief=1 --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${NAME}.xml ${ARGN})
+# SHARDS processes that share a program's tests, with some labels and the caller's `properties`; ./dev
+# adds up what their reports tell. FILTER is GoogleTest's; empty: all tests.
+function(reljef_add_shards NAME PROGRAM SHARDS FILTER)
+  if(FILTER)
+    set(filter --gtest_filter=${FILTER})
+  endif()
+  math(EXPR last "${SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    set(test ${NAME}.${shard})
+    add_test(NAME ${test} COMMAND ${CMAKE_COMMAND} -E env
+             GTEST_TOTAL_SHARDS=${SHARDS} GTEST_SHARD_INDEX=${shard} $<TARGET_FILE:${PROGRAM}>
+             --gtest_brief=1 --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${test}.xml ${filter})
+    set_tests_properties(${test} PROPERTIES ${properties} LABELS "${ARGN}")
+  endforeach()
 endfunction()
 
 function(reljef_test ROOM)
-  cmake_parse_arguments(TEST "" "ALONE;SHARDS;COST" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(TEST "" "ALONE;SHARDS;COST;SANITIZED" "SOURCES;LINK" ${ARGN})
   set(target reljef_${ROOM}_test)
   add_executable(${target} ${TEST_SOURCES})
   target_link_libraries(${target} PRIVATE reljef_test_support ${TEST_LINK} reljef_warnings reljef_test_build
@@ -96,7 +110,7 @@ function(reljef_test ROOM)
   if(TARGET reljef_test_precompiled)
     target_precompile_headers(${target} REUSE_FROM reljef_test_precompiled)
   endif()
-  set(properties TIMEOUT 900 LABELS ${ROOM})
+  set(properties TIMEOUT 900)
   if("address" IN_LIST RELJEF_SANITIZE)
     # Where the runtime of g++ 12 watches thread-local storage, it takes some of glibc's blocks for
     # those of a glibc before 2.25, and the search for leaks ends with a fault of its own, now and then.
@@ -104,23 +118,29 @@ function(reljef_test ROOM)
     list(APPEND properties ENVIRONMENT "${leaks}\\;ASAN_OPTIONS=intercept_tls_get_addr=0")
     target_link_libraries(${target} PRIVATE reljef_keep_loaded)
   endif()
-  # A process for each test would start programs that take a second under the sanitizers: the tests
-  # of a room share a few.
-  set(others)
-  if(TEST_ALONE)
-    reljef_add_shard(${ROOM}.alone ${target} 1 0 --gtest_filter=${TEST_ALONE})
-    set_tests_properties(${ROOM}.alone PROPERTIES ${properties} RUN_SERIAL ON)
-    set(others --gtest_filter=-${TEST_ALONE})
-  endif()
   if(NOT TEST_SHARDS)
     set(TEST_SHARDS 1)
   endif()
   if(TEST_COST)
     list(APPEND properties COST ${TEST_COST}) # the longest begin first
   endif()
-  math(EXPR last "${TEST_SHARDS} - 1")
-  foreach(shard RANGE ${last})
-    reljef_add_shard(${ROOM}.${shard} ${target} ${TEST_SHARDS} ${shard} ${others})
-    set_tests_properties(${ROOM}.${shard} PROPERTIES ${properties})
-  endforeach()
+  # A process for each test would start programs that take a second under the sanitizers: the tests
+  # of a room share a few.
+  set(label)
+  if(NOT RELJEF_SANITIZE OR TEST_SANITIZED)
+    add_dependencies(default_tests ${target})
+  endif()
+  if(NOT RELJEF_SANITIZE OR TEST_SANITIZED STREQUAL "*")
+    set(label default)
+  elseif(TEST_SANITIZED)
+    reljef_add_shards(${ROOM}.sanitized ${target} ${TEST_SHARDS} "${TEST_SANITIZED}" ${ROOM} default)
+    string(APPEND left_out ":${TEST_SANITIZED}")
+  endif()
+  if(TEST_ALONE)
+    reljef_add_shards(${ROOM}.alone ${target} 1 "${TEST_ALONE}" ${ROOM} ${label})
+    set_tests_properties(${ROOM}.alone.0 PROPERTIES RUN_SERIAL ON)
+    string(APPEND left_out ":${TEST_ALONE}")
+  endif()
+  string(REGEX REPLACE "^:" "-" left_out "${left_out}")
+  reljef_add_shards(${ROOM} ${target} ${TEST_SHARDS} "${left_out}" ${ROOM} ${label})
 endfunction()

@@ -7,10 +7,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/commands.h"
+#include "tests/support/forked_program.h"
+
 namespace reljef::test {
+namespace {
+
+int reljef_main(int argc, char** argv) {
+    return cli::run_program(app::reljef_program(), argc, argv);
+}
+
+} // namespace
 
 ProgramResult reljef(const std::vector<std::string>& arguments, const ProgramOptions& options) {
-    return run_program(RELJEF_BINARY, arguments, options);
+    return run_forked(reljef_main, RELJEF_BINARY, arguments, options);
 }
 
 std::string without_progress(const std::string& err) {

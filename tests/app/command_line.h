@@ -7,7 +7,7 @@
 
 namespace reljef::test {
 
-/// Runs the program `reljef`.
+/// Runs the program `reljef`, as run_forked.
 ProgramResult reljef(const std::vector<std::string>& arguments, const ProgramOptions& options = {});
 
 /// What was said on stderr but for the progress of what took over a second on this machine.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 #include "engine/io/image/image.h"
 #include "engine/io/image/texture_files.h"
 #include "tests/app/command_line.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef {
@@ -282,17 +284,14 @@ TEST_F(MapsCommand, CtrlCLeavesNothing) {
     }
     write(file("large.png"), large);
     const auto before = folder_.names();
-    test::ProgramResult result;
-    // Later where the signal came before main() had begun: a busy machine loads libraries slowly.
-    for (const char* const seconds : {"1", "2", "4"}) {
-        result = test::run_program("/usr/bin/timeout",
-                                   {"--preserve-status", "-s", "INT", seconds, RELJEF_BINARY,
-                                    "maps", file("large.png"), "--quiet", "--normals",
-                                    file("n.png"), "--relaxed-cones", file("cones.png")});
-        if (result.exit_code < 128) {
-            break;
-        }
-    }
+    test::ProgramOptions options;
+    options.interruption = {SIGINT, [](int process) { // the cones take far longer
+                                return test::processor_seconds(process) > 1.0;
+                            }};
+    const auto result = test::run_program(RELJEF_BINARY,
+                                          {"maps", file("large.png"), "--quiet", "--normals",
+                                           file("n.png"), "--relaxed-cones", file("cones.png")},
+                                          options);
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.err, "reljef: interrupted\n");
     EXPECT_EQ(folder_.names(), before);

@@ -81,7 +81,6 @@ TEST(Readme, every_command_works) {
     test::ProgramOptions options;
     options.folder = folder.path();
     options.environment["XDG_CACHE_HOME"] = (folder.path() / "cache").string();
-    options.timeout = std::chrono::seconds(240);
     const std::string binaries = std::filesystem::path(RELJEF_BINARY).parent_path().string();
     options.environment["PATH"] = binaries + ":/usr/bin:/bin";
     int commands = 0;
@@ -94,6 +93,9 @@ TEST(Readme, every_command_works) {
             continue;
         }
         line += is_view ? " --frames 1" : "";
+        if (line.rfind("reljef render", 0) == 0 && line.find(" --size ") == std::string::npos) {
+            line += " --size 160x120"; // what it draws is tested elsewhere
+        }
         const auto result = test::run_program("/bin/sh", {"-c", line}, options);
         EXPECT_EQ(result.exit_code, 0) << line << '\n' << result.err;
         ++commands;

@@ -1,28 +1,29 @@
+#include <csignal>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/bench_program.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef {
 namespace {
 
-// `timeout` ends the program as Ctrl-C does.
-test::ProgramResult interrupted_after(const std::string& seconds,
-                                      std::vector<std::string> arguments) {
-    std::vector<std::string> all{"--preserve-status", "-s", "INT", seconds, RELJEF_BENCH_BINARY};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    return test::run_program("/usr/bin/timeout", all);
-}
-
 TEST(BenchCtrlC, keeps_the_rows_it_has_and_leaves_no_part_files) {
     const test::TemporaryFolder folder;
     const auto dem = folder.write("dem.asc", test::small_dem).string();
     const auto file = folder.path() / "t.json";
-    const auto result = interrupted_after("6", {"tables", "--terrain", dem, "--size", "64x48",
-                                                "--context", "osmesa", "--rounds", "1000000",
-                                                "--quiet", "--json", file.string()});
+    test::ProgramOptions options;
+    options.interruption = {SIGINT, [](int process) { // some of a million rounds are over
+                                return test::processor_seconds(process) > 5.0;
+                            }};
+    const auto result =
+        test::run_program(RELJEF_BENCH_BINARY,
+                          {"tables", "--terrain", dem, "--size", "64x48", "--context", "osmesa",
+                           "--rounds", "1000000", "--quiet", "--json", file.string()},
+                          options);
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.err.rfind("reljef-bench: interrupted", 0), 0U) << result.err;
     EXPECT_THAT(result.out, testing::HasSubstr("polygons"));

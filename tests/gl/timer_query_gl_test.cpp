@@ -39,7 +39,7 @@ TEST_F(TimerQueryGlTest, time_is_positive_and_no_longer_than_the_wall_clock) {
     glFinish();
     const nanoseconds wall = steady_clock::now() - start;
     auto time = query.poll();
-    while (!time && steady_clock::now() - start < std::chrono::seconds(10)) {
+    while (!time && steady_clock::now() - start < std::chrono::minutes(1)) {
         time = query.poll();
     }
     ASSERT_TRUE(time);

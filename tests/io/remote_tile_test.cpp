@@ -1,7 +1,6 @@
 // Tiles from a server on the loopback that is slow, fails, lies, and recovers.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <optional>
 
 #include <cpl_vsi.h>
@@ -101,9 +100,7 @@ TEST_F(RemoteTiles, AreFaultsWhereTheServerHangs) {
     CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "1"); // seconds
     const TileSet tiles = open(server_->url("dem.tif"));
     server_->serve_by("limit_rate 1;"); // byte a second
-    const auto begin = std::chrono::steady_clock::now();
-    expect_fault(tiles, "dem.tif");
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    expect_fault(tiles, "dem.tif");     // all of it would come within days
     CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "10");
 }
 

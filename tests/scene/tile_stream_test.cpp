@@ -170,22 +170,27 @@ TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
 
 TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
     std::atomic<int> readings{0};
+    std::atomic<bool> recovers{false};
     TileStream stream(maker(),
                       [&](TreeTile tile, const std::stop_token& stop) {
                           TileReading reading = read_plane(tile, stop);
                           if (++readings < 3) {
                               reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
-                          } else {
-                              reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
+                              return reading;
                           }
+                          while (!recovers && !stop.stop_requested()) {
+                              std::this_thread::sleep_for(1ms);
+                          }
+                          reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
                           return reading;
                       },
-                      {.threads = 1, .first_pause = 20ms});
+                      {.threads = 1, .first_pause = 1ms});
     stream.request(std::array{TreeTile{0, 0, 0}});
     while (stream.find({0, 0, 0}) == nullptr) {
         std::this_thread::sleep_for(1ms);
     }
     EXPECT_NE(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
+    recovers = true;
     stream.request({}, std::array{TreeTile{0, 0, 0}}); // it is in memory, and drawn
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
@@ -214,7 +219,7 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
                       {.threads = 1, .first_pause = 1ms});
     const TreeTile tile{0, 0, 0};
     stream.request(std::array{tile});
-    for (int frame = 0; frame < 200 && (stream.is_busy() || readings < 2); ++frame) {
+    for (int frame = 0; frame < 30'000 && (stream.is_busy() || readings < 2); ++frame) {
         if (stream.find(tile) != nullptr) {
             stream.request({}, std::array{tile});
         }
@@ -226,7 +231,7 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
     EXPECT_EQ(stream.find(tile)->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
 }
 
-// Readings of one tile, one after the other.
+// Readings of one tile, one after the other, each once it may begin.
 class RecoveringTile : public ::testing::Test {
 protected:
     struct Attempt {
@@ -240,12 +245,17 @@ protected:
 
     std::shared_ptr<const StreamedTile> first_of(std::vector<Attempt> attempts) {
         attempts_ = std::move(attempts);
+        may_begin_ = 1;
         stream_ = std::make_unique<TileStream>(
             maker(),
             [this](TreeTile wanted, const std::stop_token& stop) {
-                return read(attempts_.at(static_cast<std::size_t>(readings_++)), wanted, stop);
+                const int number = readings_++;
+                while (number >= may_begin_ && !stop.stop_requested()) {
+                    std::this_thread::sleep_for(1ms);
+                }
+                return read(attempts_.at(static_cast<std::size_t>(number)), wanted, stop);
             },
-            TileStreamOptions{.threads = 1, .first_pause = 10ms});
+            TileStreamOptions{.threads = 1, .first_pause = 1ms});
         stream_->request(std::array{tile});
         while (stream_->find(tile) == nullptr) {
             std::this_thread::sleep_for(1ms);
@@ -253,12 +263,14 @@ protected:
         return stream_->find(tile);
     }
     std::shared_ptr<const StreamedTile> after_failures(int count) {
+        may_begin_ = count;
         while (stream_->stats().failed < count) {
             std::this_thread::sleep_for(1ms);
         }
         return stream_->find(tile);
     }
     std::shared_ptr<const StreamedTile> last() {
+        may_begin_ = static_cast<int>(attempts_.size());
         EXPECT_TRUE(stream_->wait({}));
         EXPECT_EQ(static_cast<std::size_t>(readings_), attempts_.size());
         return stream_->find(tile);
@@ -283,6 +295,7 @@ private:
 
     std::vector<Attempt> attempts_;
     std::atomic<int> readings_{0};
+    std::atomic<int> may_begin_{0};
     std::unique_ptr<TileStream> stream_;
 };
 

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* program = "/usr/sbin/nginx";
-constexpr std::chrono::seconds longest_start{10};
+constexpr std::chrono::minutes longest_start{1};
 
 std::string configuration(const fs::path& root, int port, const std::string& rules) {
     return "daemon off;\nmaster_process off;\npid nginx.pid;\nerror_log error.log;\n"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace reljef::test {
@@ -24,6 +25,21 @@ std::size_t resident_bytes() {
 std::size_t open_files() {
     const std::filesystem::directory_iterator files("/proc/self/fd");
     return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+double processor_seconds(int process, const std::string& thread_name) {
+    std::error_code gone;
+    const auto tasks = "/proc/" + std::to_string(process) + "/task";
+    double seconds = 0.0;
+    for (std::filesystem::directory_iterator task(tasks, gone), end; !gone && task != end;
+         task.increment(gone)) {
+        std::string name;
+        std::getline(std::ifstream(task->path() / "comm"), name);
+        double nanoseconds = 0.0;
+        std::ifstream(task->path() / "schedstat") >> nanoseconds;
+        seconds += name.starts_with(thread_name) ? 1e-9 * nanoseconds : 0.0;
+    }
+    return seconds;
 }
 
 EnvironmentVariable::EnvironmentVariable(std::string name, const std::string& value)

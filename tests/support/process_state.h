@@ -11,6 +11,10 @@ std::size_t resident_bytes();
 /// Files, sockets and the like that this process has open.
 std::size_t open_files();
 
+/// What the processor has done for a process so far, seconds; 0 where there is none. Of its threads
+/// whose names begin so, or of all.
+double processor_seconds(int process, const std::string& thread_name = "");
+
 /// A variable of this process's environment for as long as this lives, then as it was: other tests
 /// run in the same process.
 class EnvironmentVariable {

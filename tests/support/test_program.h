@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,12 +10,21 @@
 
 namespace reljef::test {
 
+/// A signal for a running program.
+struct Interruption {
+    int signal = 0; ///< 0: none
+    /// Asked again and again, with the program's process, until it says so: by what the program has
+    /// done, as a busy machine takes its time.
+    std::function<bool(int process)> when;
+};
+
 struct ProgramOptions {
     /// Added to the test's own environment; a variable without a value is removed from it.
     std::map<std::string, std::optional<std::string>> environment;
     std::filesystem::path folder;             ///< to run in; empty: the test's own
     std::filesystem::path input{"/dev/null"}; ///< its stdin
-    std::chrono::seconds timeout{120};        ///< then the program and what it started are killed
+    std::chrono::seconds timeout{240};        ///< then the program and what it started are killed
+    Interruption interruption = {};
 };
 
 struct ProgramResult {

@@ -1,19 +1,13 @@
+#include <csignal>
+
 #include <gtest/gtest.h>
 
 #include "tests/app/command_line.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef {
 namespace {
-
-// `timeout` ends the program as Ctrl-C (INT), a closed terminal (HUP) or a shutdown (TERM) does.
-test::ProgramResult interrupted_after(const std::string& seconds,
-                                      std::vector<std::string> arguments,
-                                      const std::string& signal = "INT") {
-    std::vector<std::string> all{"--preserve-status", "-s", signal, seconds, RELJEF_BINARY};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    return test::run_program("/usr/bin/timeout", all);
-}
 
 TEST(CtrlC, HasTheExitStatusThatTheHelpTells) {
     const auto help = test::reljef({"--help"});
@@ -25,10 +19,16 @@ TEST(CtrlC, HasTheExitStatusThatTheHelpTells) {
 
 TEST(CtrlC, ends_a_long_flight_and_leaves_no_rubbish) {
     const test::TemporaryFolder folder;
-    const auto video = (folder.path() / "flight.mp4").string();
-    const auto result =
-        interrupted_after("4", {"render", "natural", "--path", "orbit", "--frames", "100000",
-                                "--size", "64x48", "--context", "osmesa", "--quiet", "-o", video});
+    test::ProgramOptions options;
+    options.interruption = {SIGINT, [&](int process) { // the video has begun
+                                return !folder.names().empty() &&
+                                       test::processor_seconds(process, "llvmpipe") > 0.1;
+                            }};
+    const auto result = test::run_program(
+        RELJEF_BINARY,
+        {"render", "natural", "--path", "orbit", "--frames", "100000", "--size", "64x48",
+         "--context", "osmesa", "--quiet", "-o", (folder.path() / "flight.mp4").string()},
+        options);
     if (result.err.find("ffmpeg was not found") != std::string::npos) {
         GTEST_SKIP() << "no ffmpeg here";
     }
@@ -37,26 +37,18 @@ TEST(CtrlC, ends_a_long_flight_and_leaves_no_rubbish) {
     EXPECT_TRUE(folder.names().empty());
 }
 
-// Later where the signal came before main() had begun: a busy machine loads the libraries slowly.
-test::ProgramResult interrupted_while_drawing(const std::string& picture, const char* signal) {
-    test::ProgramResult result;
-    for (const char* const seconds : {"1", "2", "4"}) {
-        result = interrupted_after(seconds,
-                                   {"render", "natural", "--size", "8192x8192", "--context",
-                                    "osmesa", "--quiet", "-o", picture},
-                                   signal);
-        if (result.exit_code < 128) {
-            break;
-        }
-    }
-    return result;
-}
-
+// As a closed terminal (HUP) and a shutdown (TERM) do.
 TEST(CtrlC, EndsWhileOnePictureIsDrawn) {
     const test::TemporaryFolder folder;
-    const auto picture = (folder.path() / "large.png").string();
-    for (const char* signal : {"INT", "HUP", "TERM"}) {
-        const auto result = interrupted_while_drawing(picture, signal);
+    for (const int signal : {SIGINT, SIGHUP, SIGTERM}) {
+        test::ProgramOptions options;
+        options.interruption = {
+            signal, [](int process) { return test::processor_seconds(process, "llvmpipe") > 0.1; }};
+        const auto result =
+            test::run_program(RELJEF_BINARY,
+                              {"render", "urban", "--size", "4096x4096", "--context", "osmesa",
+                               "--quiet", "-o", (folder.path() / "large.png").string()},
+                              options);
         EXPECT_EQ(result.exit_code, 1) << signal;
         EXPECT_EQ(result.err, "reljef: interrupted\n") << signal;
         EXPECT_TRUE(folder.names().empty()) << signal;

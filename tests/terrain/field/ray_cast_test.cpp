@@ -1,6 +1,5 @@
 #include "engine/terrain/field/surface_caster.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -391,13 +390,12 @@ TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
     }
 }
 
-TEST(Pick, EndsSoonWhereverTheRayComesFrom) {
+TEST(Pick, EndsWhereverTheRayComesFrom) {
     test::Chance chance(13);
     std::vector<Heightfield> fields;
     fields.push_back(test::geographic_heightfield(Grid<float>(101, 81, 0.0F), 46.0, 7.0, 0.01));
     fields.push_back(test::geographic_heightfield(Grid<float>(361, 161, 0.0F), 80.0, -180.0, 1.0));
     fields.push_back(test::geographic_heightfield(Grid<float>(41, 41, 0.0F), 89.5, 0.0, 0.5));
-    const auto start = std::chrono::steady_clock::now();
     for (const Heightfield& heightfield : fields) {
         const Placement placement = test::placed(heightfield);
         const MinMaxPyramid pyramid(heightfield.heights.view());
@@ -411,7 +409,6 @@ TEST(Pick, EndsSoonWhereverTheRayComesFrom) {
             ASSERT_TRUE(!hit || std::isfinite(hit->t));
         }
     }
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 } // namespace

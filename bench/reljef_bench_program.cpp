@@ -1,0 +1,27 @@
+#include "bench/reljef_bench_program.h"
+
+#include "bench/compare_command.h"
+#include "bench/flight_command.h"
+#include "bench/lod_command.h"
+#include "bench/pareto_command.h"
+#include "bench/peers_command.h"
+#include "bench/tables_command.h"
+
+namespace reljef::bench {
+
+cli::Program reljef_bench_program() {
+    return {.name = "reljef-bench",
+            .description = "reljef-bench measures how fast each technique draws a terrain, and how "
+                           "wrong its picture is.",
+            .verb = "suite",
+            .footer = "Examples:\n"
+                      "  reljef-bench tables --quick --json tables.json\n"
+                      "  reljef-bench pareto --terrain natural\n"
+                      "  reljef-bench lod --terrain natural\n"
+                      "  reljef-bench compare before.json after.json\n"
+                      "'reljef-bench SUITE --help' says more.",
+            .commands = {add_tables_command, add_pareto_command, add_lod_command, add_peers_command,
+                         add_flight_command, add_compare_command}};
+}
+
+} // namespace reljef::bench
