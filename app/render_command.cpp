@@ -109,6 +109,11 @@ Result<void> check_interrupt(const cli::Interrupt& interrupt) {
     return interrupt.requested() ? Result<void>(Error{"interrupted"}) : Result<void>();
 }
 
+session::Underground underground(const RenderChoice& choice) {
+    return choice.view.allow_underground ? session::Underground::allowed
+                                         : session::Underground::lifted;
+}
+
 Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
                          session::FrameMaker& maker, const std::optional<scene::FlyPath>& path,
                          session::Log& log, const cli::Interrupt& interrupt) {
@@ -125,8 +130,8 @@ Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scen
     cli::ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (path) {
-            raised.add(
-                session::fly_above_ground(scene, *path, index, frames, maker, interrupt.token()));
+            raised.add(session::fly_above_ground(scene, *path, index, frames, maker,
+                                                 interrupt.token(), underground(choice)));
         }
         auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
                                       line.update((index + part) / frames);
@@ -268,7 +273,11 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         return path.error();
     }
     if (*path) {
-        static_cast<void>(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token()));
+        static_cast<void>(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token(),
+                                                    underground(choice)));
+    } else if (const session::Lift lift = session::stand_above_ground(
+                   scene, maker, interrupt.token(), underground(choice))) {
+        log.note(session::lift_note(lift, cli::camera_source(choice.view, choice.terrain)));
     }
     if (!choice.hits.empty()) {
         if (auto written = write_hit_file(choice, scene, maker, interrupt); !written) {

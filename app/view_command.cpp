@@ -17,6 +17,7 @@
 #include "engine/platform/window.h"
 #include "engine/session/background.h"
 #include "engine/session/device.h"
+#include "engine/session/ground.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
@@ -309,7 +310,12 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
         fmt::print("{}", Viewer::keys());
         std::fflush(stdout);
     }
-    Viewer viewer(scene, std::move(*path), (*window)->framebuffer_size(), choice.terrain.threads);
+    if (const session::Lift lift =
+            choice.view.allow_underground ? session::Lift{} : session::lift_camera(scene)) {
+        log.note(session::lift_note(lift, cli::camera_source(choice.view, choice.terrain)));
+    }
+    Viewer viewer(scene, std::move(*path), (*window)->framebuffer_size(),
+                  {choice.terrain.threads, choice.view.allow_underground});
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }

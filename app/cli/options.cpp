@@ -231,6 +231,8 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         ->type_name("NAME|FILE")
         ->excludes(eye)
         ->excludes(camera);
+    command.add_flag("--allow-underground", choice.allow_underground,
+                     "keep a camera that is below the ground where it is (lifted above it)");
     add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
                "pictures along the path (1)", "N");
     add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
@@ -365,6 +367,16 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
             "how far sea level lies above the ellipsoid: a file (.gtx, .tif, .pgm), or none "
             "(the installed EGM96, for heights above EGM96)")
         ->type_name("FILE");
+}
+
+std::string camera_source(const ViewChoice& view, const TerrainChoice& terrain) {
+    if (view.eye) {
+        return "--eye";
+    }
+    if (view.geodetic) {
+        return "--camera";
+    }
+    return view.pose ? "--pose" : terrain.terrain;
 }
 
 void check_view_options(const ViewChoice& choice) {

@@ -32,6 +32,7 @@ struct ViewChoice : session::SceneOptions {
     std::optional<int> samples; ///< of a pixel; absent: 4 where the picture has triangles, else 1
     std::string path; ///< a built-in path ("orbit", "flyover") or a path file; empty: none
     int frames = 1;
+    bool allow_underground = false; ///< keeps cameras that are below the ground
     double frames_per_second = 25.0;
     std::filesystem::path shader_dir;
 };
@@ -59,6 +60,8 @@ void add_source_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
 /// --samples, for programs that draw pictures to look at.
 void add_samples_option(CLI::App& command, ViewChoice& choice);
+/// What says where the camera stands: an option, or the scene file.
+std::string camera_source(const ViewChoice& view, const TerrainChoice& terrain);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

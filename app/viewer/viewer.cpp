@@ -51,13 +51,18 @@ double width_of(const session::TerrainScene& scene) {
     return std::max(scene.bounds.size().x, scene.bounds.size().y);
 }
 
-scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::Camera& start) {
+scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::Camera& start,
+                              bool allow_underground) {
     const scene::TerrainNode& terrain = *scene.terrain->get<scene::TerrainNode>();
     const auto surface = terrain.surface;
     scene::FreeFlightOptions options;
     options.speed = width_of(scene) / seconds_across;
     options.clearance = session::least_clearance(scene);
-    options.ground = [terrain](double x, double y) { return session::ground_at(terrain, x, y); };
+    if (!allow_underground) {
+        options.ground = [terrain](double x, double y) {
+            return session::ground_at(terrain, x, y);
+        };
+    }
     options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
     options.north = [surface](glm::dvec3 world) { return surface->placement().north(world); };
     return {start, std::move(options)};
@@ -155,10 +160,11 @@ std::string Viewer::keys() {
     return text;
 }
 
-Viewer::Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size, int threads)
+Viewer::Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size,
+               const ViewerOptions& options)
     : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
-      techniques_(techniques_with(material().technique, scene)), switch_(scene, threads),
-      flight_(make_flight(scene, start_)) {
+      techniques_(techniques_with(material().technique, scene)), switch_(scene, options.threads),
+      flight_(make_flight(scene, start_, options.allow_underground)) {
     show_coarse_until_prepared();
     if (camera().projection == scene::ProjectionKind::orthographic) {
         map_.emplace(camera(), scene_.bounds, size_);

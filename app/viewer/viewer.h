@@ -25,14 +25,19 @@ struct FrameTiming {
     std::optional<double> frames_per_second; ///< absent: nothing moves, nothing is drawn
 };
 
+struct ViewerOptions {
+    int threads = 0;                ///< for maps; 0: as many as the machine has
+    bool allow_underground = false; ///< the ground stops nobody
+};
+
 /// Everything the viewer decides, without a window: takes events, moves the camera of its scene,
 /// and says whether there is something new to draw.
 class Viewer {
 public:
     /// Precondition: `scene` is as make_scene() gives it and outlives the viewer. `size` is the
     /// picture's, pixels. While the maps of the scene's technique are made, a coarser one is shown.
-    /// `threads` 0: as many as the machine has.
-    Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size, int threads = 0);
+    Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size,
+           const ViewerOptions& options = {});
 
     /// What each key does, for people: a line each.
     static std::string keys();

@@ -160,7 +160,7 @@ TEST_F(FramebufferGlTest, each_sample_has_a_depth_of_its_own) {
                                             "gl_FragDepth = gl_SampleID == 0 ? 0.75 : 0.25; }");
     test::cover(near_left);
     Program behind = test::cover_program("void main() { color = vec4(0.0, 0.0, 0.0, 1.0); }");
-    behind.set_uniform("depth", 0.5F);
+    behind.set(Uniform<float>{"depth"}, 0.5F);
     test::cover(behind);
     samples.resolve_to(picture);
     EXPECT_NEAR(read_color(picture)(1, 1).r, 137, 1) << "one of four is in front";
