@@ -12,7 +12,7 @@ struct FrameStats {
     int tiles_missing = 0; ///< of streamed terrains, not there yet: coarser ones are drawn
     int tiles_cut = 0;     ///< whose triangles were chosen anew for this frame
     int draws = 0;         ///< draw calls, the sky's included
-    int state_changes = 0; ///< programs, vertex arrays, textures and modes set
+    int state_changes = 0; ///< programs, vertex arrays, textures, uniform blocks and modes set
     int uploads = 0;       ///< buffers and textures filled
     std::size_t upload_bytes = 0;
 
