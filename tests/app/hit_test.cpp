@@ -69,9 +69,10 @@ TEST_F(HitFile, agrees_with_the_heightfield_at_the_shown_points) {
     const auto dem = test::data_path("natural/srtm3/N45E006.hgt");
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "hit.exr").string();
-    const auto run = test::reljef({"render", dem.string(), "--placement", "plane", "--eye",
-                                   "2000,-60000,14000", "--look", "0,-20000,1000", "--size",
-                                   "640x480", "--context", "osmesa", "--hit", file});
+    const auto run =
+        test::reljef({"render", dem.string(), "--placement", "plane", "--eye", "2000,-60000,14000",
+                      "--look", "0,-20000,1000", "--size", "640x480", "--max-error", "none",
+                      "--context", "osmesa", "--hit", file});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto hits = io::read_hits(file);
     ASSERT_TRUE(hits) << hits.error().message;

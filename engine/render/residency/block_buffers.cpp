@@ -8,10 +8,11 @@
 namespace reljef::render {
 
 void BlockBuffers::begin_frame() {
-    std::erase_if(buffers_, [](const auto& entry) { return !entry.second.in_use; });
     for (auto& [content, entry] : buffers_) {
-        entry.in_use = false;
+        ++entry.unused_frames;
     }
+    std::erase_if(buffers_,
+                  [](const auto& entry) { return entry.second.unused_frames > kept_frames; });
 }
 
 Result<const gl::Buffer*> BlockBuffers::buffer(std::span<const std::byte> content,
@@ -19,7 +20,7 @@ Result<const gl::Buffer*> BlockBuffers::buffer(std::span<const std::byte> conten
     const std::string_view key(reinterpret_cast<const char*>(content.data()), content.size());
     const auto found = buffers_.find(key);
     if (found != buffers_.end()) {
-        found->second.in_use = true;
+        found->second.unused_frames = 0;
         return &found->second.buffer;
     }
     auto made = gl::Buffer::create(content);

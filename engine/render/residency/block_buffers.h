@@ -17,7 +17,11 @@ namespace reljef::render {
 /// destroy while it is current.
 class BlockBuffers {
 public:
-    /// Drops the buffers that the last frame did not ask for.
+    /// Frames that a buffer outlives without being asked for: techniques that take turns, as when
+    /// they are measured, find theirs again.
+    static constexpr int kept_frames = 64;
+
+    /// Drops the buffers that no frame asked for so long.
     void begin_frame();
 
     /// The buffer that holds these bytes, made when first asked for. Valid for the frame. Fails
@@ -29,7 +33,7 @@ public:
 private:
     struct Entry {
         gl::Buffer buffer;
-        bool in_use = true; // by this frame
+        int unused_frames = 0; // since a frame asked for it
     };
     std::map<std::string, Entry, std::less<>> buffers_; // by the bytes
 };

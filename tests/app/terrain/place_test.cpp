@@ -38,7 +38,9 @@ public:
         auto source = test::open_terrain(choice);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
         EXPECT_TRUE(source->stream);
-        scene_ = std::move(*test::make_scene(std::move(*source), choice, session::SceneOptions{}));
+        session::SceneOptions view;
+        view.max_error = 0.0; // every sample of a tile
+        scene_ = std::move(*test::make_scene(std::move(*source), choice, view));
         session::DeviceOptions options;
         options.context = platform::ContextKind::osmesa;
         options.context_options.size = picture_size;
