@@ -56,7 +56,7 @@ public:
          const SourceOptions& terrain, std::optional<scene::Technique> technique, Log& log,
          std::stop_token stop)
         : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
-          technique_(std::move(technique)), log_(log), stop_(std::move(stop)) {}
+          technique_(technique), log_(log), stop_(std::move(stop)) {}
 
     Result<Set> of(const terrains::GalleryModel& model) {
         const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
