@@ -15,7 +15,7 @@ namespace reljef::io {
 namespace {
 
 constexpr double most_overview_samples = 512.0 * 512.0; // of the overview that is looked at
-constexpr double most_remote_samples = 128.0 * 128.0;   // where they come from a server
+constexpr double most_remote_samples = 256.0 * 256.0;   // where they come from a server
 constexpr double most_of_coarsest = 2048.0 * 2048.0;    // where there is no such overview
 constexpr std::size_t most_suspects = 8;
 // The least that a void takes from the average of all samples that an overview's sample stands for.
