@@ -35,6 +35,8 @@ struct ViewerChoice {
 };
 
 constexpr std::chrono::milliseconds between_titles{500};
+// A moving view whose frames take longer than this gets fewer samples a pixel.
+constexpr double smooth_ms = 33.0;
 // How long a still window waits for an event before it looks whether it was asked to stop.
 constexpr std::chrono::milliseconds still{100};
 // The same while the terrain is opened or maps are made: their progress is shown.
@@ -53,7 +55,8 @@ public:
                session::TerrainScene& scene, Viewer& viewer, session::Log& log,
                const ViewerChoice& choice)
         : window_(window), renderer_(renderer), scene_(scene), viewer_(viewer), log_(log),
-          frames_(choice.frames_given ? choice.view.frames : 0) {}
+          frames_(choice.frames_given ? choice.view.frames : 0),
+          chooses_samples_(!choice.view.samples) {}
 
     Result<void> run(const cli::Interrupt& interrupt) {
         auto before = Clock::now();
@@ -62,7 +65,7 @@ public:
             viewer_.advance(seconds_since(std::exchange(before, Clock::now())));
             has_drawn_ = false;
             const bool has_new_tiles = session::take_arrivals(scene_.scene);
-            if (viewer_.take_redraw() || frames_ > 0 || has_new_tiles) {
+            if (viewer_.take_redraw() || frames_ > 0 || has_new_tiles || is_to_sharpen()) {
                 if (auto drawn = draw(); !drawn) {
                     return drawn;
                 }
@@ -81,6 +84,9 @@ private:
         return viewer_.wants_to_close() || window_.should_close() ||
                (frames_ > 0 && drawn_ == frames_);
     }
+
+    // The view stands still, and was drawn with fewer samples than it may have.
+    [[nodiscard]] bool is_to_sharpen() const { return is_reduced_ && !viewer_.is_moving(); }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
         if (viewer_.is_preparing() && !viewer_.is_moving()) {
@@ -144,6 +150,17 @@ private:
         fmt::print("saved {}\n", file.filename().string());
     }
 
+    // Where several samples a pixel are too slow for a view that moves, it has one; the still view
+    // has several again.
+    void choose_samples() {
+        if (!chooses_samples_) {
+            return;
+        }
+        const bool moves = viewer_.is_moving();
+        is_reduced_ = moves && (is_reduced_ || timing_.last_ms > smooth_ms);
+        renderer_.set_samples(is_reduced_ ? 1 : render::automatic_samples);
+    }
+
     Result<void> draw() {
         const glm::ivec2 size = window_.framebuffer_size();
         if (size.x == 0 || size.y == 0) {
@@ -155,6 +172,7 @@ private:
             }
         }
         const auto start = Clock::now();
+        choose_samples();
         select();
         const auto stats = renderer_.draw_selected(true);
         if (!stats) {
@@ -201,6 +219,8 @@ private:
     int drawn_since_title_ = 0;
     bool has_drawn_ = false; // in this turn of the loop
     bool mouse_captured_ = false;
+    bool chooses_samples_;    // none were named
+    bool is_reduced_ = false; // to one sample
     bool raise_logged_ = false;
 };
 

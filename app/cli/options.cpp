@@ -409,11 +409,13 @@ void check_view_options(const ViewChoice& choice) {
 }
 
 void add_samples_option(CLI::App& command, ViewChoice& choice) {
-    add_parsed(command, "--samples", choice.samples,
-               word_of<int>("--samples", {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}),
-               "samples a pixel, against jagged edges: 1, 2, 4, 8 or 16; techniques that follow "
-               "rays draw as many rays (4 where the picture has triangles, else 1)",
-               "N");
+    add_parsed(
+        command, "--samples", choice.samples,
+        word_of<int>("--samples", {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}),
+        "samples a pixel, against jagged edges: 1, 2, 4, 8 or 16; techniques that follow "
+        "rays draw as many rays (4 where the picture has triangles, else 1; in a window that moves "
+        "too slowly 1)",
+        "N");
 }
 
 void add_view_options(CLI::App& command, ViewChoice& choice) {

@@ -58,6 +58,8 @@ public:
     void show_in_window(glm::ivec2 window_size) const;
 
     Result<void> resize(glm::ivec2 size);
+    /// For the frames to come, as DriverOptions::samples. Precondition: check_samples().
+    void set_samples(int samples) { options_.samples = samples; }
     [[nodiscard]] glm::ivec2 size() const { return color_target_.size(); }
 
 private:

@@ -49,6 +49,8 @@ public:
     /// Copies the last frame to the window's back buffer.
     void show_in_window(glm::ivec2 window_size) const { driver_.show_in_window(window_size); }
     Result<void> resize(glm::ivec2 size) { return driver_.resize(size); }
+    /// For the frames to come, as render::DriverOptions::samples.
+    void set_samples(int samples) { driver_.set_samples(samples); }
     [[nodiscard]] glm::ivec2 size() const { return driver_.size(); }
 
 private:
