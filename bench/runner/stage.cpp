@@ -13,8 +13,8 @@ namespace reljef::bench {
 namespace {
 
 Result<session::TerrainSource> open_source(const StageChoice& choice,
-                                           const session::SourceOptions& terrain,
-                                           session::Log& log, const std::stop_token& stop) {
+                                           const session::SourceOptions& terrain, session::Log& log,
+                                           const std::stop_token& stop) {
     if (choice.size == 0) {
         return session::open_terrain(terrain, log, stop);
     }

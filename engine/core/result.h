@@ -12,8 +12,8 @@ namespace reljef {
 /// Why something could not be done: one sentence that names the file or option, what was found and
 /// what was expected.
 struct Error {
-    /// Whose mistake it is: a file, the machine or an interruption; or the caller, whose options are
-    /// unknown or contradict each other or what they are used on.
+    /// Whose mistake it is: a file, the machine or an interruption; or the caller, whose options
+    /// are unknown or contradict each other or what they are used on.
     enum class Kind { failure, usage };
 
     std::string message;

@@ -93,9 +93,9 @@ public:
     static int texels_within(std::size_t memory_budget);
 
     /// Begins a view. Reads the missing tiles, the most urgent first, and cancels earlier requests
-    /// that are not repeated. The used tiles stay in memory; those that lack a part of their picture
-    /// are read again. Tiles that neither this view nor the one before used go where memory runs
-    /// out.
+    /// that are not repeated. The used tiles stay in memory; those that lack a part of their
+    /// picture are read again. Tiles that neither this view nor the one before used go where memory
+    /// runs out.
     void request(std::span<const terrain::TreeTile> missing,
                  std::span<const terrain::TreeTile> used = {});
     /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
