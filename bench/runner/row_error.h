@@ -5,7 +5,7 @@
 
 #include "bench/report/results.h"
 #include "bench/runner/stage.h"
-#include "engine/render/driver.h"
+#include "engine/session/scene_renderer.h"
 
 namespace reljef::bench {
 
