@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #ifdef __GLIBC__
@@ -206,14 +207,15 @@ void request_tiles(std::span<const view::TileRequests> requests) {
 
 void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelector& selector,
                     Log& log, const std::stop_token& stop) {
-    int before = -1;
-    for (int readings = readings_of(scene); !stop.stop_requested(); readings = readings_of(scene)) {
+    std::optional<int> before;
+    while (true) {
         const view::FrameView& frame = selector.select(scene, size);
         request_tiles(frame.requests);
         const bool is_whole =
             std::all_of(frame.requests.begin(), frame.requests.end(),
                         [](const view::TileRequests& request) { return request.missing.empty(); });
-        if (is_whole || readings == before) {
+        const int readings = readings_of(scene);
+        if (is_whole || readings == before || stop.stop_requested()) {
             return;
         }
         before = readings;

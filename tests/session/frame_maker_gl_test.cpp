@@ -33,5 +33,18 @@ TEST(DeviceFramesGl, SelectEachViewOnce) {
     EXPECT_EQ(frames.selections(), 10) << "nothing changed since";
 }
 
+// Ctrl-C may come before any view was selected.
+TEST(DeviceFramesGl, DrawAFrameThatIsStoppedBeforeItBegins) {
+    const TerrainScene scene = app::hill_scene();
+    Log silent;
+    DeviceFrames frames(osmesa_device(), silent);
+    std::stop_source stop;
+    stop.request_stop();
+    ParallelOptions parallel;
+    parallel.stop = stop.get_token();
+    EXPECT_TRUE(frames.draw_hits(scene.scene, parallel));
+    EXPECT_TRUE(frames.draw(scene.scene, parallel));
+}
+
 } // namespace
 } // namespace reljef::session
