@@ -40,15 +40,12 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
     if (choice.truth) {
         return Maker(new session::TruthFrames(choice.view.size, choice.rays));
     }
-    session::DeviceOptions options;
-    options.threads = choice.terrain.threads;
-    options.context = choice.view.context;
-    options.context_options.size = choice.view.size;
-    options.context_options.visible = false;
-    options.renderer.driver.size = choice.view.size;
-    options.renderer.driver.shader_dir = choice.view.shader_dir;
-    options.renderer.driver.samples = choice.view.samples.value_or(render::automatic_samples);
-    auto device = session::Device::create(options);
+    auto device =
+        session::Device::create({.context = choice.view.context,
+                                 .size = choice.view.size,
+                                 .shader_dir = choice.view.shader_dir,
+                                 .samples = choice.view.samples.value_or(render::automatic_samples),
+                                 .threads = choice.terrain.threads});
     return device ? Result<Maker>(
                         Maker(new session::DeviceFrames(std::move(*device), log, {choice.stats})))
                   : device.error();
@@ -76,25 +73,35 @@ private:
     std::vector<Image> pictures_;
 };
 
-// Frames that were asked for lower than the ground lets them be.
+// The frames of a path whose camera was raised above the ground.
 class RaisedFrames {
 public:
-    void add(double metres) {
-        count_ += metres > 0.0 ? 1 : 0;
-        most_ = std::max(most_, metres);
+    void add(const session::Lift& lift) {
+        raised_ += lift ? 1 : 0;
+        underground_ += lift.depth > 0.0 ? 1 : 0;
+        max_metres_ = std::max(max_metres_, lift.metres);
     }
-    void log_to(session::Log& log, const RenderChoice& choice) const {
-        if (count_ > 0) {
-            log.note(
-                fmt::format("--path {}: {} of {} frames would be under the ground or too close "
-                            "to it; raised by up to {:.1f} m",
-                            choice.view.path, count_, choice.view.frames, most_));
+    // A path file is at fault if it leads below the ground. A measured track only is inaccurate,
+    // and a path of our own may graze a summit.
+    [[nodiscard]] Result<void> report(session::Log& log, const RenderChoice& choice) const {
+        if (raised_ == 0) {
+            return {};
         }
+        const std::string text =
+            fmt::format("--path {}: {} of {} frames would be under the ground or too close to it; "
+                        "raised by up to {:.1f} m; --allow-underground keeps them",
+                        choice.view.path, raised_, choice.view.frames, max_metres_);
+        if (underground_ > 0 && session::is_path_file(choice.view.path)) {
+            return Error{text};
+        }
+        log.note(text);
+        return {};
     }
 
 private:
-    int count_ = 0;
-    double most_ = 0.0; // metres
+    int raised_ = 0;
+    int underground_ = 0;
+    double max_metres_ = 0.0;
 };
 
 // How a frame is drawn: stopped by Ctrl-C, told as a part of all frames.
@@ -151,11 +158,11 @@ Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scen
     if (auto finished = (*sink)->finish(); !finished) {
         return finished;
     }
-    raised.log_to(log, choice);
     if (choice.stats) {
         fmt::print("{}", maker.stats());
     }
-    return sheet.write(choice.contact_sheet);
+    auto written = sheet.write(choice.contact_sheet);
+    return written ? raised.report(log, choice) : written;
 }
 
 // What the arguments alone show to be wrong.
@@ -265,6 +272,19 @@ Result<std::optional<scene::FlyPath>> path_of(const session::TerrainScene& scene
     return path ? Result<Path>(Path(std::move(*path))) : path.error();
 }
 
+// A camera below the ground is a fault of the scene file that holds it, but not of an option.
+Result<void> report_lift(const session::Lift& lift, const RenderChoice& choice, session::Log& log) {
+    if (!lift) {
+        return {};
+    }
+    const cli::CameraSource source = cli::camera_source(choice.view, choice.terrain);
+    if (source.is_file) {
+        return Error{session::lift_note(lift, source.name)};
+    }
+    log.note(session::lift_note(lift, source.name));
+    return {};
+}
+
 Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& scene,
                           session::FrameMaker& maker, session::Log& log,
                           const cli::Interrupt& interrupt) {
@@ -272,20 +292,24 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
     if (!path) {
         return path.error();
     }
+    session::Lift lift;
+    RaisedFrames raised;
     if (*path) {
-        static_cast<void>(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token(),
-                                                    underground(choice)));
-    } else if (const session::Lift lift = session::stand_above_ground(
-                   scene, maker, interrupt.token(), underground(choice))) {
-        log.note(session::lift_note(lift, cli::camera_source(choice.view, choice.terrain)));
+        raised.add(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token(),
+                                             underground(choice)));
+    } else {
+        lift = session::stand_above_ground(scene, maker, interrupt.token(), underground(choice));
     }
     if (!choice.hits.empty()) {
         if (auto written = write_hit_file(choice, scene, maker, interrupt); !written) {
             return written;
         }
     }
-    return choice.output.empty() ? Result<void>()
-                                 : draw_frames(choice, scene, maker, *path, log, interrupt);
+    if (choice.output.empty()) {
+        return *path ? raised.report(log, choice) : report_lift(lift, choice, log);
+    }
+    auto drawn = draw_frames(choice, scene, maker, *path, log, interrupt);
+    return drawn ? report_lift(lift, choice, log) : drawn;
 }
 
 Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {

@@ -332,7 +332,7 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     }
     if (const session::Lift lift =
             choice.view.allow_underground ? session::Lift{} : session::lift_camera(scene)) {
-        log.note(session::lift_note(lift, cli::camera_source(choice.view, choice.terrain)));
+        log.note(session::lift_note(lift, cli::camera_source(choice.view, choice.terrain).name));
     }
     Viewer viewer(scene, std::move(*path), (*window)->framebuffer_size(),
                   {choice.terrain.threads, choice.view.allow_underground});

@@ -232,7 +232,8 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         ->excludes(eye)
         ->excludes(camera);
     command.add_flag("--allow-underground", choice.allow_underground,
-                     "keep a camera that is below the ground where it is (lifted above it)");
+                     "keep a camera below the ground there; without this it is lifted above the "
+                     "ground, and render then exits with 1 if a scene or path file placed it");
     add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
                "pictures along the path (1)", "N");
     add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
@@ -369,14 +370,14 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         ->type_name("FILE");
 }
 
-std::string camera_source(const ViewChoice& view, const TerrainChoice& terrain) {
+CameraSource camera_source(const ViewChoice& view, const TerrainChoice& terrain) {
     if (view.eye) {
-        return "--eye";
+        return {"--eye"};
     }
     if (view.geodetic) {
-        return "--camera";
+        return {"--camera"};
     }
-    return view.pose ? "--pose" : terrain.terrain;
+    return view.pose ? CameraSource{"--pose"} : CameraSource{terrain.terrain, true};
 }
 
 void check_view_options(const ViewChoice& choice) {

@@ -207,14 +207,11 @@ private:
     }
 
     Result<void> open_device() {
-        session::DeviceOptions device;
-        device.threads = options_.suite.threads;
-        device.context = options_.suite.context.value_or(platform::ContextKind::glfw);
-        device.context_options.size = options_.suite.size;
-        device.context_options.visible = false;
-        device.renderer.driver.size = options_.suite.size;
-        device.renderer.driver.shader_dir = options_.suite.shader_dir;
-        auto opened = session::Device::create(device);
+        auto opened = session::Device::create(
+            {.context = options_.suite.context.value_or(platform::ContextKind::glfw),
+             .size = options_.suite.size,
+             .shader_dir = options_.suite.shader_dir,
+             .threads = options_.suite.threads});
         if (!opened) {
             return opened.error();
         }

@@ -20,7 +20,7 @@ struct ReportTable {
 /// heading tells the noise floor. Columns for the sources' figures only where there are some.
 std::vector<ReportTable> report_tables(const Results& results);
 
-/// The results with every name as a terminal may show it, see app::printable().
+/// The results with every name as a terminal may show it, see cli::printable().
 Results printable(Results results);
 
 /// On what it was measured, as lines "renderer: …".

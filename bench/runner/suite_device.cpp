@@ -3,15 +3,11 @@
 namespace reljef::bench {
 
 Result<session::Device> make_device(const SuiteOptions& options) {
-    session::DeviceOptions device;
-    device.threads = options.threads;
-    device.context = options.context;
-    device.context_options.size = options.size;
-    device.context_options.visible = false;
-    device.renderer.driver.size = options.size;
-    device.renderer.driver.shader_dir = options.shader_dir;
-    device.renderer.selects_always = true;
-    return session::Device::create(device);
+    return session::Device::create({.context = options.context,
+                                    .size = options.size,
+                                    .shader_dir = options.shader_dir,
+                                    .threads = options.threads,
+                                    .selects_always = true});
 }
 
 } // namespace reljef::bench

@@ -6,7 +6,7 @@
 
 namespace reljef::bench {
 
-/// What a suite draws with, pictures of its size in no window. Fails as app::Device::create.
+/// The device a suite draws with; it selects each frame anew. Fails as session::Device::create.
 Result<session::Device> make_device(const SuiteOptions& options);
 
 } // namespace reljef::bench

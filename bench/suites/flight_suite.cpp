@@ -20,17 +20,13 @@ double flown_since(FlightClock::time_point start) {
 }
 
 Result<session::DeviceFrames> flight_device(const FlightOptions& options, session::Log& log) {
-    session::DeviceOptions device;
-    device.threads = options.terrain.threads;
-    device.context = options.view.context;
-    device.context_options.size = options.view.size;
-    device.context_options.visible = false;
-    device.renderer.driver.size = options.view.size;
-    device.renderer.driver.shader_dir = options.view.shader_dir;
-    auto made = session::Device::create(device);
-    return made ? Result<session::DeviceFrames>(
-                      session::DeviceFrames(std::move(*made), log, {.timed = true}))
-                : made.error();
+    auto device = session::Device::create({.context = options.view.context,
+                                           .size = options.view.size,
+                                           .shader_dir = options.view.shader_dir,
+                                           .threads = options.terrain.threads});
+    return device ? Result<session::DeviceFrames>(
+                        session::DeviceFrames(std::move(*device), log, {.timed = true}))
+                  : device.error();
 }
 
 Result<session::TerrainScene> flight_scene(const FlightOptions& options, session::Log& log,

@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/cli/console_log.h"
+#include "bench/runner/suite_device.h"
 #include "bench/suites/growth_ground.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/device.h"
@@ -90,15 +91,7 @@ Result<session::TerrainScene> open_ground(const fs::path& path, const GrowthOpti
 Result<GrowthStage> open_stage(const fs::path& path, const GrowthOptions& options,
                                const std::stop_token& stop) {
     const GrowthWatch watch;
-    session::DeviceOptions choice;
-    choice.threads = options.suite.threads;
-    choice.context = options.suite.context;
-    choice.context_options.size = options.suite.size;
-    choice.context_options.visible = false;
-    choice.renderer.driver.size = options.suite.size;
-    choice.renderer.driver.shader_dir = options.suite.shader_dir;
-    choice.renderer.selects_always = true;
-    auto device = session::Device::create(choice);
+    auto device = make_device(options.suite);
     if (!device) {
         return device.error();
     }

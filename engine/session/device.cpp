@@ -13,15 +13,17 @@ void limit_software_threads(int threads) {
 
 Result<Device> Device::create(const DeviceOptions& options) {
     limit_software_threads(options.threads);
-    auto context = options.context
-                       ? platform::make_context(*options.context, options.context_options)
-                       : platform::make_headless_context(options.context_options);
+    const platform::ContextOptions hidden{.size = options.size, .visible = false};
+    auto context = options.context ? platform::make_context(*options.context, hidden)
+                                   : platform::make_headless_context(hidden);
     if (!context) {
         return context.error();
     }
-    SceneRendererOptions renderer_options = options.renderer;
-    renderer_options.driver.software = (*context)->is_software();
-    auto renderer = SceneRenderer::create(renderer_options);
+    auto renderer = SceneRenderer::create({.driver = {.size = options.size,
+                                                      .shader_dir = options.shader_dir,
+                                                      .software = (*context)->is_software(),
+                                                      .samples = options.samples},
+                                           .selects_always = options.selects_always});
     if (!renderer) {
         return renderer.error();
     }

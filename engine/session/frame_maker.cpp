@@ -201,10 +201,19 @@ std::string TruthFrames::stats() const {
                        prepare_ms_, draw_ms_);
 }
 
-double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
-                        FrameMaker& maker, const std::stop_token& stop, Underground underground) {
+Lift fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+                      FrameMaker& maker, const std::stop_token& stop, Underground underground) {
     fly_to(scene, path, index, frames);
-    return underground == Underground::allowed ? 0.0 : raise(scene, maker, stop, most_rises);
+    if (underground == Underground::allowed) {
+        return {};
+    }
+    maker.wait_for_tiles(scene.scene, stop);
+    const glm::dvec3 eye = scene.scene.camera().eye;
+    Lift lift;
+    lift.depth = lift_of(*scene.terrain->get<scene::TerrainNode>(), eye, 0.0).depth;
+    lift.metres = raise(scene, maker, stop, most_rises);
+    lift.way = scene.scene.camera().eye - eye;
+    return lift;
 }
 
 Lift stand_above_ground(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop,

@@ -95,11 +95,12 @@ private:
 /// What becomes of cameras below the ground.
 enum class Underground { lifted, allowed };
 
-/// As fly_to, above the ground that the frame shows (see keep_above_ground in ground.h): waits for
-/// it before. Returns by how many metres the camera was raised; 0 where it may be underground.
-double fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
-                        FrameMaker& maker, const std::stop_token& stop,
-                        Underground underground = Underground::lifted);
+/// Moves the camera as fly_to, then raises it above the ground that the frame shows (see
+/// keep_above_ground in ground.h), for which it waits. A camera that is close to the ground is
+/// raised, too: then Lift::depth is 0. Does not raise a camera that may be underground.
+Lift fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+                      FrameMaker& maker, const std::stop_token& stop,
+                      Underground underground = Underground::lifted);
 
 /// Lifts a camera that stands still and is below the ground that its view shows (see lift_camera in
 /// ground.h): waits for that ground before, and for what the lifted camera shows.

@@ -232,19 +232,6 @@ Lift lift_camera(TerrainScene& scene) {
     return lift;
 }
 
-Lift lift_keys(const TerrainScene& scene, std::span<scene::FlyKey> keys) {
-    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
-    const double clearance = least_clearance(scene);
-    Lift deepest;
-    for (scene::FlyKey& key : keys) {
-        const Lift lift = lift_of(terrain, key.eye, clearance);
-        key.eye += lift.way;
-        key.look += lift.way;
-        deepest = lift.depth > deepest.depth ? lift : deepest;
-    }
-    return deepest;
-}
-
 std::string lift_note(const Lift& lift, std::string_view what) {
     return fmt::format("{}: {} m below the ground: lifted to {} m above it; "
                        "--allow-underground keeps it",

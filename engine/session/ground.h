@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -50,10 +49,6 @@ Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance
 /// Lifts the scene's camera, with what it looks at, by the ground that is there. A map (an
 /// orthographic camera) stays.
 Lift lift_camera(TerrainScene& scene);
-
-/// Lifts those keys of a path that are below the ground, each with what it looks at. Returns the
-/// deepest one's; none where all stay.
-Lift lift_keys(const TerrainScene& scene, std::span<scene::FlyKey> keys);
 
 /// What to tell of a lift: "--eye: 12.3 m below the ground: lifted to 0.5 m above it;
 /// --allow-underground keeps it". `what` names the option, or the file with its key.

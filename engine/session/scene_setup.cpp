@@ -282,6 +282,10 @@ Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& n
     return scene::FlyPath::create(std::move(*fly_keys));
 }
 
+bool is_path_file(const std::string& name) {
+    return std::filesystem::path(name).extension() == ".toml";
+}
+
 void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
     const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
     auto& camera = *scene.camera->get<scene::Camera>();

@@ -209,12 +209,12 @@ void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelec
                     Log& log, const std::stop_token& stop) {
     std::optional<int> before;
     while (true) {
+        const int readings = readings_of(scene); // before the requests, which may be done at once
         const view::FrameView& frame = selector.select(scene, size);
         request_tiles(frame.requests);
         const bool is_whole =
             std::all_of(frame.requests.begin(), frame.requests.end(),
                         [](const view::TileRequests& request) { return request.missing.empty(); });
-        const int readings = readings_of(scene);
         if (is_whole || readings == before || stop.stop_requested()) {
             return;
         }

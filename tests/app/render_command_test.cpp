@@ -224,6 +224,31 @@ TEST(RenderCommand, textures_of_a_scene_file_are_beside_it_and_its_faults_name_i
     refused("technique = \"magic\"\n", "scenes/halls.toml: [gallery] technique 'magic' found");
 }
 
+TEST(RenderCommand, a_camera_below_the_ground_is_lifted_and_a_fault_of_a_scene_file) {
+    const test::TemporaryFolder folder;
+    const std::string text = "[terrain]\ngenerator = \"natural\"\nsize = 65\n";
+    const std::string scene =
+        folder.write("under.toml", text + "[camera]\neye = [0, 0, -500]\nlook = [100, 0, -500]\n")
+            .string();
+    const auto run = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), "render");
+        more.insert(more.end(), {"--size", "64x48", "--context", "osmesa"});
+        return test::reljef(more);
+    };
+    const auto file = (folder.path() / "file.png").string();
+    const auto option = (folder.path() / "option.png").string();
+    test::expect_refusal(run({scene, "-o", file}), 1,
+                         {"under.toml", "below the ground: lifted to"});
+    const auto optional = run({folder.write("plain.toml", text).string(), "--eye", "0,0,-500",
+                               "--look", "100,0,-500", "-o", option});
+    EXPECT_EQ(optional.exit_code, 0) << optional.err;
+    EXPECT_NE(optional.err.find("--eye: "), std::string::npos) << optional.err;
+    EXPECT_EQ(test::read_bytes(file), test::read_bytes(option));
+    const auto allowed = run({scene, "-o", option, "--allow-underground"});
+    EXPECT_EQ(allowed.exit_code, 0) << allowed.err;
+    EXPECT_NE(test::read_bytes(file), test::read_bytes(option));
+}
+
 TEST(RenderCommand, same_command_same_bits) {
     RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;

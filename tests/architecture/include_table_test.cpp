@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/architecture/include_table.h"
 #include "tests/architecture/source_rules.h"
 #include "tests/support/temporary_folder.h"
 

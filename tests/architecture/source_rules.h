@@ -27,14 +27,6 @@ struct Include {
 };
 std::vector<Include> includes_of(std::string_view text);
 
-/// The folder of a file of code, "engine/core" for engine/core/grid.h; "tests" for all tests; ""
-/// for a file in no folder of the table.
-std::string room_of(std::string_view path);
-
-/// Whether a file of room `from` may include one of room `to`: its own room, the rooms of the table
-/// and all that lies below them.
-bool may_include(std::string_view from, std::string_view to);
-
 /// Includes of the project's files that the table does not allow, or that do not start at the root.
 Complaints forbidden_includes(const SourceFile& file);
 

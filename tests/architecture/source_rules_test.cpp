@@ -1,3 +1,4 @@
+#include "tests/architecture/include_table.h"
 #include "tests/architecture/source_rules.h"
 
 #include <gmock/gmock.h>

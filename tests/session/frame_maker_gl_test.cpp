@@ -10,11 +10,8 @@ namespace {
 constexpr glm::ivec2 picture{64, 48};
 
 Device osmesa_device() {
-    DeviceOptions options;
-    options.context = platform::ContextKind::osmesa;
-    options.context_options.size = picture;
-    options.renderer.driver.size = picture;
-    return std::move(*Device::create(options));
+    return std::move(
+        *Device::create({.context = platform::ContextKind::osmesa, .size = picture}));
 }
 
 TEST(DeviceFramesGl, SelectEachViewOnce) {

@@ -80,7 +80,7 @@ TEST_F(StreamedCanyon, FramesOfAFlightAreRaisedOverTheFineGroundOnly) {
     const scene::FlyPath path = northward_path({0.0, -300.0, 5.0});
     TilesOnly maker;
     for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(session::fly_above_ground(scene, path, i, 3, maker, {}), 0.0) << i;
+        EXPECT_FALSE(session::fly_above_ground(scene, path, i, 3, maker, {})) << i;
         EXPECT_DOUBLE_EQ(scene.scene.camera().eye.z, 5.0) << i;
     }
 }
@@ -89,7 +89,7 @@ TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
     session::TerrainScene scene = scene_of();
     const scene::FlyPath path = northward_path({500.0, -300.0, 200.0});
     TilesOnly maker;
-    EXPECT_NEAR(session::fly_above_ground(scene, path, 0, 2, maker, {}),
+    EXPECT_NEAR(session::fly_above_ground(scene, path, 0, 2, maker, {}).metres,
                 800.0 + session::least_clearance(scene), 1e-9);
     const view::FrameView frame = view::select(scene.scene, small_picture);
     ASSERT_EQ(frame.requests.size(), 1U);
@@ -125,10 +125,12 @@ TEST_F(StreamedCanyon, ACameraUnderThePlateauIsLiftedUnlessItMayBeThere) {
     EXPECT_EQ(camera.eye, before.eye + lift.way);
     EXPECT_EQ(camera.look.z, before.look.z + lift.way.z);
     const scene::FlyPath path = northward_path(before.eye);
-    EXPECT_EQ(
-        session::fly_above_ground(scene, path, 0, 2, maker, {}, session::Underground::allowed),
-        0.0);
+    EXPECT_FALSE(
+        session::fly_above_ground(scene, path, 0, 2, maker, {}, session::Underground::allowed));
     EXPECT_EQ(camera.eye, before.eye);
+    const session::Lift flown = session::fly_above_ground(scene, path, 0, 2, maker, {});
+    EXPECT_NEAR(flown.depth, lift.depth, 1e-9);
+    EXPECT_NEAR(flown.metres, lift.metres, 1e-9);
 }
 
 // From beside the terrain, as the pose overview looks, and from afar. Without finer tiles the

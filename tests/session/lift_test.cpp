@@ -187,31 +187,6 @@ TEST(Lift, UnderAVoidThereIsNoGround) {
     EXPECT_TRUE(lift_camera(scene));
 }
 
-TEST(Lift, KeysOfAPathAreLiftedEachByItself) {
-    const TerrainScene scene =
-        scene_of(made_terrains()[0].heightfield, PlacementKind::ellipsoid, 2.0);
-    std::vector<scene::FlyKey> keys;
-    for (const double above : {100.0, -30.0, 1.0, -200.0}) {
-        TerrainScene copy = scene_of(made_terrains()[0].heightfield, PlacementKind::ellipsoid, 2.0);
-        stand(copy, {30.0, 20.0}, above);
-        keys.push_back(
-            {static_cast<double>(keys.size()), camera_of(copy).eye, camera_of(copy).look});
-    }
-    const std::vector<scene::FlyKey> before = keys;
-    const Lift deepest = lift_keys(scene, keys);
-    EXPECT_NEAR(deepest.depth, 400.0, 1e-3);
-    for (const std::size_t i : {0U, 2U}) {
-        EXPECT_EQ(keys[i].eye, before[i].eye);
-        EXPECT_EQ(keys[i].look, before[i].look);
-    }
-    for (const std::size_t i : {1U, 3U}) {
-        EXPECT_GE(2.0 * *height_above_ground(terrain_of(scene), keys[i].eye),
-                  least_clearance(scene) - rounding);
-        EXPECT_LT(glm::distance(keys[i].look - keys[i].eye, before[i].look - before[i].eye), 1e-8);
-    }
-    EXPECT_FALSE(lift_keys(scene, keys)) << "once is enough";
-}
-
 TEST(Lift, IsToldWithTheOptionItsDepthAndWhatKeepsIt) {
     Lift lift;
     lift.depth = 12.34;

@@ -14,21 +14,21 @@
 namespace reljef::io {
 namespace {
 
-constexpr double most_overview_samples = 512.0 * 512.0; // of the overview that is looked at
-constexpr double most_remote_samples = 256.0 * 256.0;   // where they come from a server
-constexpr double most_of_coarsest = 2048.0 * 2048.0;    // where there is no such overview
-constexpr std::size_t most_suspects = 8;
-// The least that a void takes from the average of all samples that an overview's sample stands for.
-constexpr double least_drop = 16384.0;
-constexpr int most_samples_aside = 256; // of the part that one suspect stands for
+constexpr double max_overview_samples = 512.0 * 512.0;  // of the overview that is examined
+constexpr double max_remote_samples = 256.0 * 256.0;   // if the file is remote
+constexpr double max_coarsest_samples = 2048.0 * 2048.0;    // if no overview is that small
+constexpr std::size_t max_suspects = 8;
+// An undeclared void lowers the sum of the samples behind an overview sample by at least this.
+constexpr double min_drop = 16384.0;
+constexpr int max_suspect_samples = 256; // along a side of what a suspect covers
 constexpr double rounding = 1.0;        // of an average that is stored as a whole number
 
 double samples_of_band(GDALRasterBand& band) {
     return static_cast<double>(band.GetXSize()) * band.GetYSize();
 }
 
-/// The finest overview of at most so many samples, else the coarsest; null where that is large.
-GDALRasterBand* small_overview(GDALRasterBand& band, double most) {
+/// The finest overview within `max_samples`, else the coarsest; null if that one is too large.
+GDALRasterBand* small_overview(GDALRasterBand& band, double max_samples) {
     GDALRasterBand* finest = nullptr;
     GDALRasterBand* coarsest = nullptr;
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
@@ -40,9 +40,9 @@ GDALRasterBand* small_overview(GDALRasterBand& band, double most) {
         coarsest =
             coarsest == nullptr || samples < samples_of_band(*coarsest) ? overview : coarsest;
         const bool finer = finest == nullptr || samples > samples_of_band(*finest);
-        finest = samples <= most && finer ? overview : finest;
+        finest = samples <= max_samples && finer ? overview : finest;
     }
-    const bool readable = coarsest != nullptr && samples_of_band(*coarsest) <= most_of_coarsest;
+    const bool readable = coarsest != nullptr && samples_of_band(*coarsest) <= max_coarsest_samples;
     return finest != nullptr ? finest : readable ? coarsest : nullptr;
 }
 
@@ -74,41 +74,41 @@ double drop_at(const Grid<double>& values, const Grid<double>& heights, int col,
     return drop;
 }
 
-/// Where the overview falls most steeply, by at least so much; `heights` are NaN at voids.
+/// The steepest drops of the overview, of at least `min`; `heights` are NaN at voids.
 std::vector<Suspect> suspects_in(const Grid<double>& values, const Grid<double>& heights,
-                                 double least) {
+                                 double min) {
     std::vector<Suspect> suspects;
     for (int row = 0; row < values.rows(); ++row) {
         for (int col = 0; col < values.cols(); ++col) {
             const double drop =
                 std::isnan(heights(col, row)) ? 0.0 : drop_at(values, heights, col, row);
-            if (drop >= least) {
+            if (drop >= min) {
                 suspects.push_back({drop, col, row});
             }
         }
     }
     const auto end =
-        suspects.begin() + static_cast<std::ptrdiff_t>(std::min(suspects.size(), most_suspects));
+        suspects.begin() + static_cast<std::ptrdiff_t>(std::min(suspects.size(), max_suspects));
     std::partial_sort(suspects.begin(), end, suspects.end(),
                       [](const Suspect& a, const Suspect& b) { return a.drop > b.drop; });
     suspects.erase(end, suspects.end());
     return suspects;
 }
 
-/// Full samples along an overview's.
+/// Full-resolution samples per overview sample, along one axis.
 int full_samples(int full, int reduced) {
     return std::max(1, (full + reduced - 1) / reduced);
 }
 
-/// The full samples that one of an overview stands for, and half as many around them.
-RasterOptions::Window stands_for(const Suspect& suspect, GDALRasterBand& band,
+/// The full-resolution samples behind one overview sample, and half as many around them.
+RasterOptions::Window covered_by(const Suspect& suspect, GDALRasterBand& band,
                                  GDALRasterBand& overview) {
     const auto side = [](int at, int full, int reduced) {
         const int step = full_samples(full, reduced);
         const int begin = static_cast<int>(static_cast<std::int64_t>(at) * full / reduced);
         const int first = std::clamp(begin - step / 2, 0, full - 1);
         const int end = std::clamp(begin + step + step / 2 + 1, first + 1, full);
-        return std::pair{first, std::min(end - first, most_samples_aside)};
+        return std::pair{first, std::min(end - first, max_suspect_samples)};
     };
     const auto [col, cols] = side(suspect.col, band.GetXSize(), overview.GetXSize());
     const auto [row, rows] = side(suspect.row, band.GetYSize(), overview.GetYSize());
@@ -121,7 +121,7 @@ Grid<double> decoded(Grid<double> values, SampleDecoder decoder) {
     return values;
 }
 
-/// Whether an overview's value is below all heights that it stands for, beside undeclared voids.
+/// Whether an overview value is below all heights behind it, and some of these are undeclared voids.
 bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder) {
     Grid<double> heights = values;
     decoder.decode(heights.samples(), {}, {});
@@ -148,7 +148,7 @@ std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesys
     std::vector<std::string> ignored;
     const auto decoder = SampleDecoder::create(dataset, path.string(), {}, ignored);
     GDALRasterBand* overview =
-        small_overview(band, is_remote(path) ? most_remote_samples : most_overview_samples);
+        small_overview(band, is_remote(path) ? max_remote_samples : max_overview_samples);
     if (!decoder || overview == nullptr || !decoder->can_find_voids()) {
         return false;
     }
@@ -159,8 +159,8 @@ std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesys
     }
     const double share = samples_of_band(*overview) / samples_of_band(band);
     const Grid<double> heights = decoded(values, *decoder);
-    for (const Suspect& suspect : suspects_in(values, heights, least_drop * share)) {
-        const Grid<double> below = stored_values(band, stands_for(suspect, band, *overview));
+    for (const Suspect& suspect : suspects_in(values, heights, min_drop * share)) {
+        const Grid<double> below = stored_values(band, covered_by(suspect, band, *overview));
         if (below.empty()) {
             return std::nullopt;
         }

@@ -13,7 +13,7 @@
 namespace reljef::render {
 namespace {
 
-constexpr int most_passes = 4;
+constexpr int max_passes = 4;
 
 // From a pixel's centre, in 16ths of a pixel, right and down: as Direct3D 11 and most GPUs have
 // them. No two in a row or in a column, so that steep and flat edges have as many steps.
@@ -42,10 +42,10 @@ Result<SamplePlan> plan_samples(int samples, std::span<const int> counts) {
             plan = {count, samples / count};
         }
     }
-    if (plan.passes > most_passes) {
+    if (plan.passes > max_passes) {
         return Error{fmt::format("picture with {} samples a pixel: expected at most {} with this "
                                  "renderer",
-                                 samples, most_passes * plan.at_once)};
+                                 samples, max_passes * plan.at_once)};
     }
     return plan;
 }

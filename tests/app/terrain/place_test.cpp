@@ -41,11 +41,9 @@ public:
         session::SceneOptions view;
         view.max_error = 0.0; // every sample of a tile
         scene_ = std::move(*test::make_scene(std::move(*source), choice, view));
-        session::DeviceOptions options;
-        options.context = platform::ContextKind::osmesa;
-        options.context_options.size = picture_size;
-        options.renderer.driver.size = picture_size;
-        frames_.emplace(std::move(*session::Device::create(options)), log_);
+        frames_.emplace(std::move(*session::Device::create(
+                            {.context = platform::ContextKind::osmesa, .size = picture_size})),
+                        log_);
     }
 
     [[nodiscard]] session::TerrainScene& scene() { return *scene_; }

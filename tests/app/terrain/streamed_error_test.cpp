@@ -85,11 +85,8 @@ TEST_P(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
     ASSERT_TRUE(source) << source.error().message;
     const io::TileSet& tiles = source->tiles;
     const Grid<double> heights = tiles.read(tiles.grid(), io::Gaps::holes).heights;
-    session::DeviceOptions options;
-    options.context = platform::ContextKind::osmesa;
-    options.context_options = {.size = picture, .visible = false};
-    options.renderer.driver.size = picture;
-    auto device = session::Device::create(options);
+    auto device =
+        session::Device::create({.context = platform::ContextKind::osmesa, .size = picture});
     ASSERT_TRUE(device) << device.error().message;
     const session::GeodeticView& from = GetParam();
     const session::TerrainScene scene = scene_from(from);

@@ -235,5 +235,22 @@ TEST_F(TileFolder, frames_that_are_raised_over_the_ground_are_told_once) {
     EXPECT_THAT(result.err, HasSubstr("raised by up to 5"));
 }
 
+TEST_F(TileFolder, a_path_file_below_the_ground_is_an_error_after_whole_pictures) {
+    const std::string file =
+        folder_
+            .write("under.toml",
+                   "[[key]]\ntime = 0\nlatitude = 40.05\nlongitude = 10.05\nheight = -80\n")
+            .string();
+    const std::vector<std::string> arguments{"render",    path("tiles"), "--path", file,
+                                             "-o",        path("f.png"), "--size", "64x48",
+                                             "--context", "osmesa"};
+    const auto result = run(arguments);
+    test::expect_refusal(result, 1, {"under.toml", "1 of 1 frames", "--allow-underground"});
+    EXPECT_TRUE(std::filesystem::exists(path("f.png")));
+    std::vector<std::string> allowed = arguments;
+    allowed.push_back("--allow-underground");
+    EXPECT_EQ(run(allowed).exit_code, 0);
+}
+
 } // namespace
 } // namespace reljef
