@@ -9,6 +9,7 @@
 #include "app/cli/options.h"
 #include "app/cli/output_files.h"
 #include "app/cli/progress_line.h"
+#include "app/cli/raised_frames.h"
 #include "app/commands.h"
 #include "app/frame_sink.h"
 #include "engine/io/image/image.h"
@@ -73,37 +74,6 @@ private:
     std::vector<Image> pictures_;
 };
 
-// The frames of a path whose camera was raised above the ground.
-class RaisedFrames {
-public:
-    void add(const session::Lift& lift) {
-        raised_ += lift ? 1 : 0;
-        underground_ += lift.depth > 0.0 ? 1 : 0;
-        max_metres_ = std::max(max_metres_, lift.metres);
-    }
-    // A path file is at fault if it leads below the ground. A measured track only is inaccurate,
-    // and a path of our own may graze a summit.
-    [[nodiscard]] Result<void> report(session::Log& log, const RenderChoice& choice) const {
-        if (raised_ == 0) {
-            return {};
-        }
-        const std::string text =
-            fmt::format("--path {}: {} of {} frames would be under the ground or too close to it; "
-                        "raised by up to {:.1f} m; --allow-underground keeps them",
-                        choice.view.path, raised_, choice.view.frames, max_metres_);
-        if (underground_ > 0 && session::is_path_file(choice.view.path)) {
-            return Error{text};
-        }
-        log.note(text);
-        return {};
-    }
-
-private:
-    int raised_ = 0;
-    int underground_ = 0;
-    double max_metres_ = 0.0;
-};
-
 // How a frame is drawn: stopped by Ctrl-C, told as a part of all frames.
 ParallelOptions frame_options(const RenderChoice& choice, const cli::Interrupt& interrupt,
                               Progress progress = {}) {
@@ -133,7 +103,7 @@ Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scen
         return sink.error();
     }
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
-    RaisedFrames raised;
+    cli::RaisedFrames raised;
     cli::ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (path) {
@@ -162,7 +132,7 @@ Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scen
         fmt::print("{}", maker.stats());
     }
     auto written = sheet.write(choice.contact_sheet);
-    return written ? raised.report(log, choice) : written;
+    return written ? raised.report(log, choice.view.path) : written;
 }
 
 // What the arguments alone show to be wrong.
@@ -272,28 +242,30 @@ Result<std::optional<scene::FlyPath>> path_of(const session::TerrainScene& scene
     return path ? Result<Path>(Path(std::move(*path))) : path.error();
 }
 
-// A camera below the ground is a fault of the scene file that holds it, but not of an option.
-Result<void> report_lift(const session::Lift& lift, const RenderChoice& choice, session::Log& log) {
+// A camera below the ground is a fault of the scene file that places it, but not of an option.
+Result<void> report_lift(const session::Lift& lift, const RenderChoice& choice, bool is_of_file,
+                         session::Log& log) {
     if (!lift) {
         return {};
     }
-    const cli::CameraSource source = cli::camera_source(choice.view, choice.terrain);
-    if (source.is_file) {
-        return Error{session::lift_note(lift, source.name)};
+    const std::string text =
+        session::lift_note(lift, cli::camera_source(choice.view, choice.terrain));
+    if (is_of_file) {
+        return Error{text};
     }
-    log.note(session::lift_note(lift, source.name));
+    log.note(text);
     return {};
 }
 
 Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& scene,
-                          session::FrameMaker& maker, session::Log& log,
+                          bool has_camera_of_file, session::FrameMaker& maker, session::Log& log,
                           const cli::Interrupt& interrupt) {
     const auto path = path_of(scene, choice, log);
     if (!path) {
         return path.error();
     }
     session::Lift lift;
-    RaisedFrames raised;
+    cli::RaisedFrames raised;
     if (*path) {
         raised.add(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token(),
                                              underground(choice)));
@@ -306,10 +278,11 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         }
     }
     if (choice.output.empty()) {
-        return *path ? raised.report(log, choice) : report_lift(lift, choice, log);
+        return *path ? raised.report(log, choice.view.path)
+                     : report_lift(lift, choice, has_camera_of_file, log);
     }
     auto drawn = draw_frames(choice, scene, maker, *path, log, interrupt);
-    return drawn ? report_lift(lift, choice, log) : drawn;
+    return drawn ? report_lift(lift, choice, has_camera_of_file, log) : drawn;
 }
 
 Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {
@@ -334,16 +307,18 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     const auto inputs = inputs_of(choice, *description);
     cli::expect_apart(outputs_of(choice, inputs), inputs);
     session::SourceOptions terrain = choice.terrain;
-    terrain.streamed = !choice.truth && session::may_stream(choice.view);
-    terrain.pictures_streamed = terrain.streamed && session::may_stream_pictures(choice.view);
+    terrain.streamed = !choice.truth;
     session::SceneOptions view = choice.view;
     view.prepares_maps = !choice.truth;
+    const bool has_camera_of_file =
+        description->eye && !choice.view.eye && !choice.view.geodetic && !choice.view.pose;
     auto scene =
         session::open_scene(std::move(*description), terrain, view, log, interrupt.token());
     if (!scene) {
         return scene.error();
     }
-    if (auto drawn = draw_outputs(choice, *scene, **maker, log, interrupt); !drawn) {
+    if (auto drawn = draw_outputs(choice, *scene, has_camera_of_file, **maker, log, interrupt);
+        !drawn) {
         return drawn;
     }
     session::log_stream_faults(scene->scene, log);

@@ -34,6 +34,9 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<FlightChoice>();
     cli::add_terrain_options(*arguments, choice->options.terrain);
     cli::add_view_options(*arguments, choice->options.view);
+    arguments->get_option("--max-error")
+        ->description("polygons: at most PX pixels of error, with as few triangles as possible "
+                      "(none: every sample of a tile)");
     arguments->add_option("--json", choice->outputs.json, "write the results there too")
         ->type_name("FILE");
     arguments->callback([choice] {

@@ -370,38 +370,19 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         ->type_name("FILE");
 }
 
-CameraSource camera_source(const ViewChoice& view, const TerrainChoice& terrain) {
+std::string camera_source(const ViewChoice& view, const TerrainChoice& terrain) {
     if (view.eye) {
-        return {"--eye"};
+        return "--eye";
     }
     if (view.geodetic) {
-        return {"--camera"};
+        return "--camera";
     }
-    return view.pose ? CameraSource{"--pose"} : CameraSource{terrain.terrain, true};
+    return view.pose ? "--pose" : terrain.terrain;
 }
 
 void check_view_options(const ViewChoice& choice) {
-    if (choice.eye && choice.look && *choice.eye == *choice.look) {
-        throw CLI::ValidationError("--look: the point of --eye found, another point was expected");
-    }
-    const bool is_bounded = choice.max_error.value_or(0.0) > 0.0;
-    if (is_bounded && choice.technique && choice.technique->id() != scene::TechniqueId::polygons) {
-        throw CLI::ValidationError(
-            fmt::format("--max-error: technique {} found, polygons was expected",
-                        scene::technique_info(choice.technique->id()).name));
-    }
-    if (choice.detail && choice.technique &&
-        choice.technique->id() != scene::TechniqueId::polygons) {
-        throw CLI::ValidationError(
-            fmt::format("--detail: technique {} found, polygons was expected, which it lies on",
-                        scene::technique_info(choice.technique->id()).name));
-    }
-    const scene::TechniqueParameters plain = scene::Polygons{};
-    if (is_bounded && choice.technique && choice.technique->parameters != plain) {
-        throw CLI::ValidationError(
-            fmt::format("--max-error: --technique {} found beside it, which says how coarse "
-                        "triangles may be too; one of them was expected",
-                        scene::to_string(*choice.technique)));
+    if (auto good = session::check(choice); !good) {
+        throw CLI::ValidationError(good.error().message);
     }
     if (choice.pose == scene::Pose::map && !choice.path.empty()) {
         throw CLI::ValidationError("--pose: map found beside --path, which flies in perspective; "
@@ -414,8 +395,8 @@ void add_samples_option(CLI::App& command, ViewChoice& choice) {
         command, "--samples", choice.samples,
         word_of<int>("--samples", {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}),
         "samples a pixel, against jagged edges: 1, 2, 4, 8 or 16; techniques that follow "
-        "rays draw as many rays (4 where the picture has triangles, else 1; in a window that moves "
-        "too slowly 1)",
+        "rays draw as many rays (4 if the picture has triangles and at most 4096x4096 pixels, "
+        "else 1; 1 while the view in a window moves too slowly)",
         "N");
 }
 

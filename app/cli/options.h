@@ -60,12 +60,8 @@ void add_source_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
 /// --samples, for programs that draw pictures to look at.
 void add_samples_option(CLI::App& command, ViewChoice& choice);
-/// What places the camera: an option, or the scene file.
-struct CameraSource {
-    std::string name;
-    bool is_file = false;
-};
-CameraSource camera_source(const ViewChoice& view, const TerrainChoice& terrain);
+/// What places the camera: an option, or the terrain or scene file.
+std::string camera_source(const ViewChoice& view, const TerrainChoice& terrain);
 /// What only all options together show to be wrong (CLI::ParseError). For the command's callback.
 void check_view_options(const ViewChoice& choice);
 

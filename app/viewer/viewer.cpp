@@ -21,8 +21,8 @@ namespace {
 constexpr double seconds_across = 20.0;
 // How long a first step lasts at most, seconds.
 constexpr double first_step = 1.0 / 60.0;
-// What is shown of a terrain until the maps of its technique are made.
-constexpr std::string_view coarse_technique = "polygons:lods=5";
+// Of a terrain by distance, until the maps of its technique are made.
+constexpr int coarse_levels = 5;
 // Of a path, seconds.
 constexpr double least_duration = 1e-9;
 // Metres: less is no more than rounding.
@@ -92,7 +92,9 @@ std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
         if (!scene.check(scene::make_technique(info.id))) {
             continue;
         }
+        const bool is_polygons = info.id == scene::TechniqueId::polygons;
         techniques.push_back(info.id == asked_for.id() ? asked_for
+                             : is_polygons             ? session::technique_of({})
                                                        : scene::make_technique(info.id));
     }
     return techniques;
@@ -120,6 +122,17 @@ std::string place_on_earth(const scene::TerrainSurface& surface, const scene::Ca
 }
 
 } // namespace
+
+scene::Technique first_technique(const session::TerrainScene& scene) {
+    const std::vector<scene::Material*> materials = scene.materials();
+    const scene::Technique own = materials.front()->technique;
+    const bool is_one =
+        std::all_of(materials.begin(), materials.end(),
+                    [&](const scene::Material* material) { return material->technique == own; });
+    return is_one && !session::missing_maps(scene).empty()
+               ? scene::Technique{scene::Polygons{.max_levels = coarse_levels}}
+               : own;
+}
 
 struct Viewer::Binding {
     Key key;
@@ -163,24 +176,18 @@ std::string Viewer::keys() {
 Viewer::Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size,
                const ViewerOptions& options)
     : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
-      techniques_(techniques_with(material().technique, scene)), switch_(scene, options.threads),
+      techniques_(techniques_with(material().technique, scene)), switch_(scene, options.maps),
       flight_(make_flight(scene, start_, options.allow_underground)) {
-    show_coarse_until_prepared();
+    const scene::Technique technique = material().technique;
+    if (const scene::Technique first = first_technique(scene); first != technique) {
+        switch_.request(first);
+        switch_.request(technique);
+    }
     if (camera().projection == scene::ProjectionKind::orthographic) {
         map_.emplace(camera(), scene_.bounds, size_);
     } else {
         show_camera(flight_.camera());
     }
-}
-
-// Levels by distance need nothing that is not there.
-void Viewer::show_coarse_until_prepared() {
-    const scene::Technique technique = material().technique;
-    if (session::missing_maps(scene_, technique).empty()) {
-        return;
-    }
-    switch_.request(scene::parse_technique(coarse_technique).value());
-    switch_.request(technique);
 }
 
 const scene::Material& Viewer::material() const {
@@ -228,6 +235,9 @@ bool Viewer::receive_key(const KeyEvent& event) {
 
 std::vector<scene::Camera> Viewer::upcoming() const {
     std::vector<scene::Camera> cameras;
+    if (!is_moving()) {
+        return cameras;
+    }
     for (const double ahead : {0.5, 1.5, 3.0}) { // seconds
         if (playing_) {
             const double time =
@@ -334,9 +344,10 @@ void Viewer::toggle_wireframe() {
 
 void Viewer::turn_light() {
     constexpr double step = 15.0; // degrees
-    auto& light = *scene_.light->get<scene::Light>();
+    scene::Light light = switch_.light();
     light.azimuth = std::fmod(light.azimuth + step, 360.0);
-    redraw_ = true;
+    switch_.request(light);
+    redraw_ = redraw_ || !switch_.is_preparing();
 }
 
 void Viewer::toggle_mouse_look() {
@@ -351,14 +362,14 @@ void Viewer::toggle_follow_ground() {
 void Viewer::next_technique() {
     const auto found =
         std::find_if(techniques_.begin(), techniques_.end(), [&](const auto& technique) {
-            return technique.id() == switch_.target().id();
+            return technique.id() == switch_.technique().id();
         });
     const auto index = static_cast<std::size_t>(found - techniques_.begin());
     choose_technique((index + 1) % techniques_.size());
 }
 
 void Viewer::choose_technique(std::size_t index) {
-    if (index < techniques_.size() && techniques_[index] != switch_.target()) {
+    if (index < techniques_.size() && techniques_[index] != switch_.technique()) {
         switch_.request(techniques_[index]);
         redraw_ = redraw_ || !switch_.is_preparing();
     }

@@ -8,7 +8,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/viewer/technique_switch.h"
+#include "app/viewer/appearance_switch.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
 #include "engine/scene/motion/fly_path.h"
@@ -26,9 +26,13 @@ struct FrameTiming {
 };
 
 struct ViewerOptions {
-    int threads = 0;                ///< for maps; 0: as many as the machine has
+    AppearanceSwitchOptions maps;
     bool allow_underground = false; ///< the ground stops nobody
 };
+
+/// What is shown of a scene until the maps of its techniques are made: levels by distance, which
+/// need none. The scene's own technique if nothing is missing.
+scene::Technique first_technique(const session::TerrainScene& scene);
 
 /// Everything the viewer decides, without a window: takes events, moves the camera of its scene,
 /// and says whether there is something new to draw.
@@ -48,7 +52,8 @@ public:
     /// is no longer than a frame.
     void advance(double seconds);
 
-    /// Where the camera is about to be in the next seconds, if it goes on as it does.
+    /// Where the camera is about to be in the next seconds, if it goes on as it does; nothing while
+    /// it stands still.
     [[nodiscard]] std::vector<scene::Camera> upcoming() const;
 
     /// Flies along the path, or stops.
@@ -70,9 +75,13 @@ public:
     /// Whether maps of a technique are being made; it is shown when they are there.
     [[nodiscard]] bool is_preparing() const { return switch_.is_preparing(); }
     /// What is being made, and how far it is.
-    [[nodiscard]] session::RelayedLog::Progress preparation() const { return switch_.progress(); }
+    [[nodiscard]] session::RelayedLog::TaskProgress preparation() const {
+        return switch_.progress();
+    }
     /// Hands on what was reported since the last call.
     void relay_to(session::Log& log) { switch_.relay_to(log); }
+    /// As AppearanceSwitch::take_light().
+    std::shared_ptr<const render::PreparedLight> take_light() { return switch_.take_light(); }
 
     /// Name, technique, frame rate, triangles and where the eye is, for the window's title.
     [[nodiscard]] std::string title(const view::FrameStats& stats, const FrameTiming& timing) const;
@@ -89,7 +98,6 @@ private:
     void turn_light();
     void toggle_mouse_look();
     void toggle_follow_ground();
-    void show_coarse_until_prepared();
     void next_technique();
     void choose_technique(std::size_t index);
     void ask_for_screenshot() { screenshot_ = true; }
@@ -107,7 +115,7 @@ private:
     glm::ivec2 size_;
     scene::Camera start_;
     std::vector<scene::Technique> techniques_; // as asked for, in the catalogue's order
-    TechniqueSwitch switch_;
+    AppearanceSwitch switch_;
     scene::FreeFlight flight_;
     std::optional<ViewerMap> map_; // while it is shown
     double path_time_ = 0.0;

@@ -1,7 +1,6 @@
 #include "bench/runner/suite.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <set>
 #include <span>
@@ -14,11 +13,10 @@
 #include "bench/runner/row_error.h"
 #include "bench/runner/suite_device.h"
 #include "bench/runner/time_table.h"
+#include "engine/core/stopwatch.h"
 
 namespace reljef::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // One thing drawn; what its last frame drew.
 struct Entry {
@@ -27,10 +25,6 @@ struct Entry {
     view::FrameStats stats{};
     std::vector<double> gpu_ms{}; // of every frame
 };
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 // Tells the progress of all groups from that of each.
 class SuiteProgress {
@@ -240,8 +234,8 @@ private:
                            SuiteProgress& progress) {
         const Group& group = suite_.groups[index];
         const std::size_t left = suite_.groups.size() - index;
-        const double seconds = group_seconds(options_, seconds_since(begin_), left);
-        group_begin_ = Clock::now();
+        const double seconds = group_seconds(options_, since_begin_.seconds(), left);
+        since_group_ = Stopwatch();
         driver.forget_scene();
         const auto stage = stages_.get(group.stage);
         if (!stage) {
@@ -255,7 +249,7 @@ private:
             return entries ? Result<void>() : entries.error();
         }
         MeasureOptions timing = measuring(options_, suite_.groups.size(),
-                                          group_seconds(options_, seconds_since(begin_), left));
+                                          group_seconds(options_, since_begin_.seconds(), left));
         timing.stop = stop_;
         timing.progress = [&](double fraction) { progress.tell_timed(fraction); };
         const std::size_t first_row = results_.rows.size();
@@ -275,7 +269,7 @@ private:
         const std::size_t count = entries.size();
         for (std::size_t i = 0; i < count && !stop_.stop_requested(); ++i) {
             const bool may_leave_out = suite_.may_leave_out && i > 0 && entries[i].technique;
-            cost.elapsed = seconds_since(group_begin_);
+            cost.elapsed = since_group_.seconds();
             if (may_leave_out && !fits(with_another(cost, frame_seconds(entries[i])), seconds)) {
                 continue;
             }
@@ -303,7 +297,7 @@ private:
             return cost;
         }
         const bool is_texture = cost.frames == 0;
-        const Clock::time_point begin = Clock::now();
+        const Stopwatch since_begin;
         auto judgement =
             judge(stage, *entry.technique, driver,
                   {static_cast<unsigned>(options_.threads), options_.keep_views, stop_});
@@ -314,15 +308,15 @@ private:
         if (auto kept = keep_view(entry.row, judgement->view); !kept) {
             return kept.error();
         }
-        const Clock::time_point judged = Clock::now();
+        const Stopwatch since_judged;
         if (auto drawn = frame_of(entry, stage, driver)(); !drawn) {
             return drawn.error();
         }
-        const double frame = seconds_since(judged);
+        const double frame = since_judged.seconds();
         frame_seconds_[entry.row.setting.label] = frame;
         const int frames = is_texture ? 2 : 1; // its null row
         return GroupCost{
-            seconds_since(group_begin_), is_texture ? 0.0 : cost.judging + seconds_since(begin),
+            since_group_.seconds(), is_texture ? 0.0 : cost.judging + since_begin.seconds(),
             is_texture ? 0 : cost.judged + 1, cost.round + frames * frame, cost.frames + frames};
     }
 
@@ -399,8 +393,8 @@ private:
     const Suite& suite_;
     const SuiteOptions& options_;
     std::stop_token stop_;
-    Clock::time_point begin_ = Clock::now();
-    Clock::time_point group_begin_ = begin_;
+    Stopwatch since_begin_;
+    Stopwatch since_group_;
     Stages stages_;
     RowViews views_;
     bool is_software_ = true;

@@ -1,23 +1,17 @@
 #include "bench/suites/flight_suite.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/cli/console_log.h"
 #include "app/cli/progress_line.h"
 #include "engine/core/process_memory.h"
+#include "engine/core/stopwatch.h"
 #include "engine/scene/motion/animators.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 
 namespace reljef::bench {
 namespace {
-
-using FlightClock = std::chrono::steady_clock;
-
-double flown_since(FlightClock::time_point start) {
-    return std::chrono::duration<double>(FlightClock::now() - start).count();
-}
 
 Result<session::DeviceFrames> flight_device(const FlightOptions& options, session::Log& log) {
     auto device = session::Device::create({.context = options.view.context,
@@ -32,26 +26,24 @@ Result<session::DeviceFrames> flight_device(const FlightOptions& options, sessio
 Result<session::TerrainScene> flight_scene(const FlightOptions& options, session::Log& log,
                                            const std::stop_token& stop) {
     session::SourceOptions terrain = options.terrain;
-    terrain.streamed = session::may_stream(options.view);
-    terrain.pictures_streamed = session::may_stream_pictures(options.view);
-    auto source = session::open_terrain(terrain, log, stop);
-    if (!source) {
-        return source.error();
-    }
+    terrain.streamed = true;
     session::SceneOptions view = options.view;
     if (!view.technique) {
-        view.max_error = view.max_error.value_or(0.0); // measured as it is: every sample of a tile
+        view.max_error = view.max_error.value_or(0.0); // every sample of a tile
     }
-    return session::make_scene(std::move(*source), terrain, view, log, stop);
+    return session::open_scene(terrain, view, log, stop);
 }
 
 Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
-                 session::DeviceFrames& frames, session::Log& log, FlightClock::time_point start,
+                 session::DeviceFrames& frames, session::Log& log, const Stopwatch& watch,
                  FlightResults& results, const std::stop_token& stop) {
     const int count = results.options.view.frames;
+    const auto underground = results.options.view.allow_underground ? session::Underground::allowed
+                                                                    : session::Underground::lifted;
     cli::ProgressLine line("flying", results.options.terrain.quiet);
     for (int index = 0; index < count && !stop.stop_requested(); ++index) {
-        static_cast<void>(session::fly_above_ground(scene, path, index, count, frames, stop));
+        results.raised.add(
+            session::fly_above_ground(scene, path, index, count, frames, stop, underground));
         ParallelOptions parallel;
         parallel.stop = stop;
         if (const auto drawn = frames.draw(scene.scene, parallel); !drawn) {
@@ -60,7 +52,7 @@ Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
         results.most_memory = std::max(results.most_memory, process_memory().now);
         session::log_stream_faults(scene.scene, log);
         if (index == 0) {
-            results.seconds_to_first_frame = flown_since(start);
+            results.seconds_to_first_frame = watch.seconds();
         }
         line.update(static_cast<double>(index + 1) / count);
     }
@@ -78,7 +70,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     if (!frames) {
         return frames.error();
     }
-    const auto start = FlightClock::now();
+    const Stopwatch watch;
     auto scene = flight_scene(options, log, stop);
     if (!scene) {
         return scene.error();
@@ -90,10 +82,13 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     FlightResults results;
     results.options = options;
     results.environment = environment_of(frames->context(), options.terrain.threads);
-    if (auto flown = fly(*scene, *path, *frames, log, start, results, stop); !flown) {
+    if (auto flown = fly(*scene, *path, *frames, log, watch, results, stop); !flown) {
         return flown.error();
     }
-    results.seconds = flown_since(start);
+    results.seconds = watch.seconds();
+    if (const auto good = results.raised.report(log, options.view.path); !good) {
+        log.note(good.error().message); // the times hold for the flight as it was flown
+    }
     results.times = frames->times();
     results.faulty_files = session::faulty_files(scene->scene);
     results.most_memory =

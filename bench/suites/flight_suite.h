@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/cli/options.h"
+#include "app/cli/raised_frames.h"
 #include "bench/report/environment.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/frame_maker.h"
@@ -25,6 +26,7 @@ struct FlightResults {
     double seconds_to_first_frame = 0.0; ///< from opening the terrain
     double seconds = 0.0;                ///< all in all
     session::FrameTimes times;
+    cli::RaisedFrames raised;
     std::optional<scene::TileStreamStats> stream; ///< absent where all fits the memory
     std::size_t faulty_files = 0;
     std::size_t most_memory = 0;  ///< of the process, bytes

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "app/cli/console_log.h"
 #include "bench/runner/suite_device.h"
 #include "bench/suites/growth_ground.h"
+#include "engine/core/stopwatch.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/device.h"
 #include "engine/session/scene_setup.h"
@@ -32,16 +32,6 @@ constexpr std::array growth_poses{scene::Pose::overview, scene::Pose::low};
 constexpr int judged_step = 4; // pixels
 constexpr int growth_warm_up = 3;
 constexpr int growth_frames = 20;
-
-class GrowthWatch {
-public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Of the process, bytes; what a file of /proc says in kB after `name`.
 std::size_t most_memory() {
@@ -64,7 +54,7 @@ void restart_most_memory() {
 
 // What is looked at, from its opening on.
 struct GrowthStage {
-    GrowthWatch watch;
+    Stopwatch watch;
     session::Device device;
     session::TerrainScene scene;
 };
@@ -90,7 +80,7 @@ Result<session::TerrainScene> open_ground(const fs::path& path, const GrowthOpti
 
 Result<GrowthStage> open_stage(const fs::path& path, const GrowthOptions& options,
                                const std::stop_token& stop) {
-    const GrowthWatch watch;
+    const Stopwatch watch;
     auto device = make_device(options.suite);
     if (!device) {
         return device.error();
@@ -219,8 +209,8 @@ private:
 
     // A view that is opened begins with the first pose, and flies to the others.
     Result<void> look(GrowthStage& stage, GrowthRow& row) const {
-        const GrowthWatch since_pose;
-        const GrowthWatch& watch = row.pose == growth_poses.front() ? stage.watch : since_pose;
+        const Stopwatch since_pose;
+        const Stopwatch& watch = row.pose == growth_poses.front() ? stage.watch : since_pose;
         set_pose(stage.scene, row.pose);
         const scene::Scene& scene = stage.scene.scene;
         session::SceneRenderer& renderer = stage.device.renderer();

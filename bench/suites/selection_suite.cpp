@@ -1,7 +1,6 @@
 #include "bench/suites/selection_suite.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -10,6 +9,7 @@
 
 #include "app/cli/progress_line.h"
 #include "engine/core/atomic_file.h"
+#include "engine/core/stopwatch.h"
 #include "engine/view/select.h"
 #include "terrains/generators.h"
 
@@ -17,7 +17,6 @@ namespace reljef::bench {
 namespace {
 
 using SelectionJson = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 
 constexpr int samples = 1601;   // 13 tiles a side
 constexpr double most_ms = 0.2; // for 10,000 tiles
@@ -71,9 +70,9 @@ SelectionRow measure(ManyTiles& made, const SelectionView& view, const Selection
     row.view = view.name;
     std::vector<double> ms;
     for (int round = 0; round < options.rounds; ++round) {
-        const auto begin = Clock::now();
+        const Stopwatch watch;
         const view::DrawList list = view::select(seen, {.occlusion = false}).list;
-        ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+        ms.push_back(watch.milliseconds());
         row.seen = list.tiles.size();
         row.tiles = row.seen + static_cast<std::size_t>(list.stats.skipped.tiles_outside_frustum);
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/stopwatch.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/render/passes/draw_state.h"
 #include "engine/render/passes/mesh_painter.h"
@@ -19,21 +20,20 @@
 namespace reljef::render {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 glm::vec4 channels_of(const Hit& hit) {
     return {hit.col, hit.row, hit.height, hit.depth};
 }
 
-int samples_of(const view::DrawList& list, int samples) {
+constexpr int samples_of_triangles = 4;
+// 512 MB of colour and depth at 4 samples. A larger picture is likely to be reduced anyway.
+constexpr double max_sampled_pixels = 4096.0 * 4096.0;
+
+int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
     const bool has_triangles =
         !list.tiles.empty() || !list.streamed_tiles.empty() || !list.meshes.empty();
-    constexpr int of_triangles = 4;
-    return samples != automatic_samples ? samples : has_triangles ? of_triangles : 1;
+    const double pixels = static_cast<double>(size.x) * size.y;
+    const bool has_several = has_triangles && pixels <= max_sampled_pixels;
+    return samples != automatic_samples ? samples : has_several ? samples_of_triangles : 1;
 }
 
 // A picture's later passes draw the same again: what they take counts, what they show does not.
@@ -88,7 +88,7 @@ Result<void> Driver::resize(glm::ivec2 size) {
 }
 
 Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
-    const auto start = Clock::now();
+    const Stopwatch whole;
     const view::DrawList& list = frame.list;
     view::FrameStats stats = list.stats;
     if (auto done = prepare(list, false, stats); !done) {
@@ -98,23 +98,23 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     if (timer.id() != 0U) {
         timer.begin();
     }
-    const auto drawing = Clock::now();
+    const Stopwatch drawing;
     if (auto done = draw_picture(list, stats); !done) {
         return done.error();
     }
     if (timer.id() != 0U) {
         timer.end();
     }
-    stats.cpu_ms = milliseconds_since(start);
+    stats.cpu_ms = whole.milliseconds();
     if (wait) {
-        if (options_.software && samples_of(list, options_.samples) > 1) {
+        if (options_.software && samples_of(list, size(), options_.samples) > 1) {
             // The mean of samples has waited for them; gpu_ms counts that.
-            stats.cpu_ms -= milliseconds_since(drawing);
+            stats.cpu_ms -= drawing.milliseconds();
         }
         glFinish();
         const auto measured = timer.poll();
         stats.gpu_ms = measured ? std::chrono::duration<double, std::milli>(*measured).count()
-                                : milliseconds_since(drawing);
+                                : drawing.milliseconds();
     }
     return stats;
 }
@@ -155,6 +155,7 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     if (auto good = check_support(list, limits_); !good) {
         return good;
     }
+    blocks_.begin_frame();
     write_frame_block(list, stats);
     if (auto there = beam_target_.prepare(list); !there) {
         return there;
@@ -170,7 +171,7 @@ void Driver::write_frame_block(const view::DrawList& list, view::FrameStats& sta
 }
 
 Result<void> Driver::draw_picture(const view::DrawList& list, view::FrameStats& stats) {
-    const int samples = samples_of(list, options_.samples);
+    const int samples = samples_of(list, size(), options_.samples);
     if (samples == 1) {
         return draw_pass(list, color_target_, stats);
     }

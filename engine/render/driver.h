@@ -57,6 +57,11 @@ public:
     /// Copies the last frame to the window's back buffer.
     void show_in_window(glm::ivec2 window_size) const;
 
+    /// Takes the light of a terrain that the next frame shows, so that drawing need not make it.
+    /// Fails when the driver has no memory left.
+    Result<void> add_light(const PreparedLight& prepared) { return residency_.add_light(prepared); }
+    [[nodiscard]] int max_texture_side() const { return limits_.max_texture_size; }
+
     Result<void> resize(glm::ivec2 size);
     /// For the frames to come, as DriverOptions::samples. Precondition: check_samples().
     void set_samples(int samples) { options_.samples = samples; }

@@ -353,6 +353,7 @@ void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReadin
         }
         failure.files.push_back(fault.file);
     }
+    revision_ += failure.latest.has_failed_for_good() ? 1U : 0U; // has_given_up() changes
     failures_[tile] = std::move(failure);
     tell(faults);
 }
@@ -369,6 +370,7 @@ void TileStream::forget_failure(terrain::TreeTile tile) {
         for (const std::string& file : found->second.files) {
             file_failures_.erase(file);
         }
+        revision_ += found->second.latest.has_failed_for_good() ? 1U : 0U;
         failures_.erase(found);
     }
 }

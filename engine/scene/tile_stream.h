@@ -110,7 +110,7 @@ public:
     /// Whether a tile is not there as it failed so often, for half a minute at least.
     [[nodiscard]] bool has_given_up(terrain::TreeTile tile) const;
 
-    /// Another number whenever tiles came or went.
+    /// Another number whenever tiles came, went or were given up.
     [[nodiscard]] std::uint64_t revision() const;
     /// Whether tiles came since the last call.
     bool take_news();

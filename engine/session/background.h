@@ -8,21 +8,19 @@
 #include <thread>
 #include <utility>
 
+#include "engine/core/result.h"
+
 namespace reljef::session {
 
 /// Runs a function on a thread of its own. When this object goes, the function is asked to stop and
 /// waited for.
 template <class T> class Background {
 public:
-    using Work = std::function<T(const std::stop_token&)>;
+    using Work = std::function<Result<T>(const std::stop_token&)>;
 
     explicit Background(Work work)
         : thread_([this, work = std::move(work)](const std::stop_token& stop) {
-              try {
-                  result_ = work(stop);
-              } catch (...) { // out of memory: for whoever takes the result
-                  exception_ = std::current_exception();
-              }
+              result_.emplace(run(work, stop));
               done_ = true;
           }) {}
     Background(const Background&) = delete;
@@ -31,18 +29,23 @@ public:
     [[nodiscard]] bool is_done() const { return done_; }
     void request_stop() { thread_.request_stop(); }
 
-    /// What the function returned, or throws what it threw; waits for it. Once only.
-    T take() {
+    /// What the function returned, or what a library below it threw as an error; waits for it. Once
+    /// only.
+    Result<T> take() {
         thread_.join();
-        if (exception_) {
-            std::rethrow_exception(exception_);
-        }
         return *std::move(result_);
     }
 
 private:
-    std::optional<T> result_;
-    std::exception_ptr exception_;
+    static Result<T> run(const Work& work, const std::stop_token& stop) {
+        try {
+            return work(stop);
+        } catch (const std::exception& thrown) { // out of memory
+            return Error{thrown.what()};
+        }
+    }
+
+    std::optional<Result<T>> result_;
     std::atomic<bool> done_ = false;
     std::jthread thread_; // last: it ends before the rest goes
 };

@@ -1,6 +1,5 @@
 #include "engine/session/frame_maker.h"
 
-#include <chrono>
 #include <span>
 #include <utility>
 
@@ -8,26 +7,15 @@
 
 #include "engine/core/process_memory.h"
 #include "engine/core/statistics.h"
+#include "engine/core/stopwatch.h"
 #include "engine/session/ground.h"
 #include "engine/session/streaming.h"
 
 namespace reljef::session {
 namespace {
 
-class Stopwatch {
-public:
-    [[nodiscard]] double ms() const {
-        const auto gone = std::chrono::steady_clock::now() - start_;
-        return std::chrono::duration<double, std::milli>(gone).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 constexpr double megabyte = 1e6;
-constexpr int most_rises =
-    4; // of a frame: what a raised camera shows may be higher once it is there
+constexpr int max_rises_of_frame = 4;
 
 // As many triangles as a view of a terrain has, of few vertices: software renderers keep what they
 // are about to draw, tens of megabytes, whatever draws with them.
@@ -61,18 +49,14 @@ std::string streams_text(std::span<const scene::TileStreamStats> streams) {
     return text;
 }
 
-// Above what is there once it is there. Returns by how many metres.
-double raise(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop, int most) {
-    double raised = 0.0;
-    for (int i = 0; i < most; ++i) {
+// Raises the camera above the ground that its view shows. A raised camera may show higher ground.
+void raise(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop, int max_rises) {
+    for (int i = 0; i < max_rises; ++i) {
         maker.wait_for_tiles(scene.scene, stop);
-        const double rise = keep_above_ground(scene);
-        if (rise == 0.0) {
-            break;
+        if (keep_above_ground(scene) == 0.0) {
+            return;
         }
-        raised += rise;
     }
-    return raised;
 }
 
 std::string times_text(const FrameTimes& times) {
@@ -109,7 +93,8 @@ void DeviceFrames::wait_for_tiles(const scene::Scene& scene, const std::stop_tok
     const Stopwatch waiting;
     SceneRenderer& renderer = device_.renderer();
     session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log_, stop);
-    waited_ms_ += waiting.ms();
+    // The last selection is that of the frame, and counts as drawing.
+    waited_ms_ += waiting.milliseconds() - renderer.selector().milliseconds();
     ready_for_ = scene.camera();
 }
 
@@ -176,12 +161,12 @@ Result<Image> TruthFrames::draw(const scene::Scene& scene, const ParallelOptions
     }
     if (!shading_) {
         shading_.emplace(scene, *caster_);
-        prepare_ms_ = preparing.ms();
+        prepare_ms_ = preparing.milliseconds();
     }
     const Stopwatch drawing;
     auto picture = truth::draw(*caster_, *shading_, scene.camera(), size_,
                                {.rays_per_side = rays_per_side_, .parallel = parallel});
-    draw_ms_ = drawing.ms();
+    draw_ms_ = drawing.milliseconds();
     return picture ? Result<Image>(std::move(picture->image)) : picture.error();
 }
 
@@ -211,8 +196,9 @@ Lift fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index
     const glm::dvec3 eye = scene.scene.camera().eye;
     Lift lift;
     lift.depth = lift_of(*scene.terrain->get<scene::TerrainNode>(), eye, 0.0).depth;
-    lift.metres = raise(scene, maker, stop, most_rises);
+    raise(scene, maker, stop, max_rises_of_frame);
     lift.way = scene.scene.camera().eye - eye;
+    lift.metres = glm::length(lift.way);
     return lift;
 }
 
@@ -225,8 +211,11 @@ Lift stand_above_ground(TerrainScene& scene, FrameMaker& maker, const std::stop_
     const glm::dvec3 eye = scene.scene.camera().eye;
     Lift lift = lift_camera(scene);
     if (lift) {
-        lift.metres += raise(scene, maker, stop, most_rises - 1);
+        raise(scene, maker, stop, max_rises_of_frame - 1);
         lift.way = scene.scene.camera().eye - eye;
+        lift.metres = glm::length(lift.way);
+        const Lift from_finer_ground = lift_of(*scene.terrain->get<scene::TerrainNode>(), eye, 0.0);
+        lift.depth = from_finer_ground ? from_finer_ground.depth : lift.depth;
     }
     return lift;
 }

@@ -50,12 +50,12 @@ void RelayedLog::relay_to(Log& log) {
     }
 }
 
-RelayedLog::Progress RelayedLog::progress() const {
+RelayedLog::TaskProgress RelayedLog::progress() const {
     const std::lock_guard lock(mutex_);
     return progress_;
 }
 
-void RelayedLog::set_progress(Progress progress) {
+void RelayedLog::set_progress(TaskProgress progress) {
     const std::lock_guard lock(mutex_);
     progress_ = std::move(progress);
 }

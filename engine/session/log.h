@@ -54,19 +54,19 @@ public:
 
     /// The task under way, "reading alps.tif", and how far it is, [0,1]; an empty label where there
     /// is none.
-    struct Progress {
+    struct TaskProgress {
         std::string label;
         double fraction = 0.0;
     };
-    [[nodiscard]] Progress progress() const;
+    [[nodiscard]] TaskProgress progress() const;
 
 private:
     friend class RelayedTask;
-    void set_progress(Progress progress);
+    void set_progress(TaskProgress progress);
 
     mutable std::mutex mutex_;
     std::vector<std::pair<MessageKind, std::string>> messages_;
-    Progress progress_;
+    TaskProgress progress_;
 };
 
 } // namespace reljef::session

@@ -1,6 +1,9 @@
 #include "engine/session/options.h"
 
+#include <string_view>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "engine/scene/graph/terrain_node.h"
 
@@ -17,14 +20,42 @@ scene::Technique technique_of(const SceneOptions& options) {
     return technique;
 }
 
-bool may_stream(const SceneOptions& options) {
-    return scene::draws_tiles(technique_of(options));
+Result<void> check(const SceneOptions& options) {
+    if (options.eye && options.look && *options.eye == *options.look) {
+        return usage_error("--look: the point of --eye found, another point was expected");
+    }
+    if (!options.technique) {
+        return {};
+    }
+    const scene::Technique& technique = *options.technique;
+    const bool draws_polygons = technique.id() == scene::TechniqueId::polygons;
+    const std::string_view name = scene::technique_info(technique.id()).name;
+    const bool is_bounded = options.max_error.value_or(0.0) > 0.0;
+    if (is_bounded && !draws_polygons) {
+        return usage_error(
+            fmt::format("--max-error: technique {} found, polygons was expected", name));
+    }
+    if (options.detail && !draws_polygons) {
+        return usage_error(fmt::format(
+            "--detail: technique {} found, polygons was expected, which it lies on", name));
+    }
+    const scene::TechniqueParameters plain = scene::Polygons{};
+    if (is_bounded && technique.parameters != plain) {
+        return usage_error(
+            fmt::format("--max-error: --technique {} found beside it, which says how coarse "
+                        "triangles may be too; one of them was expected",
+                        scene::to_string(technique)));
+    }
+    return {};
 }
 
-bool may_stream_pictures(const SceneOptions& options) {
+SourceOptions streamed_for(SourceOptions source, const SceneOptions& options) {
+    const scene::Technique technique = technique_of(options);
     const bool is_named = options.technique || options.max_error;
-    const bool is_bounded = scene::error_bound(technique_of(options)) > 0.0;
-    return may_stream(options) && !(is_named && is_bounded);
+    const bool is_bounded = scene::error_bound(technique) > 0.0;
+    source.streamed = source.streamed && scene::draws_tiles(technique);
+    source.pictures_streamed = source.streamed && !(is_named && is_bounded);
+    return source;
 }
 
 } // namespace reljef::session

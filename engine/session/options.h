@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/core/result.h"
 #include "engine/geo/geodetic_area.h"
 #include "engine/io/tile_set.h"
 #include "engine/scene/graph/camera.h"
@@ -34,10 +35,11 @@ struct SourceOptions {
     std::string geoid;                     ///< a file, "none", or empty: the installed one
     int memory_megabytes = 512;
     int threads = 0; ///< 0: as many as the machine has
-    /// Reads a terrain that does not fit the memory tile by tile, where the technique can draw
-    /// tiles; else, or where this is false, as one coarser terrain.
+    /// Reads a terrain that does not fit the memory tile by tile; else as one coarser terrain.
+    /// open_scene() does so only for techniques that draw tiles.
     bool streamed = false;
-    /// Streams a terrain that does fit, too, where its images are finer than one picture holds.
+    /// Streams a terrain that fits the memory, too, if its images are finer than one picture holds.
+    /// open_scene() decides this itself.
     bool pictures_streamed = false;
 };
 
@@ -82,14 +84,15 @@ struct SceneOptions {
     bool prepares_maps = true;
 };
 
-/// The technique with its error bound.
+/// The technique with its error bound. Precondition: check().
 scene::Technique technique_of(const SceneOptions& options);
 
-/// Whether the technique draws a terrain tile by tile.
-bool may_stream(const SceneOptions& options);
+/// Usage errors, which name the program's options: an error bound or a detail texture beside a
+/// technique that has none, a camera that looks at itself.
+Result<void> check(const SceneOptions& options);
 
-/// Whether images may make a terrain a stream of tiles: not where an error bound is named, as the
-/// error of streamed tiles is an estimate.
-bool may_stream_pictures(const SceneOptions& options);
+/// The same source, streamed only if these options allow it. Images make a stream of a terrain that
+/// fits the memory only if no error bound is named: the error of streamed tiles is an estimate.
+SourceOptions streamed_for(SourceOptions source, const SceneOptions& options);
 
 } // namespace reljef::session

@@ -35,6 +35,16 @@ std::vector<material::KnownCones> missing_sides(const material::TextureSet& set,
     return sides;
 }
 
+// Two materials may share a set and need different sides of it.
+void add_missing_side(std::vector<material::KnownCones>& sides, const material::KnownCones& side) {
+    const auto is_same = [&](const material::KnownCones& other) {
+        return other.border == side.border && other.from_behind == side.from_behind;
+    };
+    if (std::none_of(sides.begin(), sides.end(), is_same)) {
+        sides.push_back(side);
+    }
+}
+
 Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& heights,
                                                              const std::string& name, int threads,
                                                              Log& log,
@@ -97,25 +107,43 @@ void find_missing(MissingMaps& missing, const scene::TerrainNode& node,
 
 } // namespace
 
-MissingMaps missing_maps(const TerrainScene& scene, const scene::Technique& technique) {
+MissingMaps missing_maps(const TerrainScene& scene,
+                         const std::optional<scene::Technique>& technique) {
     MissingMaps missing;
     if (scene.models.empty()) {
-        find_missing(missing, *scene.terrain->get<scene::TerrainNode>(), technique);
-        return missing;
-    }
-    if (technique.id() != scene::TechniqueId::cone) {
+        const auto& node = *scene.terrain->get<scene::TerrainNode>();
+        find_missing(missing, node, technique.value_or(node.material.technique));
         return missing;
     }
     for (const scene::Material* const material : scene.materials()) {
         const MissingMaps::Set& set = material->detail.set;
-        if (set == nullptr) {
+        const scene::Technique& shown = technique ? *technique : material->technique;
+        if (set == nullptr || shown.id() != scene::TechniqueId::cone) {
             continue;
         }
-        if (auto sides = missing_sides(*set, technique); !sides.empty()) {
-            missing.set_cones.emplace(set, std::move(sides));
+        for (const material::KnownCones& side : missing_sides(*set, shown)) {
+            add_missing_side(missing.set_cones[set], side);
         }
     }
     return missing;
+}
+
+std::optional<render::LightRequest> light_request(const TerrainScene& scene,
+                                                  const scene::Light& light,
+                                                  const scene::Technique& technique,
+                                                  int largest_side) {
+    if (!scene.models.empty() || scene.light == nullptr) {
+        return std::nullopt;
+    }
+    const auto& node = *scene.terrain->get<scene::TerrainNode>();
+    return render::LightRequest{
+        .surface = node.surface,
+        .stream = node.stream,
+        .light = {scene::turned(light, scene.light->world_from_local()),
+                  glm::dmat3(scene.terrain->world_from_local())},
+        .in_parts = technique.options.shadow.has_value(),
+        .largest_side = largest_side,
+    };
 }
 
 Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& log,
@@ -147,7 +175,13 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
         }
         made.sets.emplace(set, std::make_shared<const material::TextureSet>(std::move(with_cones)));
     }
-    return made;
+    if (missing.light) {
+        const auto task = log.start("lighting " + missing.light->surface->terrain().name);
+        made.light =
+            std::make_shared<const render::PreparedLight>(render::prepare_light(*missing.light));
+    }
+    return stop.stop_requested() ? Result<PreparedMaps>(Error{"stopped while maps were made"})
+                                 : Result<PreparedMaps>(std::move(made));
 }
 
 void apply_maps(TerrainScene& scene, const PreparedMaps& maps) {

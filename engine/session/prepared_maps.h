@@ -2,12 +2,14 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/material/texture_set.h"
+#include "engine/render/residency/terrain_maps.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_setup.h"
@@ -24,20 +26,30 @@ struct MissingMaps {
     bool bisection = false;                               ///< for polygons with an error bound
     bool cones = false;                                   ///< for the technique cone
     std::map<Set, std::vector<material::KnownCones>> set_cones; ///< of detail textures: which sides
+    std::optional<render::LightRequest> light; ///< not looked for by missing_maps()
 
-    [[nodiscard]] bool empty() const { return surface == nullptr && set_cones.empty(); }
+    [[nodiscard]] bool empty() const { return surface == nullptr && set_cones.empty() && !light; }
 };
 
-/// What the scene lacks to be drawn with a technique. A renderer would make it itself, in the
-/// middle of a frame.
-MissingMaps missing_maps(const TerrainScene& scene, const scene::Technique& technique);
+/// What the scene lacks to be drawn with a technique; absent: with the techniques of its materials.
+/// A renderer would make it itself, in the middle of a frame.
+MissingMaps missing_maps(const TerrainScene& scene,
+                         const std::optional<scene::Technique>& technique = std::nullopt);
+
+/// The terrain's light as a technique needs it. Nothing in the gallery, whose models are lit as
+/// they are drawn. `largest_side`: of its maps, texels; SceneRenderer::max_texture_side().
+std::optional<render::LightRequest> light_request(const TerrainScene& scene,
+                                                  const scene::Light& light,
+                                                  const scene::Technique& technique,
+                                                  int largest_side);
 
 /// Maps that were made, or read from the cache.
 struct PreparedMaps {
     std::shared_ptr<const scene::TerrainSurface> surface; ///< whose maps these are
     std::shared_ptr<const terrain::Bisection> bisection;
     std::shared_ptr<const material::ConeMaps> cones;
-    std::map<MissingMaps::Set, MissingMaps::Set> sets; ///< the same detail textures with cones
+    std::map<MissingMaps::Set, MissingMaps::Set> sets;  ///< the same detail textures with cones
+    std::shared_ptr<const render::PreparedLight> light; ///< for SceneRenderer::add_light()
 };
 
 /// Makes them, or reads them from the cache; on any thread. `threads` 0: as many as the machine
@@ -45,7 +57,7 @@ struct PreparedMaps {
 Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& log,
                                   const std::stop_token& stop);
 
-/// Puts maps into the scene they were made for.
+/// Puts maps into the scene they were made for; the light is the renderer's.
 void apply_maps(TerrainScene& scene, const PreparedMaps& maps);
 
 /// Puts the cones over the sides of a detail texture that the technique sees, with its border, into

@@ -1,18 +1,8 @@
 #include "engine/session/scene_renderer.h"
 
-#include <chrono>
 #include <utility>
 
 namespace reljef::session {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-} // namespace
 
 Result<SceneRenderer> SceneRenderer::create(const SceneRendererOptions& options) {
     auto driver = render::Driver::create(options.driver);
@@ -27,6 +17,7 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     if (stats) {
         const bool was_drawn = std::exchange(drawn_, selector_.count()) == selector_.count();
         stats->skipped.selections_unchanged = was_drawn ? 1 : 0;
+        stats->cpu_ms += was_drawn ? 0.0 : selector_.milliseconds();
     }
     return stats;
 }
@@ -36,14 +27,8 @@ Result<HitBuffer> SceneRenderer::draw_selected_hits() {
 }
 
 Result<view::FrameStats> SceneRenderer::draw(const scene::Scene& scene, bool wait) {
-    const auto start = Clock::now();
     select(scene);
-    const double select_ms = milliseconds_since(start);
-    auto stats = draw_selected(wait);
-    if (stats) {
-        stats->cpu_ms += select_ms;
-    }
-    return stats;
+    return draw_selected(wait);
 }
 
 Result<HitBuffer> SceneRenderer::draw_hits(const scene::Scene& scene) {

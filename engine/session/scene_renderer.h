@@ -48,6 +48,9 @@ public:
     [[nodiscard]] Image read_color() const { return driver_.read_color(); }
     /// Copies the last frame to the window's back buffer.
     void show_in_window(glm::ivec2 window_size) const { driver_.show_in_window(window_size); }
+    /// Takes the light of a terrain that the next frame shows, so that drawing need not make it.
+    Result<void> add_light(const render::PreparedLight& light) { return driver_.add_light(light); }
+    [[nodiscard]] int max_texture_side() const { return driver_.max_texture_side(); }
     Result<void> resize(glm::ivec2 size) { return driver_.resize(size); }
     /// For the frames to come, as render::DriverOptions::samples.
     void set_samples(int samples) { driver_.set_samples(samples); }

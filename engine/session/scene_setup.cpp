@@ -225,7 +225,10 @@ std::optional<std::string> missing_geoid(const TerrainScene& scene, const Source
 
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop) {
-    auto source = open_terrain(std::move(description), terrain, log, stop);
+    if (auto good = check(view); !good) {
+        return good.error();
+    }
+    auto source = open_terrain(std::move(description), streamed_for(terrain, view), log, stop);
     if (!source) {
         return source.error();
     }

@@ -27,6 +27,8 @@ public:
 
     /// How many views were selected so far.
     [[nodiscard]] int count() const { return count_; }
+    /// How long the last selection took.
+    [[nodiscard]] double milliseconds() const { return milliseconds_; }
 
 private:
     SelectOptions options_;
@@ -34,6 +36,7 @@ private:
     SceneView view_;
     std::optional<FrameView> frame_;
     int count_ = 0;
+    double milliseconds_ = 0.0;
 };
 
 } // namespace reljef::view

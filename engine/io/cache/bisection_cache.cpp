@@ -1,11 +1,11 @@
 #include "engine/io/cache/bisection_cache.h"
 
 #include <array>
-#include <chrono>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "engine/core/stopwatch.h"
 #include "engine/io/cache/kept_numbers.h"
 
 namespace reljef::io {
@@ -47,16 +47,6 @@ fs::path bisection_file(const fs::path& folder, const KeptKey& key) {
     return folder / fmt::format("{:016x}.bisection", key.source);
 }
 
-class BisectionWatch {
-public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 // What is wrong with writing it.
 std::string keep(const fs::path& path, const KeptKey& key, const terrain::Bisection& bisection) {
     const std::vector<float> bounds = bisection.bounds();
@@ -81,7 +71,7 @@ std::optional<CachedBisection> cached_bisection(const terrain::Heightfield& heig
     const auto read = path.empty()
                           ? std::nullopt
                           : read_numbers(path, key, terrain::Bisection::bounds_count(key.size));
-    const BisectionWatch watch;
+    const Stopwatch watch;
     if (read && *read) {
         cached.bisection = std::make_shared<const terrain::Bisection>(heightfield, placement,
                                                                       **read, options.parallel);

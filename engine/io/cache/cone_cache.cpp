@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdlib>
 #include <span>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "engine/core/stopwatch.h"
 #include "engine/io/cache/kept_numbers.h"
 
 namespace reljef::io {
@@ -49,8 +49,6 @@ Result<void> write_cones(const fs::path& path, GridView<const float> heights,
     return write_numbers(path, cone_key(heights), parts);
 }
 
-using ConeClock = std::chrono::steady_clock;
-
 } // namespace
 
 std::optional<fs::path> cache_folder() {
@@ -82,14 +80,14 @@ std::optional<CachedCones> cached_cones(GridView<const float> unit_heights,
             cached.note = read->error().message;
         }
     }
-    const auto start = ConeClock::now();
+    const Stopwatch watch;
     auto made = material::cone_maps(unit_heights, {.parallel = options.parallel});
     if (!made) {
         return std::nullopt;
     }
-    const std::chrono::duration<double> seconds = ConeClock::now() - start;
+    const double seconds = watch.seconds();
     cached.cones = std::make_shared<const material::ConeMaps>(std::move(*made));
-    if (!path.empty() && seconds.count() >= options.least_seconds) {
+    if (!path.empty() && seconds >= options.least_seconds) {
         const auto written = write_cones(path, unit_heights, *cached.cones);
         cached.note = written ? cached.note : written.error().message;
     }

@@ -4,7 +4,6 @@ namespace reljef::render {
 
 DrawState::DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats)
     : shaders_(shaders), blocks_(blocks), stats_(stats) {
-    blocks_.begin_frame();
     gl::set_reversed_depth();
     gl::set_culling(culling_);
     gl::set_polygon_mode(gl::PolygonMode::fill);

@@ -21,7 +21,7 @@ public:
     /// they are measured, find theirs again.
     static constexpr int kept_frames = 64;
 
-    /// Drops the buffers that no frame asked for so long.
+    /// Drops the buffers that no frame asked for in the last `kept_frames`.
     void begin_frame();
 
     /// The buffer that holds these bytes, made when first asked for. Valid for the frame. Fails

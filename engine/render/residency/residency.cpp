@@ -31,22 +31,29 @@ Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Textur
     return ResidentMaps{std::move(lit), std::move(sun), lit_from_sample};
 }
 
-Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
-                               const std::optional<scene::TerrainLight>& light,
-                               view::FrameStats& stats) {
-    auto lit = map_texture(lit_map(surface, light, gl::query_limits().max_texture_size), stats);
-    return lit ? with_place(surface, std::move(*lit), std::nullopt) : lit.error();
+Result<ResidentMaps> upload_light(const scene::TerrainSurface& surface, const Image& lit,
+                                  const Image& sun, view::FrameStats& stats) {
+    auto lit_texture = map_texture(lit, stats);
+    if (!lit_texture) {
+        return lit_texture.error();
+    }
+    if (sun.empty()) {
+        return with_place(surface, std::move(*lit_texture), std::nullopt);
+    }
+    auto sun_texture = map_texture(sun, stats);
+    return sun_texture ? with_place(surface, std::move(*lit_texture), std::move(*sun_texture))
+                       : sun_texture.error();
 }
 
-Result<ResidentMaps> make_light_parts(const scene::TerrainSurface& surface,
-                                      const scene::TerrainLight& light, view::FrameStats& stats) {
-    const LightParts parts = light_parts(surface, light, gl::query_limits().max_texture_size);
-    auto sky = map_texture(parts.sky, stats);
-    if (!sky) {
-        return sky.error();
+Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
+                               const std::optional<scene::TerrainLight>& light, bool in_parts,
+                               view::FrameStats& stats) {
+    const int largest_side = gl::query_limits().max_texture_size;
+    if (!in_parts) {
+        return upload_light(surface, lit_map(surface, light, largest_side), {}, stats);
     }
-    auto sun = map_texture(parts.sun, stats);
-    return sun ? with_place(surface, std::move(*sky), std::move(*sun)) : sun.error();
+    const LightParts parts = light_parts(surface, *light, largest_side);
+    return upload_light(surface, parts.sky, parts.sun, stats);
 }
 
 // Makes the cones where there are none.
@@ -97,13 +104,30 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     return meshes_.prepare(list.meshes, list.camera, stats);
 }
 
+Result<void> Residency::add_light(const PreparedLight& prepared) {
+    const LightRequest& request = prepared.request;
+    if (request.stream != nullptr) {
+        streamed_tiles_.add_light(request.stream, request.light, prepared.irradiance);
+        return {};
+    }
+    view::FrameStats not_of_a_frame;
+    auto maps = upload_light(*request.surface, prepared.lit, prepared.sun, not_of_a_frame);
+    if (!maps) {
+        return maps.error();
+    }
+    surface_of(request.surface)
+        .maps.push_back({request.light, request.in_parts,
+                         std::make_shared<const ResidentMaps>(std::move(*maps))});
+    return {};
+}
+
 void Residency::forget_unused() {
     std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
     coarse_tiles_.forget_unused();
 }
 
-Residency::Surface& Residency::surface_of(const scene::TerrainNode& terrain) {
-    const auto& surface = terrain.surface;
+Residency::Surface&
+Residency::surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface) {
     auto [entry, is_new] = surfaces_.try_emplace(surface.get());
     if (is_new) {
         entry->second.owner = surface;
@@ -120,7 +144,7 @@ std::vector<const view::TileDraw*> Residency::missing_tiles(const view::DrawList
         if (draw.coarse) {
             continue;
         }
-        Surface& surface = surface_of(*draw.terrain);
+        Surface& surface = surface_of(draw.terrain->surface);
         const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
         if (slots[static_cast<std::size_t>(draw.tile)]) {
             ++stats.skipped.uploads_unchanged;
@@ -171,7 +195,7 @@ Result<void> Residency::upload_tile(const view::TileDraw& draw, const view::Grid
     count_upload(stats, vertices->size());
     ResidentMesh mesh = resident_grid(std::move(*vertices), 6 * grid.cols * grid.rows);
     mesh.vertex_array.set_indices(**indices);
-    Surface& resident = surface_of(*draw.terrain);
+    Surface& resident = surface_of(draw.terrain->surface);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
     slots[static_cast<std::size_t>(draw.tile)] = std::move(mesh);
     return {};
@@ -191,7 +215,7 @@ Result<void> Residency::prepare_all_maps(const view::DrawList& list, view::Frame
         }
     }
     for (const auto& [terrain, maps] : maps_) {
-        std::erase_if(surface_of(*terrain).maps,
+        std::erase_if(surface_of(terrain->surface).maps,
                       [](const LitMaps& entry) { return entry.maps.use_count() == 1; });
     }
     return {};
@@ -213,7 +237,7 @@ Result<void> Residency::prepare_maps(const view::DrawList& list, const scene::Te
 Result<std::shared_ptr<const ResidentMaps>>
 Residency::maps_for(const scene::TerrainNode& terrain,
                     const std::optional<scene::TerrainLight>& light, view::FrameStats& stats) {
-    std::vector<LitMaps>& there = surface_of(terrain).maps;
+    std::vector<LitMaps>& there = surface_of(terrain.surface).maps;
     const bool in_parts = light && terrain.material.technique.options.shadow;
     const auto found = std::find_if(there.begin(), there.end(), [&](const LitMaps& entry) {
         return entry.light == light && entry.in_parts == in_parts;
@@ -222,8 +246,7 @@ Residency::maps_for(const scene::TerrainNode& terrain,
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
-    auto maps = in_parts ? make_light_parts(*terrain.surface, *light, stats)
-                         : make_maps(*terrain.surface, light, stats);
+    auto maps = make_maps(*terrain.surface, light, in_parts, stats);
     if (!maps) {
         return maps.error();
     }
@@ -234,7 +257,7 @@ Residency::maps_for(const scene::TerrainNode& terrain,
 Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const scene::Technique& technique = draw.terrain->material.technique;
-    std::optional<ResidentRelief>& relief = surface_of(*draw.terrain).relief;
+    std::optional<ResidentRelief>& relief = surface_of(draw.terrain->surface).relief;
     const bool looks_in_pyramid =
         technique.id() == scene::TechniqueId::exact || has_beams(technique);
     const bool needs_greatest = looks_in_pyramid && !(relief && relief->greatest);

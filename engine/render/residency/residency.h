@@ -46,6 +46,10 @@ public:
     /// driver has no memory left.
     Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
 
+    /// Takes the light of a terrain that the next frame shows. Fails when the driver has no memory
+    /// left.
+    Result<void> add_light(const PreparedLight& prepared);
+
     /// Precondition: prepared.
     [[nodiscard]] std::span<const ResidentMesh> tile(const view::TileDraw& draw) const;
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
@@ -70,7 +74,7 @@ private:
         std::optional<ResidentRelief> relief;
     };
     void forget_unused();
-    Surface& surface_of(const scene::TerrainNode& terrain);
+    Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
     std::vector<const view::TileDraw*> missing_tiles(const view::DrawList& list,
                                                      view::FrameStats& stats);
     Result<void> prepare_tiles(const view::DrawList& list, view::FrameStats& stats);

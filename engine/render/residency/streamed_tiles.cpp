@@ -366,12 +366,18 @@ Result<void> StreamedTiles::prepare_ground(const view::StreamedDraw& draw,
     return {};
 }
 
+void StreamedTiles::add_light(const std::shared_ptr<scene::TileStream>& stream,
+                              const scene::TerrainLight& light,
+                              std::shared_ptr<const scene::TerrainIrradiance> irradiance) {
+    lights_[stream.get()] = {stream, light, std::move(irradiance)};
+}
+
 const scene::TerrainIrradiance& StreamedTiles::irradiance_of(const view::StreamedDraw& draw,
                                                              const scene::TerrainLight& light) {
     SharedLight& shared = lights_[draw.terrain->stream.get()];
     if (shared.irradiance == nullptr || shared.light != light) {
         shared = {draw.terrain->stream, light,
-                  std::make_unique<const scene::TerrainIrradiance>(
+                  std::make_shared<const scene::TerrainIrradiance>(
                       draw.terrain->stream->maker().overview(), light)};
     }
     return *shared.irradiance;

@@ -39,6 +39,11 @@ public:
     /// Fails when the driver has no memory left.
     Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
 
+    /// Takes the light that the next frame shows.
+    void add_light(const std::shared_ptr<scene::TileStream>& stream,
+                   const scene::TerrainLight& light,
+                   std::shared_ptr<const scene::TerrainIrradiance> irradiance);
+
     /// Precondition: `draw` is of the list that was prepared.
     [[nodiscard]] const ResidentStreamed& tile(const view::StreamedDraw& draw) const;
 
@@ -67,7 +72,7 @@ private:
     struct SharedLight {
         std::weak_ptr<scene::TileStream> owner;
         std::optional<scene::TerrainLight> light;
-        std::unique_ptr<const scene::TerrainIrradiance> irradiance;
+        std::shared_ptr<const scene::TerrainIrradiance> irradiance;
     };
 
     struct ChangedMesh {

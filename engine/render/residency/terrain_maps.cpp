@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -95,6 +96,22 @@ LightParts light_parts(const scene::TerrainSurface& surface, const scene::Terrai
                        parts.sun(texel.x, texel.y) = rgba8_from_linear(reflected * found.sun);
                    });
     return parts;
+}
+
+PreparedLight prepare_light(LightRequest request) {
+    const scene::TerrainSurface& surface = *request.surface;
+    PreparedLight made;
+    if (request.stream != nullptr) {
+        made.irradiance = std::make_shared<const scene::TerrainIrradiance>(surface, request.light);
+    } else if (request.in_parts) {
+        LightParts parts = light_parts(surface, request.light, request.largest_side);
+        made.lit = std::move(parts.sky);
+        made.sun = std::move(parts.sun);
+    } else {
+        made.lit = lit_map(surface, request.light, request.largest_side);
+    }
+    made.request = std::move(request);
+    return made;
 }
 
 GroundMap ground_map(const scene::TerrainSurface& surface,

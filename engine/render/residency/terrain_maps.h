@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -8,6 +9,7 @@
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
 #include "engine/scene/graph/terrain_light.h"
+#include "engine/scene/tile_stream.h"
 
 namespace reljef::render {
 
@@ -26,6 +28,27 @@ struct LightParts {
 };
 LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
                        int largest_side);
+
+/// The light of a terrain that is to be made before it is drawn.
+struct LightRequest {
+    std::shared_ptr<const scene::TerrainSurface> surface; ///< the overview of a streamed terrain
+    std::shared_ptr<scene::TileStream> stream;            ///< null: the terrain is in memory
+    scene::TerrainLight light;
+    bool in_parts = false; ///< light_parts() instead of lit_map()
+    int largest_side = 0;  ///< of the maps, texels
+};
+
+/// Light that was made before it is drawn, with what it was made for.
+struct PreparedLight {
+    LightRequest request;
+    Image lit; ///< or the sky's part; empty for a streamed terrain
+    Image sun; ///< the sun's part, else empty
+    std::shared_ptr<const scene::TerrainIrradiance>
+        irradiance; ///< of a streamed terrain, else null
+};
+
+/// Makes the light; on any thread.
+PreparedLight prepare_light(LightRequest request);
 
 /// What a tile of detail on a terrain is lit by: its albedo, sRGB, and, in local directions, its
 /// normals (xyz), with the share of the sun's disc that the terrain around leaves (w; 1 without a

@@ -1,4 +1,4 @@
-#include "app/viewer/technique_switch.h"
+#include "app/viewer/appearance_switch.h"
 
 #include <thread>
 
@@ -16,13 +16,13 @@ scene::Technique technique(const char* text) {
     return scene::parse_technique(text).value();
 }
 
-class TechniqueSwitchTest : public testing::Test {
+class AppearanceSwitchTest : public testing::Test {
 protected:
     [[nodiscard]] const scene::Technique& shown() const {
         return scene_.terrain->get<scene::TerrainNode>()->material.technique;
     }
     // How often the scene changed meanwhile.
-    int wait(TechniqueSwitch& tested) {
+    int wait(AppearanceSwitch& tested) {
         int changes = 0;
         while (tested.is_preparing()) {
             changes += tested.update() ? 1 : 0;
@@ -36,21 +36,21 @@ protected:
     session::TerrainScene scene_ = hill_scene();
 };
 
-TEST_F(TechniqueSwitchTest, ShowsATechniqueThatNeedsNoMapsAtOnce) {
-    TechniqueSwitch tested(scene_);
+TEST_F(AppearanceSwitchTest, ShowsATechniqueThatNeedsNoMapsAtOnce) {
+    AppearanceSwitch tested(scene_);
     tested.request(technique("texture"));
     EXPECT_EQ(shown(), technique("texture"));
     EXPECT_FALSE(tested.is_preparing());
     EXPECT_FALSE(tested.update());
 }
 
-TEST_F(TechniqueSwitchTest, KeepsTheTechniqueUntilTheMapsAreThere) {
+TEST_F(AppearanceSwitchTest, KeepsTheTechniqueUntilTheMapsAreThere) {
     for (const char* const text : {"cone", "polygons:error=1"}) {
-        TechniqueSwitch tested(scene_);
+        AppearanceSwitch tested(scene_);
         tested.request(technique("texture"));
         tested.request(technique(text));
         EXPECT_EQ(shown(), technique("texture")) << text;
-        EXPECT_EQ(tested.target(), technique(text));
+        EXPECT_EQ(tested.technique(), technique(text));
         EXPECT_EQ(wait(tested), 1) << text;
         EXPECT_EQ(shown(), technique(text));
         EXPECT_TRUE(session::missing_maps(scene_, technique(text)).empty()) << text;
@@ -60,8 +60,8 @@ TEST_F(TechniqueSwitchTest, KeepsTheTechniqueUntilTheMapsAreThere) {
     }
 }
 
-TEST_F(TechniqueSwitchTest, ALaterRequestReplacesTheOneUnderWay) {
-    TechniqueSwitch tested(scene_);
+TEST_F(AppearanceSwitchTest, ALaterRequestReplacesTheOneUnderWay) {
+    AppearanceSwitch tested(scene_);
     tested.request(technique("cone"));
     tested.request(technique("relief"));
     EXPECT_EQ(shown(), technique("relief"));
@@ -72,8 +72,8 @@ TEST_F(TechniqueSwitchTest, ALaterRequestReplacesTheOneUnderWay) {
     EXPECT_EQ(shown(), technique("relief"));
 }
 
-TEST_F(TechniqueSwitchTest, EndsWhileMapsAreMade) {
-    TechniqueSwitch tested(scene_);
+TEST_F(AppearanceSwitchTest, EndsWhileMapsAreMade) {
+    AppearanceSwitch tested(scene_);
     tested.request(technique("cone"));
 }
 

@@ -1,0 +1,118 @@
+#include "app/viewer/appearance_switch.h"
+
+#include <utility>
+
+namespace reljef::app {
+
+AppearanceSwitch::AppearanceSwitch(session::TerrainScene& scene,
+                                   const AppearanceSwitchOptions& options)
+    : scene_(scene), options_(options) {}
+
+// All work is asked to stop before any of it is waited for.
+AppearanceSwitch::~AppearanceSwitch() {
+    retire();
+}
+
+void AppearanceSwitch::request(const scene::Technique& technique) {
+    begin({technique, light()});
+}
+
+void AppearanceSwitch::request(const scene::Light& light) {
+    begin({pending_ != nullptr ? pending_->appearance.technique : std::nullopt, light});
+}
+
+bool AppearanceSwitch::update() {
+    std::erase_if(retired_, [&](const auto& retired) {
+        const bool is_done = retired->work->is_done();
+        if (is_done) {
+            retired->log.relay_to(log_);
+        }
+        return is_done;
+    });
+    if (pending_ == nullptr || !pending_->work->is_done()) {
+        return false;
+    }
+    const auto maps = pending_->work->take();
+    pending_->log.relay_to(log_);
+    const Appearance appearance = std::exchange(pending_, nullptr)->appearance;
+    if (!maps) {
+        log_.note(maps.error().message);
+        return false;
+    }
+    session::apply_maps(scene_, *maps);
+    light_ = maps->light != nullptr ? maps->light : light_;
+    show(appearance);
+    return true;
+}
+
+const scene::Technique& AppearanceSwitch::technique() const {
+    return pending_ != nullptr && pending_->appearance.technique
+               ? *pending_->appearance.technique
+               : scene_.materials().front()->technique;
+}
+
+const scene::Light& AppearanceSwitch::light() const {
+    return pending_ != nullptr ? pending_->appearance.light : *scene_.light->get<scene::Light>();
+}
+
+session::RelayedLog::TaskProgress AppearanceSwitch::progress() const {
+    return pending_ != nullptr ? pending_->log.progress() : session::RelayedLog::TaskProgress{};
+}
+
+void AppearanceSwitch::relay_to(session::Log& log) {
+    log_.relay_to(log);
+    if (pending_ != nullptr) {
+        pending_->log.relay_to(log);
+    }
+}
+
+std::shared_ptr<const render::PreparedLight> AppearanceSwitch::take_light() {
+    return std::exchange(light_, nullptr);
+}
+
+session::MissingMaps AppearanceSwitch::missing(const Appearance& appearance) const {
+    const scene::Technique& shown = scene_.materials().front()->technique;
+    const scene::Technique& technique = appearance.technique ? *appearance.technique : shown;
+    session::MissingMaps missing = session::missing_maps(scene_, appearance.technique);
+    const bool is_lit_so = appearance.light == *scene_.light->get<scene::Light>() &&
+                           technique.options.shadow.has_value() == shown.options.shadow.has_value();
+    if (!is_lit_so) {
+        missing.light =
+            session::light_request(scene_, appearance.light, technique, options_.largest_side);
+    }
+    return missing;
+}
+
+void AppearanceSwitch::begin(const Appearance& appearance) {
+    retire();
+    session::MissingMaps missing = this->missing(appearance);
+    if (missing.empty()) {
+        show(appearance);
+        return;
+    }
+    pending_ = std::make_unique<Pending>();
+    pending_->appearance = appearance;
+    pending_->work.emplace([missing = std::move(missing), &log = pending_->log,
+                            threads = options_.threads](const std::stop_token& stop) {
+        return session::prepare_maps(missing, threads, log, stop);
+    });
+}
+
+void AppearanceSwitch::show(const Appearance& appearance) {
+    *scene_.light->get<scene::Light>() = appearance.light;
+    if (appearance.technique) {
+        for (scene::Material* const material : scene_.materials()) {
+            material->technique = *appearance.technique;
+        }
+    }
+}
+
+// A step of the work may still take a while: the window does not wait for it.
+void AppearanceSwitch::retire() {
+    if (pending_ != nullptr) {
+        pending_->work->request_stop();
+        retired_.push_back(std::move(pending_));
+    }
+}
+
+} // namespace reljef::app

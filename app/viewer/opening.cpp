@@ -1,0 +1,103 @@
+#include "app/viewer/opening.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/viewer/viewer.h"
+#include "engine/session/background.h"
+
+namespace reljef::app {
+namespace {
+
+// How long the window waits for an event before the progress is shown.
+constexpr std::chrono::milliseconds opening_pause{20};
+
+bool asks_to_end(const std::vector<Event>& events) {
+    return std::any_of(events.begin(), events.end(), [](const Event& event) {
+        const auto* const key = std::get_if<KeyEvent>(&event);
+        return std::holds_alternative<CloseEvent>(event) ||
+               (key != nullptr && key->pressed && key->key == Key::escape);
+    });
+}
+
+// Shows the progress of work in the background in the window's title and on stderr.
+class ProgressDisplay {
+public:
+    ProgressDisplay(platform::Window& window, session::Log& log) : window_(window), log_(log) {}
+
+    void show(const session::RelayedLog::TaskProgress& progress) {
+        if (progress.label != label_) {
+            label_ = progress.label;
+            task_ = label_.empty() ? nullptr : log_.start(label_);
+        }
+        if (task_ != nullptr) {
+            task_->update(progress.fraction);
+            window_.set_title(
+                fmt::format("reljef - {} {:.0f} %", label_, 100.0 * progress.fraction));
+        }
+    }
+
+private:
+    platform::Window& window_;
+    session::Log& log_;
+    std::string label_;
+    std::unique_ptr<session::Task> task_;
+};
+
+Result<OpenedScene> open(const session::SourceOptions& terrain, const session::SceneOptions& view,
+                         int largest_side, session::Log& log, const std::stop_token& stop) {
+    auto scene = session::open_scene(terrain, view, log, stop);
+    if (!scene) {
+        return scene.error();
+    }
+    OpenedScene opened{std::move(*scene), nullptr};
+    const auto light =
+        session::light_request(opened.scene, *opened.scene.light->get<scene::Light>(),
+                               first_technique(opened.scene), largest_side);
+    if (light) {
+        const auto task = log.start("lighting " + light->surface->terrain().name);
+        opened.light = std::make_shared<const render::PreparedLight>(render::prepare_light(*light));
+    }
+    return opened;
+}
+
+} // namespace
+
+Result<std::optional<OpenedScene>> open_in_window(platform::Window& window,
+                                                  const session::SourceOptions& terrain,
+                                                  const session::SceneOptions& view,
+                                                  int largest_side, session::Log& log,
+                                                  const std::stop_token& stop) {
+    session::SourceOptions source = terrain;
+    source.streamed = true;
+    session::SceneOptions options = view;
+    options.prepares_maps = false; // the viewer does, and shows a coarser picture meanwhile
+    session::RelayedLog relayed;
+    session::Background<OpenedScene> opening([&](const std::stop_token& stopped) {
+        return open(source, options, largest_side, relayed, stopped);
+    });
+    ProgressDisplay display(window, log);
+    bool is_closed = false;
+    while (!opening.is_done()) {
+        is_closed =
+            asks_to_end(window.wait_events(opening_pause)) || window.should_close() || is_closed;
+        if (is_closed || stop.stop_requested()) {
+            opening.request_stop();
+        }
+        relayed.relay_to(log);
+        display.show(relayed.progress());
+    }
+    relayed.relay_to(log);
+    auto opened = opening.take();
+    if (is_closed) {
+        return std::optional<OpenedScene>();
+    }
+    return opened ? Result<std::optional<OpenedScene>>(std::move(*opened)) : opened.error();
+}
+
+} // namespace reljef::app

@@ -1,0 +1,208 @@
+#include "app/viewer/window_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/viewer/sample_choice.h"
+#include "engine/core/stopwatch.h"
+#include "engine/io/image/image.h"
+#include "engine/session/streaming.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr double seconds_between_titles = 0.5;
+// How long a still window waits for an event before it looks whether it was asked to stop.
+constexpr std::chrono::milliseconds still{100};
+// The same while maps are made: their progress is shown.
+constexpr std::chrono::milliseconds preparing_pause{20};
+// The same while something moves and yet nothing new is seen.
+constexpr std::chrono::milliseconds stuck{10};
+
+// The loop between the window, what the viewer decides, and the driver.
+class WindowLoop {
+public:
+    WindowLoop(platform::Window& window, session::SceneRenderer& renderer,
+               session::TerrainScene& scene, Viewer& viewer, session::Log& log,
+               const WindowLoopOptions& options)
+        : window_(window), renderer_(renderer), scene_(scene), viewer_(viewer), log_(log),
+          options_(options) {}
+
+    Result<void> run(const std::stop_token& stop) {
+        Stopwatch step;
+        while (!is_over() && !stop.stop_requested()) {
+            receive(window_.wait_events(pause()));
+            viewer_.advance(step.restart());
+            has_drawn_ = false;
+            const bool has_new_tiles = session::take_arrivals(scene_.scene);
+            if (viewer_.take_redraw() || options_.frames > 0 || has_new_tiles || is_to_sharpen()) {
+                if (auto drawn = draw(); !drawn) {
+                    return drawn;
+                }
+            }
+            session::log_stream_faults(scene_.scene, log_);
+            viewer_.relay_to(log_);
+            log_raised_path();
+            serve_requests();
+            show_title();
+        }
+        return {};
+    }
+
+private:
+    [[nodiscard]] bool is_over() const {
+        return viewer_.wants_to_close() || window_.should_close() ||
+               (options_.frames > 0 && drawn_ == options_.frames);
+    }
+
+    // The view stands still, and was drawn with fewer samples than it may have.
+    [[nodiscard]] bool is_to_sharpen() const {
+        return samples_.is_reduced() && !viewer_.is_moving();
+    }
+
+    [[nodiscard]] std::chrono::milliseconds pause() const {
+        if (viewer_.is_preparing() && !viewer_.is_moving()) {
+            return drawn_ == 0 ? std::chrono::milliseconds(0) : preparing_pause;
+        }
+        if (!viewer_.is_moving() && options_.frames == 0 && !session::awaits_tiles(scene_.scene)) {
+            return drawn_ == 0 ? std::chrono::milliseconds(0) : still;
+        }
+        return has_drawn_ || drawn_ == 0 ? std::chrono::milliseconds(0) : stuck;
+    }
+
+    // Selects the view and requests its tiles and those of the next seconds. The picture does not
+    // wait for them: it shows what is there.
+    void select() {
+        std::vector<view::TileRequests> requests = renderer_.select(scene_.scene).requests;
+        if (!requests.empty()) {
+            for (const scene::Camera& camera : viewer_.upcoming()) {
+                auto ahead = view::tile_requests(scene_.scene, camera, renderer_.size());
+                std::move(ahead.begin(), ahead.end(), std::back_inserter(requests));
+            }
+            session::request_tiles(requests);
+        }
+    }
+
+    void receive(const std::vector<Event>& events) {
+        for (const Event& event : events) {
+            if (!scene_.scene.dispatch(event)) {
+                viewer_.receive(event);
+            }
+        }
+        if (viewer_.wants_mouse() != mouse_captured_) {
+            mouse_captured_ = viewer_.wants_mouse();
+            window_.capture_mouse(mouse_captured_);
+        }
+    }
+
+    // Once, when it happens first.
+    void log_raised_path() {
+        if (viewer_.path_raised() > 0.0 && !std::exchange(raise_logged_, true)) {
+            log_.note("the path leads under the ground or too close to it: it is raised there");
+        }
+    }
+
+    void serve_requests() {
+        if (viewer_.take_help_request()) {
+            fmt::print("{}", Viewer::keys());
+        }
+        if (viewer_.take_screenshot_request()) {
+            save_picture();
+        }
+        std::fflush(stdout);
+    }
+
+    // A folder that cannot be written is no reason to end the flight.
+    void save_picture() {
+        const auto file = next_screenshot(".");
+        if (const auto written = io::write_image(file, renderer_.read_color()); !written) {
+            log_.note(written.error().message);
+            return;
+        }
+        fmt::print("saved {}\n", file.filename().string());
+    }
+
+    Result<void> draw() {
+        const glm::ivec2 size = window_.framebuffer_size();
+        if (size.x == 0 || size.y == 0) {
+            return {}; // minimized
+        }
+        if (size != renderer_.size()) {
+            if (auto resized = renderer_.resize(size); !resized) {
+                return resized;
+            }
+        }
+        const Stopwatch watch;
+        if (options_.chooses_samples) {
+            renderer_.set_samples(samples_.choose(viewer_.is_moving()));
+        }
+        if (const auto light = viewer_.take_light()) {
+            if (auto added = renderer_.add_light(*light); !added) {
+                return added;
+            }
+        }
+        select();
+        const auto stats = renderer_.draw_selected(true);
+        if (!stats) {
+            return stats.error();
+        }
+        renderer_.show_in_window(size);
+        timing_.last_ms = watch.milliseconds();
+        samples_.add_frame(timing_.last_ms);
+        window_.swap_buffers();
+        stats_ = *stats;
+        has_drawn_ = true;
+        ++drawn_;
+        ++drawn_since_title_;
+        return {};
+    }
+
+    void show_title() {
+        const bool is_first = title_.empty();
+        if (!is_first && since_title_.seconds() < seconds_between_titles) {
+            return;
+        }
+        const double seconds = since_title_.restart();
+        timing_.frames_per_second.reset();
+        if (!is_first && viewer_.is_moving() && drawn_since_title_ > 0) {
+            timing_.frames_per_second = drawn_since_title_ / seconds;
+        }
+        drawn_since_title_ = 0;
+        const std::string title = viewer_.title(stats_, timing_);
+        if (title != std::exchange(title_, title)) {
+            window_.set_title(title);
+        }
+    }
+
+    platform::Window& window_;
+    session::SceneRenderer& renderer_;
+    session::TerrainScene& scene_;
+    Viewer& viewer_;
+    session::Log& log_;
+    WindowLoopOptions options_;
+    SampleChoice samples_;
+    view::FrameStats stats_;
+    FrameTiming timing_;
+    std::string title_;
+    Stopwatch since_title_;
+    int drawn_ = 0;
+    int drawn_since_title_ = 0;
+    bool has_drawn_ = false; // in this turn of the loop
+    bool mouse_captured_ = false;
+    bool raise_logged_ = false;
+};
+
+} // namespace
+
+Result<void> run_window_loop(platform::Window& window, session::SceneRenderer& renderer,
+                             session::TerrainScene& scene, Viewer& viewer, session::Log& log,
+                             const std::stop_token& stop, const WindowLoopOptions& options) {
+    return WindowLoop(window, renderer, scene, viewer, log, options).run(stop);
+}
+
+} // namespace reljef::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <stop_token>
+
+#include "app/viewer/viewer.h"
+#include "engine/core/result.h"
+#include "engine/platform/window.h"
+#include "engine/session/log.h"
+#include "engine/session/scene_renderer.h"
+
+namespace reljef::app {
+
+struct WindowLoopOptions {
+    int frames = 0; ///< to draw, moving or not, before the window closes; 0: until the user ends it
+    bool chooses_samples = true; ///< a slow view that moves has one sample a pixel
+};
+
+/// Passes events to the viewer and draws its scene, until the user or `stop` ends it. Fails when a
+/// frame cannot be drawn.
+Result<void> run_window_loop(platform::Window& window, session::SceneRenderer& renderer,
+                             session::TerrainScene& scene, Viewer& viewer, session::Log& log,
+                             const std::stop_token& stop, const WindowLoopOptions& options = {});
+
+} // namespace reljef::app
