@@ -218,18 +218,12 @@ Result<void> check_targets(const RenderChoice& choice) {
     return cli::check_writable(files);
 }
 
-Result<void> write_hit_file(const RenderChoice& choice, const session::TerrainScene& scene,
+Result<HitBuffer> find_hits(const RenderChoice& choice, const session::TerrainScene& scene,
                             session::FrameMaker& maker, const cli::Interrupt& interrupt) {
     cli::ProgressLine line("finding hits", choice.terrain.quiet);
-    const auto hits =
-        maker.draw_hits(scene.scene, frame_options(choice, interrupt, line.callback()));
-    if (!hits) {
-        return hits.error();
-    }
-    if (auto going_on = check_interrupt(interrupt); !going_on) {
-        return going_on;
-    }
-    return io::write_hits(choice.hits, *hits);
+    auto hits = maker.draw_hits(scene.scene, frame_options(choice, interrupt, line.callback()));
+    const auto going_on = check_interrupt(interrupt);
+    return hits && !going_on ? Result<HitBuffer>(going_on.error()) : std::move(hits);
 }
 
 Result<std::optional<scene::FlyPath>> path_of(const session::TerrainScene& scene,
@@ -272,16 +266,25 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
     } else {
         lift = session::stand_above_ground(scene, maker, interrupt.token(), underground(choice));
     }
+    std::optional<HitBuffer> hits; // written last: all outputs appear, or none
     if (!choice.hits.empty()) {
-        if (auto written = write_hit_file(choice, scene, maker, interrupt); !written) {
+        auto found = find_hits(choice, scene, maker, interrupt);
+        if (!found) {
+            return found.error();
+        }
+        hits = std::move(*found);
+    }
+    Result<void> drawn;
+    if (!choice.output.empty()) {
+        drawn = draw_frames(choice, scene, maker, *path, log, interrupt);
+    } else if (*path) {
+        drawn = raised.report(log, choice.view.path);
+    }
+    if (hits) {
+        if (auto written = io::write_hits(choice.hits, *hits); !written) {
             return written;
         }
     }
-    if (choice.output.empty()) {
-        return *path ? raised.report(log, choice.view.path)
-                     : report_lift(lift, choice, has_camera_of_file, log);
-    }
-    auto drawn = draw_frames(choice, scene, maker, *path, log, interrupt);
     return drawn ? report_lift(lift, choice, has_camera_of_file, log) : drawn;
 }
 

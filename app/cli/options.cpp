@@ -174,8 +174,8 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         "ID[:key=value,...]");
     add_parsed(
         command, "--max-error", choice.max_error, parse_max_error,
-        "polygons: at most PX pixels of error, with as few triangles as possible; none draws "
-        "every sample (1, where no technique is named)",
+        "polygons: at most PX pixels of error (0.02 to 16), with as few triangles as possible; "
+        "none draws every sample (1 if no technique is named)",
         "PX|none");
     add_parsed(
         command, "--detail", choice.detail, parse_detail,
@@ -233,7 +233,8 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         ->excludes(camera);
     command.add_flag("--allow-underground", choice.allow_underground,
                      "keep a camera below the ground there; without this it is lifted above the "
-                     "ground, and render then exits with 1 if a scene or path file placed it");
+                     "ground, and render then exits with 1 if a scene or path file placed it (a "
+                     "camera with --projection orthographic stays)");
     add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
                "pictures along the path (1)", "N");
     add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),

@@ -45,6 +45,15 @@ bool AppearanceSwitch::update() {
     return true;
 }
 
+bool AppearanceSwitch::undo() {
+    const std::vector<scene::Technique> before = std::exchange(before_, {});
+    const std::vector<scene::Material*> materials = scene_.materials();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        materials[i]->technique = before[i];
+    }
+    return !before.empty();
+}
+
 const scene::Technique& AppearanceSwitch::technique() const {
     return pending_ != nullptr && pending_->appearance.technique
                ? *pending_->appearance.technique
@@ -101,8 +110,9 @@ void AppearanceSwitch::begin(const Appearance& appearance) {
 void AppearanceSwitch::show(const Appearance& appearance) {
     *scene_.light->get<scene::Light>() = appearance.light;
     if (appearance.technique) {
+        before_.clear();
         for (scene::Material* const material : scene_.materials()) {
-            material->technique = *appearance.technique;
+            before_.push_back(std::exchange(material->technique, *appearance.technique));
         }
     }
 }

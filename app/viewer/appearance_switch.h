@@ -34,6 +34,9 @@ public:
     void request(const scene::Light& light);
     /// Shows what was requested if its maps are there. Whether the scene changed.
     bool update();
+    /// Goes back to the techniques before the last change, as the new one cannot be drawn. False if
+    /// there is no way back.
+    bool undo();
 
     /// The technique that is requested, else the one that is shown.
     [[nodiscard]] const scene::Technique& technique() const;
@@ -68,6 +71,7 @@ private:
     AppearanceSwitchOptions options_;
     session::RelayedLog log_; // of work that is done
     std::shared_ptr<const render::PreparedLight> light_;
+    std::vector<scene::Technique> before_; // of the materials, before the last change
     std::unique_ptr<Pending> pending_;
     std::vector<std::unique_ptr<Pending>> retired_; // asked to stop, not waited for
 };

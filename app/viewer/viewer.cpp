@@ -297,6 +297,12 @@ bool Viewer::take_help_request() {
     return std::exchange(help_, false);
 }
 
+bool Viewer::undo_technique() {
+    const bool is_undone = switch_.undo();
+    redraw_ = redraw_ || is_undone;
+    return is_undone;
+}
+
 void Viewer::show_camera(const scene::Camera& camera) {
     *scene_.camera->get<scene::Camera>() = camera;
     redraw_ = true;

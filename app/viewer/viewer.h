@@ -80,6 +80,8 @@ public:
     }
     /// Hands on what was reported since the last call.
     void relay_to(session::Log& log) { switch_.relay_to(log); }
+    /// As AppearanceSwitch::undo().
+    bool undo_technique();
     /// As AppearanceSwitch::take_light().
     std::shared_ptr<const render::PreparedLight> take_light() { return switch_.take_light(); }
 

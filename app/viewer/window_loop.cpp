@@ -42,7 +42,10 @@ public:
             const bool has_new_tiles = session::take_arrivals(scene_.scene);
             if (viewer_.take_redraw() || options_.frames > 0 || has_new_tiles || is_to_sharpen()) {
                 if (auto drawn = draw(); !drawn) {
-                    return drawn;
+                    if (!viewer_.undo_technique()) {
+                        return drawn;
+                    }
+                    log_.note(drawn.error().message); // once: the next frame is drawn as before
                 }
             }
             session::log_stream_faults(scene_.scene, log_);
@@ -51,7 +54,7 @@ public:
             serve_requests();
             show_title();
         }
-        return {};
+        return stop.stop_requested() ? Result<void>(Error{"interrupted"}) : Result<void>();
     }
 
 private:

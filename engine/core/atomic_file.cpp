@@ -143,6 +143,9 @@ Result<std::string> read_text_file(const fs::path& path, std::size_t limit) {
     if (fs::is_directory(path, code)) {
         return Error{fmt::format("{}: is a folder, a file was expected", path.string())};
     }
+    if (fs::is_fifo(path, code) || fs::is_socket(path, code)) { // opening one may never end
+        return Error{fmt::format("{}: is no regular file, one was expected", path.string())};
+    }
     std::ifstream stream(path, std::ios::binary);
     if (!stream) {
         return Error{fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno))};

@@ -102,12 +102,24 @@ Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescript
                         "they are",
                         file));
     }
+    if (view.technique && scene::error_bound(*view.technique) > 0.0) {
+        return usage_error(fmt::format("--technique: {} found, one without an error bound was "
+                                       "expected: the models of {} are drawn as they are",
+                                       scene::to_string(*view.technique), file));
+    }
     if (view.technique || view.mixed || description.gallery_technique == "mixed") {
         return Choice(view.technique);
     }
     auto technique = scene::parse_technique(description.gallery_technique);
-    return technique ? Result<Choice>(Choice(*technique))
-                     : Error{fmt::format("{}: [gallery] {}", file, technique.error().message)};
+    if (!technique) {
+        return Error{fmt::format("{}: [gallery] {}", file, technique.error().message)};
+    }
+    if (scene::error_bound(*technique) > 0.0) {
+        return Error{fmt::format("{}: [gallery] technique {} found, one without an error bound was "
+                                 "expected: models are drawn as they are",
+                                 file, scene::to_string(*technique))};
+    }
+    return Choice(*technique);
 }
 
 scene::Material material_of(const terrains::GalleryModel& model, Set set,

@@ -17,6 +17,9 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr NumberRange positive{0.0, unlimited, true};
 constexpr NumberRange any_number{-unlimited, unlimited, false};
+// Metres a stored value, and metres: no raster of the Earth needs more.
+constexpr NumberRange height_scales{-1e6, 1e6, false};
+constexpr NumberRange height_offsets{-1e6, 1e6, false};
 constexpr NumberRange spacings{terrain::least_spacing, terrain::most_spacing, false};
 constexpr NumberRange sizes{16.0, 4096.0, false};
 constexpr NumberRange seeds{0.0, 4294967295.0, false};
@@ -63,8 +66,8 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("seed", scene.seed, seeds);
     table.read("tileable", scene.tileable);
     table.read("spacing", scene.spacing, spacings);
-    table.read("height_scale", scene.height_scale, any_number);
-    table.read("height_offset", scene.height_offset, any_number);
+    table.read("height_scale", scene.height_scale, height_scales);
+    table.read("height_offset", scene.height_offset, height_offsets);
     table.read("imagery", scene.imagery, folder);
     table.read("gaps", scene.gaps, kinds_of_gaps);
     table.read("exaggeration", scene.exaggeration, exaggerations);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,20 +22,32 @@ const toml::table& no_table() {
     return empty;
 }
 
-std::string text_of(const toml::node& node) {
-    if (node.is_table()) {
-        return "a table";
-    }
-    if (node.is_array()) {
-        return "an array";
-    }
+std::string text_of_value(const toml::node& node) {
     std::ostringstream stream;
     node.visit([&](const auto& value) {
         if constexpr (toml::is_value<decltype(value)>) {
             stream << value;
         }
     });
-    std::string text = stream.str();
+    return stream.str();
+}
+
+std::string text_of(const toml::array& array) {
+    std::vector<std::string> values;
+    for (const toml::node& element : array) {
+        if (!element.is_value()) {
+            return "an array";
+        }
+        values.push_back(text_of_value(element));
+    }
+    return fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+std::string text_of(const toml::node& node) {
+    if (node.is_table()) {
+        return "a table";
+    }
+    std::string text = node.is_array() ? text_of(*node.as_array()) : text_of_value(node);
     constexpr std::size_t longest = 60;
     if (text.size() > longest) {
         text.resize(longest);

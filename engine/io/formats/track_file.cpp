@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
+#include "engine/core/geometry.h"
 #include "engine/geo/place.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/io/raster/crs_transform.h"
@@ -91,6 +92,10 @@ Result<std::vector<GeodeticKey>> keys_along(const std::vector<TrackPoint>& point
             return Error{fmt::format("{}: its line has a point at {},{}, latitudes from -90 to 90 "
                                      "and longitudes in degrees were expected",
                                      name, point.place.y, point.place.x)};
+        }
+        if (std::abs(point.height.value_or(0.0)) > world_reach) {
+            return Error{fmt::format("{}: its line has a height of {} m, at most {} m was expected",
+                                     name, *point.height, world_reach)};
         }
         GeodeticKey key;
         key.latitude = point.place.y;

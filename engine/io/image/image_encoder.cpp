@@ -1,8 +1,11 @@
 #include "engine/io/image/image_encoder.h"
 
 #include <exception>
+#include <span>
+#include <string>
 #include <utility>
 
+#include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
@@ -14,10 +17,39 @@ namespace {
 
 // True when all of it was taken.
 bool encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const void* pixels,
-            std::size_t stride, const MemoryFile& file) {
-    return output.open(file.path().string(), spec) &&
+            std::size_t stride, const std::string& name) {
+    return output.open(name, spec) &&
            output.write_image(spec.format, pixels, static_cast<OIIO::stride_t>(stride)) &&
            output.close();
+}
+
+// Where the encoder writes to memory nothing can go wrong that it does not report.
+Result<std::vector<std::byte>> encoded_in_memory(std::unique_ptr<OIIO::ImageOutput> output,
+                                                 const OIIO::ImageSpec& spec, const void* pixels,
+                                                 std::size_t stride) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    if (!output->set_ioproxy(&memory) ||
+        !encode(*output, spec, pixels, stride, output->format_name())) {
+        return Error{output->geterror()};
+    }
+    output.reset(); // what it held back is written now
+    const auto span = std::as_bytes(std::span(bytes));
+    return std::vector<std::byte>(span.begin(), span.end());
+}
+
+Result<std::vector<std::byte>> encoded_in_file(std::unique_ptr<OIIO::ImageOutput> output,
+                                               const OIIO::ImageSpec& spec, const void* pixels,
+                                               std::size_t stride) {
+    const auto file = MemoryFile::create();
+    if (!file) {
+        return file.error();
+    }
+    if (!encode(*output, spec, pixels, stride, file->path().string())) {
+        return Error{output->geterror()};
+    }
+    output.reset();
+    return file->bytes();
 }
 
 } // namespace
@@ -25,21 +57,15 @@ bool encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const void* 
 Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output,
                                        const OIIO::ImageSpec& spec, const void* pixels,
                                        std::size_t stride) {
-    const auto file = MemoryFile::create();
-    if (!file) {
-        return file.error();
-    }
     const GdalMessages unprinted; // the TIFF library tells GDAL of tags that it does not know
+    const bool in_memory = output->supports("ioproxy") != 0;
     try {
-        if (!encode(*output, spec, pixels, stride, *file)) {
-            return Error{output->geterror()};
-        }
+        auto bytes = in_memory ? encoded_in_memory(std::move(output), spec, pixels, stride)
+                               : encoded_in_file(std::move(output), spec, pixels, stride);
+        return bytes && bytes->empty() ? Error{"its encoder wrote nothing"} : std::move(bytes);
     } catch (const std::exception& problem) {
         return Error{problem.what()};
     }
-    output.reset(); // what it held back is written now
-    auto bytes = file->bytes();
-    return bytes && bytes->empty() ? Error{"its encoder wrote nothing"} : std::move(bytes);
 }
 
 Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,

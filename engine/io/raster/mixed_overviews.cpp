@@ -14,14 +14,14 @@
 namespace reljef::io {
 namespace {
 
-constexpr double max_overview_samples = 512.0 * 512.0;  // of the overview that is examined
-constexpr double max_remote_samples = 256.0 * 256.0;   // if the file is remote
-constexpr double max_coarsest_samples = 2048.0 * 2048.0;    // if no overview is that small
+constexpr double max_overview_samples = 512.0 * 512.0;   // of the overview that is examined
+constexpr double max_remote_samples = 256.0 * 256.0;     // if the file is remote
+constexpr double max_coarsest_samples = 2048.0 * 2048.0; // if no overview is that small
 constexpr std::size_t max_suspects = 8;
 // An undeclared void lowers the sum of the samples behind an overview sample by at least this.
-constexpr double min_drop = 16384.0;
+constexpr double min_drop = 8192.0;
 constexpr int max_suspect_samples = 256; // along a side of what a suspect covers
-constexpr double rounding = 1.0;        // of an average that is stored as a whole number
+constexpr double rounding = 1.0;         // of an average that is stored as a whole number
 
 double samples_of_band(GDALRasterBand& band) {
     return static_cast<double>(band.GetXSize()) * band.GetYSize();
@@ -121,7 +121,8 @@ Grid<double> decoded(Grid<double> values, SampleDecoder decoder) {
     return values;
 }
 
-/// Whether an overview value is below all heights behind it, and some of these are undeclared voids.
+/// Whether an overview value is below all heights behind it, and some of these are undeclared
+/// voids.
 bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder) {
     Grid<double> heights = values;
     decoder.decode(heights.samples(), {}, {});

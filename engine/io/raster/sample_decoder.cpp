@@ -34,8 +34,10 @@ std::array<double, 256> palette_values(const GDALColorTable& table) {
 
 // Metres: nothing solid reaches further from its middle by far.
 constexpr double highest_height = 1e8;
-// What many programs write for voids; but the sea is as deep, too.
+// What many programs write for voids; but the sea is as deep, too. Metres.
 constexpr double usual_void = -9999.0;
+// A void is alone: the slopes of ocean trenches lead down to heights like it.
+constexpr double min_drop_to_void = 1000.0;
 
 bool is_grey_ramp(const GDALColorTable& table) {
     const std::array<double, 256> values = palette_values(table);
@@ -163,7 +165,6 @@ double SampleDecoder::bounded(double height) {
         ++found_absurd_;
         return void_value;
     }
-    found_usual_voids_ += height == usual_void ? 1U : 0U;
     return height;
 }
 
@@ -187,12 +188,30 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
             first[i] = metres(value);
         }
     }
+    find_usual_voids(first);
+}
+
+void SampleDecoder::find_usual_voids(std::span<double> heights) {
+    const auto found =
+        static_cast<std::size_t>(std::count(heights.begin(), heights.end(), usual_void));
+    const bool has_heights_near = std::any_of(heights.begin(), heights.end(), [](double height) {
+        return height != usual_void && height < usual_void + min_drop_to_void;
+    });
+    if (found == 0 || has_heights_near) {
+        found_usual_heights_ += found;
+        return;
+    }
+    std::replace(heights.begin(), heights.end(), usual_void, void_value);
+    found_usual_voids_ += found;
 }
 
 std::string SampleDecoder::undeclared_voids_note() const {
     std::vector<std::string> found;
     if (found_sentinels_ > 0) {
         found.push_back(fmt::format("{} samples are -32768 or -32767", found_sentinels_));
+    }
+    if (found_usual_voids_ > 0) {
+        found.push_back(fmt::format("{} samples are {}", found_usual_voids_, usual_void));
     }
     if (found_not_finite_ > 0) {
         found.push_back(fmt::format("{} samples are NaN or infinite", found_not_finite_));
@@ -217,17 +236,20 @@ std::vector<std::string> SampleDecoder::found_words() const {
         words.push_back(fmt::format("values beyond ±{} m, taken for voids", highest_height));
     }
     if (found_usual_voids_ > 0) {
+        words.push_back(fmt::format("undeclared {}, taken for voids", usual_void));
+    }
+    if (found_usual_heights_ > 0) {
         words.push_back(fmt::format("undeclared {}, taken for heights", usual_void));
     }
     return words;
 }
 
 std::string SampleDecoder::doubtful_heights_note() const {
-    return found_usual_voids_ == 0
+    return found_usual_heights_ == 0
                ? ""
                : fmt::format("{} samples are {}, which the file does not declare as void: taken "
                              "for heights",
-                             found_usual_voids_, usual_void);
+                             found_usual_heights_, usual_void);
 }
 
 } // namespace reljef::io

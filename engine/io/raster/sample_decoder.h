@@ -38,7 +38,8 @@ public:
     [[nodiscard]] bool fits(std::span<const double> first, std::span<const double> others) const;
 
     /// In place in `first`, which holds the stored values of the first band; `others` holds those
-    /// of the second and third after one another, or nothing. A mask value of 0 is a void.
+    /// of the second and third after one another, or nothing. A mask value of 0 is a void. Values
+    /// of one call lie near each other: -9999 m is a void if all others are far above it.
     void decode(std::span<double> first, std::span<const double> others,
                 std::span<const unsigned char> mask);
 
@@ -56,6 +57,7 @@ private:
     [[nodiscard]] double metres(double value);
     [[nodiscard]] double of_color(double red, double green, double blue);
     [[nodiscard]] double bounded(double height);
+    void find_usual_voids(std::span<double> heights);
 
     ValueKind kind_ = ValueKind::plain;
     HeightEncoding encoding_ = HeightEncoding::none; ///< of colours; none: their luminance
@@ -70,6 +72,7 @@ private:
     std::size_t found_not_finite_ = 0;
     std::size_t found_absurd_ = 0;
     std::size_t found_usual_voids_ = 0;
+    std::size_t found_usual_heights_ = 0; ///< the same value where heights reach down to it
 };
 
 } // namespace reljef::io

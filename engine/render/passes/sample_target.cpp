@@ -66,7 +66,9 @@ Result<SampleTarget> SampleTarget::create(glm::ivec2 size, int samples) {
     made.plan_ = *plan;
     auto picture = gl::Framebuffer::create({.size = size, .samples = plan->at_once});
     if (!picture) {
-        return picture.error();
+        return Error{fmt::format("picture of {} x {} pixels with {} samples each: too large for "
+                                 "this renderer, fewer samples or pixels were expected",
+                                 size.x, size.y, samples)};
     }
     made.picture_ = std::move(*picture);
     for (int i = 0; plan->passes > 1 && i < plan->passes; ++i) {

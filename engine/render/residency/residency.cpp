@@ -7,13 +7,13 @@
 
 #include <glm/matrix.hpp>
 
-#include "engine/core/grid_triangles.h"
 #include "engine/core/worker_pool.h"
 #include "engine/gl/limits.h"
 #include "engine/render/residency/prewarp.h"
 #include "engine/render/residency/terrain_maps.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/terrain/mesh/grid_triangles.h"
 
 namespace reljef::render {
 namespace {
@@ -314,7 +314,7 @@ Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, view::Frame
     if (found != grid_indices_.end()) {
         return &found->second;
     }
-    auto buffer = gl::Buffer::create(bytes_of(grid_triangles<std::uint16_t>(cols, rows)));
+    auto buffer = gl::Buffer::create(bytes_of(terrain::grid_triangles<std::uint16_t>(cols, rows)));
     if (!buffer) {
         return buffer.error();
     }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/grid_triangles.h"
 #include "engine/core/worker_pool.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/scene/tile_stream.h"
+#include "engine/terrain/mesh/grid_triangles.h"
 
 namespace reljef::render {
 namespace {
@@ -388,7 +388,8 @@ Result<const gl::Buffer*> StreamedTiles::indices_for(glm::ivec2 cells, view::Fra
     if (found != indices_.end()) {
         return &found->second;
     }
-    auto buffer = gl::Buffer::create(bytes_of(grid_triangles<std::uint16_t>(cells.x, cells.y)));
+    auto buffer =
+        gl::Buffer::create(bytes_of(terrain::grid_triangles<std::uint16_t>(cells.x, cells.y)));
     if (!buffer) {
         return buffer.error();
     }

@@ -1,4 +1,5 @@
 #include "engine/scene/graph/mesh.h"
+#include "engine/terrain/mesh/grid_triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +7,6 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-
-#include "engine/core/grid_triangles.h"
 
 namespace reljef::scene {
 namespace {
@@ -49,7 +48,7 @@ template <class Vertex> Mesh swept(int around, int down, const Vertex& vertex) {
             mesh.texture_coordinates.emplace_back(u, v);
         }
     }
-    mesh.indices = grid_triangles<std::uint32_t>(around, down);
+    mesh.indices = terrain::grid_triangles<std::uint32_t>(around, down);
     return mesh;
 }
 

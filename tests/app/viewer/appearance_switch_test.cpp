@@ -1,10 +1,13 @@
 #include "app/viewer/appearance_switch.h"
 
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/io/cache/cone_cache.h"
 #include "tests/app/made_hill.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
@@ -70,6 +73,56 @@ TEST_F(AppearanceSwitchTest, ALaterRequestReplacesTheOneUnderWay) {
         EXPECT_FALSE(tested.update());
     }
     EXPECT_EQ(shown(), technique("relief"));
+}
+
+TEST_F(AppearanceSwitchTest, KeepsTheLightUntilItsMapsAreThere) {
+    AppearanceSwitch tested(scene_);
+    tested.request(technique("cone"));
+    const scene::Light before = *scene_.light->get<scene::Light>();
+    scene::Light light = before;
+    light.azimuth += 15.0;
+    tested.request(light);
+    EXPECT_EQ(*scene_.light->get<scene::Light>(), before);
+    EXPECT_EQ(tested.light(), light);
+    EXPECT_EQ(tested.technique(), technique("cone")) << "both were requested";
+    EXPECT_EQ(wait(tested), 1);
+    EXPECT_EQ(*scene_.light->get<scene::Light>(), light);
+    EXPECT_EQ(shown(), technique("cone"));
+    const auto made = tested.take_light();
+    ASSERT_NE(made, nullptr);
+    EXPECT_EQ(made->request.light.sun, light);
+    EXPECT_EQ(made->lit.cols(), made->request.surface->heightfield().heights.cols());
+    EXPECT_EQ(tested.take_light(), nullptr) << "once";
+}
+
+TEST_F(AppearanceSwitchTest, GoesBackFromATechniqueThatCannotBeDrawn) {
+    AppearanceSwitch tested(scene_);
+    EXPECT_FALSE(tested.undo());
+    const scene::Technique before = shown();
+    tested.request(technique("texture"));
+    EXPECT_TRUE(tested.undo());
+    EXPECT_EQ(shown(), before);
+    EXPECT_FALSE(tested.undo());
+}
+
+TEST_F(AppearanceSwitchTest, HandsOnWhatFinishedWorkReported) {
+    const auto& heights = scene_.terrain->get<scene::TerrainNode>()->surface->heightfield().heights;
+    const Grid<float> unit_heights = terrain::unit_heights(heights.view());
+    const auto file = io::cone_file(io::cache_folder().value(), unit_heights.view());
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << "no cones";
+    AppearanceSwitch tested(scene_);
+    tested.request(technique("cone"));
+    wait(tested);
+    struct Collected : session::Log {
+        void message(session::MessageKind /*kind*/, std::string_view sentence) override {
+            notes.emplace_back(sentence);
+        }
+        std::vector<std::string> notes;
+    } collected;
+    tested.relay_to(collected);
+    EXPECT_THAT(collected.notes,
+                testing::ElementsAre(testing::HasSubstr(file.filename().string())));
 }
 
 TEST_F(AppearanceSwitchTest, EndsWhileMapsAreMade) {

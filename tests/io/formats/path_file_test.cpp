@@ -36,7 +36,7 @@ TEST(PathFile, WhatIsWrongIsNamedWithItsLine) {
         {"[[key]]\ntime = 1\n", "[[key]] eye is missing"},
         {key(0.0) + key(0.0), "path.toml:6: [[key]] time is 0, a time after"},
         {key(3.0) + key(1.0), "a time after the last one's 3 was expected"},
-        {key(0.0, "eye = [1, 2, nan]\nlook = [0, 0, 0]"), "eye is an array, three numbers"},
+        {key(0.0, "eye = [1, 2, nan]\nlook = [0, 0, 0]"), "eye is [1, 2, nan], three numbers"},
         {key(0.0, "eye = [0, 0, 0]\nlook = [0, 0, 0]"), "look is where eye is"},
         {key(0.0) + "roll = 3", "roll is unknown, one of time, eye, look was expected"},
         {"speed = 3\n" + key(0.0), "speed is unknown"},

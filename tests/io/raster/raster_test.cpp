@@ -188,12 +188,26 @@ TEST_F(Raster, HeightsThatNothingHasAreVoids) {
     EXPECT_LT(terrain.heightfield.range.high, 1e4);
 }
 
-TEST_F(Raster, TheUsualVoidThatNobodyDeclaresIsTold) {
+TEST_F(Raster, TheUsualVoidThatNobodyDeclaresIsAVoidFarBelowTheLand) {
     MadeRaster raster = made_raster(20, 20, wave);
     raster.values[3] = -9999.0;
-    EXPECT_THAT(joined(read(raster).notes), HasSubstr("1 samples are -9999"));
+    const terrain::Terrain undeclared = read(raster);
+    EXPECT_THAT(joined(undeclared.notes),
+                HasSubstr("1 samples are -9999, which the file does not declare: taken for voids"));
+    EXPECT_EQ(undeclared.heightfield.void_count, 1U);
+    EXPECT_GT(undeclared.heightfield.range.low, -1000.0);
     raster.nodata = -9999.0;
     EXPECT_THAT(joined(read(raster).notes), Not(HasSubstr("-9999")));
+}
+
+TEST_F(Raster, OnTheSlopeOfATrenchTheUsualVoidIsAHeight) {
+    const MadeRaster raster =
+        made_raster(20, 20, [](int col, int row) { return -9990.0 - 3.0 * (col + row); });
+    const terrain::Terrain terrain = read(raster);
+    EXPECT_EQ(terrain.heightfield.void_count, 0U);
+    EXPECT_EQ(terrain.heightfield.heights(3, 0), -9999.0F);
+    EXPECT_THAT(joined(terrain.notes), HasSubstr("4 samples are -9999, which the file does not "
+                                                 "declare as void: taken for heights"));
 }
 
 TEST_F(Raster, ScaledValuesHaveNoUndeclaredVoids) {

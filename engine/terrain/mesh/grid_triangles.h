@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace reljef {
+namespace reljef::terrain {
 
 /// Two triangles for each of cols × rows quads over a grid of (cols + 1) × (rows + 1) vertices that
 /// are numbered row after row: counter-clockwise seen from where columns grow to the right and rows
@@ -32,4 +32,4 @@ template <class Index> std::vector<Index> grid_triangles(int cols, int rows) {
     return indices;
 }
 
-} // namespace reljef
+} // namespace reljef::terrain

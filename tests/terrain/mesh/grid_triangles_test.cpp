@@ -1,4 +1,4 @@
-#include "engine/core/grid_triangles.h"
+#include "engine/terrain/mesh/grid_triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reljef {
+namespace reljef::terrain {
 namespace {
 
 // Twice the area of a triangle of the grid as seen from above, rows growing south.
@@ -44,4 +44,4 @@ TEST(GridTrianglesDeathTest, DoNotReachMoreThanSixteenBits) {
 }
 
 } // namespace
-} // namespace reljef
+} // namespace reljef::terrain
