@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "tests/support/temporary_folder.h"
 
@@ -184,6 +185,15 @@ TEST(TextFile, LimitIsTheLargestSizeTaken) {
 
 TEST(TextFile, EndlessDeviceStopsAtTheLimit) {
     EXPECT_FALSE(read_text_file("/dev/zero"));
+}
+
+TEST(TextFile, APipeThatNobodyWritesToIsRefusedAtOnce) {
+    const TemporaryFolder folder;
+    const auto pipe = folder.path() / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const auto read = read_text_file(pipe);
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr("pipe: is no regular file"));
 }
 
 TEST(TextFile, MissingFileAndFolderAreTold) {

@@ -347,6 +347,22 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     EXPECT_FALSE(stream.has_given_up({0, 4, 5}));
 }
 
+// A view that was chosen with the failure in it would stay as it is.
+TEST(TileStreams, HaveAnotherRevisionOnceATileIsGivenUp) {
+    TileStream stream(maker(),
+                      [](TreeTile tile, const std::stop_token& stop) {
+                          TileReading reading = read_plane(tile, stop);
+                          reading.faults = {{"b.tif", "b.tif: is gone"}};
+                          return reading;
+                      },
+                      {.threads = 1, .first_pause = 1ms});
+    const auto before = stream.revision();
+    stream.request(std::array{TreeTile{0, 0, 0}});
+    EXPECT_TRUE(stream.wait({}));
+    ASSERT_TRUE(stream.has_given_up({0, 0, 0}));
+    EXPECT_NE(stream.revision(), before);
+}
+
 // What a file is wrong with it is for all its tiles: only the first of them wait for it.
 TEST(TileStreams, WaitOnceForAFileThatFailsForGood) {
     std::atomic<bool> is_back{false};

@@ -1,7 +1,10 @@
 #include "engine/session/frame_maker.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include "engine/session/prepared_maps.h"
 #include "tests/app/made_hill.h"
 
 namespace reljef::session {
@@ -10,8 +13,7 @@ namespace {
 constexpr glm::ivec2 picture{64, 48};
 
 Device osmesa_device() {
-    return std::move(
-        *Device::create({.context = platform::ContextKind::osmesa, .size = picture}));
+    return std::move(*Device::create({.context = platform::ContextKind::osmesa, .size = picture}));
 }
 
 TEST(DeviceFramesGl, SelectEachViewOnce) {
@@ -28,6 +30,34 @@ TEST(DeviceFramesGl, SelectEachViewOnce) {
     ASSERT_TRUE(frames.draw_hits(scene.scene, {}));
     ASSERT_TRUE(frames.draw(scene.scene, {}));
     EXPECT_EQ(frames.selections(), 10) << "nothing changed since";
+}
+
+// It is drawn as it is, which shows that drawing makes no light of its own.
+TEST(SceneRendererGl, DrawsWithTheLightThatWasPrepared) {
+    const TerrainScene scene = app::hill_scene();
+    const scene::Technique& technique =
+        scene.terrain->get<scene::TerrainNode>()->material.technique;
+    for (const bool in_parts : {false, true}) {
+        Device device = osmesa_device();
+        SceneRenderer& renderer = device.renderer();
+        scene::Technique drawn = technique;
+        if (in_parts) {
+            drawn = scene::parse_technique("relief:shadow=hard").value();
+        }
+        scene.terrain->get<scene::TerrainNode>()->material.technique = drawn;
+        const auto request = light_request(scene, *scene.light->get<scene::Light>(), drawn,
+                                           renderer.max_texture_side());
+        ASSERT_TRUE(request);
+        render::PreparedLight light = render::prepare_light(*request);
+        std::fill(light.lit.samples().begin(), light.lit.samples().end(), Rgba8{255, 0, 0, 255});
+        std::fill(light.sun.samples().begin(), light.sun.samples().end(), Rgba8{0, 0, 0, 255});
+        ASSERT_TRUE(renderer.add_light(light));
+        ASSERT_TRUE(renderer.draw(scene.scene, true));
+        const Image image = renderer.read_color();
+        const Rgba8 middle = image(image.cols() / 2, image.rows() / 2);
+        EXPECT_EQ(middle.r, 255) << in_parts;
+        EXPECT_LT(middle.g, 10) << in_parts;
+    }
 }
 
 // Ctrl-C may come before any view was selected.

@@ -157,8 +157,7 @@ protected:
         session::TruthFrames maker({1, 1}, 1);
         std::vector<geo::Geodetic> eyes;
         for (int i = 0; i < frames; ++i) {
-            raised_.push_back(
-                session::fly_above_ground(scene, *path, i, frames, maker, {}).metres);
+            raised_.push_back(session::fly_above_ground(scene, *path, i, frames, maker, {}).metres);
             const glm::dvec3 eye = scene.camera->get<scene::Camera>()->eye;
             eyes.push_back(*placement_of(scene).geodetic_from_world(eye));
         }

@@ -1,5 +1,6 @@
 #include "tests/support/process_state.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,6 +41,17 @@ double processor_seconds(int process, const std::string& thread_name) {
         seconds += name.starts_with(thread_name) ? 1e-9 * nanoseconds : 0.0;
     }
     return seconds;
+}
+
+FileSizeLimit::FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+FileSizeLimit::~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    static_cast<void>(std::signal(SIGXFSZ, handler_));
 }
 
 EnvironmentVariable::EnvironmentVariable(std::string name, const std::string& value)

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include <sys/resource.h>
+
 namespace reljef::test {
 
 /// Bytes of this process that are in memory (VmRSS).
@@ -27,6 +29,19 @@ public:
 private:
     std::string name_;
     std::optional<std::string> before_;
+};
+
+/// No file of this process grows beyond so many bytes while this lives, as on a full disk.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes);
+    ~FileSizeLimit();
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+private:
+    void (*handler_)(int);
+    rlimit before_{};
 };
 
 /// Whether memory freed is given back as usual: sanitizers keep it for a while to catch its use.

@@ -1,12 +1,11 @@
 #include "engine/io/cache/bisection_cache.h"
 
-#include <csignal>
 #include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/terrain/made_bisection.h"
 
@@ -33,26 +32,6 @@ void expect_same_splits(const terrain::Bisection& found, const terrain::Bisectio
     EXPECT_EQ(found.bounds(), expected.bounds());
     EXPECT_EQ(found.height({7, 9}), expected.height({7, 9}));
 }
-
-// No file grows beyond so many bytes while it lives, as on a full disk.
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        static_cast<void>(std::signal(SIGXFSZ, handler_));
-    }
-
-private:
-    void (*handler_)(int);
-    rlimit before_{};
-};
 
 class BisectionCache : public testing::Test {
 protected:
@@ -154,7 +133,7 @@ TEST_F(BisectionCache, WithoutRoomItIsMadeAndNothingIsLeft) {
     std::filesystem::remove(file());
     std::optional<CachedBisection> made;
     {
-        const FileSizeLimit limit(1000);
+        const test::FileSizeLimit limit(1000);
         made = cached(options());
     }
     EXPECT_THAT(made->note, HasSubstr("cannot be written"));

@@ -140,6 +140,9 @@ TEST_F(FlightFile, WhatIsWrongIsOneSentenceThatNamesTheFile) {
                 HasSubstr("holds no line"));
     EXPECT_THAT(error("a.json", "{\"type\":\"LineString\",\"coordinates\":[[6.8,145],[6.9,45]]}"),
                 HasSubstr("has a point at 145,6.8"));
+    EXPECT_THAT(
+        error("a.json", "{\"type\":\"LineString\",\"coordinates\":[[6,45,-1e30],[6.9,45,1]]}"),
+        HasSubstr("has a height of -1e+30 m"));
     EXPECT_THAT(error("a.txt", "nothing"), HasSubstr("a.txt: cannot be opened as a path"));
 }
 

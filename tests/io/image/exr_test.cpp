@@ -25,6 +25,13 @@ HitBuffer random_hits(int cols, int rows) {
     return hits;
 }
 
+TEST(HitFile, HoldsNoDateOfToday) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path() / "hit.exr";
+    ASSERT_TRUE(write_hits(path, random_hits(8, 8)));
+    EXPECT_THAT(test::read_bytes(path), HasSubstr("1970:01:01 00:00:00"));
+}
+
 TEST(HitFile, ComesBackToTheBitSkyIncluded) {
     const test::TemporaryFolder folder;
     const HitBuffer hits = random_hits(53, 31);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -93,6 +94,19 @@ TEST(ImageFile, UnwritablePathsAreNamedAndLeaveNothing) {
         EXPECT_THAT(written.error().message, HasSubstr("cannot be written"));
     }
     EXPECT_TRUE(folder.names().empty());
+}
+
+// Encoders overlook that they could not write.
+TEST(ImageFile, AFullDiskIsAnErrorAndLeavesNothing) {
+    const test::TemporaryFolder folder;
+    const Image image = random_image(100, 100);
+    const test::FileSizeLimit limit(1024);
+    for (const char* const name : {"a.png", "a.jpg", "a.tif", "a.webp", "a.exr", "a.bmp"}) {
+        const auto written = write_image(folder.path() / name, image);
+        ASSERT_FALSE(written) << name;
+        EXPECT_THAT(written.error().message, HasSubstr(std::string(name) + ": cannot be written"));
+        EXPECT_TRUE(folder.names().empty()) << name;
+    }
 }
 
 TEST(ImageFile, AnEmptyPictureIsNotWritten) {
