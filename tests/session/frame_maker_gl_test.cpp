@@ -55,8 +55,7 @@ TEST(SceneRendererGl, DrawsWithTheLightThatWasPrepared) {
         ASSERT_TRUE(renderer.draw(scene.scene, true));
         const Image image = renderer.read_color();
         const Rgba8 middle = image(image.cols() / 2, image.rows() / 2);
-        EXPECT_EQ(middle.r, 255) << in_parts;
-        EXPECT_LT(middle.g, 10) << in_parts;
+        EXPECT_GT(middle.r, 2 * middle.g) << in_parts << ", seen through air";
     }
 }
 
