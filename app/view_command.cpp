@@ -63,7 +63,7 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
     }
     return run_window_loop(window, renderer, scene, viewer, log, interrupt.token(),
                            {.frames = choice.frames_given ? choice.view.frames : 0,
-                            .chooses_samples = !choice.view.samples});
+                            .keeps_quality = choice.view.samples.has_value()});
 }
 
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {

@@ -397,7 +397,8 @@ void add_samples_option(CLI::App& command, ViewChoice& choice) {
         word_of<int>("--samples", {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}),
         "samples a pixel, against jagged edges: 1, 2, 4, 8 or 16; techniques that follow "
         "rays draw as many rays (4 if the picture has triangles and at most 4096x4096 pixels, "
-        "else 1; 1 while the view in a window moves too slowly)",
+        "else 1; without N, view draws a slow view with 1 sample and at a lower resolution while "
+        "it moves)",
         "N");
 }
 

@@ -399,9 +399,11 @@ std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timi
         preparing.label.empty()
             ? std::string()
             : fmt::format(" ({} {:.0f} %)", preparing.label, 100.0 * preparing.fraction);
-    return fmt::format("reljef - {} - {}{} - {} ({:.1f} ms) - {} triangles - {}",
+    const std::string resolution =
+        timing.divisor > 1 ? fmt::format(", 1/{} of the resolution", timing.divisor) : "";
+    return fmt::format("reljef - {} - {}{} - {} ({:.1f} ms{}) - {} triangles - {}",
                        surface.terrain().name, scene::to_string(material().technique), progress,
-                       rate, timing.last_ms, stats.triangles, place());
+                       rate, timing.last_ms, resolution, stats.triangles, place());
 }
 
 std::string Viewer::place() const {

@@ -23,6 +23,7 @@ namespace reljef::app {
 struct FrameTiming {
     double last_ms = 0.0;                    ///< what the last picture took to draw
     std::optional<double> frames_per_second; ///< absent: nothing moves, nothing is drawn
+    int divisor = 1;                         ///< of the window's sides, for fewer pixels
 };
 
 struct ViewerOptions {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "app/viewer/sample_choice.h"
+#include "app/viewer/motion_quality.h"
 #include "engine/core/stopwatch.h"
 #include "engine/io/image/image.h"
 #include "engine/session/streaming.h"
@@ -65,7 +65,7 @@ private:
 
     // The view stands still, and was drawn with fewer samples than it may have.
     [[nodiscard]] bool is_to_sharpen() const {
-        return samples_.is_reduced() && !viewer_.is_moving();
+        return quality_.is_reduced() && !viewer_.is_moving();
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
@@ -122,6 +122,12 @@ private:
 
     // A folder that cannot be written is no reason to end the flight.
     void save_picture() {
+        if (quality_.is_reduced()) {
+            if (auto drawn = draw_at({}); !drawn) {
+                log_.note(drawn.error().message);
+                return;
+            }
+        }
         const auto file = next_screenshot(".");
         if (const auto written = io::write_image(file, renderer_.read_color()); !written) {
             log_.note(written.error().message);
@@ -135,14 +141,32 @@ private:
         if (size.x == 0 || size.y == 0) {
             return {}; // minimized
         }
+        const Stopwatch watch;
+        const FrameQuality quality =
+            options_.keeps_quality ? FrameQuality() : quality_.choose(viewer_.is_moving());
+        if (auto drawn = draw_at(quality); !drawn) {
+            return drawn;
+        }
+        renderer_.show_in_window(size);
+        timing_.last_ms = watch.milliseconds();
+        timing_.divisor = quality.divisor;
+        quality_.add_frame(timing_.last_ms);
+        window_.swap_buffers();
+        has_drawn_ = true;
+        ++drawn_;
+        ++drawn_since_title_;
+        return {};
+    }
+
+    Result<void> draw_at(const FrameQuality& quality) {
+        const glm::ivec2 size = quality.picture_size(window_.framebuffer_size());
         if (size != renderer_.size()) {
             if (auto resized = renderer_.resize(size); !resized) {
                 return resized;
             }
         }
-        const Stopwatch watch;
-        if (options_.chooses_samples) {
-            renderer_.set_samples(samples_.choose(viewer_.is_moving()));
+        if (!options_.keeps_quality) {
+            renderer_.set_samples(quality.samples);
         }
         if (const auto light = viewer_.take_light()) {
             if (auto added = renderer_.add_light(*light); !added) {
@@ -154,14 +178,7 @@ private:
         if (!stats) {
             return stats.error();
         }
-        renderer_.show_in_window(size);
-        timing_.last_ms = watch.milliseconds();
-        samples_.add_frame(timing_.last_ms);
-        window_.swap_buffers();
         stats_ = *stats;
-        has_drawn_ = true;
-        ++drawn_;
-        ++drawn_since_title_;
         return {};
     }
 
@@ -188,7 +205,7 @@ private:
     Viewer& viewer_;
     session::Log& log_;
     WindowLoopOptions options_;
-    SampleChoice samples_;
+    MotionQuality quality_;
     view::FrameStats stats_;
     FrameTiming timing_;
     std::string title_;

@@ -12,7 +12,7 @@ namespace reljef::app {
 
 struct WindowLoopOptions {
     int frames = 0; ///< to draw, moving or not, before the window closes; 0: until the user ends it
-    bool chooses_samples = true; ///< a slow view that moves has one sample a pixel
+    bool keeps_quality = false; ///< draws a slow view that moves in full, see MotionQuality
 };
 
 /// Passes events to the viewer and draws its scene, until the user or `stop` ends it. Fails when a
