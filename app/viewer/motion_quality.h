@@ -22,14 +22,14 @@ struct FrameQuality {
 };
 
 /// Chooses how finely a view is drawn: in full while it rests. While it moves and its frames are
-/// slow, first with one sample a pixel, then with a half, a third and a quarter of the window's
+/// slow, first with one sample a pixel, then at a half and a third of the window's
 /// resolution. One slow frame, as when tiles arrive, changes nothing.
 class MotionQuality {
 public:
     /// Frames that take longer are slow, milliseconds.
-    static constexpr double max_smooth_ms = 33.0;
+    static constexpr double max_smooth_ms = 40.0;
     static constexpr int max_slow_frames = 2; // in a row
-    static constexpr int max_divisor = 4;
+    static constexpr int max_divisor = 3;
 
     void add_frame(double milliseconds) {
         slow_frames_ = milliseconds > max_smooth_ms ? slow_frames_ + 1 : 0;

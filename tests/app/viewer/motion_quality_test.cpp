@@ -40,7 +40,7 @@ TEST(MotionQuality, ThereIsALeastResolution) {
         after_two(tested, slow);
     }
     EXPECT_EQ(tested.choose(true), (FrameQuality{1, MotionQuality::max_divisor}));
-    EXPECT_EQ((FrameQuality{1, 4}.picture_size({1023, 3})), glm::ivec2(255, 1));
+    EXPECT_EQ((FrameQuality{1, 3}.picture_size({1023, 2})), glm::ivec2(341, 1));
 }
 
 TEST(MotionQuality, AStillViewIsDrawnInFullHoweverSlow) {
