@@ -19,8 +19,8 @@ Json to_json(const scene::NumberInfo& number) {
     Json json{{"name", number.name},   {"default", number.default_value},
               {"low", number.low},     {"high", number.high},
               {"whole", number.whole}, {"meaning", number.meaning}};
-    if (number.least > number.low) {
-        json["least"] = number.least;
+    if (number.min_above_low > number.low) {
+        json["min_above_low"] = number.min_above_low;
     }
     return json;
 }

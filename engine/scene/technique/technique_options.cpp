@@ -370,7 +370,7 @@ const OptionInfo* option_named(std::string_view name) {
     return found == option_infos.end() ? nullptr : found;
 }
 
-// The value of an option that is not as made.
+// The text of an option that differs from its default.
 std::string value_text(const OptionInfo& info, std::size_t word, const TechniqueOptions& options) {
     const bool is_range = info.words.empty();
     std::string text = is_range ? fmt::format("{}..{}", *info.numbers[0].get(options),
