@@ -71,6 +71,10 @@ TEST(Project, SetsNoUniformByString) {
     EXPECT_THAT(complaints_about(all_code(), uniforms_by_string), IsEmpty());
 }
 
+TEST(Project, WritesNoTechniqueAsText) {
+    EXPECT_THAT(complaints_about(all_code(), techniques_by_string), IsEmpty());
+}
+
 TEST(Project, IncludesInEveryHeaderWhatItNames) {
     EXPECT_THAT(missing_includes(all_code()), IsEmpty());
 }

@@ -355,6 +355,32 @@ Complaints uniforms_by_string(const SourceFile& file) {
     return complaints;
 }
 
+Complaints techniques_by_string(const SourceFile& file) {
+    static const std::regex parsed_literal(
+        R"(\bparse_technique\s*\(\s*(?:"|R"|std::string\b|fmt::))");
+    // A baseline's label has the same form.
+    static const std::regex literal(R"("(?!irrlicht:)[a-z][a-z-]*:[a-z]+=)");
+    Complaints complaints;
+    if (starts_with_any(file.path,
+                        {"engine/scene/technique/", "app/cli/", "terrains/", "tests/"})) {
+        return complaints;
+    }
+    const std::string code = code_of(file.text);
+    for (std::sregex_iterator match(code.begin(), code.end(), parsed_literal), end; match != end;
+         ++match) {
+        complaints.push_back(file.path + " parses a technique from its own text: a value of "
+                                         "scene::Technique was expected");
+    }
+    for (std::sregex_iterator match(file.text.begin(), file.text.end(), literal), end; match != end;
+         ++match) {
+        if (code[static_cast<std::size_t>(match->position())] == '"') { // in no comment
+            complaints.push_back(file.path + " has " + match->str() +
+                                 ": a value of scene::Technique was expected");
+        }
+    }
+    return complaints;
+}
+
 Complaints machine_paths(const SourceFile& file) {
     static const std::regex path(R"((?:^|[^\w.\-}])(/(?:work|home|root|Users|tmp)/[\w.\-/]*))");
     Complaints complaints;

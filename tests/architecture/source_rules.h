@@ -42,6 +42,11 @@ Complaints gl_outside_its_rooms(const SourceFile& file);
 /// engine/render: engine/render/shaders alone declares them.
 Complaints uniforms_by_string(const SourceFile& file);
 
+/// Techniques and their parameters written as text, such as "polygons:error=1", and literals given
+/// to parse_technique. Code holds scene::Technique values. Allowed in engine/scene/technique,
+/// app/cli (help texts), terrains (descriptions of models) and tests.
+Complaints techniques_by_string(const SourceFile& file);
+
 /// Folders that exist on one machine only.
 Complaints machine_paths(const SourceFile& file);
 

@@ -185,6 +185,30 @@ TEST(UniformsByString, StayWhereUniformsAreDeclared) {
     }
 }
 
+TEST(TechniquesByString, StayInTheTableTheCommandLineAndTests) {
+    for (const char* const text :
+         {"auto t = scene::parse_technique(\"polygons\").value();",
+          "auto t = scene::parse_technique(fmt::format(text, error));",
+          "auto t = parse_technique( std::string(\"exact\"));",
+          "constexpr std::string_view coarse = \"polygons:lods=5\";",
+          "for (const char* t : {\"texture\", \"multi-layer:n=64\"}) {}"}) {
+        for (const char* const path : {"bench/suites/a.cpp", "app/viewer/a.cpp",
+                                       "engine/session/a.cpp", "engine/scene/graph/a.h"}) {
+            EXPECT_THAT(techniques_by_string(file_with(path, text)), SizeIs(1)) << path << text;
+        }
+        for (const char* const path : {"engine/scene/technique/a.cpp", "app/cli/a.cpp",
+                                       "terrains/gallery/a.cpp", "tests/scene/a_test.cpp"}) {
+            EXPECT_THAT(techniques_by_string(file_with(path, text)), IsEmpty()) << path << text;
+        }
+    }
+    for (const char* const text :
+         {"auto t = scene::parse_technique(argument);", "// \"polygons:error=1\"",
+          "fmt::format(\"irrlicht:lods={}\", levels)", "Polygons{.error = 1.0}",
+          "log(\"see: a=b\");"}) {
+        EXPECT_THAT(techniques_by_string(file_with("bench/a.cpp", text)), IsEmpty()) << text;
+    }
+}
+
 TEST(MachinePaths, AreFoundInTextAndComments) {
     EXPECT_THAT(machine_paths(file_with("a.cpp", "open(\"/ho"
                                                  "me/ann/x.tif\")")),
