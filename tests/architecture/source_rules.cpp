@@ -80,6 +80,7 @@ const std::vector<Library>& guarded_libraries() {
         {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
         {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
+        {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},
     };
     return libraries;
@@ -377,6 +378,25 @@ Complaints techniques_by_string(const SourceFile& file) {
             complaints.push_back(file.path + " has " + match->str() +
                                  ": a value of scene::Technique was expected");
         }
+    }
+    return complaints;
+}
+
+Complaints printing_exiting_or_throwing(const SourceFile& file) {
+    static const std::regex forbidden(
+        R"(\bfmt::print\w*|\bstd::(?:cout|cerr|clog|wcout|wcerr)\b|\bthrow\b|)"
+        R"((?:^|[^\w.>])(?:(?:vf|v|f)?printf|f?puts|f?putc|putchar|perror|)"
+        R"(exit|_exit|_Exit|quick_exit|abort|terminate)\s*\()");
+    Complaints complaints;
+    if (!starts_with_any(file.path, {"engine/", "terrains/"}) ||
+        starts_with_any(file.path, {"engine/core/check."})) {
+        return complaints;
+    }
+    const std::string code = code_of(file.text);
+    for (std::sregex_iterator match(code.begin(), code.end(), forbidden), end; match != end;
+         ++match) {
+        complaints.push_back(file.path + " has " + match->str() +
+                             ": a library returns errors and notes as values");
     }
     return complaints;
 }

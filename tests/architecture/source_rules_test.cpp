@@ -139,6 +139,18 @@ TEST(Libraries, StayInTheirRoomAndItsTests) {
                 SizeIs(2));
 }
 
+TEST(Libraries, TheCommandLinesLibraryIsForPrograms) {
+    const std::string text = "#include <CLI/CLI.hpp>\n";
+    for (const char* const path : {"app/cli/a.h", "bench/a.cpp", "tests/app/a_test.cpp"}) {
+        EXPECT_THAT(libraries_outside_their_room(file_with(path, text)), IsEmpty()) << path;
+    }
+    for (const char* const path : {"engine/session/a.cpp", "terrains/a.cpp"}) {
+        EXPECT_THAT(libraries_outside_their_room(file_with(path, text)),
+                    ElementsAre(HasSubstr("may include CLI11")))
+            << path;
+    }
+}
+
 TEST(Gl, StaysInItsRooms) {
     const std::string text = "#include <glad/gl.h>\nvoid f() { glClear(0); }\n";
     for (const char* const path :
@@ -206,6 +218,29 @@ TEST(TechniquesByString, StayInTheTableTheCommandLineAndTests) {
           "fmt::format(\"irrlicht:lods={}\", levels)", "Polygons{.error = 1.0}",
           "log(\"see: a=b\");"}) {
         EXPECT_THAT(techniques_by_string(file_with("bench/a.cpp", text)), IsEmpty()) << text;
+    }
+}
+
+TEST(PrintingExitingOrThrowing, IsForPrograms) {
+    for (const char* const text :
+         {"fmt::print(\"{}\", x);", "fmt::println(\"x\");", "std::cout << x;", "std::cerr << x;",
+          "std::fprintf(stderr, text);", "printf(\"x\");", "::puts(text);", "perror(text);",
+          "std::exit(1);", "{exit (1);}", "_exit(1);", "std::quick_exit(0);", "::abort();",
+          "std::terminate();", "throw std::runtime_error(text);", "throw;"}) {
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("engine/io/a.cpp", text)), SizeIs(1))
+            << text;
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("terrains/a.h", text)), SizeIs(1));
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("app/a.cpp", text)), IsEmpty());
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("bench/a.cpp", text)), IsEmpty());
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("engine/core/check.cpp", text)),
+                    IsEmpty());
+    }
+    for (const char* const text :
+         {"// must not throw", "auto s = \"exit(1)\";", "std::snprintf(buffer, size, text);",
+          "queue.abort();", "stream->puts(text);", "on_exit(f);", "fmt::format(\"{}\", x);",
+          "int exit_code = 0;", "rethrow(error);"}) {
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("engine/io/a.cpp", text)), IsEmpty())
+            << text;
     }
 }
 
