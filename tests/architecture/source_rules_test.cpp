@@ -71,7 +71,8 @@ TEST(IncludeTable, AllowsWhatLiesBelow) {
     EXPECT_TRUE(may_include("engine/render/passes", "engine/view"));
     EXPECT_TRUE(may_include("engine/render", "engine/gl"));
     EXPECT_TRUE(may_include("engine/truth", "engine/geo"));
-    EXPECT_TRUE(may_include("app", "engine/render"));
+    EXPECT_TRUE(may_include("engine/session", "engine/gl"));
+    EXPECT_TRUE(may_include("app", "engine/session"));
     EXPECT_TRUE(may_include("bench/suites", "app/cli"));
     EXPECT_TRUE(may_include("tests", "app"));
 }
@@ -95,6 +96,37 @@ TEST(IncludeTable, RefusesUpwardAndSideways) {
     EXPECT_FALSE(may_include("terrains", "engine/io"));
     EXPECT_FALSE(may_include("engine/scene", "app"));
     EXPECT_FALSE(may_include("engine/render", "tests"));
+}
+
+TEST(IncludeTable, TheGraphsCircleWithTheStreamsIsItsOwn) {
+    EXPECT_TRUE(may_include("engine/scene/graph", "engine/scene"));
+    EXPECT_TRUE(may_include("engine/view", "engine/scene"));
+    EXPECT_FALSE(may_include("engine/scene/graph", "engine/terrain/tree"));
+    for (const char* const room : {"engine/truth", "engine/scene/motion"}) {
+        EXPECT_TRUE(may_include(room, "engine/scene/graph")) << room;
+        EXPECT_TRUE(may_include(room, "engine/terrain/field")) << room;
+        EXPECT_FALSE(may_include(room, "engine/scene")) << room;
+        EXPECT_FALSE(may_include(room, "engine/terrain/tree")) << room;
+    }
+}
+
+TEST(IncludeTable, HidesWhatLiesBelowTheSessionFromThePrograms) {
+    for (const char* const room :
+         {"app", "app/cli", "app/viewer", "bench", "bench/page", "bench/report", "bench/runner",
+          "bench/suites", "bench/baselines"}) {
+        EXPECT_TRUE(may_include(room, "engine/core")) << room;
+        for (const char* const hidden :
+             {"engine/gl", "engine/render", "engine/render/passes", "engine/render/shaders",
+              "engine/terrain/tree", "engine/io", "engine/io/cache", "engine/io/imagery"}) {
+            EXPECT_FALSE(may_include(room, hidden)) << room << ' ' << hidden;
+        }
+    }
+    EXPECT_TRUE(may_include("bench/baselines", "engine/render/residency"));
+    EXPECT_FALSE(may_include("bench", "engine/render/residency"));
+    EXPECT_TRUE(may_include("app", "app/cli"));
+    EXPECT_FALSE(may_include("app", "engine/view")) << "named for app/cli alone";
+    EXPECT_FALSE(may_include("app/cli", "app/viewer"));
+    EXPECT_FALSE(may_include("bench/page", "engine/session"));
 }
 
 TEST(IncludeTable, GivesTheShadersToRenderOnly) {
