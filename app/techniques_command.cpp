@@ -19,8 +19,8 @@ Json to_json(const scene::NumberInfo& number) {
     Json json{{"name", number.name},   {"default", number.default_value},
               {"low", number.low},     {"high", number.high},
               {"whole", number.whole}, {"meaning", number.meaning}};
-    if (number.least > number.low) {
-        json["least"] = number.least;
+    if (number.min_above_low > number.low) {
+        json["min_above_low"] = number.min_above_low;
     }
     return json;
 }
@@ -77,8 +77,10 @@ void print_number(const scene::NumberInfo& number) {
 }
 
 void print_options() {
-    fmt::print("\nOptions, behind the parameters of those that take them: "
-               "relief:n=11,k=8,shadow=soft,0.3\n");
+    scene::Technique example{scene::Relief{}};
+    example.options.shadow = scene::Shadow{.depth = 0.3};
+    fmt::print("\nOptions, behind the parameters of those that take them: {}\n",
+               scene::to_string(example));
     for (const scene::OptionInfo& option : scene::option_catalogue()) {
         fmt::print("{:<12} {}={} ({})\n{:<12} {}\n{:<12} with {}\n", option.name, option.name,
                    scene::form_of(option), option.default_value, "", option.meaning, "",

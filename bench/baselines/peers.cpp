@@ -225,7 +225,7 @@ private:
         camera = scene::pose_camera(pose, scene_->terrain->world_bounds(), [&](double x, double y) {
             return scene_->scene.height_at(x, y).value_or(0.0);
         });
-        set_technique("polygons:error=1");
+        set_technique(reference_technique);
         const auto shown = device_->renderer().draw_hits(scene_->scene);
         if (!shown) {
             return shown.error();
@@ -258,9 +258,8 @@ private:
         return {};
     }
 
-    void set_technique(const std::string& text) {
-        scene_->terrain->get<scene::TerrainNode>()->material.technique =
-            scene::parse_technique(text).value();
+    void set_technique(const scene::Technique& technique) {
+        scene_->terrain->get<scene::TerrainNode>()->material.technique = technique;
     }
 
     std::vector<PeerEntry> entries_for(scene::Pose pose) {
@@ -268,20 +267,22 @@ private:
         for (auto& [levels, peer] : peers_) {
             entries.push_back(irrlicht_entry(pose, levels, peer));
         }
-        for (const char* technique : {"polygons:error=1", "polygons:error=4", "polygons"}) {
+        const scene::Technique coarse{scene::Polygons{.error = 4.0}};
+        const scene::Technique every_sample{scene::Polygons{}};
+        for (const scene::Technique& technique : {reference_technique, coarse, every_sample}) {
             entries.push_back(own_entry(pose, technique));
         }
         entries.push_back(moving(irrlicht_entry(pose, peers_.back().first, peers_.back().second)));
-        for (const char* technique : {"polygons:error=1", "polygons:error=4"}) {
+        for (const scene::Technique& technique : {reference_technique, coarse}) {
             entries.push_back(moving(own_entry(pose, technique)));
         }
         return entries;
     }
 
-    PeerEntry own_entry(scene::Pose pose, const std::string& technique) {
+    PeerEntry own_entry(scene::Pose pose, const scene::Technique& technique) {
         PeerEntry entry;
         entry.row.pose = pose;
-        entry.row.what = technique;
+        entry.row.what = scene::to_string(technique);
         entry.set_up = [] { return Result<void>(); };
         entry.draw = [this, technique](PeerRow& row) -> Result<double> {
             set_technique(technique);

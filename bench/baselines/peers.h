@@ -9,6 +9,7 @@
 #include "bench/runner/suite_options.h"
 #include "engine/core/statistics.h"
 #include "engine/scene/motion/poses.h"
+#include "engine/scene/technique/technique.h"
 #include "engine/truth/geometric_error.h"
 
 namespace reljef::bench {
@@ -21,13 +22,16 @@ struct PeersOptions {
 /// One way to draw the terrain from one pose.
 struct PeerRow {
     scene::Pose pose = scene::Pose::overview;
-    std::string what;    ///< "irrlicht:lods=5", "polygons:error=1"
+    std::string what;    ///< "irrlicht:lods=5", "polygons:error=1": to_string of a technique
     bool moving = false; ///< the camera, from frame to frame; triangles are those of the last one
     std::size_t frames = 0;
     Summary ms;
     std::size_t triangles = 0;
     std::optional<truth::Distribution> error; ///< reprojection, pixels; of still cameras
 };
+
+/// The technique that the others are compared with.
+inline constexpr scene::Technique reference_technique{scene::Polygons{.error = 1.0}};
 
 struct PeersResults {
     Environment environment;

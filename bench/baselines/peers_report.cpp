@@ -37,8 +37,9 @@ PeersJson row_json(const PeerRow& row) {
 
 // Of the row that keeps an error of one pixel, as the other is seen.
 double own_ms(const PeersResults& results, const PeerRow& as) {
+    const std::string reference = scene::to_string(reference_technique);
     const auto own = std::find_if(results.rows.begin(), results.rows.end(), [&](const auto& row) {
-        return row.pose == as.pose && row.moving == as.moving && row.what == "polygons:error=1";
+        return row.pose == as.pose && row.moving == as.moving && row.what == reference;
     });
     return own == results.rows.end() ? 0.0 : own->ms.median;
 }

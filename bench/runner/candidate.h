@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "bench/report/results.h"
 
@@ -14,11 +13,7 @@ struct Candidate {
     std::optional<SourceFigure> source;
 };
 
-/// The candidate of a technique, which must exist.
+/// The candidate of a technique.
 Candidate candidate_of(const scene::Technique& technique);
-
-/// The candidate of "ID:key=value,…"; without a technique where the catalogue has none such or
-/// refuses its parameters.
-Candidate candidate_named(const std::string& text);
 
 } // namespace reljef::bench

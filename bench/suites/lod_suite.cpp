@@ -11,11 +11,12 @@ constexpr std::array lod_poses{scene::Pose::overview, scene::Pose::oblique, scen
                                scene::Pose::grazing};
 
 std::vector<Candidate> lod_candidates() {
-    std::vector<Candidate> candidates;
-    for (const char* setting :
-         {"texture", "polygons:lods=1", "polygons:lods=3", "polygons:lods=5", "polygons:error=0.25",
-          "polygons:error=0.5", "polygons:error=1", "polygons:error=2", "polygons:error=4"}) {
-        candidates.push_back(candidate_of(scene::parse_technique(setting).value()));
+    std::vector<Candidate> candidates{candidate_of(scene::Technique{scene::Texture{}})};
+    for (const int levels : {1, 3, 5}) {
+        candidates.push_back(candidate_of(scene::Technique{scene::Polygons{.max_levels = levels}}));
+    }
+    for (const double error : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        candidates.push_back(candidate_of(scene::Technique{scene::Polygons{.error = error}}));
     }
     return candidates;
 }

@@ -117,10 +117,10 @@ std::vector<scene::Technique> usual_settings(const StageChoice& stage) {
 }
 
 std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& settings) {
-    const std::string texture = scene::to_string(scene::Technique{scene::Texture{}});
-    std::vector<Candidate> candidates{candidate_named(texture)};
+    const scene::Technique texture{scene::Texture{}};
+    std::vector<Candidate> candidates{candidate_of(texture)};
     for (const scene::Technique& technique : settings) {
-        if (scene::to_string(technique) != texture) {
+        if (technique != texture) {
             candidates.push_back(candidate_of(technique));
         }
     }

@@ -161,9 +161,7 @@ private:
         if (!stage) {
             return stage.error();
         }
-        if (auto done = ask_for(*stage, options_.error); !done) {
-            return done;
-        }
+        set_error(*stage, options_.error);
         if (auto done = run_random(*stage, poses_of(index), driver); !done) {
             return done;
         }
@@ -182,13 +180,8 @@ private:
         return {};
     }
 
-    static Result<void> ask_for(Stage& stage, double error) {
-        auto technique = scene::parse_technique(fmt::format("polygons:error={}", error));
-        if (!technique) {
-            return technique.error();
-        }
-        stage.set_technique(*technique);
-        return {};
+    static void set_error(Stage& stage, double error) {
+        stage.set_technique(scene::Technique{scene::Polygons{.error = error}});
     }
 
     [[nodiscard]] std::vector<double> flight_errors() const {
@@ -223,9 +216,7 @@ private:
 
     Result<void> run_flight(Stage& stage, const Flight& flight, double error,
                             session::SceneRenderer& driver) {
-        if (auto done = ask_for(stage, error); !done) {
-            return done;
-        }
+        set_error(stage, error);
         PromiseRow row = row_of(stage, flight.name, error);
         const Judge judge = judge_of(stage, error);
         const scene::Camera camera = stage.scene().camera();

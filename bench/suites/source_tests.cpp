@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/check.h"
+
 namespace reljef::bench {
 namespace {
 
@@ -37,13 +39,26 @@ constexpr std::array<SourceMeasurement, 24> measurements{{
 
 constexpr int chosen_configuration = 2;
 
-// "polygons lod=3" as the command line has it, "polygons:lods=3".
-std::string our_name(std::string_view technique) {
-    constexpr std::string_view levels = " lod=";
-    const auto at = technique.find(levels);
-    return at == std::string_view::npos ? std::string(technique)
-                                        : fmt::format("{}:lods={}", technique.substr(0, at),
-                                                      technique.substr(at + levels.size()));
+// What the sources call a technique.
+struct SourceTechnique {
+    std::string_view name;
+    scene::Technique technique;
+};
+
+constexpr std::array source_techniques{
+    SourceTechnique{"texture", {scene::Texture{}}},
+    SourceTechnique{"parallax", {scene::Parallax{}}},
+    SourceTechnique{"relief", {scene::Relief{}}},
+    SourceTechnique{"polygons lod=1", {scene::Polygons{.max_levels = 1}}},
+    SourceTechnique{"polygons lod=3", {scene::Polygons{.max_levels = 3}}},
+    SourceTechnique{"polygons lod=5", {scene::Polygons{.max_levels = 5}}}};
+
+const scene::Technique& technique_of(std::string_view name) {
+    const auto* const found =
+        std::find_if(source_techniques.begin(), source_techniques.end(),
+                     [&](const SourceTechnique& row) { return row.name == name; });
+    check(found != source_techniques.end(), "a technique of the sources without a row");
+    return found->technique;
 }
 
 std::vector<SourceMeasurement> measurements_of(std::string_view test) {
@@ -60,7 +75,7 @@ Group group_of(std::string_view test, const StageChoice& stage) {
     const std::vector<SourceMeasurement> found = measurements_of(test);
     Group group{std::string(test), stage, scene::Pose::overview, {}};
     for (const SourceMeasurement& measurement : found) {
-        Candidate candidate = candidate_named(our_name(measurement.technique));
+        Candidate candidate = candidate_of(technique_of(measurement.technique));
         candidate.source =
             SourceFigure{measurement.fps, found.front().fps / measurement.fps,
                          fmt::format("{}, configuration {}", test, chosen_configuration)};
@@ -70,9 +85,9 @@ Group group_of(std::string_view test, const StageChoice& stage) {
 }
 
 // The same with techniques that the sources do not have.
-Group with_ours(Group group, std::initializer_list<std::string_view> techniques) {
-    for (const std::string_view technique : techniques) {
-        group.candidates.push_back(candidate_named(std::string(technique)));
+Group with_ours(Group group, std::initializer_list<scene::Technique> techniques) {
+    for (const scene::Technique& technique : techniques) {
+        group.candidates.push_back(candidate_of(technique));
     }
     return group;
 }
@@ -86,13 +101,15 @@ std::span<const SourceMeasurement> source_measurements() {
 std::vector<Group> source_groups(bool quick) {
     const StageChoice urban_tile{"urban", 512, true};
     const StageChoice natural{"natural", 1025};
-    return {group_of("parallax-1", urban_tile),
-            group_of("relief-1", urban_tile),
-            group_of("parallax-2", {"urban", quick ? 2048 : 4096}),
-            group_of("relief-2", {"urban", 1024}),
-            group_of("parallax-3", natural),
-            with_ours(group_of("relief-4", natural), {"polygons:error=1", "exact"}),
-            group_of("relief-3", {"natural", 1280})};
+    return {
+        group_of("parallax-1", urban_tile),
+        group_of("relief-1", urban_tile),
+        group_of("parallax-2", {"urban", quick ? 2048 : 4096}),
+        group_of("relief-2", {"urban", 1024}),
+        group_of("parallax-3", natural),
+        with_ours(group_of("relief-4", natural), {scene::Technique{scene::Polygons{.error = 1.0}},
+                                                  scene::Technique{scene::Exact{}}}),
+        group_of("relief-3", {"natural", 1280})};
 }
 
 } // namespace reljef::bench

@@ -5,7 +5,7 @@
 float embossed(vec2 place, float level, mat3 space) {
     vec3 to_light = normalize(local_from_relative * to_sun.xyz) * space;
     vec2 samples_per_metre = tiles_per_metre * tile_samples();
-    float metres = max(search_values.x, exp2(level)) / max(samples_per_metre.x, 1e-30);
+    float metres = max(emboss_delta, exp2(level)) / max(samples_per_metre.x, 1e-30);
     float below = seen_height(place + to_light.xy * metres * samples_per_metre, level);
     return (seen_height(place, level) - below) * lift / metres;
 }

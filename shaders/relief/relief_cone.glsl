@@ -26,7 +26,7 @@ vec2 cones_at(vec2 place) {
 // Between `part` where the ray is `over` (>= 0) above the surface and `low_part` where it is `under`
 // (< 0): halved, then the chord.
 float halved(vec3 start, vec3 span, float part, float over, float low_part, float under) {
-    for (float i = 0.0; i < search_values.z; ++i) {
+    for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (part + low_part);
         vec3 p = start + middle * span;
         float above = p.z - height_at(p.xy);
@@ -43,10 +43,10 @@ float halved(vec3 start, vec3 span, float part, float over, float low_part, floa
 
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     const float steps_below = 64.0; // from the border on, until the ray comes out
-    bool relaxed = search_values.x > 0.5 && span.z <= 0.0;
-    float n = search_values.y;
+    bool relaxed = cone_relaxed > 0.5 && span.z <= 0.0;
+    float n = cone_max_steps;
     float run = length(span.xy);
-    float least = run > search_values.w ? search_values.w / run : 1.0;
+    float least = run > cone_min_step ? cone_min_step / run : 1.0;
     float at = 0.0;
     float over = start.z - height_at(start.xy);
     float next = 0.0;

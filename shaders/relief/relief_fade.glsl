@@ -4,14 +4,14 @@
 float share_of_heights(vec3 span) {
     const float flattest = 1.0 / 4096.0; // as far as the box reaches beyond the heights
     float upright = abs(normalize(span * metres_per_unit).z);
-    float share = 1.0 - pow(1.0 - min(upright, 1.0), fade_values.z);
-    return max(mix(fade_values.x, fade_values.y, share), flattest);
+    float share = 1.0 - pow(1.0 - min(upright, 1.0), fade_power);
+    return max(mix(fade_low, fade_high, share), flattest);
 }
 
 // Stretches a ray and cuts it to what lies between two heights; what of it is left, as parts.
 vec2 stretch(float low, float high, inout vec3 start, inout vec3 span) {
     float share = share_of_heights(span);
-    float begin_height = fade_values.w + (start.z - fade_values.w) / share;
+    float begin_height = fade_reference_height + (start.z - fade_reference_height) / share;
     float rise = span.z / share;
     vec2 ends = vec2(0.0, 1.0);
     if (rise != 0.0) {

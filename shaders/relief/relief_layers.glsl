@@ -14,7 +14,7 @@ float depth_at(vec3 point) {
 float middle_part(vec3 start, vec3 span, float low, float high, int solid) {
     vec3 first = start + low * span;
     bool over = first.z > middles_of(layers_at(first.xy))[solid];
-    for (float i = 0.0; i < search_values.y; ++i) {
+    for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (low + high);
         vec3 p = start + middle * span;
         bool same = (p.z > middles_of(layers_at(p.xy))[solid]) == over;
@@ -38,7 +38,7 @@ float part_within(vec3 start, vec3 span, float low, float high, vec2 over, vec2 
 
 // Between `part`, outside, and `inner`, inside; tells which surface is met.
 float entry_part(vec3 start, vec3 span, float part, float inner) {
-    for (float i = 0.0; i < search_values.y; ++i) {
+    for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (part + inner);
         bool inside = depth_at(start + middle * span) > 0.0;
         inner = inside ? middle : inner;
@@ -59,7 +59,7 @@ float entry_part(vec3 start, vec3 span, float part, float inner) {
 }
 
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
-    float n = search_values.x;
+    float n = linear_steps;
     vec4 layers = layers_at(start.xy);
     vec2 over = start.z - middles_of(layers);
     bool outside = depth_between(layers, start.z) <= 0.0;

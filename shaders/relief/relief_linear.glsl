@@ -5,9 +5,9 @@
 float steps_for(vec3 span) {
 #ifdef VIEW_STEPS
     float upright = abs(normalize(span * metres_per_unit).z);
-    return ceil(mix(search_values.w, search_values.z, upright));
+    return ceil(mix(steps_along_ground, steps_from_above, upright));
 #else
-    return search_values.x;
+    return linear_steps;
 #endif
 }
 
@@ -15,7 +15,7 @@ float steps_for(vec3 span) {
 // (< 0).
 float narrowed(vec3 start, vec3 span, float part, float over, float low_part, float under) {
 #if defined(BISECT)
-    for (float i = 0.0; i < search_values.y; ++i) {
+    for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (part + low_part);
         vec3 p = start + middle * span;
         if (p.z < height_at(p.xy)) {
@@ -26,7 +26,7 @@ float narrowed(vec3 start, vec3 span, float part, float over, float low_part, fl
     }
     return low_part;
 #elif defined(SECANT)
-    float rounds = search_values.y - 1.0;
+    float rounds = secant_steps - 1.0;
     for (float i = 0.0; i < rounds; ++i) {
         float guess = mix(part, low_part, over / (over - under));
         vec3 p = start + guess * span;

@@ -2,7 +2,7 @@
 // (Kaneko et al. 2001); limited (Welsh 2004); or looked at again, the heights averaged.
 
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
-    float offset = search_values.x;
+    float offset = parallax_offset;
     part = (-offset - start.z) / span.z; // where the ray is at the reference plane
     if (!(part >= 0.0 && part <= 1.0 && span.z < 0.0)) {
         return false;
@@ -17,7 +17,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     float height = height_at(entry);
     place = entry + (height + offset) * shift;
 #ifdef ITERATED
-    for (float i = 0.0; i < search_values.y; ++i) {
+    for (float i = 0.0; i < parallax_iterations; ++i) {
         height = 0.5 * (height + height_at(place));
         place = entry + (height + offset) * shift;
     }

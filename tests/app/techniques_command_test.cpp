@@ -43,9 +43,9 @@ TEST(TechniquesCommand, json_lists_the_catalogue_with_ranges) {
 // "| `relief` | `n` | 11 | 1 to 4096 | equal steps along the ray |"
 std::string table_row(const std::string& owner, const nlohmann::json& number) {
     const std::string range =
-        number.contains("least")
+        number.contains("min_above_low")
             ? fmt::format("{}, {} to {}", number["low"].get<double>(),
-                          number["least"].get<double>(), number["high"].get<double>())
+                          number["min_above_low"].get<double>(), number["high"].get<double>())
             : fmt::format("{} to {}", number["low"].get<double>(), number["high"].get<double>());
     return fmt::format("| `{}` | `{}` | {} | {} | {} |", owner, number["name"].get<std::string>(),
                        number["default"].get<double>(), range,

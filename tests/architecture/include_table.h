@@ -12,8 +12,8 @@ std::string folder_of(std::string_view path);
 /// for a file in no folder of the table.
 std::string room_of(std::string_view path);
 
-/// Whether a file of room `from` may include one of room `to`: its own room, the rooms of the table
-/// and all that lies below them.
+/// Whether a file of room `from` may include one of room `to`: its own room, the rooms of its row
+/// with all that lies below them, and the rooms that are named for it alone.
 bool may_include(std::string_view from, std::string_view to);
 
 } // namespace reljef::test

@@ -59,7 +59,7 @@ TEST(Project, IncludesOnlyWhatTheTableAllows) {
     EXPECT_THAT(complaints_about(all_code(), forbidden_includes), IsEmpty());
 }
 
-TEST(Project, KeepsGdalOpenImageIoAndGeographicLibInTheirRooms) {
+TEST(Project, KeepsLibrariesInTheirRooms) {
     EXPECT_THAT(complaints_about(all_code(), libraries_outside_their_room), IsEmpty());
 }
 
@@ -69,6 +69,14 @@ TEST(Project, KeepsGlInItsRooms) {
 
 TEST(Project, SetsNoUniformByString) {
     EXPECT_THAT(complaints_about(all_code(), uniforms_by_string), IsEmpty());
+}
+
+TEST(Project, WritesNoTechniqueAsText) {
+    EXPECT_THAT(complaints_about(all_code(), techniques_by_string), IsEmpty());
+}
+
+TEST(Project, NeitherPrintsNorExitsNorThrowsInTheLibrary) {
+    EXPECT_THAT(complaints_about(all_code(), printing_exiting_or_throwing), IsEmpty());
 }
 
 TEST(Project, IncludesInEveryHeaderWhatItNames) {

@@ -80,6 +80,7 @@ const std::vector<Library>& guarded_libraries() {
         {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
         {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
+        {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},
     };
     return libraries;
@@ -351,6 +352,51 @@ Complaints uniforms_by_string(const SourceFile& file) {
          ++match) {
         complaints.push_back(file.path + " has " + match->str() +
                              ": uniforms and bindings are named in engine/render/shaders");
+    }
+    return complaints;
+}
+
+Complaints techniques_by_string(const SourceFile& file) {
+    static const std::regex parsed_literal(
+        R"(\bparse_technique\s*\(\s*(?:"|R"|std::string\b|fmt::))");
+    // A baseline's label has the same form.
+    static const std::regex literal(R"("(?!irrlicht:)[a-z][a-z-]*:[a-z]+=)");
+    Complaints complaints;
+    if (starts_with_any(file.path,
+                        {"engine/scene/technique/", "app/cli/", "terrains/", "tests/"})) {
+        return complaints;
+    }
+    const std::string code = code_of(file.text);
+    for (std::sregex_iterator match(code.begin(), code.end(), parsed_literal), end; match != end;
+         ++match) {
+        complaints.push_back(file.path + " parses a technique from its own text: a value of "
+                                         "scene::Technique was expected");
+    }
+    for (std::sregex_iterator match(file.text.begin(), file.text.end(), literal), end; match != end;
+         ++match) {
+        if (code[static_cast<std::size_t>(match->position())] == '"') { // in no comment
+            complaints.push_back(file.path + " has " + match->str() +
+                                 ": a value of scene::Technique was expected");
+        }
+    }
+    return complaints;
+}
+
+Complaints printing_exiting_or_throwing(const SourceFile& file) {
+    static const std::regex forbidden(
+        R"(\bfmt::print\w*|\bstd::(?:cout|cerr|clog|wcout|wcerr)\b|\bthrow\b|)"
+        R"((?:^|[^\w.>])(?:(?:vf|v|f)?printf|f?puts|f?putc|putchar|perror|)"
+        R"(exit|_exit|_Exit|quick_exit|abort|terminate)\s*\()");
+    Complaints complaints;
+    if (!starts_with_any(file.path, {"engine/", "terrains/"}) ||
+        starts_with_any(file.path, {"engine/core/check."})) {
+        return complaints;
+    }
+    const std::string code = code_of(file.text);
+    for (std::sregex_iterator match(code.begin(), code.end(), forbidden), end; match != end;
+         ++match) {
+        complaints.push_back(file.path + " has " + match->str() +
+                             ": a library returns errors and notes as values");
     }
     return complaints;
 }

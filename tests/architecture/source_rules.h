@@ -31,7 +31,7 @@ std::vector<Include> includes_of(std::string_view text);
 Complaints forbidden_includes(const SourceFile& file);
 
 /// GeographicLib outside engine/geo, GDAL and OpenImageIO outside engine/io (the tests of these
-/// rooms may).
+/// rooms may), CLI11 outside the programs.
 Complaints libraries_outside_their_room(const SourceFile& file);
 
 /// OpenGL's, EGL's and GLFW's headers, and calls of gl functions, outside engine/gl,
@@ -41,6 +41,15 @@ Complaints gl_outside_its_rooms(const SourceFile& file);
 /// What sets uniforms by their names, or binds to units and binding points by number, in
 /// engine/render: engine/render/shaders alone declares them.
 Complaints uniforms_by_string(const SourceFile& file);
+
+/// Techniques and their parameters written as text, such as "polygons:error=1", and literals given
+/// to parse_technique. Code holds scene::Technique values. Allowed in engine/scene/technique,
+/// app/cli (help texts), terrains (descriptions of models) and tests.
+Complaints techniques_by_string(const SourceFile& file);
+
+/// Code of the library that prints, ends the process or throws. engine/core/check, which ends the
+/// process on a broken precondition, may.
+Complaints printing_exiting_or_throwing(const SourceFile& file);
 
 /// Folders that exist on one machine only.
 Complaints machine_paths(const SourceFile& file);

@@ -71,7 +71,8 @@ TEST(IncludeTable, AllowsWhatLiesBelow) {
     EXPECT_TRUE(may_include("engine/render/passes", "engine/view"));
     EXPECT_TRUE(may_include("engine/render", "engine/gl"));
     EXPECT_TRUE(may_include("engine/truth", "engine/geo"));
-    EXPECT_TRUE(may_include("app", "engine/render"));
+    EXPECT_TRUE(may_include("engine/session", "engine/gl"));
+    EXPECT_TRUE(may_include("app", "engine/session"));
     EXPECT_TRUE(may_include("bench/suites", "app/cli"));
     EXPECT_TRUE(may_include("tests", "app"));
 }
@@ -95,6 +96,37 @@ TEST(IncludeTable, RefusesUpwardAndSideways) {
     EXPECT_FALSE(may_include("terrains", "engine/io"));
     EXPECT_FALSE(may_include("engine/scene", "app"));
     EXPECT_FALSE(may_include("engine/render", "tests"));
+}
+
+TEST(IncludeTable, TheGraphsCircleWithTheStreamsIsItsOwn) {
+    EXPECT_TRUE(may_include("engine/scene/graph", "engine/scene"));
+    EXPECT_TRUE(may_include("engine/view", "engine/scene"));
+    EXPECT_FALSE(may_include("engine/scene/graph", "engine/terrain/tree"));
+    for (const char* const room : {"engine/truth", "engine/scene/motion"}) {
+        EXPECT_TRUE(may_include(room, "engine/scene/graph")) << room;
+        EXPECT_TRUE(may_include(room, "engine/terrain/field")) << room;
+        EXPECT_FALSE(may_include(room, "engine/scene")) << room;
+        EXPECT_FALSE(may_include(room, "engine/terrain/tree")) << room;
+    }
+}
+
+TEST(IncludeTable, HidesWhatLiesBelowTheSessionFromThePrograms) {
+    for (const char* const room :
+         {"app", "app/cli", "app/viewer", "bench", "bench/page", "bench/report", "bench/runner",
+          "bench/suites", "bench/baselines"}) {
+        EXPECT_TRUE(may_include(room, "engine/core")) << room;
+        for (const char* const hidden :
+             {"engine/gl", "engine/render", "engine/render/passes", "engine/render/shaders",
+              "engine/terrain/tree", "engine/io", "engine/io/cache", "engine/io/imagery"}) {
+            EXPECT_FALSE(may_include(room, hidden)) << room << ' ' << hidden;
+        }
+    }
+    EXPECT_TRUE(may_include("bench/baselines", "engine/render/residency"));
+    EXPECT_FALSE(may_include("bench", "engine/render/residency"));
+    EXPECT_TRUE(may_include("app", "app/cli"));
+    EXPECT_FALSE(may_include("app", "engine/view")) << "named for app/cli alone";
+    EXPECT_FALSE(may_include("app/cli", "app/viewer"));
+    EXPECT_FALSE(may_include("bench/page", "engine/session"));
 }
 
 TEST(IncludeTable, GivesTheShadersToRenderOnly) {
@@ -139,6 +171,18 @@ TEST(Libraries, StayInTheirRoomAndItsTests) {
                 SizeIs(2));
 }
 
+TEST(Libraries, TheCommandLinesLibraryIsForPrograms) {
+    const std::string text = "#include <CLI/CLI.hpp>\n";
+    for (const char* const path : {"app/cli/a.h", "bench/a.cpp", "tests/app/a_test.cpp"}) {
+        EXPECT_THAT(libraries_outside_their_room(file_with(path, text)), IsEmpty()) << path;
+    }
+    for (const char* const path : {"engine/session/a.cpp", "terrains/a.cpp"}) {
+        EXPECT_THAT(libraries_outside_their_room(file_with(path, text)),
+                    ElementsAre(HasSubstr("may include CLI11")))
+            << path;
+    }
+}
+
 TEST(Gl, StaysInItsRooms) {
     const std::string text = "#include <glad/gl.h>\nvoid f() { glClear(0); }\n";
     for (const char* const path :
@@ -181,6 +225,53 @@ TEST(UniformsByString, StayWhereUniformsAreDeclared) {
          {"program.set(uniforms.eye, eye);", "maps.lit.bind(bindings::lit_map_unit);",
           "painting.picture.bind();", "// set_uniform(\"eye\")", "offset(\"x\");"}) {
         EXPECT_THAT(uniforms_by_string(file_with("engine/render/passes/a.cpp", text)), IsEmpty())
+            << text;
+    }
+}
+
+TEST(TechniquesByString, StayInTheTableTheCommandLineAndTests) {
+    for (const char* const text :
+         {"auto t = scene::parse_technique(\"polygons\").value();",
+          "auto t = scene::parse_technique(fmt::format(text, error));",
+          "auto t = parse_technique( std::string(\"exact\"));",
+          "constexpr std::string_view coarse = \"polygons:lods=5\";",
+          "for (const char* t : {\"texture\", \"multi-layer:n=64\"}) {}"}) {
+        for (const char* const path : {"bench/suites/a.cpp", "app/viewer/a.cpp",
+                                       "engine/session/a.cpp", "engine/scene/graph/a.h"}) {
+            EXPECT_THAT(techniques_by_string(file_with(path, text)), SizeIs(1)) << path << text;
+        }
+        for (const char* const path : {"engine/scene/technique/a.cpp", "app/cli/a.cpp",
+                                       "terrains/gallery/a.cpp", "tests/scene/a_test.cpp"}) {
+            EXPECT_THAT(techniques_by_string(file_with(path, text)), IsEmpty()) << path << text;
+        }
+    }
+    for (const char* const text :
+         {"auto t = scene::parse_technique(argument);", "// \"polygons:error=1\"",
+          "fmt::format(\"irrlicht:lods={}\", levels)", "Polygons{.error = 1.0}",
+          "log(\"see: a=b\");"}) {
+        EXPECT_THAT(techniques_by_string(file_with("bench/a.cpp", text)), IsEmpty()) << text;
+    }
+}
+
+TEST(PrintingExitingOrThrowing, IsForPrograms) {
+    for (const char* const text :
+         {"fmt::print(\"{}\", x);", "fmt::println(\"x\");", "std::cout << x;", "std::cerr << x;",
+          "std::fprintf(stderr, text);", "printf(\"x\");", "::puts(text);", "perror(text);",
+          "std::exit(1);", "{exit (1);}", "_exit(1);", "std::quick_exit(0);", "::abort();",
+          "std::terminate();", "throw std::runtime_error(text);", "throw;"}) {
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("engine/io/a.cpp", text)), SizeIs(1))
+            << text;
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("terrains/a.h", text)), SizeIs(1));
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("app/a.cpp", text)), IsEmpty());
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("bench/a.cpp", text)), IsEmpty());
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("engine/core/check.cpp", text)),
+                    IsEmpty());
+    }
+    for (const char* const text :
+         {"// must not throw", "auto s = \"exit(1)\";", "std::snprintf(buffer, size, text);",
+          "queue.abort();", "stream->puts(text);", "on_exit(f);", "fmt::format(\"{}\", x);",
+          "int exit_code = 0;", "rethrow(error);"}) {
+        EXPECT_THAT(printing_exiting_or_throwing(file_with("engine/io/a.cpp", text)), IsEmpty())
             << text;
     }
 }

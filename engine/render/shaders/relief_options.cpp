@@ -1,18 +1,19 @@
 #include "engine/render/shaders/relief_options.h"
 
-#include <glm/vec4.hpp>
-
 #include "engine/render/shaders/shader_library.h"
 
 namespace reljef::render {
 namespace {
 
-// How the shaders of a technique search or light: their features, and the values of search_values
-// that these read. Of equal steps zw are the steps from straight above and along the ground.
+// How the shaders of a technique search or light: their features, and the values that these read.
 struct Search {
     std::uint32_t features = 0U;
-    glm::vec4 values{0.0F};
+    TechniqueBlock values{};
 };
+
+template <class Number> float block_value(Number number) {
+    return static_cast<float>(number);
+}
 
 Search search_of(const scene::Texture& /*texture*/) {
     return {};
@@ -31,7 +32,9 @@ Search search_of(const scene::Bump& /*bump*/) {
 }
 
 Search search_of(const scene::Emboss& emboss) {
-    return {feature_emboss, {emboss.delta, 0.0, 0.0, 0.0}};
+    Search search{.features = feature_emboss};
+    search.values.emboss_delta = block_value(emboss.delta);
+    return search;
 }
 
 Search search_of(const scene::Normal& /*normal*/) {
@@ -43,36 +46,59 @@ Search search_of(const scene::Prewarp& /*prewarp*/) {
 }
 
 Search search_of(const scene::Parallax& parallax) {
-    return {feature_parallax, {parallax.offset, 0.0, 0.0, 0.0}};
+    Search search{.features = feature_parallax};
+    search.values.parallax_offset = block_value(parallax.offset);
+    return search;
 }
 
 Search search_of(const scene::ParallaxLimited& parallax) {
-    return {feature_parallax | feature_limited, {parallax.offset, 0.0, 0.0, 0.0}};
+    Search search{.features = feature_parallax | feature_limited};
+    search.values.parallax_offset = block_value(parallax.offset);
+    return search;
 }
 
 Search search_of(const scene::ParallaxIterated& parallax) {
-    return {feature_parallax | feature_iterated, {parallax.offset, parallax.iterations, 0.0, 0.0}};
+    Search search{.features = feature_parallax | feature_iterated};
+    search.values.parallax_offset = block_value(parallax.offset);
+    search.values.parallax_iterations = block_value(parallax.iterations);
+    return search;
 }
 
 Search search_of(const scene::Steep& steep) {
-    return {0U, {steep.linear_steps, 0.0, 0.0, 0.0}};
+    Search search;
+    search.values.linear_steps = block_value(steep.linear_steps);
+    return search;
 }
 
 Search search_of(const scene::Relief& relief) {
-    return {feature_bisect, {relief.linear_steps, relief.bisection_steps, 0.0, 0.0}};
+    Search search{.features = feature_bisect};
+    search.values.linear_steps = block_value(relief.linear_steps);
+    search.values.bisection_steps = block_value(relief.bisection_steps);
+    return search;
 }
 
 Search search_of(const scene::Interval& interval) {
-    return {feature_secant, {interval.linear_steps, interval.secant_steps, 0.0, 0.0}};
+    Search search{.features = feature_secant};
+    search.values.linear_steps = block_value(interval.linear_steps);
+    search.values.secant_steps = block_value(interval.secant_steps);
+    return search;
 }
 
 Search search_of(const scene::Pom& pom) {
-    constexpr double chords = 1.0;
-    return {feature_secant | feature_view_steps, {0.0, chords, pom.min_steps, pom.max_steps}};
+    Search search{.features = feature_secant | feature_view_steps};
+    search.values.secant_steps = 1.0F;
+    search.values.steps_from_above = block_value(pom.min_steps);
+    search.values.steps_along_ground = block_value(pom.max_steps);
+    return search;
 }
 
 Search search_of(const scene::Cone& cone) {
-    return {feature_cone, {cone.relaxed, cone.max_steps, cone.bisection_steps, cone.min_step}};
+    Search search{.features = feature_cone};
+    search.values.cone_relaxed = block_value(cone.relaxed);
+    search.values.cone_max_steps = block_value(cone.max_steps);
+    search.values.cone_min_step = block_value(cone.min_step);
+    search.values.bisection_steps = block_value(cone.bisection_steps);
+    return search;
 }
 
 Search search_of(const scene::Exact& /*exact*/) {
@@ -80,7 +106,10 @@ Search search_of(const scene::Exact& /*exact*/) {
 }
 
 Search search_between_layers(int linear_steps, int bisection_steps) {
-    return {feature_layers, {linear_steps, bisection_steps, 0.0, 0.0}};
+    Search search{.features = feature_layers};
+    search.values.linear_steps = block_value(linear_steps);
+    search.values.bisection_steps = block_value(bisection_steps);
+    return search;
 }
 
 Search search_of(const scene::Lattice& lattice) {
@@ -100,8 +129,8 @@ Search search_of(const scene::Technique& technique) {
     Search search = std::visit([](const auto& parameters) { return search_of(parameters); },
                                technique.parameters);
     if (const auto& steps = technique.options.steps) {
-        search.values.z = static_cast<float>(steps->low);
-        search.values.w = static_cast<float>(steps->high);
+        search.values.steps_from_above = block_value(steps->low);
+        search.values.steps_along_ground = block_value(steps->high);
     }
     return search;
 }
@@ -139,17 +168,18 @@ double reference_height(const scene::Technique& technique) {
 
 TechniqueBlock technique_block(const scene::Technique& technique, double reference) {
     const scene::TechniqueOptions& options = technique.options;
-    TechniqueBlock block{};
-    block.search_values = search_of(technique).values;
+    TechniqueBlock block = search_of(technique).values;
     if (options.fade) {
-        block.fade_values =
-            glm::vec4(options.fade->low, options.fade->high, options.fade->power, reference);
+        block.fade_low = block_value(options.fade->low);
+        block.fade_high = block_value(options.fade->high);
+        block.fade_power = block_value(options.fade->power);
+        block.fade_reference_height = block_value(reference);
     }
     if (options.shadow) {
-        block.option_values.x = static_cast<float>(options.shadow->depth);
+        block.shadow_depth = block_value(options.shadow->depth);
     }
     if (options.smooth_edges) {
-        block.option_values.y = static_cast<float>(options.smooth_edges->distance);
+        block.edge_distance = block_value(options.smooth_edges->distance);
     }
     return block;
 }

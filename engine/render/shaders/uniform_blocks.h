@@ -20,14 +20,27 @@ struct BlockLayout {
 /// stays as it is from frame to frame.
 
 struct TechniqueBlock {
-    using vec4 = glm::vec4;
     static const BlockLayout layout;
 #include "shaders/frame/technique_block.inc"
 };
-static_assert(offsetof(TechniqueBlock, search_values) == 0);
-static_assert(offsetof(TechniqueBlock, fade_values) == 16);
-static_assert(offsetof(TechniqueBlock, option_values) == 2 * 16);
-static_assert(sizeof(TechniqueBlock) == 3 * 16);
+static_assert(offsetof(TechniqueBlock, linear_steps) == 0);
+static_assert(offsetof(TechniqueBlock, bisection_steps) == 4);
+static_assert(offsetof(TechniqueBlock, secant_steps) == 8);
+static_assert(offsetof(TechniqueBlock, steps_from_above) == 12);
+static_assert(offsetof(TechniqueBlock, steps_along_ground) == 16);
+static_assert(offsetof(TechniqueBlock, cone_max_steps) == 20);
+static_assert(offsetof(TechniqueBlock, cone_min_step) == 24);
+static_assert(offsetof(TechniqueBlock, cone_relaxed) == 28);
+static_assert(offsetof(TechniqueBlock, parallax_offset) == 32);
+static_assert(offsetof(TechniqueBlock, parallax_iterations) == 36);
+static_assert(offsetof(TechniqueBlock, emboss_delta) == 40);
+static_assert(offsetof(TechniqueBlock, fade_low) == 44);
+static_assert(offsetof(TechniqueBlock, fade_high) == 48);
+static_assert(offsetof(TechniqueBlock, fade_power) == 52);
+static_assert(offsetof(TechniqueBlock, fade_reference_height) == 56);
+static_assert(offsetof(TechniqueBlock, shadow_depth) == 60);
+static_assert(offsetof(TechniqueBlock, edge_distance) == 64);
+static_assert(sizeof(TechniqueBlock) == 5 * 16);
 inline constexpr BlockLayout TechniqueBlock::layout{
     "TechniqueBlock", bindings::technique_block_binding, sizeof(TechniqueBlock)};
 

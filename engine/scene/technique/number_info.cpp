@@ -13,11 +13,12 @@ Result<double> parse_number(std::string_view subject, const NumberInfo& number,
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool is_number = code == std::errc{} && end == text.data() + text.size();
     if (!is_number || !number.allows(value)) {
-        const bool has_gap = number.least > number.low;
-        return Error{fmt::format(
-            "{}: {}={} found, {}a {}number from {} to {} was expected", subject, number.name, text,
-            has_gap ? fmt::format("{} or ", number.low) : std::string(),
-            number.whole ? "whole " : "", has_gap ? number.least : number.low, number.high)};
+        const bool has_gap = number.min_above_low > number.low;
+        return Error{fmt::format("{}: {}={} found, {}a {}number from {} to {} was expected",
+                                 subject, number.name, text,
+                                 has_gap ? fmt::format("{} or ", number.low) : std::string(),
+                                 number.whole ? "whole " : "",
+                                 has_gap ? number.min_above_low : number.low, number.high)};
     }
     return value;
 }

@@ -8,20 +8,21 @@
 
 namespace reljef::scene {
 
-/// One number that a technique or an option can be told: a row of their tables.
+/// A number of a technique or an option that the user may set: one row of the table.
 struct NumberInfo {
     std::string_view name; ///< the key that a user types
     double default_value = 0.0;
-    double low = 0.0;   ///< least value allowed
-    double high = 0.0;  ///< greatest value allowed
+    double low = 0.0;   ///< smallest allowed value
+    double high = 0.0;  ///< largest allowed value
     bool whole = false; ///< whole numbers only
     std::string_view meaning;
     bool is_tacit = false; ///< named in a technique's text only where it is not the default
-    /// Of the values above `low` the least allowed, where it is above `low`.
-    double least = std::numeric_limits<double>::lowest();
+    /// Where it exceeds `low`: the smallest allowed value except `low` itself.
+    double min_above_low = std::numeric_limits<double>::lowest();
 
     [[nodiscard]] constexpr bool allows(double value) const {
-        const bool is_in_range = value >= low && value <= high && (value == low || value >= least);
+        const bool is_in_range =
+            value >= low && value <= high && (value == low || value >= min_above_low);
         return is_in_range &&
                (!whole || value == static_cast<double>(static_cast<long long>(value)));
     }

@@ -46,7 +46,7 @@ constexpr std::array polygons_parameters{
          .meaning = "pixels that no pixel is farther from where it belongs, instead of levels; 0: "
                     "by levels",
          .is_tacit = true,
-         .least = least_polygons_error}),
+         .min_above_low = least_polygons_error}),
     parameter_row<&Polygons::morph>(
         {.name = "morph",
          .meaning = "with error, 1: vertices rise to their places as the view nears, so that "

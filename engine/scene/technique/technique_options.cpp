@@ -71,7 +71,15 @@ constexpr std::array edges_numbers{
 constexpr std::array<std::string_view, 3> shadow_words{"none", "hard", "soft"};
 constexpr std::array<std::string_view, 2> edges_words{"none", "smooth"};
 constexpr std::array<std::string_view, 2> sides_words{"one", "two"};
-constexpr std::array<std::string_view, 3> border_words{"wrap", "clamp", "discard"};
+
+struct BorderWord {
+    std::string_view word;
+    BorderRule rule;
+};
+constexpr std::array<BorderWord, 3> border_rules{
+    {{"wrap", BorderRule::wrap}, {"clamp", BorderRule::clamp}, {"discard", BorderRule::discard}}};
+constexpr std::array border_words{border_rules[0].word, border_rules[1].word, border_rules[2].word};
+
 constexpr std::array<std::string_view, 2> depth_words{"none", "write"};
 constexpr std::array<std::string_view, 2> silhouettes_words{"none", "true"};
 
@@ -116,11 +124,16 @@ void choose_shadow(TechniqueOptions& options, std::optional<std::size_t> word) {
 }
 
 std::optional<std::size_t> chosen_border(const TechniqueOptions& options) {
-    return options.border ? std::optional(static_cast<std::size_t>(*options.border)) : std::nullopt;
+    const auto* const found =
+        std::find_if(border_rules.begin(), border_rules.end(),
+                     [&](const BorderWord& row) { return row.rule == options.border; });
+    return found == border_rules.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(found - border_rules.begin()));
 }
 
 void choose_border(TechniqueOptions& options, std::optional<std::size_t> word) {
-    options.border = word ? std::optional(static_cast<BorderRule>(*word)) : std::nullopt;
+    options.border = word ? std::optional(border_rules[*word].rule) : std::nullopt;
 }
 
 bool looks_once(TechniqueId id) {
@@ -357,7 +370,7 @@ const OptionInfo* option_named(std::string_view name) {
     return found == option_infos.end() ? nullptr : found;
 }
 
-// The value of an option that is not as made.
+// The text of an option that differs from its default.
 std::string value_text(const OptionInfo& info, std::size_t word, const TechniqueOptions& options) {
     const bool is_range = info.words.empty();
     std::string text = is_range ? fmt::format("{}..{}", *info.numbers[0].get(options),

@@ -48,7 +48,8 @@ struct SmoothEdges {
 /// What lies beyond the border of a detail tile.
 using BorderRule = material::TileBorder;
 
-/// What a technique does beside looking for its surface. As made: nothing of it.
+/// What a technique does in addition to its search for the surface. By default it does nothing
+/// more.
 struct TechniqueOptions {
     std::optional<StepRange> steps;
     std::optional<Fade> fade;
@@ -72,8 +73,9 @@ struct OptionNumberInfo : NumberInfo {
     void set(TechniqueOptions& options, double value) const;
 };
 
-/// What an option is told: one of its words, with its numbers behind the last of them; or, where it
-/// has no words, a range of its first two numbers with the others behind it.
+/// An option that the user may set: one row of the table. Its value is one of its words; the last
+/// word may be followed by its numbers. The value of an option without words is a range, made of
+/// its first two numbers; the other numbers may follow.
 struct OptionInfo {
     std::string_view name;
     std::string_view default_value; ///< as in its text
@@ -81,10 +83,10 @@ struct OptionInfo {
     std::string_view source; ///< where it is described
     std::span<const std::string_view> words;
     std::span<const OptionNumberInfo> numbers;
-    /// The place of its word, or 0 for its range; absent where it is as made.
+    /// The index of its word, or 0 for its range; absent where the option has its default.
     std::optional<std::size_t> (*chosen)(const TechniqueOptions&) = nullptr;
-    /// Chooses the word of that place, or a range for 0, with the numbers' defaults; absent: makes
-    /// it as made.
+    /// Sets the word of that index, or a range for 0, with the numbers' defaults; absent: sets the
+    /// option's default.
     void (*choose)(TechniqueOptions&, std::optional<std::size_t>) = nullptr;
     /// Why a technique cannot take it; empty where it can.
     std::string_view (*reason_against)(TechniqueId) = nullptr;
@@ -106,10 +108,10 @@ bool is_option(std::string_view assignment);
 /// and on a value that is none of it. Precondition: is_option.
 Result<void> set_option(TechniqueOptions& options, TechniqueId id, std::string_view assignment);
 
-/// ",key=value" of each option that is not as made: set_option gives the same options back.
+/// ",key=value" of each option that differs from its default; set_option restores the options.
 std::string to_string(const TechniqueOptions& options);
 
-/// The options that are not as made, by number: a word is its place among those of the option's
+/// The options that differ from their defaults, as numbers: a word is its index in the option's
 /// form, a hard shadow has depth 0.
 struct OptionNumber {
     std::string name; ///< "fade.min"

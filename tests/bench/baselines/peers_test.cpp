@@ -78,7 +78,7 @@ TEST(BenchPeers, BothShowTheSameTerrain) {
         const auto& polygons = report.at("rows").at(i + 5);
         EXPECT_EQ(irrlicht.at("triangles"), 2048);
         EXPECT_EQ(irrlicht.at("what"), "irrlicht:lods=1");
-        EXPECT_EQ(polygons.at("what"), "polygons");
+        EXPECT_EQ(polygons.at("what"), "polygons:lods=1");
         EXPECT_NEAR(irrlicht.at("reprojection_px").at("rms").get<double>(),
                     polygons.at("reprojection_px").at("rms").get<double>(), 0.1);
         EXPECT_NEAR(irrlicht.at("reprojection_px").at("count").get<double>(),

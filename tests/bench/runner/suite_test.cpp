@@ -13,24 +13,18 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(Candidate, of_the_catalogue_has_every_parameter_in_its_label) {
-    const Candidate candidate = candidate_named("polygons");
+    const Candidate candidate = candidate_of(scene::Technique{scene::Polygons{}});
     ASSERT_TRUE(candidate.technique);
     EXPECT_EQ(candidate.setting.technique, "polygons");
     EXPECT_EQ(candidate.setting.label, scene::to_string(*candidate.technique));
     EXPECT_EQ(candidate.setting.parameters.front().name, "lods");
 }
 
-TEST(Candidate, that_does_not_exist_keeps_its_names_and_numbers) {
-    const Candidate none = candidate_named("magic");
-    EXPECT_FALSE(none.technique);
-    EXPECT_EQ(none.setting.label, "magic");
-    EXPECT_TRUE(none.setting.parameters.empty());
-    const Candidate refused = candidate_named("polygons:lods=1000000,depth=0.5,x");
-    EXPECT_FALSE(refused.technique);
-    EXPECT_EQ(refused.setting.technique, "polygons");
-    EXPECT_EQ(refused.setting.label, "polygons:lods=1000000,depth=0.5,x");
-    EXPECT_THAT(refused.setting.parameters,
-                ElementsAre(Setting::Parameter{"lods", 1e6}, Setting::Parameter{"depth", 0.5}));
+// Without a technique where the catalogue has none of that name.
+Candidate candidate_named(const std::string& text) {
+    const auto technique = scene::parse_technique(text);
+    return technique ? candidate_of(*technique)
+                     : Candidate{{text, {}, text}, std::nullopt, std::nullopt};
 }
 
 class SuiteOnTinyTerrain : public testing::Test {

@@ -162,12 +162,14 @@ std::map<std::string, int> member_offsets(std::string_view file) {
     const auto found = std::find_if(shaders.begin(), shaders.end(),
                                     [&](const EmbeddedShader& s) { return s.name == file; });
     const std::string text(found == shaders.end() ? "" : found->text);
-    static const std::regex member(R"((vec4|mat4) (\w+);)");
+    static const std::regex member(R"((float|vec4|mat4) (\w+);)");
     std::map<std::string, int> offsets;
     int offset = 0;
     for (std::sregex_iterator match(text.begin(), text.end(), member), end; match != end; ++match) {
+        const std::string type = match->str(1);
+        offset = type == "float" ? offset : (offset + 15) / 16 * 16; // std140
         offsets[match->str(2)] = offset;
-        offset += match->str(1) == "mat4" ? 64 : 16;
+        offset += type == "float" ? 4 : type == "mat4" ? 64 : 16;
     }
     return offsets;
 }
@@ -253,13 +255,13 @@ TEST_F(ShaderLibraryGlTest, BlocksLieAsTheDriverSays) {
 TEST_F(ShaderLibraryGlTest, ABlockOfAnotherSizeIsAnError) {
     const test::TemporaryFolder folder;
     folder.write("frame/technique_block.inc",
-                 "vec4 search_values, fade_values, option_values, more;\n");
+                 "float linear_steps, bisection_steps, more_0, more_1;\n");
     ShaderLibrary shaders(folder.path());
     const auto failed = shaders.program({ShaderKind::relief, feature_bisect});
     ASSERT_FALSE(failed);
     EXPECT_THAT(failed.error().message,
                 AllOf(HasSubstr("relief/relief"), HasSubstr("TechniqueBlock"),
-                      HasSubstr("64 bytes"), HasSubstr("48")));
+                      HasSubstr("16 bytes"), HasSubstr("80")));
 }
 
 TEST_F(ShaderLibraryGlTest, CompilesAVariantOnce) {

@@ -15,7 +15,7 @@ inline double random_value(const NumberInfo& number, test::Chance& chance) {
     }
     const double value = chance.between(number.low, number.high);
     const double allowed = number.whole ? std::round(value) : value;
-    return number.allows(allowed) ? allowed : number.least;
+    return number.allows(allowed) ? allowed : number.min_above_low;
 }
 
 /// Any options that go with a technique, by the table alone.

@@ -113,7 +113,7 @@ TEST(NumberInfo, AllowsItsRangeAndNothingElse) {
         }
         EXPECT_EQ(number.allows(number.high - 0.5), !number.whole) << number.name;
         EXPECT_EQ(number.allows(std::nextafter(number.low, infinity)),
-                  !number.whole && number.least <= number.low)
+                  !number.whole && number.min_above_low <= number.low)
             << number.name;
     }
 }

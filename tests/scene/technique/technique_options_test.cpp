@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -133,6 +134,16 @@ TEST(TechniqueOptions, NumbersThatAreLeftOutAreTheDefault) {
     EXPECT_EQ(parsed("exact:edges=smooth").smooth_edges, SmoothEdges{});
     EXPECT_EQ(parsed("exact:fade=0.2..0.9").fade, (Fade{0.2, 0.9, 1.0}));
     EXPECT_EQ(parsed("exact:shadow=none,edges=none,sides=one,depth=none"), TechniqueOptions{});
+}
+
+TEST(TechniqueOptions, EachWordOfTheBorderIsItsRule) {
+    for (const auto& [word, rule] :
+         {std::pair{"wrap", BorderRule::wrap}, std::pair{"clamp", BorderRule::clamp},
+          std::pair{"discard", BorderRule::discard}}) {
+        const TechniqueOptions options = parsed(std::string("relief:border=") + word);
+        EXPECT_EQ(options.border, rule) << word;
+        EXPECT_EQ(to_string(options), std::string(",border=") + word);
+    }
 }
 
 std::string refusal_of(const std::string& text) {
