@@ -112,7 +112,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
         "Keys:\n" + Viewer::keys() +
         "The flight along --path begins at once; without it, P flies over the terrain. "
         "Where\nnothing moves nothing is drawn, but with --frames N: then the window "
-        "closes after N frames.\n"
+        "closes after N frames. Ctrl-C closes the window as Esc does, with exit status 0.\n"
         "Examples:\n"
         "  reljef view natural\n"
         "  reljef view N45E006.hgt --camera 45.60,6.70,5200,20,-18\n"

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
-#include "engine/render/driver.h"
+#include "engine/session/scene_renderer.h"
 
 namespace reljef::app {
 

@@ -54,7 +54,7 @@ public:
             serve_requests();
             show_title();
         }
-        return stop.stop_requested() ? Result<void>(Error{"interrupted"}) : Result<void>();
+        return {};
     }
 
 private:
