@@ -1,18 +1,45 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/console_log.h"
 #include "app/cli/output_files.h"
 #include "app/cli/parsed_option.h"
 #include "app/commands.h"
-#include "app/surface_maps.h"
 #include "engine/core/atomic_file.h"
+#include "engine/io/image/surface_maps.h"
 
 namespace reljef::app {
 namespace {
+
+using io::MapInput;
+using io::MapKind;
+
+struct MapOutput {
+    MapKind kind;
+    std::string option;
+    std::string file; // empty: not asked for
+};
+
+struct MapChoice {
+    std::string picture;
+    std::string back; // heights of it; empty: none
+    io::SurfaceMapOptions making;
+    int threads = 0;
+    bool quiet = false;
+    std::array<MapOutput, 6> outputs{{{MapKind::heights, "--heights", {}},
+                                      {MapKind::normals, "--normals", {}},
+                                      {MapKind::combined, "--combined", {}},
+                                      {MapKind::cones, "--cones", {}},
+                                      {MapKind::relaxed_cones, "--relaxed-cones", {}},
+                                      {MapKind::layers, "--layers", {}}}};
+};
 
 std::vector<cli::NamedFile> outputs_of(const MapChoice& choice) {
     std::vector<cli::NamedFile> files;
@@ -24,6 +51,56 @@ std::vector<cli::NamedFile> outputs_of(const MapChoice& choice) {
     return files;
 }
 
+Result<Grid<float>> read_heights(const std::string& picture, const io::SurfaceMapOptions& options,
+                                 session::Log& log) {
+    auto read = io::heights_of_picture(picture, options);
+    if (!read) {
+        return read.error();
+    }
+    for (const std::string& note : read->notes) {
+        log.note(note);
+    }
+    return std::move(read->heights);
+}
+
+// Of a sheet; empty where none is named.
+Result<Grid<float>> read_back(const MapChoice& choice, const Grid<float>& front,
+                              session::Log& log) {
+    if (choice.back.empty()) {
+        return Grid<float>();
+    }
+    io::SurfaceMapOptions options = choice.making;
+    options.input = MapInput::heights;
+    auto back = read_heights(choice.back, options, log);
+    if (back && (back->cols() != front.cols() || back->rows() != front.rows())) {
+        return Error{fmt::format("--back: {}: {} x {} texels found, {} x {} were expected: one "
+                                 "size, that of {}",
+                                 choice.back, back->cols(), back->rows(), front.cols(),
+                                 front.rows(), choice.picture)};
+    }
+    return back;
+}
+
+// A map in a file that is written with the others.
+Result<AtomicFile> make_map(const MapOutput& output, const Grid<float>& heights,
+                            const Grid<float>& back, io::SurfaceMapOptions options,
+                            session::Log& log) {
+    std::unique_ptr<session::Task> task;
+    if (output.kind == MapKind::cones || output.kind == MapKind::relaxed_cones) {
+        task = log.start(output.kind == MapKind::cones ? "cones" : "relaxed cones");
+        options.parallel.progress = task->callback();
+    }
+    const bool as_floats = output.file.ends_with(".exr");
+    const auto map = io::make_map(heights, output.kind, back, as_floats, options);
+    if (!map) {
+        return map.error();
+    }
+    const auto bytes = io::encode_channels(output.file, *map);
+    return bytes ? prepare_file(output.file, *bytes)
+                 : Error{fmt::format("{}: cannot be written: {}", output.file,
+                                     bytes.error().message)};
+}
+
 Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt) {
     const std::array<cli::NamedFile, 2> inputs{
         {{"PICTURE", choice.picture}, {"--back", choice.back}}};
@@ -32,25 +109,24 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
     if (auto good = cli::check_writable(outputs); !good) {
         return good;
     }
-    const auto heights = heights_of_picture(choice, interrupt.token());
+    cli::ConsoleLog log(choice.quiet);
+    io::SurfaceMapOptions options = choice.making;
+    options.parallel.threads = static_cast<unsigned>(choice.threads);
+    options.parallel.stop = interrupt.token();
+    const auto heights = read_heights(choice.picture, options, log);
     if (!heights) {
         return heights.error();
+    }
+    const auto back = read_back(choice, *heights, log);
+    if (!back) {
+        return back.error();
     }
     std::vector<AtomicFile> files;
     for (const MapOutput& output : choice.outputs) {
         if (output.file.empty()) {
             continue;
         }
-        const auto map = make_map(choice, *heights, output, interrupt.token());
-        if (!map) {
-            return map.error();
-        }
-        const auto bytes = io::encode_channels(output.file, *map);
-        if (!bytes) {
-            return Error{
-                fmt::format("{}: cannot be written: {}", output.file, bytes.error().message)};
-        }
-        auto file = prepare_file(output.file, *bytes);
+        auto file = make_map(output, *heights, *back, options, log);
         if (!file) {
             return file.error();
         }
@@ -98,21 +174,22 @@ void expect_outputs(const MapChoice& choice) {
 // What has nothing to do there is a mistake (CLI::ParseError).
 void expect_used(const CLI::App& arguments, const MapChoice& choice) {
     const bool makes_normals = asks_for(choice, {MapKind::normals, MapKind::combined});
-    const bool has_normals = makes_normals || choice.input == MapInput::normals;
+    const bool has_normals = makes_normals || choice.making.input == MapInput::normals;
     const bool makes_cones = asks_for(choice, {MapKind::cones, MapKind::relaxed_cones});
-    const bool has_border = has_normals || makes_cones || choice.input == MapInput::colors;
+    const bool has_border = has_normals || makes_cones || choice.making.input == MapInput::colors;
     struct Use {
         const char* option;
         bool has_use;
         const char* expected;
     };
-    for (const Use& use : {Use{"--back", asks_for(choice, {MapKind::layers}), "--layers"},
-                           Use{"--octaves", choice.input == MapInput::colors, "--from colors"},
-                           Use{"--dark-is-high", choice.input == MapInput::colors, "--from colors"},
-                           Use{"--sobel", makes_normals, "--normals or --combined"},
-                           Use{"--green", has_normals, "normals, read or made,"},
-                           Use{"--scale", has_normals, "normals, read or made,"},
-                           Use{"--border", has_border, "normals, cones or --from colors"}}) {
+    for (const Use& use :
+         {Use{"--back", asks_for(choice, {MapKind::layers}), "--layers"},
+          Use{"--octaves", choice.making.input == MapInput::colors, "--from colors"},
+          Use{"--dark-is-high", choice.making.input == MapInput::colors, "--from colors"},
+          Use{"--sobel", makes_normals, "--normals or --combined"},
+          Use{"--green", has_normals, "normals, read or made,"},
+          Use{"--scale", has_normals, "normals, read or made,"},
+          Use{"--border", has_border, "normals, cones or --from colors"}}) {
         if (arguments.count(use.option) > 0 && !use.has_use) {
             throw CLI::ValidationError(fmt::format(
                 "{}: found without a use, beside it {} was expected", use.option, use.expected));
@@ -122,7 +199,7 @@ void expect_used(const CLI::App& arguments, const MapChoice& choice) {
 
 void add_map_options(CLI::App& arguments, MapChoice& choice) {
     arguments.add_option("PICTURE", choice.picture, "what the maps are made from")->required();
-    cli::add_parsed(arguments, "--from", choice.input,
+    cli::add_parsed(arguments, "--from", choice.making.input,
                     cli::word_of<MapInput>("--from", {{"heights", MapInput::heights},
                                                       {"normals", MapInput::normals},
                                                       {"colors", MapInput::colors}}),
@@ -130,22 +207,23 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
     arguments.add_option("--back", choice.back, "heights off the back of a sheet, for --layers")
         ->type_name("FILE");
     cli::add_parsed(
-        arguments, "--border", choice.border,
+        arguments, "--border", choice.making.border,
         cli::word_of<material::TileBorder>("--border", {{"wrap", material::TileBorder::wrap},
                                                         {"clamp", material::TileBorder::clamp}}),
         "what lies beyond: wrap, its copies, or clamp, its border drawn out (wrap)", "RULE");
-    cli::add_parsed(arguments, "--scale", choice.scale,
+    cli::add_parsed(arguments, "--scale", choice.making.scale,
                     cli::number_in("--scale", 0.0, 1000.0, true),
                     "a height of 1 lifts a point so many widths of the picture (0.05)", "S");
-    cli::add_parsed(arguments, "--octaves", choice.octaves,
+    cli::add_parsed(arguments, "--octaves", choice.making.octaves,
                     cli::whole_number_in("--octaves", 1, 12),
                     "from colors: what is coarser than so many doublings is no relief (5)", "N");
-    arguments.add_flag("--dark-is-high", choice.dark_is_high, "from colors: the darker the higher");
-    cli::add_parsed(arguments, "--green", choice.green_up,
+    arguments.add_flag("--dark-is-high", choice.making.dark_is_high,
+                       "from colors: the darker the higher");
+    cli::add_parsed(arguments, "--green", choice.making.green_up,
                     cli::word_of<bool>("--green", {{"down", false}, {"up", true}}),
                     "of normals read and written: down, along the rows, or up, against them (down)",
                     "WAY");
-    arguments.add_flag("--sobel", choice.sobel,
+    arguments.add_flag("--sobel", choice.making.sobel,
                        "normals by Sobel's filter instead of the bilinear surface's slopes");
     cli::add_parsed(arguments, "--threads", choice.threads,
                     cli::whole_number_in("--threads", 0, 1024), "0: as many as the machine has (0)",

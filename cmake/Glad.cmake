@@ -12,4 +12,6 @@ add_custom_command(
   COMMENT "Generating the OpenGL 4.5 core loader" VERBATIM)
 
 add_library(reljef_glad STATIC ${reljef_glad_dir}/src/gl.c)
-target_include_directories(reljef_glad SYSTEM PUBLIC ${reljef_glad_dir}/include)
+# The library's headers do not include it.
+target_include_directories(reljef_glad SYSTEM PUBLIC $<BUILD_INTERFACE:${reljef_glad_dir}/include>)
+set_target_properties(reljef_glad PROPERTIES EXPORT_NAME glad)

@@ -11,15 +11,19 @@
 
 add_library(reljef_warnings INTERFACE)
 target_compile_options(reljef_warnings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+  $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>
   # clang-tidy does not know the next one, and g++ not its name for that.
   -Wno-unknown-warning-option -Wno-restrict # g++ 12 sees overlaps in std::string that are none (GCC bug 105651)
   # A room compiled as one file: a local name may be that of another file's.
   $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow>)
 
 add_library(reljef_options INTERFACE)
-target_include_directories(reljef_options INTERFACE ${CMAKE_SOURCE_DIR})
-target_include_directories(reljef_options SYSTEM INTERFACE ${GLM_INCLUDE_DIRS})
+set_target_properties(reljef_options PROPERTIES EXPORT_NAME options)
+target_compile_features(reljef_options INTERFACE cxx_std_20)
+target_include_directories(reljef_options INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/reljef>)
+target_link_libraries(reljef_options INTERFACE glm::glm)
 target_compile_definitions(reljef_options INTERFACE
   GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_ENABLE_EXPERIMENTAL)
 if(RELJEF_SANITIZE)
@@ -31,10 +35,10 @@ if(RELJEF_SANITIZE)
 endif()
 
 # Compiled once for all rooms: a clean build takes a third less time.
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "")
-add_library(reljef_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
+add_library(reljef_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(reljef_precompiled PRIVATE reljef_options reljef_warnings fmt::fmt)
-target_precompile_headers(reljef_precompiled PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled.h)
+target_precompile_headers(reljef_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
 
 # Programs and tests only call the engine, where the time goes: they need not be optimised as it is.
 add_library(reljef_quick_build INTERFACE)
@@ -56,14 +60,27 @@ function(reljef_room NAME)
   cmake_parse_arguments(ROOM "" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   set(target reljef_${NAME})
   add_library(${target} STATIC ${ROOM_SOURCES})
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${ROOM_HEADERS})
-  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ROOM_HEADERS})
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${NAME})
+  set_property(GLOBAL APPEND PROPERTY RELJEF_ROOMS ${target})
+  add_library(reljef::${NAME} ALIAS ${target})
   target_link_libraries(${target} PUBLIC reljef_options ${ROOM_LINK}
-                                  PRIVATE reljef_warnings ${ROOM_PRIVATE_LINK})
+                                  PRIVATE $<BUILD_INTERFACE:reljef_warnings> ${ROOM_PRIVATE_LINK})
   target_precompile_headers(${target} REUSE_FROM reljef_precompiled)
   if(RELJEF_CHECK_HEADERS)
     reljef_check_headers(${target})
   endif()
+endfunction()
+
+# reljef::reljef, all rooms of the library: what a program links that opens a terrain and draws it.
+function(reljef_umbrella)
+  add_library(reljef_reljef INTERFACE)
+  set_target_properties(reljef_reljef PROPERTIES EXPORT_NAME reljef)
+  target_link_libraries(reljef_reljef INTERFACE reljef_session)
+  add_library(reljef::reljef ALIAS reljef_reljef)
+  set_property(GLOBAL APPEND PROPERTY RELJEF_ROOMS reljef_reljef reljef_options reljef_glad)
+  get_property(rooms GLOBAL PROPERTY RELJEF_ROOMS)
+  set(reljef_library ${rooms} PARENT_SCOPE)
 endfunction()
 
 # Compiles each header of a room by itself (target `headers` does all rooms).
@@ -71,7 +88,7 @@ function(reljef_check_headers ROOM_TARGET)
   get_target_property(headers ${ROOM_TARGET} HEADER_SET)
   set(sources)
   foreach(header IN LISTS headers)
-    cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
+    cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
     set(source ${CMAKE_CURRENT_BINARY_DIR}/headers/${header}.cpp)
     file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${header}\"\n")
     list(APPEND sources ${source})
@@ -96,7 +113,7 @@ function(reljef_add_shards NAME PROGRAM SHARDS FILTER)
     set(test ${NAME}.${shard})
     add_test(NAME ${test} COMMAND ${CMAKE_COMMAND} -E env
              GTEST_TOTAL_SHARDS=${SHARDS} GTEST_SHARD_INDEX=${shard} $<TARGET_FILE:${PROGRAM}>
-             --gtest_brief=1 --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${test}.xml ${filter})
+             --gtest_brief=1 --gtest_output=xml:${PROJECT_BINARY_DIR}/test-reports/${test}.xml ${filter})
     set_tests_properties(${test} PROPERTIES ${properties} LABELS "${ARGN}")
   endforeach()
 endfunction()
@@ -114,7 +131,7 @@ function(reljef_test ROOM)
   if("address" IN_LIST RELJEF_SANITIZE)
     # Where the runtime of g++ 12 watches thread-local storage, it takes some of glibc's blocks for
     # those of a glibc before 2.25, and the search for leaks ends with a fault of its own, now and then.
-    set(leaks "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
+    set(leaks "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
     list(APPEND properties ENVIRONMENT "${leaks}\\;ASAN_OPTIONS=intercept_tls_get_addr=0")
     target_link_libraries(${target} PRIVATE reljef_keep_loaded)
   endif()

@@ -1,5 +1,9 @@
 #pragma once
 
+#if __cplusplus < 202002L
+#error "reljef needs C++20: -std=c++20, or target_link_libraries(... reljef::reljef) with CMake"
+#endif
+
 namespace reljef {
 
 /// Prints `what` and aborts: for broken preconditions, never for bad input.

@@ -209,7 +209,7 @@ Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance
     const Around there = heights_around(terrain, glm::dvec2(*sample));
     const double ground = terrain::bilinear_height(there.heights, there.place);
     const double depth = exaggeration * (ground - sample->z);
-    if (!(depth > on_ground && std::isfinite(depth))) {
+    if (!(depth > ground_rounding && std::isfinite(depth))) {
         return {};
     }
     const double highest = highest_of(there.heights, there.place);

@@ -38,8 +38,9 @@ struct Lift {
     explicit operator bool() const { return metres > 0.0; }
 };
 
-/// An eye less than this below the ground stands on it: what coordinates lose by rounding, metres.
-inline constexpr double on_ground = 1e-3;
+/// An eye less than this below the ground stands on it, metres: scene coordinates lose as much by
+/// rounding.
+inline constexpr double ground_rounding = 1e-3;
 
 /// Lifts an eye below the ground to at least `clearance` metres above all that may be drawn there,
 /// along its own vertical. An eye on or above the ground, beside the terrain, or over a void stays.
@@ -50,7 +51,7 @@ Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance
 /// orthographic camera) stays.
 Lift lift_camera(TerrainScene& scene);
 
-/// What to tell of a lift: "--eye: 12.3 m below the ground: lifted to 0.5 m above it;
+/// The message about a lift: "--eye: 12.3 m below the ground: lifted to 0.5 m above it;
 /// --allow-underground keeps it". `what` names the option, or the file with its key.
 std::string lift_note(const Lift& lift, std::string_view what);
 

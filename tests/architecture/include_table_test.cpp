@@ -92,6 +92,10 @@ TEST(Project, ListsEveryFileInItsFolder) {
                 IsEmpty());
 }
 
+TEST(Project, InstallsEveryHeaderThatAnInstalledOneIncludes) {
+    EXPECT_THAT(private_headers_in_public_ones(files_below({"engine", "terrains"})), IsEmpty());
+}
+
 TEST(Project, CrowdsNoFolder) {
     std::vector<SourceFile> files =
         files_below({"engine", "app", "bench", "terrains", "tests", "shaders"});

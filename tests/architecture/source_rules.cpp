@@ -436,6 +436,38 @@ Complaints include_circles(std::span<const SourceFile> files) {
     return CircleSearch(files).run();
 }
 
+Complaints private_headers_in_public_ones(std::span<const SourceFile> files) {
+    static const std::regex separators("[\\s()]+");
+    std::set<std::string> is_public;
+    for (const SourceFile& file : files) {
+        if (!file.path.ends_with("CMakeLists.txt")) {
+            continue;
+        }
+        std::sregex_token_iterator word(file.text.begin(), file.text.end(), separators, -1);
+        bool in_headers = false;
+        for (; word != std::sregex_token_iterator(); ++word) {
+            in_headers = *word == "HEADERS" || (in_headers && *word != "SOURCES");
+            if (in_headers) {
+                is_public.insert(folder_of(file.path) + "/" + word->str());
+            }
+        }
+    }
+    Complaints complaints;
+    for (const SourceFile& file : files) {
+        if (!is_public.contains(file.path)) {
+            continue;
+        }
+        for (const Include& include : includes_of(file.text)) {
+            if (include.quoted && include.path.ends_with(".h") &&
+                !is_public.contains(include.path)) {
+                complaints.push_back(file.path + " is installed and includes " + include.path +
+                                     ", which is not");
+            }
+        }
+    }
+    return complaints;
+}
+
 Complaints unlisted_files(std::span<const SourceFile> files) {
     static const std::regex separators("[\\s()]+");
     std::map<std::string, std::set<std::string>> listed; // by folder, as paths from the root

@@ -65,6 +65,10 @@ Complaints include_circles(std::span<const SourceFile> files);
 /// Sources and headers that no CMakeLists.txt names: that of their folder, or the nearest above.
 Complaints unlisted_files(std::span<const SourceFile> files);
 
+/// Headers of the library that are installed (HEADERS of their CMakeLists.txt) and include one of
+/// the project's that is not.
+Complaints private_headers_in_public_ones(std::span<const SourceFile> files);
+
 /// How many concepts a folder holds at most. A header, its source and its tests are one concept.
 inline constexpr std::size_t max_concepts = 16;
 Complaints crowded_folders(std::span<const SourceFile> files);

@@ -344,6 +344,20 @@ TEST(UnlistedFiles, AreNamed) {
                             "engine/geo/b.h is not named in engine/geo/CMakeLists.txt"));
 }
 
+TEST(PrivateHeadersInPublicOnes, AreNamed) {
+    const std::vector<SourceFile> files{
+        {"engine/core/CMakeLists.txt", "reljef_room(core HEADERS a.h SOURCES a.cpp b.h)"},
+        {"engine/core/a.h", "#include \"engine/core/b.h\"\n#include \"engine/geo/c.h\"\n"},
+        {"engine/core/b.h", "#include \"engine/core/a.h\"\n"},
+        {"engine/core/a.cpp", "#include \"engine/core/b.h\"\n"},
+        {"engine/geo/CMakeLists.txt", "reljef_room(geo\n  HEADERS c.h\n  SOURCES c.cpp)"},
+        {"engine/geo/c.h", "#include <vector>\n"},
+    };
+    EXPECT_THAT(private_headers_in_public_ones(files),
+                ElementsAre("engine/core/a.h is installed and includes engine/core/b.h, which is "
+                            "not"));
+}
+
 TEST(CrowdedFolders, AreThoseOfTooManyConcepts) {
     std::vector<SourceFile> files;
     for (std::size_t i = 0; i < max_concepts; ++i) {

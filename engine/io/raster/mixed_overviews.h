@@ -7,11 +7,10 @@
 
 namespace reljef::io {
 
-/// Whether overviews are averages of heights and of voids that the raster does not declare (of
-/// those it declares GDAL averages nothing): cliffs and pits around each void. Told by the eight
-/// samples of one small overview where it falls most steeply, beside the samples they stand for. A
-/// single void is missed where that overview is coarser than 1/16, or where cliffs are steeper.
-/// Nothing where they cannot be read.
+/// Whether overviews average heights with voids that the raster does not declare, which leaves pits
+/// around each void (GDAL leaves declared voids out). Compares the eight steepest drops of one small
+/// overview with the full-resolution samples behind them. Misses a single void if that overview is
+/// coarser than 1/16, or if cliffs are steeper. Absent if the samples cannot be read.
 std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesystem::path& path);
 
 /// For notes and faults, after the file's name.

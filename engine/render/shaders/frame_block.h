@@ -12,7 +12,7 @@
 namespace reljef::render {
 
 /// The uniform block `FrameBlock` of every shader, std140. Its members stand in
-/// shaders/frame_block.inc.
+/// shaders/frame/frame_block.inc.
 struct FrameBlock {
     using mat4 = glm::mat4;
     using vec4 = glm::vec4;

@@ -1,0 +1,50 @@
+# cmake --install BUILD --prefix DIR [--component programs|library|docs], and cpack -G DEB.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+if(RELJEF_PROGRAMS)
+  install(TARGETS reljef COMPONENT programs)
+endif()
+if(RELJEF_BENCH)
+  install(TARGETS reljef-bench COMPONENT programs)
+endif()
+
+# Written by the manual targets of app and bench.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/share/man DESTINATION ${CMAKE_INSTALL_DATADIR}
+  COMPONENT programs)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/share/bash-completion ${PROJECT_BINARY_DIR}/share/zsh
+  DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT programs)
+
+# Headers keep their paths from the root of the project: they are included with the same words.
+install(TARGETS ${reljef_library} EXPORT reljefTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/reljef COMPONENT library
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reljef COMPONENT library)
+set(reljef_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/reljef)
+install(EXPORT reljefTargets NAMESPACE reljef:: DESTINATION ${reljef_package_dir} COMPONENT library)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/reljefConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/reljefConfig.cmake INSTALL_DESTINATION ${reljef_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/reljefConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/reljefConfig.cmake ${PROJECT_BINARY_DIR}/reljefConfigVersion.cmake
+  DESTINATION ${reljef_package_dir} COMPONENT library)
+
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT docs)
+install(DIRECTORY docs/techniques docs/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs
+  COMPONENT docs FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.png" PATTERN "*.svg")
+install(DIRECTORY terrains/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/terrains COMPONENT docs)
+install(FILES terrains/example_dem.toml terrains/example_tiles.toml
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/terrains COMPONENT docs)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The reljef developers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libosmesa6, libegl1, libgl1-mesa-dri, ffmpeg")
+include(CPack)
