@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -24,6 +27,23 @@ public:
 
 private:
     fs::path file_;
+};
+
+class StandardOutputSink : public FrameSink {
+public:
+    Result<void> write(const Image& picture, int /*index*/) override {
+        const auto bytes = io::encode_image(".png", picture);
+        if (!bytes) {
+            return bytes.error();
+        }
+        if (std::fwrite(bytes->data(), 1, bytes->size(), stdout) != bytes->size() ||
+            std::fflush(stdout) != 0) {
+            return Error{
+                fmt::format("standard output: cannot be written: {}", std::strerror(errno))};
+        }
+        return {};
+    }
+    Result<void> finish() override { return {}; }
 };
 
 class SequenceSink : public FrameSink {
@@ -71,6 +91,10 @@ Result<void> make_folder(const fs::path& pattern) {
 
 } // namespace
 
+bool is_standard_output(const fs::path& output) {
+    return output == "-";
+}
+
 bool is_numbered(const fs::path& output) {
     return output.string().find('%') != std::string::npos;
 }
@@ -93,7 +117,8 @@ Result<void> check_output_name(const fs::path& output, int frames) {
         return wrong_name(
             fmt::format("a numbered name like %04d.png or a video for {} frames", frames));
     }
-    return is_video(output) ? Result<void>() : io::check_image_name(output);
+    return is_video(output) || is_standard_output(output) ? Result<void>()
+                                                          : io::check_image_name(output);
 }
 
 bool is_video(const fs::path& path) {
@@ -136,7 +161,8 @@ Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
         auto made = make_folder(output);
         return made ? Result<Sink>(Sink(new SequenceSink(output))) : made.error();
     }
-    return Sink(new PictureSink(output));
+    return is_standard_output(output) ? Sink(new StandardOutputSink)
+                                      : Sink(new PictureSink(output));
 }
 
 } // namespace reljef::app

@@ -26,6 +26,9 @@ bool is_video(const std::filesystem::path& path);
 /// name or in a video's, one picture for many frames, and a format that is none of pictures.
 Result<void> check_output_name(const std::filesystem::path& output, int frames);
 
+/// Whether the output is standard output: "-".
+bool is_standard_output(const std::filesystem::path& output);
+
 /// Whether the name stands for numbered pictures.
 bool is_numbered(const std::filesystem::path& output);
 
@@ -39,7 +42,7 @@ struct FrameSinkOptions {
     double frames_per_second = 25.0;
 };
 
-/// One picture, a numbered sequence ("frames/%04d.png"; missing folders are made) or a video
+/// One picture, a picture on standard output as PNG ("-"), a numbered sequence ("frames/%04d.png"; missing folders are made) or a video
 /// (through ffmpeg), by what `output` looks like. Fails where it cannot be written, where many
 /// frames would go to one picture, and where ffmpeg is needed and missing.
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const std::filesystem::path& output,

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "app/cli/console_log.h"
 #include "app/cli/misuse.h"
@@ -135,6 +136,17 @@ Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scen
     return written ? raised.report(log, choice.view.path) : written;
 }
 
+void expect_standard_output(const RenderChoice& choice) {
+    if (choice.stats) {
+        cli::refuse("-o: - found beside --stats, which writes to standard output, too; a file was "
+                    "expected");
+    }
+    if (::isatty(STDOUT_FILENO) == 1) {
+        cli::refuse("-o: - found, and standard output is a terminal; a pipe or a file was "
+                    "expected");
+    }
+}
+
 // What the arguments alone show to be wrong.
 void expect_outputs(const RenderChoice& choice) {
     if (choice.output.empty() && choice.hits.empty()) {
@@ -149,6 +161,9 @@ void expect_outputs(const RenderChoice& choice) {
     }
     if (choice.view.frames > 1 && choice.view.path.empty()) {
         cli::refuse("render: --frames found without a --path to fly along");
+    }
+    if (is_standard_output(choice.output)) {
+        expect_standard_output(choice);
     }
     const auto expect_good = [&](const Result<void>& named) {
         if (!named) {
@@ -190,6 +205,9 @@ std::vector<cli::NamedFile> outputs_of(const RenderChoice& choice,
                                        std::span<const cli::NamedFile> inputs) {
     std::vector<cli::NamedFile> outputs{{"--hit", choice.hits},
                                         {"--contact-sheet", choice.contact_sheet}};
+    if (is_standard_output(choice.output)) {
+        return outputs;
+    }
     if (!is_numbered(choice.output)) {
         outputs.push_back({"-o", choice.output});
         return outputs;
@@ -212,7 +230,8 @@ std::vector<cli::NamedFile> outputs_of(const RenderChoice& choice,
 Result<void> check_targets(const RenderChoice& choice) {
     std::vector<cli::NamedFile> files{{"--hit", choice.hits},
                                       {"--contact-sheet", choice.contact_sheet}};
-    if (!is_video(choice.output) && !is_numbered(choice.output)) {
+    if (!is_video(choice.output) && !is_numbered(choice.output) &&
+        !is_standard_output(choice.output)) {
         files.push_back({"-o", choice.output});
     }
     return cli::check_writable(files);
@@ -338,9 +357,9 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_view_options(*arguments, choice->view);
     cli::add_samples_option(*arguments, choice->view);
     arguments
-        ->add_option(
-            "-o,--output", choice->output,
-            "picture (out.png), numbered pictures ('frames/%04d.png') or video (flight.mp4)")
+        ->add_option("-o,--output", choice->output,
+                     "picture (out.png; - for PNG to standard output), numbered pictures "
+                     "('frames/%04d.png') or video (flight.mp4)")
         ->type_name("FILE");
     arguments
         ->add_option("--hit", choice->hits,

@@ -249,6 +249,26 @@ TEST(RenderCommand, a_camera_below_the_ground_is_lifted_and_a_fault_of_a_scene_f
     EXPECT_NE(test::read_bytes(file), test::read_bytes(option));
 }
 
+TEST(RenderCommand, standard_output_takes_the_picture_alone) {
+    const test::TemporaryFolder folder;
+    const auto file = (folder.path() / "a.png").string();
+    const std::vector<std::string> common{"render",    "natural", "--size",  "64x48",
+                                          "--context", "osmesa",  "--quiet", "-o"};
+    auto arguments = common;
+    arguments.push_back(file);
+    ASSERT_EQ(test::reljef(arguments).exit_code, 0);
+    arguments = common;
+    arguments.emplace_back("-");
+    const auto result = test::reljef(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, test::read_bytes(file));
+    arguments.emplace_back("--stats");
+    test::expect_refusal(test::reljef(arguments), 2, {"-o: - found beside --stats"});
+    arguments = common;
+    arguments.insert(arguments.end(), {"-", "--path", "orbit", "--frames", "2"});
+    test::expect_refusal(test::reljef(arguments), 2, {"-o: '-' found"});
+}
+
 TEST(RenderCommand, same_command_same_bits) {
     RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;

@@ -8,9 +8,9 @@
 namespace reljef::io {
 
 /// Whether overviews average heights with voids that the raster does not declare, which leaves pits
-/// around each void (GDAL leaves declared voids out). Compares the eight steepest drops of one small
-/// overview with the full-resolution samples behind them. Misses a single void if that overview is
-/// coarser than 1/16, or if cliffs are steeper. Absent if the samples cannot be read.
+/// around each void (GDAL leaves declared voids out). Compares the eight steepest drops of one
+/// small overview with the full-resolution samples behind them. Misses a single void if that
+/// overview is coarser than 1/16, or if cliffs are steeper. Absent if the samples cannot be read.
 std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesystem::path& path);
 
 /// For notes and faults, after the file's name.
