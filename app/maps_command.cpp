@@ -137,13 +137,13 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
 
 void add_map_outputs(CLI::App& arguments, MapChoice& choice) {
     constexpr std::array meanings{
-        "heights, lowest black and highest white where they are made",
-        "normals of the heights: r, g, b for x, y as --green says, z",
-        "normals and, as alpha, heights",
+        "heights; made ones range from black to white",
+        "normals of the heights: x, y, z in r, g, b",
+        "normals in r, g, b and heights in alpha",
         "cones over each texel that hold nothing of the surface, also between texels (Dummer "
         "2006): .exr holds texels a height of 1, others the root of their share of 1024",
         "cones that a ray may meet the surface in once, likewise (GPU Gems 3 ch. 18)",
-        "depths of the layers of a sheet, its back from --back or as its front"};
+        "depths of the layers of a sheet; its back is --back, else like the front"};
     for (std::size_t i = 0; i < choice.outputs.size(); ++i) {
         arguments.add_option(choice.outputs[i].option, choice.outputs[i].file, meanings[i])
             ->type_name("FILE");
@@ -198,37 +198,37 @@ void expect_used(const CLI::App& arguments, const MapChoice& choice) {
 }
 
 void add_map_options(CLI::App& arguments, MapChoice& choice) {
-    arguments.add_option("PICTURE", choice.picture, "what the maps are made from")->required();
+    arguments.add_option("PICTURE", choice.picture, "picture to make maps from")->required();
     cli::add_parsed(arguments, "--from", choice.making.input,
                     cli::word_of<MapInput>("--from", {{"heights", MapInput::heights},
                                                       {"normals", MapInput::normals},
                                                       {"colors", MapInput::colors}}),
-                    "what the picture shows: heights, normals or colors (heights)", "KIND");
-    arguments.add_option("--back", choice.back, "heights off the back of a sheet, for --layers")
+                    "content of the picture: heights, normals or colors (heights)", "KIND");
+    arguments.add_option("--back", choice.back, "heights of the back of a sheet, for --layers")
         ->type_name("FILE");
     cli::add_parsed(
         arguments, "--border", choice.making.border,
         cli::word_of<material::TileBorder>("--border", {{"wrap", material::TileBorder::wrap},
                                                         {"clamp", material::TileBorder::clamp}}),
-        "what lies beyond: wrap, its copies, or clamp, its border drawn out (wrap)", "RULE");
+        "beyond the picture: wrap repeats it, clamp repeats its border (wrap)", "RULE");
     cli::add_parsed(arguments, "--scale", choice.making.scale,
                     cli::number_in("--scale", 0.0, 1000.0, true),
-                    "a height of 1 lifts a point so many widths of the picture (0.05)", "S");
+                    "height of 1 in widths of the picture (0.05)", "S");
     cli::add_parsed(arguments, "--octaves", choice.making.octaves,
                     cli::whole_number_in("--octaves", 1, 12),
-                    "from colors: what is coarser than so many doublings is no relief (5)", "N");
+                    "from colors: number of scales that count as relief, each twice as coarse (5)", "N");
     arguments.add_flag("--dark-is-high", choice.making.dark_is_high,
-                       "from colors: the darker the higher");
+                       "from colors: darker is higher");
     cli::add_parsed(arguments, "--green", choice.making.green_up,
                     cli::word_of<bool>("--green", {{"down", false}, {"up", true}}),
-                    "of normals read and written: down, along the rows, or up, against them (down)",
+                    "green channel of normals: down, along the rows, or up, against them (down)",
                     "WAY");
     arguments.add_flag("--sobel", choice.making.sobel,
-                       "normals by Sobel's filter instead of the bilinear surface's slopes");
+                       "compute normals with Sobel's filter instead of bilinear slopes");
     cli::add_parsed(arguments, "--threads", choice.threads,
-                    cli::whole_number_in("--threads", 0, 1024), "0: as many as the machine has (0)",
+                    cli::whole_number_in("--threads", 0, 1024), "number of threads; 0: one for each processor (0)",
                     "N");
-    arguments.add_flag("--quiet", choice.quiet, "no progress");
+    arguments.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 
 } // namespace

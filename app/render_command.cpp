@@ -34,7 +34,7 @@ struct RenderChoice {
 
 constexpr int sheet_columns = 4;
 constexpr int sheet_picture_width = 320;
-constexpr int most_sheet_pictures = 24;
+constexpr int max_sheet_pictures = 24;
 
 Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice& choice,
                                                               session::Log& log) {
@@ -57,7 +57,7 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
 class SheetPictures {
 public:
     SheetPictures(bool wanted, int frames)
-        : step_(wanted ? (frames + most_sheet_pictures - 1) / most_sheet_pictures : 0) {}
+        : step_(wanted ? (frames + max_sheet_pictures - 1) / max_sheet_pictures : 0) {}
 
     void add(Image picture, int index) {
         if (step_ > 0 && index % step_ == 0) {
@@ -384,7 +384,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         ->needs(truth);
     arguments->add_flag(
         "--stats", choice->stats,
-        "print what the last frame took and skipped, and all frames' times and memory");
+        "print counts and times of the last frame, and times and memory of all frames");
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         if (choice->truth && choice->view.max_error.value_or(0.0) > 0.0) {

@@ -124,10 +124,10 @@ void add_poses_options(CLI::App& command, LodChoice& choice) {
                 const auto [end, code] =
                     std::from_chars(text.data(), text.data() + text.size(), error);
                 const bool fits = code == std::errc{} && end == text.data() + text.size() &&
-                                  error >= view::least_error && error <= view::most_error;
+                                  error >= view::min_error && error <= view::max_error;
                 return fits ? std::string()
                             : fmt::format("'{}' found, a number from {} to {} was expected", text,
-                                          view::least_error, view::most_error);
+                                          view::min_error, view::max_error);
             },
             ""));
 }

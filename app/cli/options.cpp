@@ -103,9 +103,9 @@ Result<void> set_detail_number(session::DetailChoice& choice, const std::string&
     }
     const bool is_width = key == "width";
     const auto value =
-        is_width ? number_in("--detail: width", material::least_tile_width,
-                             material::most_tile_width)(text)
-                 : number_in("--detail: scale", 0.0, material::most_tile_scale, true)(text);
+        is_width ? number_in("--detail: width", material::min_tile_width,
+                             material::max_tile_width)(text)
+                 : number_in("--detail: scale", 0.0, material::max_tile_scale, true)(text);
     if (!value) {
         return value.error();
     }
@@ -123,10 +123,10 @@ Result<std::optional<double>> parse_max_error(const std::string& text) {
         return std::optional(0.0);
     }
     const auto bound = number_from<double>(text);
-    if (!bound || !(*bound >= view::least_error && *bound <= view::most_error)) {
+    if (!bound || !(*bound >= view::min_error && *bound <= view::max_error)) {
         return Error{fmt::format("--max-error: '{}' found, a number from {} to {} or none was "
                                  "expected",
-                                 text, view::least_error, view::most_error)};
+                                 text, view::min_error, view::max_error)};
     }
     return std::optional(*bound);
 }
@@ -152,10 +152,10 @@ CLI::Validator existing_folder() {
 
 void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--context", choice.context, parse_context,
-               "auto, glfw (window), egl (GPU without a window) or osmesa (CPU)", "KIND");
+               "OpenGL context: auto, glfw (window), egl (GPU without a window) or osmesa (CPU) (auto)", "KIND");
     add_parsed(
         command, "--size", choice.size, [](const std::string& text) { return parse_size(text); },
-        "of the picture, pixels (1024x768)", "WxH");
+        "size of the picture, pixels (1024x768)", "WxH");
     add_parsed(
         command, "--technique", choice.technique,
         [&choice](const std::string& text) -> Result<std::optional<scene::Technique>> {
@@ -169,8 +169,8 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
             }
             return std::optional(*technique);
         },
-        "how the surface is drawn; 'reljef techniques' lists them (polygons; gallery: mixed, as "
-        "suits each model)",
+        "how to draw the surface; 'reljef techniques' lists all (polygons; in the gallery mixed: "
+        "each model has its own)",
         "ID[:key=value,...]");
     add_parsed(
         command, "--max-error", choice.max_error, parse_max_error,
@@ -179,25 +179,25 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         "PX|none");
     add_parsed(
         command, "--detail", choice.detail, parse_detail,
-        "polygons: a tile of detail that repeats over the terrain, W metres wide (4), its "
-        "heights S widths: brick, rock, cobble, fence, rings, copper, or a folder of pictures",
+        "polygons: a detail texture that repeats over the terrain: brick, rock, cobble, fence, "
+        "rings, copper or a folder of pictures; W: its width, metres (4); S: its height, widths",
         "NAME|FOLDER[:width=W,scale=S]");
     add_parsed(
         command, "--detail-technique", choice.detail_technique,
         [](const std::string& text) { return parse_detail_technique(text); },
-        "how the tile of detail is drawn where it is near (relief)", "ID[:key=value,...]");
-    command.add_flag("--wireframe", choice.wireframe, "draw the triangles' edges only");
+        "how to draw the detail texture near the camera (relief)", "ID[:key=value,...]");
+    command.add_flag("--wireframe", choice.wireframe, "draw only the edges of triangles");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
                    "--projection", {{"perspective", scene::ProjectionKind::perspective},
                                     {"orthographic", scene::ProjectionKind::orthographic}}),
-               "perspective, or orthographic: a map where no camera is given", "KIND");
+               "perspective, or orthographic: a map if no camera is given (perspective)", "KIND");
     add_parsed(command, "--sun", choice.sun, parse_sun,
-               "where the light comes from: clockwise from north, above the horizon (300,40)",
+               "direction of the sun, degrees: clockwise from north, above the horizon (300,40)",
                "AZIMUTH,ALTITUDE");
     command
         .add_option("--shader-dir", choice.shader_dir,
-                    "shader files here come before the built-in ones")
+                    "use shader files of this folder instead of the built-in ones")
         ->type_name("FOLDER")
         ->check(existing_folder());
 }
@@ -208,37 +208,37 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
     auto* eye = add_parsed(
         command, "--eye", choice.eye,
         [](const std::string& text) { return parse_point("--eye", text); },
-        "where the camera stands, scene metres", "x,y,z");
+        "position of the camera, scene metres", "x,y,z");
     auto* look = add_parsed(
         command, "--look", choice.look,
         [](const std::string& text) { return parse_point("--look", text); },
-        "what it looks at, scene metres", "x,y,z");
+        "point that the camera looks at, scene metres", "x,y,z");
     look->needs(eye);
     eye->needs(look);
     auto* camera = add_parsed(command, "--camera", choice.geodetic, parse_geodetic_view,
-                              "where on Earth it stands and looks, degrees and metres",
+                              "position and direction of the camera on Earth, degrees and metres",
                               "LAT,LON,HEIGHT,HEADING,PITCH");
     camera->excludes(eye);
     auto* pose = add_parsed(
         command, "--pose", choice.pose, [](const std::string& text) { return parse_pose(text); },
-        "overview, oblique, low, grazing or map (overview)", "NAME");
+        "camera pose: overview, oblique, low, grazing or map (overview)", "NAME");
     pose->excludes(eye)->excludes(camera);
     command
         .add_option(
             "--path", choice.path,
-            "fly: orbit, flyover, a path file (TOML: [[key]] time, eye, look; or time, latitude, "
-            "longitude, height) or the first track or line of a GPX, KML or GeoJSON file")
+            "camera path: orbit, flyover, a path file (TOML: [[key]] time, eye, look; or time, "
+            "latitude, longitude, height) or a GPX, KML or GeoJSON file, whose first track or "
+            "line is flown")
         ->type_name("NAME|FILE")
         ->excludes(eye)
         ->excludes(camera);
     command.add_flag("--allow-underground", choice.allow_underground,
-                     "keep a camera below the ground there; without this it is lifted above the "
-                     "ground, and render then exits with 1 if a scene or path file placed it (a "
-                     "camera with --projection orthographic stays)");
+                     "do not lift a camera that is below the ground (lifted, with a note; exit status "
+                     "1 if a scene or path file placed it). Orthographic cameras are never lifted");
     add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
-               "pictures along the path (1)", "N");
+               "number of pictures along the path (1)", "N");
     add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
-               "pictures a second in a video (25)", "F");
+               "frames per second of a video (25)", "F");
 }
 
 } // namespace
@@ -321,29 +321,28 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
     command
         .add_option(
             "TERRAIN", choice.terrain,
-            "natural, urban, gallery, a scene file (.toml), a DEM file of any format GDAL "
-            "reads, a folder of them, the https:// address of one, or tiles z/x/y.png of "
-            "heights in colours: terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
+            "natural, urban, gallery, a scene file (.toml), a DEM file in any format of GDAL, a "
+            "folder of DEM files, an https:// address, or web tiles with heights in colours: "
+            "terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
         ->required();
     add_parsed(command, "--area", choice.area, parse_area,
-               "only this part of a folder of tiles, degrees", "SOUTH,WEST,NORTH,EAST");
+               "use only this part of a folder of files, degrees", "SOUTH,WEST,NORTH,EAST");
     add_parsed(command, "--memory", choice.memory_megabytes,
                whole_number_in("--memory", 1, 1'000'000),
-               "for the terrain, megabytes; of what is larger, parts are read as the view needs "
-               "them (512)",
+               "memory for the terrain, megabytes; larger terrains are read tile by tile (512)",
                "MB");
     add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
-               "0: as many as the machine has (0)", "N");
-    command.add_flag("--quiet", choice.quiet, "no progress and no notes on stderr");
+               "number of threads; 0: one for each processor (0)", "N");
+    command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     add_source_options(command, choice);
     command
         .add_option("--imagery", choice.imagery,
-                    "picture to drape over the terrain, or a folder of them; may be given again. "
-                    "Pictures finer than 4096 pixels along the terrain are read where the view "
-                    "needs them, unless an error is promised: far ground is of averages then")
+                    "picture to drape over the terrain, or a folder of pictures; may be repeated. "
+                    "Pictures with more than 4096 pixels along a side of the terrain are read "
+                    "tile by tile, unless an error bound is named")
         ->allow_extra_args(false)
         ->type_name("FILE");
     command
@@ -354,20 +353,20 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         ->type_name("NAME|FOLDER");
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
-               "of the heights, in the picture only (1)", "X");
+               "factor for the heights, in the picture only (1)", "X");
     add_parsed(command, "--placement", choice.placement,
                word_of<terrain::PlacementKind>("--placement",
                                                {{"plane", terrain::PlacementKind::plane},
                                                 {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
-               "plane, or ellipsoid: on the curved Earth (georeferenced terrains)", "KIND");
+               "plane, or ellipsoid: on the curved Earth (ellipsoid for georeferenced terrains)", "KIND");
     add_parsed(command, "--gaps", choice.gaps,
                word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
-               "what lies between the tiles of a folder: holes, or sea at 0 m (holes)", "KIND");
+               "between the files of a folder: holes, or sea at 0 m (holes)", "KIND");
     command
         .add_option(
             "--geoid", choice.geoid,
-            "how far sea level lies above the ellipsoid: a file (.gtx, .tif, .pgm), or none "
-            "(the installed EGM96, for heights above EGM96)")
+            "geoid heights: a file (.gtx, .tif, .pgm) or none (the installed EGM96, for heights "
+            "above EGM96)")
         ->type_name("FILE");
 }
 
@@ -395,8 +394,8 @@ void add_samples_option(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--samples", choice.samples,
         word_of<int>("--samples", {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}),
-        "samples a pixel, against jagged edges: 1, 2, 4, 8 or 16; techniques that follow "
-        "rays draw as many rays (4 if the picture has triangles and at most 4096x4096 pixels, "
+        "samples per pixel, against jagged edges: 1, 2, 4, 8 or 16; techniques that trace "
+        "rays trace as many rays (4 if the picture has triangles and at most 4096x4096 pixels, "
         "else 1; without N, view draws a slow view with 1 sample and at a lower resolution while "
         "it moves)",
         "N");

@@ -24,9 +24,9 @@ constexpr double first_step = 1.0 / 60.0;
 // Of a terrain by distance, until the maps of its technique are made.
 constexpr int coarse_levels = 5;
 // Of a path, seconds.
-constexpr double least_duration = 1e-9;
+constexpr double min_duration = 1e-9;
 // Metres: less is no more than rounding.
-constexpr double least_raise = 1e-3;
+constexpr double min_raise = 1e-3;
 
 // Metres on the way ahead over which a heading is told: the compass's own points are farther apart.
 constexpr double heading_length = 100.0;
@@ -57,7 +57,7 @@ scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::C
     const auto surface = terrain.surface;
     scene::FreeFlightOptions options;
     options.speed = width_of(scene) / seconds_across;
-    options.clearance = session::least_clearance(scene);
+    options.clearance = session::min_clearance(scene);
     if (!allow_underground) {
         options.ground = [terrain](double x, double y) {
             return session::ground_at(terrain, x, y);
@@ -241,7 +241,7 @@ std::vector<scene::Camera> Viewer::upcoming() const {
     for (const double ahead : {0.5, 1.5, 3.0}) { // seconds
         if (playing_) {
             const double time =
-                std::fmod(path_time_ + ahead, std::max(path_.duration(), least_duration));
+                std::fmod(path_time_ + ahead, std::max(path_.duration(), min_duration));
             cameras.push_back(scene::at_key(camera(), path_.at(path_.begin() + time)));
         } else {
             cameras.push_back(session::camera_ahead(before_, camera(), last_step_, ahead));
@@ -273,11 +273,11 @@ void Viewer::advance(double seconds) {
 }
 
 void Viewer::advance_path(double seconds) {
-    path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), least_duration));
+    path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), min_duration));
     const scene::Camera asked_for = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
     flight_.set_camera(asked_for);
     const scene::Camera next = flight_.camera();
-    if (const double raised = glm::distance(asked_for.eye, next.eye); raised > least_raise) {
+    if (const double raised = glm::distance(asked_for.eye, next.eye); raised > min_raise) {
         path_raised_ = std::max(path_raised_, raised);
     }
     if (next.eye != camera().eye || next.look != camera().look) {

@@ -162,7 +162,7 @@ MethodResult by_bisection(const Grid<float>& heights, double error) {
     const terrain::Bisection bisection(heightfield, placement);
     terrain::ErrorView view; // from the side, a pixel a metre, all in sight
     view.perspective = false;
-    view.most_error = error;
+    view.max_error = error;
     MethodResult result;
     for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement)) {
         for (const terrain::Triangulation& part : terrain::triangulate(bisection, tile, view)) {

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double most_count = 9e15;
+constexpr double max_count = 9e15;
 
 const json& no_object() {
     static const json empty = json::object();
@@ -125,7 +125,7 @@ std::optional<double> JsonObject::number_or_null(std::string_view key,
 }
 
 std::size_t JsonObject::count(std::string_view key, std::size_t least) const {
-    const double value = number(key, {static_cast<double>(least), most_count});
+    const double value = number(key, {static_cast<double>(least), max_count});
     if (value != std::trunc(value)) {
         fail(key, "a whole number");
     }

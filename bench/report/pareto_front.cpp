@@ -20,7 +20,7 @@ bool has_error(const Row& row) {
 
 bool is_holed(const Row& row) {
     const double pixels = static_cast<double>(row.size.x) * row.size.y;
-    return static_cast<double>(row.error->holes) > most_holes * pixels;
+    return static_cast<double>(row.error->holes) > max_holes * pixels;
 }
 
 bool has_place(const Row& row) {
@@ -75,17 +75,17 @@ std::optional<std::string> dominator_of(const FrontPoint& point,
 
 // Of a staircase that goes down at each point that is better than all before.
 double area_below(const std::vector<FrontPoint>& points, const FrontBox& box) {
-    const double width = std::log(box.most_ratio / box.least_ratio);
-    const double height = std::log(box.most_error / box.least_error);
+    const double width = std::log(box.max_ratio / box.min_ratio);
+    const double height = std::log(box.max_error / box.min_error);
     double area = 0.0;
     double place = 0.0;
     double level = height;
     for (const FrontPoint& point : points) {
-        const double next = std::clamp(std::log(point.ratio / box.least_ratio), 0.0, width);
+        const double next = std::clamp(std::log(point.ratio / box.min_ratio), 0.0, width);
         area += level * (next - place);
         place = next;
-        const double error = std::clamp(point.error, box.least_error, box.most_error);
-        level = std::min(level, std::log(error / box.least_error));
+        const double error = std::clamp(point.error, box.min_error, box.max_error);
+        level = std::min(level, std::log(error / box.min_error));
     }
     area += level * (width - place);
     return std::clamp(area / (width * height), 0.0, 1.0);

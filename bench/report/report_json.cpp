@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double most_exact_whole = 9e15; // of the whole numbers a double tells apart
+constexpr double max_exact_whole = 9e15; // of the whole numbers a double tells apart
 
 Json to_json(const view::FrameStats::Skipped& skipped) {
     return {{"invisible_nodes", skipped.invisible_nodes},
@@ -33,7 +33,7 @@ Json parameters_of(const Setting& setting) {
     Json parameters = Json::object();
     for (const Setting::Parameter& parameter : setting.parameters) {
         const bool is_whole = parameter.value == std::trunc(parameter.value) &&
-                              std::abs(parameter.value) < most_exact_whole;
+                              std::abs(parameter.value) < max_exact_whole;
         parameters[parameter.name] =
             is_whole ? Json(static_cast<long long>(parameter.value)) : Json(parameter.value);
     }

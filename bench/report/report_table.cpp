@@ -266,12 +266,12 @@ std::vector<std::string> column_notes(const Results& results) {
         notes.push_back(fmt::format("NOISY: what is measured twice, texture or what is named, "
                                     "lies over {:.0f} % apart; a difference below the floor is "
                                     "none.",
-                                    100.0 * most_noise));
+                                    100.0 * max_noise));
     }
     if (std::any_of(begin, end, [](const Row& row) { return row.has_few_frames(); })) {
         notes.push_back(fmt::format("Caution: under {} frames of a technique are too few to rely "
                                     "on, and to tell a noise floor of.",
-                                    least_frames));
+                                    min_frames));
     }
     if (std::any_of(begin, end, [](const Row& row) { return row.setting.technique == "exact"; })) {
         notes.emplace_back("FLIP, PSNR, SSIM, RMSE: of the shaded picture, filtering of its colour "
@@ -291,7 +291,7 @@ std::string area_text(const Front& front) {
 }
 
 std::string holed_text(const Front& front) {
-    return fmt::format("holes over {:.1f} % of the picture: {}", 100.0 * most_holes,
+    return fmt::format("holes over {:.1f} % of the picture: {}", 100.0 * max_holes,
                        fmt::join(front.holed, ", "));
 }
 

@@ -15,11 +15,11 @@ Setting setting_of(const scene::Technique& technique) {
 }
 
 bool Row::has_few_frames() const {
-    return timing && timing->frames < least_frames;
+    return timing && timing->frames < min_frames;
 }
 
 bool Row::noisy() const {
-    return has_few_frames() || (timing && timing->noise_floor && *timing->noise_floor > most_noise);
+    return has_few_frames() || (timing && timing->noise_floor && *timing->noise_floor > max_noise);
 }
 
 bool Row::shows_nothing() const {

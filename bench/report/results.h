@@ -21,10 +21,10 @@ namespace reljef::bench {
 
 /// A row above this noise floor is marked noisy: what it says of small differences is worth
 /// nothing.
-inline constexpr double most_noise = 0.10;
+inline constexpr double max_noise = 0.10;
 
 /// Of fewer frames neither a noise floor nor an interval can be told, see median_interval().
-inline constexpr std::size_t least_frames = 5;
+inline constexpr std::size_t min_frames = 5;
 
 /// A technique by its names, which the program that reads them need not know.
 struct Setting {
@@ -44,14 +44,14 @@ Setting setting_of(const scene::Technique& technique);
 struct Timing {
     std::size_t frames = 0; ///< timed, at least 1
     Summary ms;             ///< from the first command of a frame until all of it is drawn
-    /// Of the median, milliseconds, see median_interval(); absent under least_frames.
+    /// Of the median, milliseconds, see median_interval(); absent under min_frames.
     std::optional<ConfidenceInterval> interval;
     double fps_1_percent_low = 0.0; ///< 1000 over the mean of the slowest hundredth, milliseconds
     /// Of the medians, in the same run; absent where texture shows no terrain, as its time says
     /// nothing then.
     std::optional<double> ratio_to_texture;
     /// How far the medians of a null row and of what it is once more lie apart, a share of the
-    /// smaller; absent where either has under least_frames.
+    /// smaller; absent where either has under min_frames.
     std::optional<double> noise_floor;
     std::optional<double> gpu_ms; ///< median of what the GPU took; absent on software renderers
     view::FrameStats stats;       ///< of the last frame
@@ -98,8 +98,8 @@ struct Row {
     std::shared_ptr<const RowView> view; ///< where it was asked for; not part of the JSON
 
     [[nodiscard]] bool missing() const { return !timing.has_value(); }
-    [[nodiscard]] bool has_few_frames() const; ///< timed ones, under least_frames
-    /// Whether its noise floor is above most_noise, or it has too few frames for one.
+    [[nodiscard]] bool has_few_frames() const; ///< timed ones, under min_frames
+    /// Whether its noise floor is above max_noise, or it has too few frames for one.
     [[nodiscard]] bool noisy() const;
     /// Whether it was held against the truth and shows none of the terrain.
     [[nodiscard]] bool shows_nothing() const;

@@ -58,7 +58,7 @@ Result<std::shared_ptr<const RowView>> RowViews::make(const ShownView& view) {
               view.truth->rows() == view.shown.rows() && view.reprojection.cols() == cols &&
               view.reprojection.rows() == view.shown.rows(),
           "a row's pictures are empty or differ in size");
-    const int wanted = most_cols_ > 0 ? (cols + most_cols_ - 1) / most_cols_ : 1;
+    const int wanted = max_cols_ > 0 ? (cols + max_cols_ - 1) / max_cols_ : 1;
     const int factor = std::min({wanted, cols, view.shown.rows()});
     auto shown = io::encode_image(".jpg", smaller(view.shown, factor));
     if (!shown) {

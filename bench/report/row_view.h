@@ -34,7 +34,7 @@ class RowViews {
 public:
     /// Pictures of more columns are reduced by a whole number until they have no more; 0: never.
     /// A colour is the mean of its pixels, linear; an error the greatest of them.
-    explicit RowViews(int most_cols = 0) : most_cols_(most_cols) {}
+    explicit RowViews(int max_cols = 0) : max_cols_(max_cols) {}
 
     /// Fails where a picture cannot be encoded.
     Result<std::shared_ptr<const RowView>> make(const ShownView& view);
@@ -42,7 +42,7 @@ public:
 private:
     Result<std::shared_ptr<const RowView::File>> truth_of(const ShownView& view, int factor);
 
-    int most_cols_;
+    int max_cols_;
     std::shared_ptr<const Image> truth_; // the last one, and what became of it
     std::shared_ptr<const RowView::File> truth_file_;
 };

@@ -6,7 +6,7 @@ namespace reljef::bench {
 namespace {
 
 constexpr double beyond = 0.2;       // of the width, beside the terrain
-constexpr double least_above = 0.02; // of the width, × e^-1 … e^3
+constexpr double min_above = 0.02; // of the width, × e^-1 … e^3
 constexpr double usual_fov = 57.3;   // degrees
 
 // The same numbers from every standard library, unlike its distributions.
@@ -25,7 +25,7 @@ scene::Camera chance_view(std::mt19937& random, const scene::TerrainSurface& sur
         between(random, bounds.low.x - beyond * size.x, bounds.high.x + beyond * size.x);
     const double y =
         between(random, bounds.low.y - beyond * size.y, bounds.high.y + beyond * size.y);
-    const double above = least_above * size.x * std::exp(between(random, -1.0, 3.0));
+    const double above = min_above * size.x * std::exp(between(random, -1.0, 3.0));
     camera.eye = {x, y, surface.height_at(x, y).value_or(bounds.high.z) + above};
     camera.look.x = between(random, bounds.low.x, bounds.high.x);
     camera.look.y = between(random, bounds.low.y, bounds.high.y);

@@ -74,8 +74,8 @@ private:
         }
         const double elapsed = seconds_until(now_ms_());
         const double timed = elapsed - *warm_up_seconds_;
-        const bool has_the_least = rounds >= options_.least_rounds && timed >= options_.seconds;
-        return rounds >= options_.most_rounds || elapsed + timed / rounds > options_.most_seconds ||
+        const bool has_the_least = rounds >= options_.min_rounds && timed >= options_.seconds;
+        return rounds >= options_.max_rounds || elapsed + timed / rounds > options_.max_seconds ||
                (has_the_least && (timed >= options_.noisy_seconds || is_quiet(rounds)));
     }
 
@@ -88,7 +88,7 @@ private:
             return false;
         }
         ask_at_round_ = rounds + std::max(rounds / 4, 1);
-        return *noise_floor() <= options_.most_noise;
+        return *noise_floor() <= options_.max_noise;
     }
 
     [[nodiscard]] std::optional<double> noise_floor() const {
@@ -113,9 +113,9 @@ private:
     [[nodiscard]] double expected_seconds(double elapsed) const {
         const double round = elapsed * static_cast<double>(frames_.size()) / frames_drawn_;
         const double warm_up = warm_up_seconds_.value_or(options_.warm_up_rounds * round);
-        const double least = (options_.warm_up_rounds + options_.least_rounds) * round;
-        const double most = (options_.warm_up_rounds + options_.most_rounds) * round;
-        return std::min({std::max(least, warm_up + options_.seconds), most, options_.most_seconds});
+        const double least = (options_.warm_up_rounds + options_.min_rounds) * round;
+        const double most = (options_.warm_up_rounds + options_.max_rounds) * round;
+        return std::min({std::max(least, warm_up + options_.seconds), most, options_.max_seconds});
     }
 
     [[nodiscard]] double seconds_until(double now) const { return 1e-3 * (now - begin_ms_); }
@@ -135,7 +135,7 @@ private:
 
 Result<Measurement> measure(std::span<const DrawFrame> frames, const MeasureOptions& options) {
     check(!frames.empty(), "nothing to measure");
-    check(options.least_rounds >= 1 && options.most_rounds >= options.least_rounds,
+    check(options.min_rounds >= 1 && options.max_rounds >= options.min_rounds,
           "measuring needs a round");
     check(!options.null_pair ||
               std::max(options.null_pair->first, options.null_pair->second) < frames.size(),

@@ -117,15 +117,15 @@ bool lacks_a_round(const Measurement& measurement) {
 MeasureOptions one_round() {
     MeasureOptions options;
     options.warm_up_rounds = 0;
-    options.least_rounds = 1;
-    options.most_rounds = 1;
+    options.min_rounds = 1;
+    options.max_rounds = 1;
     return options;
 }
 
 // Absent where what is drawn twice, as one thing and as the last, has few frames.
 std::optional<double> noise_floor_of(const Measurement& measurement, std::size_t twice) {
     const bool is_reliable =
-        std::min(measurement.ms[twice].size(), measurement.ms.back().size()) >= least_frames;
+        std::min(measurement.ms[twice].size(), measurement.ms.back().size()) >= min_frames;
     return is_reliable ? measurement.noise_floor : std::nullopt;
 }
 
@@ -134,7 +134,7 @@ Timing timing_of(const std::vector<double>& ms, std::optional<double> noise_floo
     timing.frames = ms.size();
     timing.ms = summarize(ms);
     timing.fps_1_percent_low = 1000.0 / mean_of_largest(ms, 0.01);
-    if (ms.size() >= least_frames) {
+    if (ms.size() >= min_frames) {
         timing.interval = median_interval(ms);
         timing.noise_floor = noise_floor;
     }
@@ -177,7 +177,7 @@ public:
     SuiteRun(const Suite& suite, const SuiteOptions& options, std::stop_token stop)
         : suite_(suite), options_(options), stop_(std::move(stop)),
           stages_({options.size, options.threads, options.quiet}, stop_, suite.keep_stages),
-          views_(suite.most_view_cols) {}
+          views_(suite.max_view_cols) {}
 
     Result<void> run() {
         if (suite_.groups.empty()) {

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double seconds_a_group = 20.0;
 constexpr double noisy_seconds_a_group = 60.0;
-constexpr int most_rounds = 2000;
+constexpr int max_rounds = 2000;
 constexpr double quick_timing = 10.0; // seconds, all groups together
-constexpr int most_quick_rounds = 200;
+constexpr int max_quick_rounds = 200;
 
 double mean_or_0(double sum, int count) {
     return count > 0 ? sum / count : 0.0;
@@ -37,28 +37,28 @@ GroupCost with_another(const GroupCost& cost, std::optional<double> frame) {
 }
 
 bool fits(const GroupCost& cost, double seconds) {
-    return cost.elapsed + static_cast<double>(least_frames) * cost.round <= seconds;
+    return cost.elapsed + static_cast<double>(min_frames) * cost.round <= seconds;
 }
 
 MeasureOptions measuring(const SuiteOptions& options, std::size_t groups, double seconds_left) {
     MeasureOptions measure;
-    measure.least_rounds = static_cast<int>(least_frames);
-    measure.most_noise = most_noise;
-    measure.most_rounds = most_rounds;
+    measure.min_rounds = static_cast<int>(min_frames);
+    measure.max_noise = max_noise;
+    measure.max_rounds = max_rounds;
     measure.seconds = seconds_a_group;
     measure.noisy_seconds = noisy_seconds_a_group;
     if (options.quick) {
         measure.warm_up_rounds = 0; // each was drawn when it was judged
-        measure.most_rounds = most_quick_rounds;
+        measure.max_rounds = max_quick_rounds;
         measure.seconds = quick_timing / static_cast<double>(groups);
         measure.noisy_seconds = 2.0 * measure.seconds;
-        measure.most_seconds = seconds_left;
+        measure.max_seconds = seconds_left;
     }
     if (options.rounds > 0) {
-        measure.least_rounds = options.rounds;
-        measure.most_rounds = options.rounds;
+        measure.min_rounds = options.rounds;
+        measure.max_rounds = options.rounds;
         measure.seconds = 0.0;
-        measure.most_seconds = std::numeric_limits<double>::infinity();
+        measure.max_seconds = std::numeric_limits<double>::infinity();
     }
     return measure;
 }

@@ -29,7 +29,7 @@ double group_seconds(const SuiteOptions& options, double elapsed, std::size_t gr
 /// before it. `frame`: of it, seconds, where that is known.
 GroupCost with_another(const GroupCost& cost, std::optional<double> frame = std::nullopt);
 
-/// Whether a group of so many seconds has time to draw each least_frames times.
+/// Whether a group of so many seconds has time to draw each min_frames times.
 bool fits(const GroupCost& cost, double seconds);
 
 /// How to time one of `groups` groups that has so many seconds left.

@@ -76,7 +76,7 @@ struct Pace {
 
 // Absent where it says nothing.
 std::optional<Pace> pace_of(const Timing& timing, bool as_ratio) {
-    if (!timing.interval || timing.frames < least_frames) {
+    if (!timing.interval || timing.frames < min_frames) {
         return std::nullopt;
     }
     const double noise = timing.noise_floor.value_or(0.0);
@@ -267,7 +267,7 @@ std::string comparison_report(const Comparison& comparison) {
            names_text(comparison.only_b, "only in the second") +
            names_text(comparison.untimed,
                       fmt::format("no verdict of time, under {} frames or no ratio to texture",
-                                  least_frames)) +
+                                  min_frames)) +
            fmt::format("{} worse, {} better, {} the same within the noise, {} gone\n",
                        count_of(comparison.changes, Verdict::worse),
                        count_of(comparison.changes, Verdict::better),

@@ -43,7 +43,7 @@ struct CompareOptions {
 /// commit may differ.
 ///
 /// A time has changed where it differs by more than the threshold and both noise floors, and the
-/// intervals of the medians do not overlap. Of rows that have under least_frames in either run, and
+/// intervals of the medians do not overlap. Of rows that have under min_frames in either run, and
 /// of ratios that are absent, nothing is said: they are `untimed`.
 ///
 /// An error has changed where it differs by more than the threshold and by more than rounding can

@@ -25,7 +25,7 @@ FlightJson stream_json(const scene::TileStreamStats& stats) {
             {"cancelled", stats.cancelled},
             {"evicted", stats.evicted},
             {"bytes_read", stats.bytes_read},
-            {"most_bytes", stats.most_bytes}};
+            {"most_bytes", stats.max_bytes}};
 }
 
 double megabytes(std::size_t bytes) {
@@ -36,7 +36,7 @@ std::string stream_line(const scene::TileStreamStats& stats) {
     return fmt::format("tiles: {} read ({:.1f} MB of files), {} failed, {} cancelled, {} evicted, "
                        "at most {:.1f} MB\n",
                        stats.read, megabytes(stats.bytes_read), stats.failed, stats.cancelled,
-                       stats.evicted, megabytes(stats.most_bytes));
+                       stats.evicted, megabytes(stats.max_bytes));
 }
 
 std::string flight_table(const FlightResults& results) {
@@ -55,7 +55,7 @@ std::string flight_table(const FlightResults& results) {
                        results.seconds, results.seconds_to_first_frame, drawing.median, drawing.p95,
                        drawing.p99, waiting.median, waiting.p95, waiting.p99,
                        results.stream ? stream_line(*results.stream) : "",
-                       megabytes(results.most_memory), megabytes(results.times.memory_before),
+                       megabytes(results.max_memory), megabytes(results.times.memory_before),
                        100.0 * memory_share(results), results.options.terrain.memory_megabytes);
 }
 
@@ -80,7 +80,7 @@ std::string flight_json(const FlightResults& results) {
         {"memory",
          {{"allowed", static_cast<std::size_t>(options.terrain.memory_megabytes) << 20U},
           {"before", results.times.memory_before},
-          {"most", results.most_memory},
+          {"most", results.max_memory},
           {"share_of_allowed", memory_share(results)}}}};
     // File names need not be UTF-8.
     return report.dump(2, ' ', false, FlightJson::error_handler_t::replace) + "\n";

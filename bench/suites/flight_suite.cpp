@@ -49,7 +49,7 @@ Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
         if (const auto drawn = frames.draw(scene.scene, parallel); !drawn) {
             return drawn.error();
         }
-        results.most_memory = std::max(results.most_memory, process_memory().now);
+        results.max_memory = std::max(results.max_memory, process_memory().now);
         session::log_stream_faults(scene.scene, log);
         if (index == 0) {
             results.seconds_to_first_frame = watch.seconds();
@@ -91,8 +91,8 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     }
     results.times = frames->times();
     results.faulty_files = session::faulty_files(scene->scene);
-    results.most_memory =
-        std::max({results.most_memory, process_memory().most, results.times.memory_before});
+    results.max_memory =
+        std::max({results.max_memory, process_memory().most, results.times.memory_before});
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
     if (stream != nullptr) {
         results.stream = stream->stats();
@@ -103,7 +103,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
 double memory_share(const FlightResults& results) {
     const auto allowed =
         static_cast<double>(results.options.terrain.memory_megabytes) * (1U << 20U);
-    return (static_cast<double>(results.most_memory) -
+    return (static_cast<double>(results.max_memory) -
             static_cast<double>(results.times.memory_before)) /
            allowed;
 }

@@ -34,7 +34,7 @@ constexpr int growth_warm_up = 3;
 constexpr int growth_frames = 20;
 
 // Of the process, bytes; what a file of /proc says in kB after `name`.
-std::size_t most_memory() {
+std::size_t max_memory() {
     std::ifstream status("/proc/self/status");
     std::string word;
     while (status >> word) {
@@ -247,7 +247,7 @@ private:
         }
         row.frames = ms.size();
         row.ms = summarize(ms);
-        row.memory_bytes = most_memory();
+        row.memory_bytes = max_memory();
         const auto hits = stage.device.renderer().draw_hits(stage.scene.scene);
         if (!hits) {
             return hits.error();
@@ -296,8 +296,8 @@ std::optional<GrowthMarks> marks_of(const GrowthResults& results) {
 
 MetMarks met_marks(const GrowthMarks& marks, const GrowthOptions& options) {
     constexpr std::size_t megabyte = 1024U * 1024U;
-    return {.frame_ratio = marks.frame_ratio <= most_frame_ratio,
-            .first_picture = marks.first_picture <= most_first_picture,
+    return {.frame_ratio = marks.frame_ratio <= max_frame_ratio,
+            .first_picture = marks.first_picture <= max_first_picture,
             .memory = marks.memory_bytes <=
                       megabyte * static_cast<std::size_t>(options.memory_megabytes)};
 }

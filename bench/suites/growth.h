@@ -55,8 +55,8 @@ struct GrowthMarks {
     double first_picture = 0.0;   ///< seconds, of the most samples
     std::size_t memory_bytes = 0; ///< likewise
 };
-inline constexpr double most_frame_ratio = 1.3;
-inline constexpr double most_first_picture = 2.0; // seconds
+inline constexpr double max_frame_ratio = 1.3;
+inline constexpr double max_first_picture = 2.0; // seconds
 /// Absent where the fewest or the most samples were not measured.
 std::optional<GrowthMarks> marks_of(const GrowthResults& results);
 

@@ -90,8 +90,8 @@ std::string marks_text(const GrowthResults& results) {
     return fmt::format(
         "the most samples over the fewest: {:.2f} times the frame (at most {}: {}); "
         "first picture after {:.2f} s (at most {}: {}); {:.0f} MB (at most {}: {})\n",
-        marks->frame_ratio, most_frame_ratio, verdict(met.frame_ratio), marks->first_picture,
-        most_first_picture, verdict(met.first_picture),
+        marks->frame_ratio, max_frame_ratio, verdict(met.frame_ratio), marks->first_picture,
+        max_first_picture, verdict(met.first_picture),
         static_cast<double>(marks->memory_bytes) / megabyte, results.options.memory_megabytes,
         verdict(met.memory));
 }

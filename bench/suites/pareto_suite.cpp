@@ -18,7 +18,7 @@ constexpr std::array poses{scene::Pose::overview, scene::Pose::oblique, scene::P
 
 constexpr scene::Pose tile_pose = scene::Pose::oblique; // that of the sources' figures
 
-constexpr int most_view_cols = 512; // there are hundreds of rows
+constexpr int max_view_cols = 512; // there are hundreds of rows
 
 bool is_wide(const scene::NumberInfo& parameter) {
     return parameter.low > 0.0 && parameter.high > 10.0 * parameter.low;
@@ -166,8 +166,8 @@ bool lacks_a_technique(const Front& front, const std::vector<LeftOut>& left_out)
 
 std::vector<double> values_over_range(const scene::NumberInfo& parameter) {
     std::vector<double> values{parameter.default_value};
-    for (int i = 0; i < most_values; ++i) {
-        values.push_back(value_at(parameter, i / (most_values - 1.0)));
+    for (int i = 0; i < max_values; ++i) {
+        values.push_back(value_at(parameter, i / (max_values - 1.0)));
     }
     std::erase_if(values, [&](double value) { return !parameter.allows(value); });
     std::sort(values.begin(), values.end());
@@ -181,7 +181,7 @@ settings_over_range(const std::vector<scene::TechniqueInfo>& techniques) {
     std::vector<scene::Technique> all;
     std::transform(catalogue.begin(), catalogue.end(), std::back_inserter(all),
                    [](const scene::TechniqueInfo& info) { return scene::make_technique(info.id); });
-    for (std::size_t ring = 0; ring < most_values; ++ring) {
+    for (std::size_t ring = 0; ring < max_values; ++ring) {
         for (const scene::TechniqueInfo& info : catalogue) {
             const std::vector<scene::Technique> settings = settings_of_ring(info, ring);
             all.insert(all.end(), settings.begin(), settings.end());
@@ -219,7 +219,7 @@ std::vector<Group> pareto_groups(const ParetoOptions& options) {
 
 Results run_pareto(const ParetoOptions& options, const std::stop_token& stop) {
     Suite suite{.name = "pareto", .groups = pareto_groups(options)};
-    suite.most_view_cols = most_view_cols;
+    suite.max_view_cols = max_view_cols;
     Results results = run_suite(suite, options.suite, stop);
     results.fronts = fronts_of(results.rows);
     for (Front& front : results.fronts) {

@@ -23,9 +23,9 @@ struct ParetoOptions {
 inline constexpr int quick_samples = 257;
 
 /// At most so many values of one parameter are measured.
-inline constexpr int most_values = 5;
+inline constexpr int max_values = 5;
 
-/// Values over the range of a parameter, its ends and its default among them, at most `most_values`
+/// Values over the range of a parameter, its ends and its default among them, at most `max_values`
 /// and the default; in even steps of the logarithm where the range is above 0 and its end over ten
 /// times its beginning, else in even steps. Whole where it is. Ascending, none twice.
 std::vector<double> values_over_range(const scene::NumberInfo& parameter);

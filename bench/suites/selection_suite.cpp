@@ -19,7 +19,7 @@ namespace {
 using SelectionJson = nlohmann::ordered_json;
 
 constexpr int samples = 1601;   // 13 tiles a side
-constexpr double most_ms = 0.2; // for 10,000 tiles
+constexpr double max_ms = 0.2; // for 10,000 tiles
 
 struct SelectionView {
     const char* name;
@@ -112,7 +112,7 @@ std::string selection_table(const SelectionResults& results) {
     for (const SelectionRow& row : results.rows) {
         text += fmt::format("{:<12} {:>7} {:>7} {:>8.3f} {:>8.3f} {:>13.3f} {:>14}\n", row.view,
                             row.tiles, row.seen, row.ms.median, row.ms.p99, ms_of_many(row),
-                            ms_of_many(row) <= most_ms ? "met" : "missed");
+                            ms_of_many(row) <= max_ms ? "met" : "missed");
     }
     return text;
 }

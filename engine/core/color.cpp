@@ -20,7 +20,7 @@ std::array<float, 256> linear_values() {
 }
 
 // The least float in [0, 1] that is encoded as `byte` or more: encoding never falls.
-float least_linear_of(int byte) {
+float min_linear_of(int byte) {
     std::uint32_t low = 0; // as bits, non-negative floats are in the order of their values
     std::uint32_t high = std::bit_cast<std::uint32_t>(1.0F);
     while (low < high) {
@@ -39,7 +39,7 @@ class SrgbBytes {
 public:
     SrgbBytes() {
         for (std::size_t byte = 0; byte < least_.size(); ++byte) {
-            least_[byte] = least_linear_of(static_cast<int>(byte));
+            least_[byte] = min_linear_of(static_cast<int>(byte));
         }
         for (std::size_t i = 0; i < first_.size(); ++i) {
             first_[i] = byte_from_unit(srgb_from_linear(static_cast<float>(i) / steps));

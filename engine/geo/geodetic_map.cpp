@@ -16,7 +16,7 @@
 namespace reljef::geo {
 namespace {
 
-constexpr int most_iterations = 40;
+constexpr int max_iterations = 40;
 constexpr double converged_samples = 1e-9;
 
 Grid<glm::dvec3> with_third(const Grid<glm::dvec2>& control) {
@@ -147,7 +147,7 @@ Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const 
     const Target wanted = target(latitude, longitude);
     const auto& [first, second] = wanted.directions;
     glm::dvec2 sample = middle();
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
         const Value value = evaluate(sample);
         const glm::dvec3 miss = wanted.at - value.at;
         const glm::dmat2 jacobian(glm::dot(value.by_col, first), glm::dot(value.by_col, second),

@@ -13,7 +13,7 @@
 namespace reljef::geo {
 namespace {
 
-constexpr int most_mgrs_digits = 11;
+constexpr int max_mgrs_digits = 11;
 
 void check_latitude(const Geodetic& position) {
     check(std::abs(position.latitude) <= 90.0, "latitude outside [-90, 90]");
@@ -80,7 +80,7 @@ std::string utm_ups_text(const UtmUps& position) {
 }
 
 std::string mgrs_text(const Geodetic& position, int digits) {
-    check(digits >= 0 && digits <= most_mgrs_digits, "mgrs_text takes 0 to 11 digits");
+    check(digits >= 0 && digits <= max_mgrs_digits, "mgrs_text takes 0 to 11 digits");
     const UtmUps grid = utm_ups_from_geodetic(position);
     std::string text;
     GeographicLib::MGRS::Forward(grid.zone, grid.north, grid.easting, grid.northing,

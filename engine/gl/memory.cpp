@@ -6,9 +6,9 @@ namespace reljef::gl {
 
 bool ran_out_of_memory() {
     // A lost context reports errors without end, so the flags are taken a bounded number of times.
-    constexpr int most_flags = 16;
+    constexpr int max_flags = 16;
     bool out_of_memory = false;
-    for (int taken = 0; taken < most_flags; ++taken) {
+    for (int taken = 0; taken < max_flags; ++taken) {
         const GLenum error = glGetError();
         if (error == GL_NO_ERROR) {
             break;

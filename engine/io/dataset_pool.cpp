@@ -65,7 +65,7 @@ Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
 void DatasetPool::give_back(Idle idle) {
     const std::lock_guard lock(mutex_);
     idle_.push_front(std::move(idle));
-    if (idle_.size() > most_idle) {
+    if (idle_.size() > max_idle) {
         idle_.pop_back();
     }
 }

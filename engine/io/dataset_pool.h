@@ -17,7 +17,7 @@ namespace reljef::io {
 class DatasetPool {
 public:
     /// At most so many rasters stay open while nobody reads them.
-    static constexpr std::size_t most_idle = 32;
+    static constexpr std::size_t max_idle = 32;
 
     using Opener =
         std::function<Result<Dataset>(const std::filesystem::path&, const GdalMessages&)>;

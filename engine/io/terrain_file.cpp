@@ -18,7 +18,7 @@
 namespace reljef::io {
 namespace {
 
-constexpr std::size_t most_gdal_notes = 3;
+constexpr std::size_t max_gdal_notes = 3;
 
 /// Part of a longer progress.
 Progress part(const Progress& whole, double begin, double end) {
@@ -73,7 +73,7 @@ Result<Samples> samples_with_heights(GDALDataset& dataset, const ReadPlan& plan,
 }
 
 void note_messages(const GdalMessages& messages, std::vector<std::string>& notes) {
-    const std::size_t count = std::min(messages.all().size(), most_gdal_notes);
+    const std::size_t count = std::min(messages.all().size(), max_gdal_notes);
     for (std::size_t i = 0; i < count; ++i) {
         notes.push_back("GDAL says: " + messages.all()[i]);
     }

@@ -17,7 +17,7 @@ namespace reljef::io {
 namespace {
 
 constexpr int block_side = 1024;   // lattice points read at a time
-constexpr int least_chunk = 16384; // places that are worth a transform of their own
+constexpr int min_chunk = 16384; // places that are worth a transform of their own
 // Of a sample: degrees in double tell a ten-thousandth of it, and a place that was computed to be
 // on a sample should have that sample's very value.
 constexpr double on_sample = 1e-7;
@@ -65,7 +65,7 @@ std::vector<glm::dvec2> lattice_points(const TileLayer& layer, std::span<const g
                                        std::span<const int> wanted, unsigned threads) {
     std::vector<glm::dvec2> points(wanted.size());
     const auto count = static_cast<int>(wanted.size());
-    const int size = std::max(least_chunk, count / static_cast<int>(thread_count(threads)) + 1);
+    const int size = std::max(min_chunk, count / static_cast<int>(thread_count(threads)) + 1);
     const auto transform_part = [&](int chunk) {
         const GdalMessages unheard; // of places that a projection does not have
         const auto begin = static_cast<std::size_t>(chunk) * static_cast<std::size_t>(size);

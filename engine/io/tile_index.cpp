@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_tiles = 1'000'000;
+constexpr std::size_t max_tiles = 1'000'000;
 constexpr std::size_t largest_index = std::size_t{1} << 30; // bytes
 
 bool may_be_raster(const fs::path& path) {
@@ -47,7 +47,7 @@ Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::s
                                            code);
     for (; !code && entry != fs::recursive_directory_iterator(); entry.increment(code)) {
         std::error_code gone;
-        if (stop.stop_requested() || files.size() > most_tiles) {
+        if (stop.stop_requested() || files.size() > max_tiles) {
             return Error{fmt::format("{}: reading was stopped", folder.string())};
         }
         if (entry->is_regular_file(gone)) {
@@ -85,9 +85,9 @@ std::string set_place(GDALDataset& dataset, const std::string& name, Described& 
         return fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name, file.cols,
                            file.rows);
     }
-    if (std::max(file.cols, file.rows) > terrain::most_tree_samples) {
+    if (std::max(file.cols, file.rows) > terrain::max_tree_samples) {
         return fmt::format("{}: has {}×{} samples, at most {} a side were expected", name,
-                           file.cols, file.rows, terrain::most_tree_samples);
+                           file.cols, file.rows, terrain::max_tree_samples);
     }
     if (auto good = check_affine(dataset, name); !good) {
         return good.error().message;

@@ -90,7 +90,7 @@ bool is_consistent(const TileIndex& index) {
     return std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
         return file.use != TileUse::heights ||
                (file.crs >= 0 && file.crs < systems && std::min(file.cols, file.rows) >= 2 &&
-                std::max(file.cols, file.rows) <= terrain::most_tree_samples);
+                std::max(file.cols, file.rows) <= terrain::max_tree_samples);
     });
 }
 

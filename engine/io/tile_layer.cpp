@@ -55,9 +55,9 @@ bool on_lattice(const TileLayer& layer, const PlacedFile& file, const IndexedFil
     const glm::dmat2 drift = (in_steps - glm::dmat2(1.0)) * side;
     const glm::dvec2 origin = origin_in(layer, file);
     const glm::dvec2 phase = origin - glm::round(origin);
-    const double most_drift = std::max(
+    const double max_drift = std::max(
         {std::abs(drift[0].x), std::abs(drift[0].y), std::abs(drift[1].x), std::abs(drift[1].y)});
-    return most_drift <= same_step && std::abs(phase.x) <= same_phase &&
+    return max_drift <= same_step && std::abs(phase.x) <= same_phase &&
            std::abs(phase.y) <= same_phase;
 }
 
@@ -75,7 +75,7 @@ bool belongs_to(const GrowingLayer& growing, const PlacedFile& file, const Index
     }
     const LatticeBounds bounds = bounds_with(growing, file, indexed);
     const glm::dvec2 size = bounds.high - bounds.low;
-    return std::max(size.x, size.y) <= terrain::most_tree_samples;
+    return std::max(size.x, size.y) <= terrain::max_tree_samples;
 }
 
 void add_to(GrowingLayer& growing, const PlacedFile& file, const IndexedFile& indexed) {

@@ -42,7 +42,7 @@ CrsBox box_of_layers(std::span<const TileLayer> layers) {
     return box;
 }
 
-/// Of at most terrain::most_tree_samples: see grid_step.
+/// Of at most terrain::max_tree_samples: see grid_step.
 int count_of(double low, double high, double step) {
     return static_cast<int>(std::floor((high - low) / step + near_sample)) + 1;
 }
@@ -50,7 +50,7 @@ int count_of(double low, double high, double step) {
 /// The finest step, or so many of them that no more samples lie along `extent` than a tree of tiles
 /// reaches.
 glm::dvec2 grid_step(glm::dvec2 extent, glm::dvec2 finest, std::vector<std::string>& notes) {
-    constexpr double most = terrain::most_tree_samples - 2; // whatever is rounded
+    constexpr double most = terrain::max_tree_samples - 2; // whatever is rounded
     const glm::dvec2 samples = extent / finest;
     const double steps = std::ceil(std::max(samples.x, samples.y) / most);
     if (steps > 1.0) {

@@ -14,7 +14,7 @@ namespace {
 
 // Of a side, samples: below that, all of a file is read in less than a second.
 constexpr int needs_overviews = 8192;
-constexpr std::size_t most_files_looked_at = 16;
+constexpr std::size_t max_files_looked_at = 16;
 
 // Along one axis: the values of a tile with one around that lie on the raster.
 struct Inside {
@@ -148,7 +148,7 @@ TileGrid picture_grid(const TileGrid& grid, terrain::TreeTile tile, glm::ivec2 c
 
 std::optional<std::string> missing_overviews(const TileSet& tiles) {
     const GdalMessages messages;
-    const std::size_t count = std::min(tiles.files().size(), most_files_looked_at);
+    const std::size_t count = std::min(tiles.files().size(), max_files_looked_at);
     for (const TileFile& file : tiles.files().first(count)) {
         if (std::max(file.cols, file.rows) < needs_overviews) {
             continue;

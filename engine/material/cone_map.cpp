@@ -130,7 +130,7 @@ std::vector<Grid<float>> steepest_ways(const Grid<Relief>& cells, ConeKind kind,
     return ways;
 }
 
-float least_product(Bounds a, Bounds b) {
+float min_product(Bounds a, Bounds b) {
     return std::min({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
 }
 
@@ -302,7 +302,7 @@ private:
         const float limit = ratio_ * rise;
         return gap_east * gap_east + gap_south * gap_south < limit * limit &&
                (!relaxed_ ||
-                least_product(block.east, east) + least_product(block.south, south) < 0.0F);
+                min_product(block.east, east) + min_product(block.south, south) < 0.0F);
     }
 
     // Takes what a cell that is no neighbour limits the ratio to.

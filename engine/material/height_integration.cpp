@@ -215,7 +215,7 @@ IntegratedHeights heights_from_normals(GridView<const glm::vec3> normals,
     Grid<double> way = grid.about(missing);
     Grid<double> bent(normals.cols(), normals.rows());
     double gain = product(missing, way);
-    while (result.remaining > options.reduction && result.rounds < options.most_rounds &&
+    while (result.remaining > options.reduction && result.rounds < options.max_rounds &&
            !options.stop.stop_requested() && gain > 0.0) {
         apply_links(grid.links(), way, bent);
         const double length = gain / product(way, bent);

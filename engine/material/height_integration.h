@@ -16,7 +16,7 @@ struct IntegrationOptions {
     /// Ends once what is wrong with the equations is this much smaller than at first (both as the
     /// root of a sum of squares), or after so many rounds.
     double reduction = 1e-8;
-    int most_rounds = 200;
+    int max_rounds = 200;
     std::stop_token stop = {}; ///< no new round begins once a stop is asked for
 };
 

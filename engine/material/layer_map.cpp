@@ -72,15 +72,15 @@ std::optional<double> height_on(const glm::dvec3& a, const glm::dvec3& b, const 
 }
 
 Result<void> check_positions(const TileMesh& mesh) {
-    constexpr float most_copies = 64.0F;
+    constexpr float max_copies = 64.0F;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec3& place = mesh.positions[i];
         const float farthest = std::max(std::abs(place.x), std::abs(place.y));
-        if (!(farthest <= most_copies) || !std::isfinite(place.z)) {
+        if (!(farthest <= max_copies) || !std::isfinite(place.z)) {
             return Error{
                 fmt::format("vertex {} of the mesh lies at {}, {}, {}; a place within {} copies "
                             "of the tile was expected",
-                            i, place.x, place.y, place.z, most_copies)};
+                            i, place.x, place.y, place.z, max_copies)};
         }
     }
     return {};

@@ -61,9 +61,9 @@ void note_sizes(TextureSet& set) {
 
 // Unit vectors in eight bits are good to a few hundredths: half the length is none.
 bool is_normal(glm::vec3 normal) {
-    constexpr float least_length = 0.5F;
+    constexpr float min_length = 0.5F;
     const float length = glm::length(normal);
-    return length >= least_length && std::isfinite(length) && normal.z > 0.0F;
+    return length >= min_length && std::isfinite(length) && normal.z > 0.0F;
 }
 
 void mend_normals(TextureSet& set) {

@@ -41,9 +41,9 @@ struct TextureSet {
 };
 
 /// What a tile may cover, metres, and how high its relief may be, in tile widths.
-inline constexpr double least_tile_width = 1e-3;
-inline constexpr double most_tile_width = 1e6;
-inline constexpr double most_tile_scale = 10.0;
+inline constexpr double min_tile_width = 1e-3;
+inline constexpr double max_tile_width = 1e6;
+inline constexpr double max_tile_scale = 10.0;
 
 /// Normals of a tile whose height of 1 lifts a point `scale` tile widths, from central differences
 /// over the border: at a texel's centre the mean of the two slopes that the bilinear surface has

@@ -64,8 +64,8 @@ double unit_of(const Box& bounds) {
 
 // At a pole, where nothing lies east, it is up.
 glm::dvec3 normal_of(glm::dvec3 east, glm::dvec3 north, glm::dvec3 up) {
-    constexpr double least_east = 1e-6;
-    return glm::length(east) > least_east * glm::length(north)
+    constexpr double min_east = 1e-6;
+    return glm::length(east) > min_east * glm::length(north)
                ? glm::normalize(glm::cross(east, north))
                : up;
 }
@@ -247,7 +247,7 @@ int TileMaker::texels_per_cell(int level) const {
         return 1;
     }
     int texels = 1;
-    while (texels < imagery_.most_texels &&
+    while (texels < imagery_.max_texels &&
            spacing(level) > 1.001 * texels * imagery_.finest_pixel) {
         texels *= 2;
     }

@@ -78,7 +78,7 @@ inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;
 
 /// Texels from vertex to vertex, at most: tiles are chosen so fine that with them none is seen
 /// larger than a pixel.
-inline constexpr int most_texels_per_cell = 4;
+inline constexpr int max_texels_per_cell = 4;
 
 /// What a tile of full size with a picture of so many takes, drawn.
 std::size_t bytes_of_tile(int texels_per_cell);
@@ -89,7 +89,7 @@ struct ImageryDetail {
     /// Samples of the tree's raster from sample to sample of the terrain's: more than 1 where
     /// images are so much finer that even its finest tiles would show them coarsely.
     int refinement = 1;
-    int most_texels = most_texels_per_cell; ///< from vertex to vertex: fewer take less memory
+    int max_texels = max_texels_per_cell; ///< from vertex to vertex: fewer take less memory
 };
 
 /// Makes tiles of a terrain from their samples. What an overview of the whole terrain knows holds

@@ -22,11 +22,11 @@ std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) 
 }
 
 // Tiles that went: within a 64th of the budget, or all that a view of the least tiles asks for.
-std::size_t most_remembered(std::size_t memory_budget) {
+std::size_t max_remembered(std::size_t memory_budget) {
     constexpr std::size_t bytes_of_node = 48; // about what a map adds
     constexpr std::size_t bytes =
         sizeof(TileSummary) + 2 * sizeof(terrain::TreeTile) + bytes_of_node;
-    return std::max(64 * TileStream::least_drawn, memory_budget / 64 / bytes);
+    return std::max(64 * TileStream::min_drawn, memory_budget / 64 / bytes);
 }
 
 std::size_t texels_shown(const Image& texels) {
@@ -100,13 +100,13 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
     return std::nullopt;
 }
 
-std::size_t TileStream::most_drawn() const {
-    return std::max(least_drawn, drawn_within(options_.memory_budget, maker_.bytes_per_tile()));
+std::size_t TileStream::max_drawn() const {
+    return std::max(min_drawn, drawn_within(options_.memory_budget, maker_.bytes_per_tile()));
 }
 
 int TileStream::texels_within(std::size_t memory_budget) {
-    int texels = most_texels_per_cell;
-    while (texels > 1 && drawn_within(memory_budget, bytes_of_tile(texels)) < least_drawn) {
+    int texels = max_texels_per_cell;
+    while (texels > 1 && drawn_within(memory_budget, bytes_of_tile(texels)) < min_drawn) {
         texels /= 2;
     }
     return texels;
@@ -337,7 +337,7 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
     news_ = true;
     ++revision_;
     evict();
-    stats_.most_bytes = std::max(stats_.most_bytes, stats_.bytes);
+    stats_.max_bytes = std::max(stats_.max_bytes, stats_.bytes);
 }
 
 // What is wrong with a file is wrong for each of its tiles: they wait together, so that a flight is
@@ -406,7 +406,7 @@ void TileStream::remember(const TileSummary& tile) {
     if (remembered_.insert_or_assign(tile.id, tile).second) {
         remembered_order_.push_back(tile.id);
     }
-    while (remembered_.size() > most_remembered(options_.memory_budget)) {
+    while (remembered_.size() > max_remembered(options_.memory_budget)) {
         remembered_.erase(remembered_order_.front());
         remembered_order_.pop_front();
     }

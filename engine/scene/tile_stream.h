@@ -54,7 +54,7 @@ struct TileStreamOptions {
 struct TileStreamStats {
     std::size_t tiles = 0; ///< in memory
     std::size_t bytes = 0; ///< of these, drawn
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
     int read = 0;
     int failed = 0;    ///< readings with faults
     int cancelled = 0; ///< no longer wanted before they were there
@@ -87,9 +87,9 @@ public:
     };
     [[nodiscard]] std::optional<Found> finest_at(glm::dvec2 overview_sample) const;
     /// As many as may be drawn at a time.
-    [[nodiscard]] std::size_t most_drawn() const;
-    static constexpr std::size_t least_drawn = 16; ///< enough for any view, coarsely
-    /// ImageryDetail::most_texels so that these fit, or 1.
+    [[nodiscard]] std::size_t max_drawn() const;
+    static constexpr std::size_t min_drawn = 16; ///< enough for any view, coarsely
+    /// ImageryDetail::max_texels so that these fit, or 1.
     static int texels_within(std::size_t memory_budget);
 
     /// Begins a view. Reads the missing tiles, the most urgent first, and cancels earlier requests
@@ -98,14 +98,14 @@ public:
     /// runs out.
     void request(std::span<const terrain::TreeTile> missing,
                  std::span<const terrain::TreeTile> used = {});
-    /// Until all that is wanted is there or has failed for good (`most_attempts`); false where it
+    /// Until all that is wanted is there or has failed for good (`max_attempts`); false where it
     /// was stopped. Only while nobody else wants.
     bool wait(const std::stop_token& stop);
     /// The same, but no longer than that: false.
     bool wait_for(const std::stop_token& stop, std::chrono::milliseconds longest);
     /// The tiles that need a file which fails so often are left alone for half a minute, then read
     /// once more, and so on; nobody waits for them any more.
-    static constexpr int most_attempts = BackOff::most_attempts;
+    static constexpr int max_attempts = BackOff::max_attempts;
 
     /// Whether a tile is not there as it failed so often, for half a minute at least.
     [[nodiscard]] bool has_given_up(terrain::TreeTile tile) const;

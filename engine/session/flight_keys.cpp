@@ -18,8 +18,8 @@ constexpr double height_over_ground = 300.0; // metres, where the file tells no 
 constexpr double look_ahead = 1000.0;        // metres
 // From key to key at a steady pace; at most twice that where it changes, of which a chord is 0.7 m
 // below its arc.
-constexpr double most_metres_a_step = 3000.0;
-constexpr double most_steps = 1e6;
+constexpr double max_metres_a_step = 3000.0;
+constexpr double max_steps = 1e6;
 
 // A place of the flight: a key's own, or so far on the way to the next key.
 struct Waypoint {
@@ -107,7 +107,7 @@ private:
         if (key + 1 == keys_.size()) {
             return found;
         }
-        const double step = std::max(most_metres_a_step, way_ / most_steps);
+        const double step = std::max(max_metres_a_step, way_ / max_steps);
         const int steps = static_cast<int>(std::ceil(ways_[key].distance / step));
         for (int i = 1; i < steps; ++i) {
             const double share = static_cast<double>(i) / steps;

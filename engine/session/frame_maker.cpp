@@ -44,7 +44,7 @@ std::string streams_text(std::span<const scene::TileStreamStats> streams) {
                         stats.read, static_cast<double>(stats.bytes_read) / megabyte, stats.failed,
                         stats.cancelled, stats.evicted, stats.tiles,
                         static_cast<double>(stats.bytes) / megabyte,
-                        static_cast<double>(stats.most_bytes) / megabyte);
+                        static_cast<double>(stats.max_bytes) / megabyte);
     }
     return text;
 }

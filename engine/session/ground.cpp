@@ -13,7 +13,7 @@ namespace reljef::session {
 namespace {
 
 constexpr double clearance_in_widths = 1e-3;
-constexpr double most_clearance = 0.5; // metres: a flight a metre above the ground is none too low
+constexpr double max_clearance = 0.5; // metres: a flight a metre above the ground is none too low
 
 // The sample below or above a place; nothing beside the terrain.
 std::optional<glm::dvec3> sample_of(const scene::TerrainSurface& surface, glm::dvec3 world) {
@@ -73,9 +73,9 @@ std::string metres_text(double metres) {
 }
 
 constexpr double largest_share = 0.25; // of the height above the ground, for a step along a ray
-constexpr double least_share = 1e-3;   // of the way so far
+constexpr double min_share = 1e-3;   // of the way so far
 constexpr double step_in_sides = 1e-3; // of the box that holds the ground, where none is below
-constexpr int most_steps_of_ray = 4096;
+constexpr int max_steps_of_ray = 4096;
 constexpr int halvings = 30;
 
 double longest_side(const Box& box) {
@@ -120,13 +120,13 @@ std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const
     const double beside = step_in_sides * longest_side(box);
     double before = part->begin;
     double distance = part->begin;
-    for (int i = 0; i < most_steps_of_ray && before <= part->end; ++i) {
+    for (int i = 0; i < max_steps_of_ray && before <= part->end; ++i) {
         const auto height = height_above_ground(terrain, ray.at(distance));
         if (height && *height <= 0.0) {
             return distance_between(terrain, ray, before, distance);
         }
         before = distance;
-        const double least = std::max(std::min(least_share * distance, beside), 1e-3);
+        const double least = std::max(std::min(min_share * distance, beside), 1e-3);
         distance += height ? std::max(largest_share * *height, least) : std::max(beside, least);
     }
     return std::nullopt;
@@ -175,9 +175,9 @@ std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
                     : std::nullopt;
 }
 
-double least_clearance(const TerrainScene& scene) {
+double min_clearance(const TerrainScene& scene) {
     const glm::dvec3 size = scene.bounds.size();
-    return std::min(most_clearance, clearance_in_widths * std::max(size.x, size.y));
+    return std::min(max_clearance, clearance_in_widths * std::max(size.x, size.y));
 }
 
 double keep_above_ground(TerrainScene& scene) {
@@ -189,7 +189,7 @@ double keep_above_ground(TerrainScene& scene) {
         return 0.0;
     }
     const double least = highest_at(terrain, glm::dvec2(*sample)) +
-                         least_clearance(scene) / placement.exaggeration();
+                         min_clearance(scene) / placement.exaggeration();
     if (!(sample->z < least)) {
         return 0.0;
     }
@@ -226,7 +226,7 @@ Lift lift_camera(TerrainScene& scene) {
         return {};
     }
     const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
-    const Lift lift = lift_of(terrain, camera.eye, least_clearance(scene));
+    const Lift lift = lift_of(terrain, camera.eye, min_clearance(scene));
     camera.eye += lift.way;
     camera.look += lift.way;
     return lift;

@@ -23,7 +23,7 @@ std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
                                        const scene::Camera& camera, int pixels_high);
 
 /// How far an eye stays above all that may be drawn below it, metres: less on small terrains.
-double least_clearance(const TerrainScene& scene);
+double min_clearance(const TerrainScene& scene);
 
 /// Raises the camera, and what it looks at, along the place's own vertical to the least clearance.
 /// Returns by how many metres; 0 where it stays, and beside the terrain.

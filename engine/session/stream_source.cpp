@@ -82,9 +82,9 @@ std::optional<OverviewPlan> overview_plan(const io::TileSet& tiles, io::TileTerr
 
 // So that a texel of the finest tiles is no larger than a pixel of the finest image.
 int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double texel) {
-    constexpr int most_refinement = 64;
+    constexpr int max_refinement = 64;
     const int most =
-        std::min(most_refinement, terrain::most_tree_samples /
+        std::min(max_refinement, terrain::max_tree_samples /
                                       std::max(stream.plan.grid.cols, stream.plan.grid.rows));
     int refinement = 1;
     while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
@@ -128,7 +128,7 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Source
                                           const OpenImagery& imagery) {
     const auto whole = tiles.plan(options);
     if (!choice.streamed || (fits(whole) && !has_finer_pictures(tiles, options, imagery)) ||
-        std::max(tiles.grid().cols, tiles.grid().rows) > terrain::most_tree_samples) {
+        std::max(tiles.grid().cols, tiles.grid().rows) > terrain::max_tree_samples) {
         return std::nullopt;
     }
     const auto overview = overview_plan(tiles, options, whole);
@@ -153,9 +153,9 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Source
 scene::ImageryDetail imagery_detail(const io::ImagerySet& imagery, const StreamSource& stream,
                                     double spacing) {
     scene::ImageryDetail detail;
-    detail.most_texels = scene::TileStream::texels_within(stream.memory_budget);
+    detail.max_texels = scene::TileStream::texels_within(stream.memory_budget);
     detail.finest_pixel = imagery.finest_pixel();
-    detail.refinement = refinement_for(imagery, stream, spacing / detail.most_texels);
+    detail.refinement = refinement_for(imagery, stream, spacing / detail.max_texels);
     return detail;
 }
 

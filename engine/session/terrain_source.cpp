@@ -89,11 +89,11 @@ struct SetOrImagery {
 };
 
 // What the coarsest views of a terrain that is read part by part take, beside the libraries.
-constexpr int least_megabytes = 64;
+constexpr int min_megabytes = 64;
 
 // Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
 // side.
-constexpr int most_step_read = 4096 / terrain::tile_cells;
+constexpr int max_step_read = 4096 / terrain::tile_cells;
 
 // Of which heights tiles are made of the overview, and what is to be told of all that.
 void set_heights_of_tiles(const io::TileSet& tiles, const SourceOptions& choice,
@@ -107,15 +107,15 @@ void set_heights_of_tiles(const io::TileSet& tiles, const SourceOptions& choice,
                                     "keeps all samples",
                                     choice.memory_megabytes, *megabytes));
     }
-    if (choice.memory_megabytes < least_megabytes) {
+    if (choice.memory_megabytes < min_megabytes) {
         notes.push_back(fmt::format("--memory {}: the tiles of a view take up to {}",
-                                    choice.memory_megabytes, least_megabytes));
+                                    choice.memory_megabytes, min_megabytes));
     }
     if (is_whole) {
         stream.step_of_overview = 1;
     } else if (auto missing = io::missing_overviews(tiles)) {
         notes.push_back(std::move(*missing));
-        stream.step_of_overview = std::min(2 * stream.plan.reduction, most_step_read + 1);
+        stream.step_of_overview = std::min(2 * stream.plan.reduction, max_step_read + 1);
     }
 }
 

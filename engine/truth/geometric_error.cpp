@@ -15,7 +15,7 @@ namespace {
 
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr float no_error = std::numeric_limits<float>::quiet_NaN();
-constexpr double most_texels_off = 1.0;
+constexpr double max_texels_off = 1.0;
 
 // The error as a map of floats can hold it; infinity for NaN too.
 double bounded(double error) {
@@ -47,7 +47,7 @@ Verdict verdict_on(const Hit& shown, const Hit& true_hit, double texels_off) {
     if (!shows_terrain(shown)) {
         return shows_terrain(true_hit) ? Verdict::hole : Verdict::no_terrain;
     }
-    return shows_terrain(true_hit) && texels_off <= most_texels_off ? Verdict::right
+    return shows_terrain(true_hit) && texels_off <= max_texels_off ? Verdict::right
                                                                     : Verdict::wrong;
 }
 

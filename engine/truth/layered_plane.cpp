@@ -92,7 +92,7 @@ public:
     std::optional<Entry> first_entry(Interval range) {
         glm::dvec2 cell = glm::floor(glm::dvec2(ray_.at(range.begin)));
         double t = range.begin;
-        for (int count = 0; count < LayeredPlane::most_cells && t < range.end; ++count) {
+        for (int count = 0; count < LayeredPlane::max_cells && t < range.end; ++count) {
             const glm::dvec2 leaving{leaving_time(cell, 0), leaving_time(cell, 1)};
             const double end = std::min({leaving.x, leaving.y, range.end});
             if (const auto entry = entry_in(cell, {t, std::max(t, end)})) {

@@ -32,7 +32,7 @@ public:
                                        const ReliefOptions& options);
 
     /// A ray that goes through so many cells meets nothing.
-    static constexpr int most_cells = 1'000'000;
+    static constexpr int max_cells = 1'000'000;
 
     /// The first place where a ray that was outside comes inside, t in `range` (begin finite);
     /// world metres. A ray that is not finite meets nothing.

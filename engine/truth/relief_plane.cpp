@@ -85,7 +85,7 @@ public:
     std::optional<double> first_hit_wrapped(Interval range) {
         glm::dvec2 copy = glm::floor(glm::dvec2(ray_.at(range.begin)) / glm::dvec2(texels_));
         double t = range.begin;
-        for (int count = 0; count < ReliefPlane::most_copies && t < range.end; ++count) {
+        for (int count = 0; count < ReliefPlane::max_copies && t < range.end; ++count) {
             const glm::dvec2 leaving{leaving_time(copy, 0), leaving_time(copy, 1)};
             const double end = std::min({leaving.x, leaving.y, range.end});
             if (end == infinity) {

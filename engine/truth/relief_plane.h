@@ -43,7 +43,7 @@ public:
 
     /// A ray that goes on as far as this between its first place in the slab of heights 0 … 1 and
     /// its hit, in copies of the tile, meets nothing: the work for a grazing ray is bounded.
-    static constexpr int most_copies = 4096;
+    static constexpr int max_copies = 4096;
 
     /// The first crossing from above to below, t in `range` (begin finite); world metres. A ray
     /// that is not finite meets nothing.

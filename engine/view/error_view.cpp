@@ -55,14 +55,14 @@ std::array<glm::dvec4, 5> seen_sides(const glm::dmat4& clip_from_local) {
 
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                               const glm::dmat4& world_from_local, terrain::PlacementKind kind,
-                              double most_error) {
-    check(most_error > rasterizer_error, "an error that no rasterizer can keep");
+                              double max_error) {
+    check(max_error > rasterizer_error, "an error that no rasterizer can keep");
     const glm::dvec3 forward = scene::view_axes(camera).forward;
     const glm::dmat3 axes(world_from_local);
     const glm::dvec3 offset = glm::dvec3(world_from_local[3]) - camera.eye;
     const bool is_vertical = kind == terrain::PlacementKind::plane;
     terrain::ErrorView view;
-    view.most_error = most_error - rasterizer_error;
+    view.max_error = max_error - rasterizer_error;
     view.perspective = camera.projection == scene::ProjectionKind::perspective;
     view.stretch = greatest_stretch(axes);
     view.sides = seen_sides(scene::clip_from_world(camera, size) * world_from_local);

@@ -17,18 +17,18 @@ inline constexpr float vertex_steps = 256.0F;
 inline constexpr double rasterizer_error = 1.5 / 256.0;
 
 /// The least and the greatest error that can be asked for, pixels.
-inline constexpr double least_error = scene::least_polygons_error;
-inline constexpr double most_error = scene::most_polygons_error;
+inline constexpr double min_error = scene::min_polygons_error;
+inline constexpr double max_error = scene::max_polygons_error;
 
 /// Where vertices rise: terrain::ErrorView::morph_from. A smaller share takes more triangles, a
 /// greater one lets them rise faster.
 inline constexpr double morph_from = 0.5;
 
 /// How a picture of `size` pixels shows displacements of a terrain placed as `kind` in a node: at
-/// most `most_error` pixels from where they belong, the rasterizer's own error included.
-/// Precondition: most_error > rasterizer_error, world_from_local is affine.
+/// most `max_error` pixels from where they belong, the rasterizer's own error included.
+/// Precondition: max_error > rasterizer_error, world_from_local is affine.
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                               const glm::dmat4& world_from_local, terrain::PlacementKind kind,
-                              double most_error);
+                              double max_error);
 
 } // namespace reljef::view

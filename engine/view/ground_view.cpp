@@ -27,8 +27,8 @@ DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& 
     const scene::GroundDetail& detail = *terrain.detail;
     const glm::dvec2 metres(metres_a_pixel(camera, size));
     const double pixel = metres.x + metres.y * distance;
-    const auto is_seen = [&](double size_on_ground, float least_pixels) {
-        return size_on_ground > static_cast<double>(least_pixels) * pixel;
+    const auto is_seen = [&](double size_on_ground, float min_pixels) {
+        return size_on_ground > static_cast<double>(min_pixels) * pixel;
     };
     if (!is_seen(detail.width, seen_tile_pixels.x)) {
         return DetailLevel::none;

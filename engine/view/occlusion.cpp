@@ -13,7 +13,7 @@ std::optional<double> error_of(const DrawList& list, const scene::TerrainNode& t
     for (const CoarseTerrain& coarse : list.coarse_terrains) {
         if (coarse.terrain == &terrain) {
             const auto* const view = std::get_if<terrain::ErrorView>(&coarse.coarseness);
-            return view != nullptr ? std::optional(view->most_error) : std::nullopt;
+            return view != nullptr ? std::optional(view->max_error) : std::nullopt;
         }
     }
     return 0.0;

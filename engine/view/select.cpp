@@ -28,7 +28,7 @@ std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Til
 }
 
 // Of an overview whose tiles are not there yet: no picture to wait for a bisection for.
-constexpr int overview_levels = terrain::most_patch_levels + 1;
+constexpr int overview_levels = terrain::max_patch_levels + 1;
 
 // How coarse a terrain may be; nothing where every sample is a vertex.
 std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
@@ -43,7 +43,7 @@ std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
     if (polygons->error > 0.0 && terrain.stream == nullptr) {
         terrain::ErrorView view =
             error_view(camera, size, world_from_local, surface.placement().kind(),
-                       std::max(polygons->error, least_error));
+                       std::max(polygons->error, min_error));
         view.morph_from = polygons->morph ? morph_from : 1.0;
         return view;
     }
@@ -68,9 +68,9 @@ bool has_streamed_tiles(const scene::TerrainNode& terrain) {
 class Selector {
 public:
     Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options,
-             std::size_t most_tiles)
+             std::size_t max_tiles)
         : list_(frame.list), requests_(frame.requests), frustum_(frustum), options_(options) {
-        seen_.reserve(most_tiles);
+        seen_.reserve(max_tiles);
     }
 
     void add(const SeenNode& seen) {
@@ -215,7 +215,7 @@ private:
     std::vector<ShownTerrain> shown_;
 };
 
-std::size_t most_tiles(const SceneView& view) {
+std::size_t max_tiles(const SceneView& view) {
     std::size_t most = 0;
     for (const SeenNode& seen : view.nodes()) {
         const auto* const terrain = seen.node->get<scene::TerrainNode>();
@@ -241,7 +241,7 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }
     const Frustum frustum(scene::clip_from_world(list.camera, list.size));
-    Selector selector(frame, frustum, options, most_tiles(view));
+    Selector selector(frame, frustum, options, max_tiles(view));
     for (const SeenNode& seen : view.nodes()) {
         selector.add(seen);
     }

@@ -18,7 +18,7 @@
 namespace reljef::view {
 namespace {
 
-constexpr double least_share_of_triangles = 0.5; // of the error
+constexpr double min_share_of_triangles = 0.5; // of the error
 
 // Errors of vertices and of triangles are seldom the most at the same place: they add up to less
 // than their sum (which 1 would be), if not as little as independent ones do (2, which over the
@@ -28,7 +28,7 @@ constexpr double addition_power = 1.25;
 // Of the error, what is left for triangles where vertices take a share.
 double share_beside(double share_of_vertices) {
     const double taken = std::pow(std::min(share_of_vertices, 1.0), addition_power);
-    return std::max(std::pow(1.0 - taken, 1.0 / addition_power), least_share_of_triangles);
+    return std::max(std::pow(1.0 - taken, 1.0 / addition_power), min_share_of_triangles);
 }
 
 glm::dvec3 place_of(const scene::StreamedTile& tile, glm::ivec2 vertex) {
@@ -186,7 +186,7 @@ private:
         const double most = error * share_beside(error_of_vertices(draw) / error);
         return error_view(list_.camera, list_.size,
                           draw.world_from_local * shape.local_from_plane(),
-                          terrain::PlacementKind::plane, std::max(most, least_error));
+                          terrain::PlacementKind::plane, std::max(most, min_error));
     }
 
     // On a border they are those of the coarser of two tiles.

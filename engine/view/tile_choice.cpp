@@ -36,10 +36,10 @@ constexpr double share_of_tiles = 0.5;
 constexpr double errors_of_horizon = 2.0 * (share_of_tiles + share_of_tiles) + 1.0;
 
 // Of images where finer ones are to be had, pixels from texel to texel.
-constexpr double most_texel = 1.0;
+constexpr double max_texel = 1.0;
 
 // At a time: what is less urgent may turn out not to be needed once these are there.
-constexpr std::size_t most_wanted = 16;
+constexpr std::size_t max_wanted = 16;
 
 struct Candidate {
     double along = 0.0; // metres from the eye, along the ground
@@ -76,7 +76,7 @@ public:
           frustum_(scene::clip_from_world(camera, size)) {
         const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons;
         const double error = scene::error_bound(terrain.material.technique);
-        most_error_ = error > 0.0 ? error : default_tile_error;
+        max_error_ = error > 0.0 ? error : default_tile_error;
         is_perspective_ = camera.projection == scene::ProjectionKind::perspective;
         pixels_per_metre_ = is_perspective_
                                 ? 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov))
@@ -85,7 +85,7 @@ public:
         if (is_solid && !terrain.material.wireframe &&
             stream_.maker().overview().placement().kind() == terrain::PlacementKind::plane) {
             horizon_ =
-                horizon_view(camera, size, world_from_local, errors_of_horizon * most_error_);
+                horizon_view(camera, size, world_from_local, errors_of_horizon * max_error_);
         }
     }
 
@@ -130,14 +130,14 @@ public:
             return 0.0;
         }
         const double pixels = pixels_per_metre(distance_to(tile));
-        const double texels = tile.coarse_texel * pixels / most_texel;
+        const double texels = tile.coarse_texel * pixels / max_texel;
         if (stream_.maker().has_all_samples(tile.id)) {
             return texels;
         }
         const double spacing = stream_.maker().spacing(tile.id.level);
         const double errors =
             std::max(tile.error / share_of_tiles, spacing / samples_apart_in_errors) * pixels /
-            most_error_;
+            max_error_;
         return std::max(errors, texels);
     }
 
@@ -156,7 +156,7 @@ private:
     const glm::dmat4& world_from_local_;
     Frustum frustum_;
     glm::dvec3 eye_{0.0}; // local metres
-    double most_error_ = default_tile_error;
+    double max_error_ = default_tile_error;
     bool is_perspective_ = true;
     double pixels_per_metre_ = 1.0; // at a distance of a metre where it is a perspective
     std::optional<terrain::HorizonView> horizon_;
@@ -164,14 +164,14 @@ private:
 
 // What keeps a walk from the tiles that the view should have.
 struct WalkLimits {
-    double most_excess = 1.0;          // tiles of no more do not give way
+    double max_excess = 1.0;          // tiles of no more do not give way
     std::set<terrain::TreeTile> whole; // nor do these: what is below them is not there
     // Nearer ground hides what is behind it. Only where nothing else keeps tiles from giving way:
     // a border goes to the vertices of the coarsest tile beside it, however far that is off.
     bool hides = true;
 
     void raise(double excess) {
-        most_excess = excess;
+        max_excess = excess;
         hides = false;
     }
     void keep_whole(terrain::TreeTile tile) {
@@ -192,12 +192,12 @@ public:
     [[nodiscard]] bool walk(const scene::StreamedTile& root) {
         open_.push({view_.along(root.bounds), root.id, root.bounds,
                     std::numeric_limits<double>::infinity(), root.id});
-        while (!open_.empty() && leaves_ <= view_.stream().most_drawn()) {
+        while (!open_.empty() && leaves_ <= view_.stream().max_drawn()) {
             const Candidate next = open_.top();
             open_.pop();
             visit(next);
         }
-        return leaves_ <= view_.stream().most_drawn();
+        return leaves_ <= view_.stream().max_drawn();
     }
 
     [[nodiscard]] const std::vector<Candidate>& missing() const { return missing_; }
@@ -255,7 +255,7 @@ private:
     void add(const Candidate& candidate, KnownTile known, bool is_above_hidden) {
         const scene::TileSummary& summary = known.summary;
         const double excess = view_.excess_of(summary);
-        const bool gives_way = excess > limits_.most_excess && !limits_.whole.contains(summary.id);
+        const bool gives_way = excess > limits_.max_excess && !limits_.whole.contains(summary.id);
         const Box box =
             gives_way
                 ? view_.stream().maker().bounds(summary.id, range_below(summary, errors_hidden))
@@ -330,7 +330,7 @@ double excess_within_memory(const StreamView& view, const scene::StreamedTile& r
             return excess != other.excess ? excess < other.excess : other.tile.id < tile.id;
         }
     };
-    const std::size_t most = view.stream().most_drawn();
+    const std::size_t most = view.stream().max_drawn();
     std::size_t leaves = 1;
     std::priority_queue<Open> open;
     open.push({view.excess_of(root), root});
@@ -356,11 +356,11 @@ double excess_within_memory(const StreamView& view, const scene::StreamedTile& r
     return 1.0;
 }
 
-std::vector<terrain::TreeTile> most_urgent(std::vector<Candidate> missing) {
+std::vector<terrain::TreeTile> max_urgent(std::vector<Candidate> missing) {
     std::sort(missing.begin(), missing.end(), [](const Candidate& a, const Candidate& b) {
         return a.urgency != b.urgency ? a.urgency > b.urgency : a.id < b.id;
     });
-    missing.resize(std::min(missing.size(), most_wanted));
+    missing.resize(std::min(missing.size(), max_wanted));
     std::vector<terrain::TreeTile> wanted;
     wanted.reserve(missing.size());
     for (const Candidate& candidate : missing) {
@@ -396,7 +396,7 @@ TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
             continue;
         }
         if (!wanted) {
-            wanted = most_urgent(walk.missing());
+            wanted = max_urgent(walk.missing());
         }
         if (walk.missing().empty()) {
             TileChoice choice = walk.take();

@@ -13,7 +13,7 @@
 
 // A ray that is so flat that it would cross more tiles than these on its way through the heights is
 // taken to cross no more: what it looks for is hidden by what stands before it.
-const float most_tiles = 64.0;
+const float max_tiles = 64.0;
 // How far the search goes beyond the heights [0,1], so that a ray begins above and ends below them
 // whatever rounding says: floats near 1 are good to 2^-24, and a ray adds a few of them.
 const float margin = 1.0 / 4096.0;
@@ -32,7 +32,7 @@ TileRay ray_through(vec3 to_eye, float near_part) {
     vec2 samples_per_metre = tiles_per_metre * samples;
     float way = metres_per_unit.z / max(to_eye.z, 1e-30);
     vec2 tiles = abs(to_eye.xy * way * tiles_per_metre);
-    way *= min(1.0, most_tiles / max(max(tiles.x, tiles.y), 1e-30));
+    way *= min(1.0, max_tiles / max(max(tiles.x, tiles.y), 1e-30));
     vec2 shift = to_eye.xy * way * samples_per_metre;
     float top = 1.0 + margin;
     if (perspective > 0.5) {

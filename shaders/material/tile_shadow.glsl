@@ -18,7 +18,7 @@ float mean_sun_share(vec3 direction) {
 
 // `row`: samples that the pixel covers, along its longer side.
 float sun_share_along(vec2 row, vec2 place, vec3 direction, float places) {
-    vec2 reach = most_tiles * tile_samples();
+    vec2 reach = max_tiles * tile_samples();
     vec2 low = mix(place - reach, vec2(-0.5), bounded);
     vec2 high = mix(place + reach, tile_samples() - 0.5, bounded);
     float sum = 0.0;

@@ -73,11 +73,11 @@ float greatest_between(Corners upper, Corners lower) {
 // Down in steps that double where nothing was met and halve where something may be.
 float clear_down_to(Beam beam) {
     const int looks = 24;
-    const float least_step = 1.0 / 256.0;
+    const float min_step = 1.0 / 256.0;
     float height = begin_height;
     float down = height;
     Corners upper = section(beam, height);
-    for (int i = 0; i < looks && down > least_step && height > 0.0; ++i) {
+    for (int i = 0; i < looks && down > min_step && height > 0.0; ++i) {
         float lower = max(height - down, 0.0);
         float reached = max(greatest_between(upper, section(beam, lower)), lower);
         down *= reached > lower ? 0.5 : 2.0;

@@ -20,7 +20,7 @@ float nearest_part(vec3 start, vec3 way, float low, float high) {
 // How far the ray is from the surface there, over edge_distance, and the place; 1 where it misses
 // nothing on its way to `part`.
 float near_miss(vec3 start, vec3 span, float part, out vec2 place) {
-    const float most_steps = 64.0;
+    const float max_steps = 64.0;
     vec3 way = part * span;
     float at;
     place = start.xy;
@@ -29,7 +29,7 @@ float near_miss(vec3 start, vec3 span, float part, out vec2 place) {
     }
     // On from there, a sample at a time, to the nearest of all places that it passes.
     float samples = max(max(abs(way.x), abs(way.y)), 1.0);
-    float stride = max(1.0 / samples, (1.0 - at) / most_steps);
+    float stride = max(1.0 / samples, (1.0 - at) / max_steps);
     float before = edge_distance;
     float least = edge_distance;
     float passed = -1.0;

@@ -41,7 +41,7 @@ vec3 shares_of_axes(vec3 normal) {
     return shares / (shares.x + shares.y + shares.z);
 }
 
-int most_faced_axis(vec3 shares) {
+int max_faced_axis(vec3 shares) {
     if (shares.z >= max(shares.x, shares.y)) {
         return 2;
     }

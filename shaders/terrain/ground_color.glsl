@@ -23,7 +23,7 @@ vec3 tinted(vec3 albedo, vec2 coordinate, vec2 right, vec2 up) {
 vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_share) {
     vec3 normal = normalize(ground.xyz);
     vec3 shares = shares_of_axes(normal);
-    int axis = most_faced_axis(shares);
+    int axis = max_faced_axis(shares);
     vec3 at = tiles_at_eye + from_eye / tile_width;
     tiles_per_metre = vec2(1.0 / tile_width);
     vec3 shown = vec3(0.0);

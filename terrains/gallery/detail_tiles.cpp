@@ -18,8 +18,8 @@
 namespace reljef::terrains {
 namespace {
 
-constexpr int least_side = 16;
-constexpr int most_side = 4096;
+constexpr int min_side = 16;
+constexpr int max_side = 4096;
 
 // What a tile is made of at a place.
 struct Stuff {
@@ -310,9 +310,9 @@ Result<material::TextureSet> generate_detail(std::string_view name, const Detail
         return Error{fmt::format("texture set '{}' found, one of {} was expected", name,
                                  fmt::join(names, ", "))};
     }
-    if (options.size < least_side || options.size > most_side) {
+    if (options.size < min_side || options.size > max_side) {
         return Error{fmt::format("texture set {}: a size of {} found, {} to {} was expected", name,
-                                 options.size, least_side, most_side)};
+                                 options.size, min_side, max_side)};
     }
     material::TextureSet set = made(kind->make, options);
     set.name = std::string(name);

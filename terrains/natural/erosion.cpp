@@ -187,7 +187,7 @@ void FlowRouter::accumulate() {
 }
 
 void erode(std::span<float> heights, const Drainage& drainage, const ErosionStep& step) {
-    constexpr float least_slope = 0.0005F;
+    constexpr float min_slope = 0.0005F;
     for (const std::int32_t index : drainage.order) {
         const std::size_t cell = cell_index(index);
         const std::int32_t receiver = drainage.receiver[cell];
@@ -201,7 +201,7 @@ void erode(std::span<float> heights, const Drainage& drainage, const ErosionStep
             step.erodibility[cell] * std::sqrt(drainage.area[cell]) / drainage.distance[cell];
         const float eroded = (lifted + power * below) / (1.0F + power);
         heights[cell] =
-            std::clamp(eroded, below + least_slope * distance, below + step.talus[cell] * distance);
+            std::clamp(eroded, below + min_slope * distance, below + step.talus[cell] * distance);
     }
 }
 

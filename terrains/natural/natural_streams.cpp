@@ -10,7 +10,7 @@
 namespace reljef::terrains::natural {
 namespace {
 
-constexpr float least_catchment = 0.7F; // km² above which a stream is drawn
+constexpr float min_catchment = 0.7F; // km² above which a stream is drawn
 
 /// A stream's points, each after the one it flows to.
 struct Point {
@@ -32,7 +32,7 @@ std::vector<Point> points_of(const Land& land) {
     const int cols = land.heights.cols();
     for (const std::int32_t cell : drainage.order) {
         const float upstream = catchment(drainage, cell_index(cell));
-        if (upstream < least_catchment) {
+        if (upstream < min_catchment) {
             continue;
         }
         const std::int32_t receiver = drainage.receiver[cell_index(cell)];
@@ -85,14 +85,14 @@ void meander(std::vector<Point>& points, const LandOptions& options) {
 
 /// Water runs down from every point to the next one.
 void find_levels(std::vector<Point>& points, const Land& land) {
-    constexpr float least_fall = 0.01F;
+    constexpr float min_fall = 0.01F;
     for (Point& point : points) {
         const int col = static_cast<int>(std::lround(point.place.x));
         const int row = static_cast<int>(std::lround(point.place.y));
         const float bed = land.heights(col, row) - 1.0F - 1.5F * std::min(point.half_width, 1.5F);
         point.level = point.next == no_cell
                           ? bed
-                          : std::max(bed, points[cell_index(point.next)].level + least_fall);
+                          : std::max(bed, points[cell_index(point.next)].level + min_fall);
     }
 }
 

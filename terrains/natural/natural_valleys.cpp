@@ -76,7 +76,7 @@ bool far_from(const std::vector<Reach>& reaches, std::int32_t cell, int cols) {
 /// The flattest reaches of rivers, far from each other.
 std::vector<Reach> lake_reaches(const Land& land, const std::vector<std::int32_t>& donors) {
     constexpr float length = 2400.0F;
-    constexpr float most_rise = 110.0F;
+    constexpr float max_rise = 110.0F;
     std::vector<std::pair<float, std::int32_t>> candidates;
     for (const std::int32_t cell : land.drainage.order) {
         if (cell % 5 == 0 && may_hold_lake(land, cell)) {
@@ -88,7 +88,7 @@ std::vector<Reach> lake_reaches(const Land& land, const std::vector<std::int32_t
     const auto wanted = static_cast<std::size_t>(1.0F + kilometres * kilometres / 250.0F);
     std::vector<Reach> reaches;
     for (const auto& [rise, cell] : candidates) {
-        if (rise < most_rise && reaches.size() < wanted &&
+        if (rise < max_rise && reaches.size() < wanted &&
             far_from(reaches, cell, land.heights.cols())) {
             reaches.push_back(reach_from(cell, length, land, donors));
         }

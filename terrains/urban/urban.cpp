@@ -15,9 +15,9 @@ using namespace urban;
 
 constexpr int tile_size = 64;
 constexpr double default_spacing = 0.5;
-constexpr double least_spacing = 0.05;
-constexpr double most_spacing = 4.0;
-constexpr float least_city = 640.0F; ///< metres; what a small window is cut from
+constexpr double min_spacing = 0.05;
+constexpr double max_spacing = 4.0;
+constexpr float min_city = 640.0F; ///< metres; what a small window is cut from
 
 std::optional<Error> complaint(const GeneratorOptions& options) {
     if (options.size < 16 || options.size > 4096) {
@@ -25,7 +25,7 @@ std::optional<Error> complaint(const GeneratorOptions& options) {
                      " is out of range, expected 16 to 4096 samples"};
     }
     const bool own = options.spacing == 0.0;
-    if (!own && !(options.spacing >= least_spacing && options.spacing <= most_spacing)) {
+    if (!own && !(options.spacing >= min_spacing && options.spacing <= max_spacing)) {
         return Error{"urban: spacing " + std::to_string(options.spacing) +
                      " is out of range, expected 0.05 to 4 m, or 0 for 0.5 m"};
     }
@@ -124,7 +124,7 @@ Result<terrain::Terrain> generate_urban(const GeneratorOptions& options) {
     }
     const double spacing = options.spacing == 0.0 ? default_spacing : options.spacing;
     const auto extent = static_cast<float>(spacing * options.size);
-    const float period = options.tileable ? extent : std::max(extent, least_city);
+    const float period = options.tileable ? extent : std::max(extent, min_city);
     const City city = build_city(period, hash(options.seed, 3, 3), options.threads);
 
     terrain::Terrain terrain;

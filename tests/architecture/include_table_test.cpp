@@ -96,6 +96,10 @@ TEST(Project, InstallsEveryHeaderThatAnInstalledOneIncludes) {
     EXPECT_THAT(private_headers_in_public_ones(files_below({"engine", "terrains"})), IsEmpty());
 }
 
+TEST(Project, NamesBoundsMaxAndMin) {
+    EXPECT_THAT(complaints_about(all_code(), bounds_of_dialect), IsEmpty());
+}
+
 TEST(Project, CrowdsNoFolder) {
     std::vector<SourceFile> files =
         files_below({"engine", "app", "bench", "terrains", "tests", "shaders"});

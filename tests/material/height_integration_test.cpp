@@ -21,7 +21,7 @@ using test::Chance;
 // such a one central differences, and the least squares, know each wave by itself.
 struct Waves {
     Grid<float> heights;
-    double most_lost = 0.0; // of all amplitudes: sin²(ω/2)
+    double max_lost = 0.0; // of all amplitudes: sin²(ω/2)
 };
 
 Waves random_waves(Chance& chance, material::TileBorder border) {
@@ -36,7 +36,7 @@ Waves random_waves(Chance& chance, material::TileBorder border) {
         const double phase = border == material::TileBorder::wrap ? chance.between(0.0, 6.0) : 0.0;
         const double amplitude = chance.between(0.5, 2.0);
         const double half = std::sin(0.5 * std::max(omega.x, omega.y));
-        waves.most_lost += amplitude * half * half;
+        waves.max_lost += amplitude * half * half;
         for (int row = 0; row < rows; ++row) {
             for (int col = 0; col < cols; ++col) {
                 waves.heights(col, row) +=
@@ -77,7 +77,7 @@ TEST(HeightIntegration, OfASurfacesNormalsGivesTheSurfaceLessItsShortestWaves) {
             EXPECT_LE(found.remaining, 1e-8);
             // Normals of floats are good to 2^-23 each; over the map that adds up.
             EXPECT_LE(greatest_difference(found.heights, waves.heights),
-                      1.001 * waves.most_lost + 1e-3)
+                      1.001 * waves.max_lost + 1e-3)
                 << waves.heights.cols() << " x " << waves.heights.rows();
         }
     }

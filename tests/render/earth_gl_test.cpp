@@ -13,7 +13,7 @@
 namespace reljef::render {
 namespace {
 
-constexpr double most_pixels_off = 0.01;
+constexpr double max_pixels_off = 0.01;
 
 /// Geocentric from east, north, up at a place.
 glm::dmat4 earth_frame(double latitude, double longitude) {
@@ -49,7 +49,7 @@ struct Ground {
         *camera->get<Camera>() = view;
     }
     /// How far from its pixel a place is that a picture shows, by doubles; over all pixels.
-    [[nodiscard]] double most_off(const HitBuffer& hits) const {
+    [[nodiscard]] double max_off(const HitBuffer& hits) const {
         double most = 0.0;
         for (int y = 0; y < size.y; ++y) {
             for (int x = 0; x < size.x; ++x) {
@@ -84,7 +84,7 @@ TEST_F(EarthGlTest, AMetreAboveTheGroundNoPixelIsAHundredthOffAnywhere) {
         ground.stand(earth_frame(place.x, place.y),
                      {chance.between(-6.0, 6.0), chance.between(-6.0, 6.0)},
                      chance.between(0.0, 6.0));
-        EXPECT_LE(ground.most_off(test::must(made.draw_hits(ground.scene))), most_pixels_off)
+        EXPECT_LE(ground.max_off(test::must(made.draw_hits(ground.scene))), max_pixels_off)
             << place.x << "," << place.y;
     }
 }
@@ -95,7 +95,7 @@ TEST_F(EarthGlTest, NothingJittersWhileTheEyeCreepsAMillimetreAFrame) {
     const glm::dmat4 frame = earth_frame(46.0, 7.0);
     for (int i = 0; i < 12; ++i) {
         ground.stand(frame, {1.0 + 0.001 * i, 2.0}, 0.7);
-        ASSERT_LE(ground.most_off(test::must(made.draw_hits(ground.scene))), 0.5 * most_pixels_off)
+        ASSERT_LE(ground.max_off(test::must(made.draw_hits(ground.scene))), 0.5 * max_pixels_off)
             << "frame " << i;
     }
 }
@@ -116,7 +116,7 @@ TEST(EarthPrecision, VerticesAreWhereTheyBelongFarFromTheMiddleOfTheirTerrain) {
         const SplitPoint split = split_into_floats(eye);
         const glm::vec3 from_eye = (vertex.position - split.rounded) + (vertex.rest - split.rest);
         const double off = glm::distance(glm::dvec3(from_eye), place - eye);
-        ASSERT_LE(off * pixels / std::max(glm::length(place - eye), 1.0), most_pixels_off);
+        ASSERT_LE(off * pixels / std::max(glm::length(place - eye), 1.0), max_pixels_off);
     }
 }
 

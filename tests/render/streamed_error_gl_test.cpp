@@ -155,7 +155,7 @@ TEST_F(StreamedError, OfTheVerticesBesideATileIsNotLeftToItsTriangles) {
             tiles.push_back({&list.streamed_tiles[i], &cuts[i]});
         }
         view::cut_together(list, cover, true, tiles);
-        return tiles.front().view.most_error;
+        return tiles.front().view.max_error;
     };
     EXPECT_GT(left_to_first(), 0.95);
     for (view::StreamedDraw& draw : list.streamed_tiles) {

@@ -285,7 +285,7 @@ TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShor
                 for (const view::TileChoice::Drawn& drawn : choice.drawn) {
                     worst = std::max(worst, drawn.error);
                 }
-                ASSERT_LE(choice.drawn.size(), world.terrain->stream->most_drawn());
+                ASSERT_LE(choice.drawn.size(), world.terrain->stream->max_drawn());
                 ASSERT_TRUE(hidden_tiles(choice) == 0 || worst <= 0.125) << worst;
                 hiding += hidden_tiles(choice) > 0 ? 1 : 0;
                 coarse += worst > 0.125 ? 1 : 0;

@@ -30,7 +30,7 @@ glm::dvec3 shown_at(glm::dvec2 sample) {
 }
 // Of a colour, levels a square sample: 60 · 0.5², and as much again since it is linear light that
 // filters mix, which bends by 1.2 over a level of at least 67 where a colour grows by 30 a sample.
-constexpr double most_bend = 60.0 * 0.5 * 0.5 + 1.2 / 67.0 * 30.0 * 30.0;
+constexpr double max_bend = 60.0 * 0.5 * 0.5 + 1.2 / 67.0 * 30.0 * 30.0;
 
 /// The same in stripes, as wide as two pixels.
 glm::dvec3 striped_at(glm::dvec2 sample) {
@@ -53,7 +53,7 @@ public:
             node.surface, terrain::TileTree(tree_side, tree_side), overview_reduction,
             {.finest_pixel = 0.125,
              .refinement = refinement,
-             .most_texels = scene::TileStream::texels_within(memory_budget)});
+             .max_texels = scene::TileStream::texels_within(memory_budget)});
         stream = std::make_shared<scene::TileStream>(
             maker,
             [maker, show](TreeTile tile, const std::stop_token&) {
@@ -113,7 +113,7 @@ TEST_F(StreamedPicturesGlTest, EveryPixelHasTheColourOfItsPlace) {
         const Image picture = made.read_color();
         const HitBuffer hits = test::must(made.draw_hits(world.scene));
         const double pixel = 2.0 * eye.z * std::tan(glm::radians(0.5 * 57.3)) / size.y;
-        const double allowed = most_bend * 9.0 * pixel * pixel / 8.0 + 2.0;
+        const double allowed = max_bend * 9.0 * pixel * pixel / 8.0 + 2.0;
         int compared = 0;
         for (int row = 0; row < size.y; ++row) {
             for (int col = 0; col < size.x; ++col) {
@@ -223,7 +223,7 @@ TEST_F(StreamedPicturesGlTest, AFlightOverImagesStaysWithinALittleMemory) {
         world.look_down({-110.0 + 10.0 * step, 8.0 * step - 50.0, 8.0});
     }
     EXPECT_GE(world.stream->stats().read, 16);
-    EXPECT_LE(world.stream->stats().most_bytes, budget);
+    EXPECT_LE(world.stream->stats().max_bytes, budget);
 }
 
 TEST(StreamedVertices, StandWhereADoubleOracleHasThemSeenFromAMetre) {

@@ -46,9 +46,9 @@ TEST(TileStreams, HavePicturesOfFewerTexelsWhereMemoryIsSmall) {
         const int texels = TileStream::texels_within(budget);
         EXPECT_EQ(texels, megabytes < 80 ? 1 : megabytes < 135 ? 2 : 4);
         const TileMaker make(overview(), TileTree(side, side), reduction,
-                             {.finest_pixel = 0.1, .refinement = 1, .most_texels = texels});
+                             {.finest_pixel = 0.1, .refinement = 1, .max_texels = texels});
         EXPECT_EQ(make.bytes_per_tile(), bytes_of_tile(texels));
-        EXPECT_TRUE(texels == 1 || 2 * TileStream::least_drawn * make.bytes_per_tile() <= budget);
+        EXPECT_TRUE(texels == 1 || 2 * TileStream::min_drawn * make.bytes_per_tile() <= budget);
     }
 }
 
@@ -341,7 +341,7 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     stream.request(level_0());
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(stream.stats().read, 56);
-    EXPECT_EQ(stream.stats().failed, 8 * TileStream::most_attempts);
+    EXPECT_EQ(stream.stats().failed, 8 * TileStream::max_attempts);
     EXPECT_FALSE(stream.is_busy());
     EXPECT_TRUE(stream.has_given_up({0, 3, 5}));
     EXPECT_FALSE(stream.has_given_up({0, 4, 5}));
@@ -377,10 +377,10 @@ TEST(TileStreams, WaitOnceForAFileThatFailsForGood) {
                       {.threads = 2, .first_pause = 2ms});
     stream.request(std::array{TreeTile{0, 0, 0}});
     EXPECT_TRUE(stream.wait({}));
-    EXPECT_EQ(stream.stats().failed, TileStream::most_attempts);
+    EXPECT_EQ(stream.stats().failed, TileStream::max_attempts);
     stream.request(level_0());
     EXPECT_TRUE(stream.wait({}));
-    EXPECT_EQ(stream.stats().failed, TileStream::most_attempts + 63);
+    EXPECT_EQ(stream.stats().failed, TileStream::max_attempts + 63);
     EXPECT_FALSE(stream.is_busy());
     // What of it was not tried is read as soon as it is wanted.
     is_back = true;

@@ -90,7 +90,7 @@ TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
     const scene::FlyPath path = northward_path({500.0, -300.0, 200.0});
     TilesOnly maker;
     EXPECT_NEAR(session::fly_above_ground(scene, path, 0, 2, maker, {}).metres,
-                800.0 + session::least_clearance(scene), 1e-9);
+                800.0 + session::min_clearance(scene), 1e-9);
     const view::FrameView frame = view::select(scene.scene, small_picture);
     ASSERT_EQ(frame.requests.size(), 1U);
     EXPECT_TRUE(frame.requests.front().missing.empty());
@@ -121,7 +121,7 @@ TEST_F(StreamedCanyon, ACameraUnderThePlateauIsLiftedUnlessItMayBeThere) {
     EXPECT_EQ(camera, before);
     const session::Lift lift = session::stand_above_ground(scene, maker, {});
     EXPECT_NEAR(lift.depth, 800.0, 1e-9);
-    EXPECT_NEAR(lift.metres, 800.0 + session::least_clearance(scene), 1e-9);
+    EXPECT_NEAR(lift.metres, 800.0 + session::min_clearance(scene), 1e-9);
     EXPECT_EQ(camera.eye, before.eye + lift.way);
     EXPECT_EQ(camera.look.z, before.look.z + lift.way.z);
     const scene::FlyPath path = northward_path(before.eye);

@@ -89,7 +89,7 @@ void expect_right(TerrainScene& scene, double above, glm::dvec2 sample) {
     ASSERT_TRUE(lift);
     ASSERT_NEAR(lift.depth, -above * exaggeration, 1e-3);
     ASSERT_GE(*height_above_ground(terrain_of(scene), after.eye) * exaggeration,
-              least_clearance(scene) - rounding);
+              min_clearance(scene) - rounding);
     const auto now = placement_of(scene).sample_from_world(after.eye);
     ASSERT_LT(glm::distance(glm::dvec2(*now), sample), 1e-6) << "at the same place";
     ASSERT_EQ(keep_above_ground(scene) > rounding, false) << "above all triangulations, too";

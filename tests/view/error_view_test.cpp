@@ -60,8 +60,8 @@ TEST(ErrorView, WhatIsLeftUnsplitIsSeenWithinTheErrorEverywhereOnThePicture) {
         const glm::dmat4 world_from_local = chance_transform(chance);
         const auto kind =
             chance.one_in(2) ? terrain::PlacementKind::plane : terrain::PlacementKind::ellipsoid;
-        const double most_error = std::exp(chance.between(-1.0, 4.0));
-        const auto view = view::error_view(camera, picture, world_from_local, kind, most_error);
+        const double max_error = std::exp(chance.between(-1.0, 4.0));
+        const auto view = view::error_view(camera, picture, world_from_local, kind, max_error);
         const double error = std::exp(chance.between(-7.0, 2.0));
         const glm::dvec3 shown = chance_point(chance, 100.0);
         const glm::dvec3 way = kind == terrain::PlacementKind::plane
@@ -81,7 +81,7 @@ TEST(ErrorView, WhatIsLeftUnsplitIsSeenWithinTheErrorEverywhereOnThePicture) {
         ++allowed;
         const auto at = scene::project(camera, picture, world(shown)).pixel;
         const auto belongs = scene::project(camera, picture, world(shown + error * way)).pixel;
-        ASSERT_LE(glm::distance(at, belongs), most_error - view::rasterizer_error + 1e-9);
+        ASSERT_LE(glm::distance(at, belongs), max_error - view::rasterizer_error + 1e-9);
     }
     EXPECT_GT(allowed, 5000);
     EXPECT_GT(refused, 5000);

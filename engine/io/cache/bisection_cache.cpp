@@ -84,7 +84,7 @@ std::optional<CachedBisection> cached_bisection(const terrain::Heightfield& heig
         return std::nullopt;
     }
     const bool is_to_keep =
-        !path.empty() && !(read && *read) && watch.seconds() >= options.least_seconds;
+        !path.empty() && !(read && *read) && watch.seconds() >= options.min_seconds;
     if (is_to_keep) {
         const std::string fault = keep(path, key, *cached.bisection);
         cached.note = fault.empty() ? cached.note : fault;

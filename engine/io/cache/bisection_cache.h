@@ -12,7 +12,7 @@ namespace reljef::io {
 
 struct BisectionCacheOptions {
     std::optional<std::filesystem::path> folder; ///< made when needed; absent: nothing is kept
-    double least_seconds = 0.5;                  ///< what is made sooner is not kept
+    double min_seconds = 0.5;                  ///< what is made sooner is not kept
     ParallelOptions parallel;
 };
 

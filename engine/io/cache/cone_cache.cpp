@@ -87,7 +87,7 @@ std::optional<CachedCones> cached_cones(GridView<const float> unit_heights,
     }
     const double seconds = watch.seconds();
     cached.cones = std::make_shared<const material::ConeMaps>(std::move(*made));
-    if (!path.empty() && seconds >= options.least_seconds) {
+    if (!path.empty() && seconds >= options.min_seconds) {
         const auto written = write_cones(path, unit_heights, *cached.cones);
         cached.note = written ? cached.note : written.error().message;
     }

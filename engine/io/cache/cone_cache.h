@@ -16,7 +16,7 @@ std::optional<std::filesystem::path> cache_folder();
 
 struct ConeCacheOptions {
     std::optional<std::filesystem::path> folder; ///< made when needed; absent: nothing is kept
-    double least_seconds = 1.0;                  ///< what is made sooner is not kept
+    double min_seconds = 1.0;                  ///< what is made sooner is not kept
     ParallelOptions parallel;
 };
 

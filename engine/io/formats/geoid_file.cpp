@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float most_undulation = 150.0F; // metres: the Earth's is -107 to 86
-constexpr int most_geoid_side = 1 << 15;  // samples: EGM2008 at 1′ has 21,600
+constexpr float max_undulation = 150.0F; // metres: the Earth's is -107 to 86
+constexpr int max_geoid_side = 1 << 15;  // samples: EGM2008 at 1′ has 21,600
 
 Result<geo::Geoid> unfit(const std::string& name, const std::string& found) {
     return Error{
@@ -46,7 +46,7 @@ std::optional<Grid<float>> undulation_of(GDALRasterBand& band) {
 }
 
 /// The farthest from the ellipsoid.
-float most_of(const Grid<float>& undulation) {
+float max_of(const Grid<float>& undulation) {
     float most = 0.0F;
     for (const float height : undulation.samples()) {
         most = std::abs(height) > std::abs(most) ? height : most;
@@ -74,15 +74,15 @@ Result<geo::Geoid> read_geoid(const fs::path& path) {
         return unfit(name, "is no grid of degrees");
     }
     GDALRasterBand& band = *(*dataset)->GetRasterBand(1);
-    if (band.GetXSize() < 4 || band.GetYSize() < 4 || band.GetXSize() > most_geoid_side ||
-        band.GetYSize() > most_geoid_side) {
+    if (band.GetXSize() < 4 || band.GetYSize() < 4 || band.GetXSize() > max_geoid_side ||
+        band.GetYSize() > max_geoid_side) {
         return unfit(name, fmt::format("has {}×{} samples", band.GetXSize(), band.GetYSize()));
     }
     auto undulation = undulation_of(band);
     if (!undulation) {
         return unfit(name, "cannot be read" + messages.reason());
     }
-    if (const float most = most_of(*undulation); std::abs(most) > most_undulation) {
+    if (const float most = max_of(*undulation); std::abs(most) > max_undulation) {
         return unfit(name, fmt::format("{:.0f} m from the ellipsoid found", most));
     }
     const glm::dvec2 first = affine->crs_from_pixel(glm::dvec2(0.5));

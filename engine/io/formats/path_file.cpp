@@ -11,7 +11,7 @@
 namespace reljef::io {
 namespace {
 
-constexpr std::size_t most_keys = 100'000;
+constexpr std::size_t max_keys = 100'000;
 constexpr NumberRange any_time{-std::numeric_limits<double>::max(),
                                std::numeric_limits<double>::max(), false};
 
@@ -68,9 +68,9 @@ Result<GeodeticKey> geodetic_key_of(TomlTable& table) {
 template <class Key, class KeyOf>
 Result<std::vector<Key>> keys_of(std::vector<TomlTable>& tables, const std::string& name,
                                  const KeyOf& key_from) {
-    if (tables.empty() || tables.size() > most_keys) {
+    if (tables.empty() || tables.size() > max_keys) {
         return Error{fmt::format("{}: has {} tables [[key]], 1 to {} were expected", name,
-                                 tables.size(), most_keys)};
+                                 tables.size(), max_keys)};
     }
     std::vector<Key> keys;
     for (TomlTable& table : tables) {

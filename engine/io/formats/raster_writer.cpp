@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int written_block = 256;     // samples of a side
-constexpr int least_overview = 256;    // samples of a side
+constexpr int min_overview = 256;    // samples of a side
 constexpr double writing_share = 0.75; // of the time; the rest for the overviews
 constexpr int utm_zone_32_north = 32632;
 
@@ -78,7 +78,7 @@ bool write_overviews(GDALDataset& dataset, const HeightRaster& raster,
                      const ParallelOptions& parallel) {
     std::vector<int> factors;
     for (int factor = raster.finest_overview;
-         std::max(raster.cols, raster.rows) / factor >= least_overview; factor *= 4) {
+         std::max(raster.cols, raster.rows) / factor >= min_overview; factor *= 4) {
         factors.push_back(factor);
     }
     ParallelOptions told = parallel;

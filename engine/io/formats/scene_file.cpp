@@ -20,14 +20,14 @@ constexpr NumberRange any_number{-unlimited, unlimited, false};
 // Metres a stored value, and metres: no raster of the Earth needs more.
 constexpr NumberRange height_scales{-1e6, 1e6, false};
 constexpr NumberRange height_offsets{-1e6, 1e6, false};
-constexpr NumberRange spacings{terrain::least_spacing, terrain::most_spacing, false};
+constexpr NumberRange spacings{terrain::min_spacing, terrain::max_spacing, false};
 constexpr NumberRange sizes{16.0, 4096.0, false};
 constexpr NumberRange seeds{0.0, 4294967295.0, false};
 constexpr NumberRange exaggerations{0.0, terrain::largest_exaggeration, true};
 constexpr NumberRange azimuths{-360.0, 360.0, false};
 constexpr NumberRange altitudes{0.0, 90.0, true};
-constexpr NumberRange tile_widths{material::least_tile_width, material::most_tile_width, false};
-constexpr NumberRange tile_scales{0.0, material::most_tile_scale, true};
+constexpr NumberRange tile_widths{material::min_tile_width, material::max_tile_width, false};
+constexpr NumberRange tile_scales{0.0, material::max_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};

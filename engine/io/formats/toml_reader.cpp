@@ -72,7 +72,7 @@ bool within(double value, const NumberRange& range) {
            (range.above_low ? value > range.low : value >= range.low);
 }
 
-constexpr int most_name_parts = 64;
+constexpr int max_name_parts = 64;
 
 // Where the string that begins at `begin` ends; the end of the text where it does not.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
@@ -109,7 +109,7 @@ std::optional<std::ptrdiff_t> line_of_endless_name(std::string_view text) {
             continue;
         }
         parts = between_names.find(c) != std::string_view::npos ? 1 : parts + (c == '.' ? 1 : 0);
-        if (parts > most_name_parts) {
+        if (parts > max_name_parts) {
             return 1 +
                    std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
         }
@@ -134,7 +134,7 @@ std::filesystem::path beside(const std::filesystem::path& folder, const std::str
 Result<toml::table> parse_toml(std::string_view text, const std::string& name) {
     if (const auto line = line_of_endless_name(text)) {
         return Error{fmt::format("{}:{}: has a name of over {} parts, fewer were expected", name,
-                                 *line, most_name_parts)};
+                                 *line, max_name_parts)};
     }
     try {
         return toml::parse(text, name);

@@ -13,8 +13,8 @@
 namespace reljef::io {
 namespace {
 
-constexpr std::size_t most_track_points = 100'000;
-constexpr double least_way = 1.0; // metres; nearer points are the same place to a camera
+constexpr std::size_t max_track_points = 100'000;
+constexpr double min_way = 1.0; // metres; nearer points are the same place to a camera
 
 using Segments = std::vector<const OGRLineString*>;
 
@@ -105,7 +105,7 @@ Result<std::vector<GeodeticKey>> keys_along(const std::vector<TrackPoint>& point
             const double way =
                 geo::geodesic_distance({keys.back().latitude, keys.back().longitude, 0.0},
                                        {key.latitude, key.longitude, 0.0});
-            if (way < least_way) {
+            if (way < min_way) {
                 continue;
             }
             key.time = keys.back().time + way / metres_a_second;
@@ -156,9 +156,9 @@ Result<Flight> read_track(const std::filesystem::path& path, double metres_a_sec
         return Error{fmt::format("{}: holds no line of two points or more{}, one was expected",
                                  name, messages.reason())};
     }
-    if (const std::size_t count = points_in(track.segments); count > most_track_points) {
+    if (const std::size_t count = points_in(track.segments); count > max_track_points) {
         return Error{fmt::format("{}: its line has {} points, at most {} were expected", name,
-                                 count, most_track_points)};
+                                 count, max_track_points)};
     }
     const auto points = points_of(track.segments);
     if (!points) {

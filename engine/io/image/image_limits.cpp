@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int longest_side = 1 << 16;
-constexpr double most_pixels = 1 << 28;
+constexpr double max_pixels = 1 << 28;
 constexpr double always_allowed = 1 << 24; // pixels
 constexpr double pixels_per_byte = 2000.0; // no format of ours packs tighter
 
@@ -72,7 +72,7 @@ Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec)
     std::error_code code;
     const double bytes = static_cast<double>(fs::file_size(path, code));
     const double pixels = static_cast<double>(spec.width) * spec.height;
-    const double most = std::min(most_pixels, std::max(always_allowed, bytes * pixels_per_byte));
+    const double most = std::min(max_pixels, std::max(always_allowed, bytes * pixels_per_byte));
     const bool good = spec.width > 0 && spec.height > 0 && spec.width <= longest_side &&
                       spec.height <= longest_side && spec.depth <= 1 && spec.nchannels > 0 &&
                       pixels <= most;

@@ -27,7 +27,7 @@ namespace reljef::io {
 namespace {
 
 constexpr double bytes_per_pixel = 16.0 / 3.0; // with mipmaps
-constexpr double least_budget_share = 0.25;
+constexpr double min_budget_share = 0.25;
 constexpr std::size_t reading_part = 8; // of the budget, for what is read at a time
 
 /// Where the heights and the image meet: a space both have an affine to. `crs` absent: the heights'
@@ -174,7 +174,7 @@ Size target_size(const SampleGrid& grid, const Meeting& meeting, glm::dvec2 pixe
     const glm::dvec2 wanted = glm::clamp(glm::round(intervals) + 1.0, 2.0, 1e6);
     const double used = static_cast<double>(grid.cols) * grid.rows * bytes_per_sample;
     const double whole = static_cast<double>(budget);
-    const double pixels = std::max(whole - used, whole * least_budget_share) / bytes_per_pixel;
+    const double pixels = std::max(whole - used, whole * min_budget_share) / bytes_per_pixel;
     const double shrink = std::min({1.0, longest_image_side / std::max(wanted.x, wanted.y),
                                     std::sqrt(pixels / (wanted.x * wanted.y))});
     const glm::dvec2 size = glm::max(glm::floor(wanted * shrink + 1e-6), 2.0);

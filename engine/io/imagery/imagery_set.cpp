@@ -210,7 +210,7 @@ struct ImagerySet::State {
     bool add(const KnownImage& image, const Choice& choice, const TileGrid& grid,
              std::span<const double> turns, ImageryWindow& window,
              const std::stop_token& stop) const {
-        if (choice.pixels > ImagerySet::most_pixels_read || failing.given_up(image.path)) {
+        if (choice.pixels > ImagerySet::max_pixels_read || failing.given_up(image.path)) {
             window.whole = false;
             return true;
         }
@@ -319,7 +319,7 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
 std::optional<std::string> ImagerySet::missing_overviews() const {
     for (const KnownImage& image : state_->images) {
         const double pixels = static_cast<double>(image.size.x) * image.size.y;
-        if (image.overviews.empty() && pixels > most_pixels_read) {
+        if (image.overviews.empty() && pixels > max_pixels_read) {
             return fmt::format("{0}: {1}×{2} pixels without overviews, so that views from afar "
                                "show it as coarse as it was read at the start; 'gdaladdo -r "
                                "average {0} 2 4 8 16 32 64' adds them",

@@ -51,12 +51,12 @@ public:
     /// The picture at the places of `grid`, `spacing` metres apart, from the overviews that are
     /// just finer. Neighbours that share a row or a column of places have the same texels there
     /// (places are right to a tenth of a texel where `reading_memory` holds no whole reading). An
-    /// image of which more than `most_pixels_read` would be read is left out, and one that is given
+    /// image of which more than `max_pixels_read` would be read is left out, and one that is given
     /// up for now, as BackOff says, without a fault.
     [[nodiscard]] ImageryWindow read(const TileGrid& grid, double spacing,
                                      const std::stop_token& stop = {}) const;
-    static constexpr double most_pixels_read = 1U << 26U;
-    static constexpr int most_failures = BackOff::most_attempts;
+    static constexpr double max_pixels_read = 1U << 26U;
+    static constexpr int max_failures = BackOff::max_attempts;
 
     /// Where an image is so large that it is left out of coarse views, because it has no overviews:
     /// a sentence that names the first such file and the command that makes them.

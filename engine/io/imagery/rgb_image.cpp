@@ -209,9 +209,9 @@ Dataset as_rgb(Dataset image, double white) {
 }
 
 int thinning_of(GDALDataset& image) {
-    constexpr double most_pixels_read = 1U << 29U;
+    constexpr double max_pixels_read = 1U << 29U;
     const double pixels = static_cast<double>(image.GetRasterXSize()) * image.GetRasterYSize();
-    return static_cast<int>(std::ceil(std::sqrt(pixels / most_pixels_read)));
+    return static_cast<int>(std::ceil(std::sqrt(pixels / max_pixels_read)));
 }
 
 Dataset thinned(Dataset rgb, int thinning) {
@@ -248,7 +248,7 @@ Dataset raster_over(Image& image) {
 
 bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
     CPLStringList words;
-    add(words, {"-r", "bilinear", "-et", fmt::format("{}", most_warp_error), "-ovr",
+    add(words, {"-r", "bilinear", "-et", fmt::format("{}", max_warp_error), "-ovr",
                 overview_word(options.overview)});
     if (options.scale > 0.0) {
         add(words, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",

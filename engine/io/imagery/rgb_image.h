@@ -42,10 +42,10 @@ struct WarpOptions {
 inline constexpr int automatic_overview = -2;
 
 /// Draws an image into a raster over the same ground, in their own coordinate systems, bilinear;
-/// where it shows nothing alpha is 0. Places are right to `most_warp_error`, those of the first and
+/// where it shows nothing alpha is 0. Places are right to `max_warp_error`, those of the first and
 /// the last column exactly. False where it could not be read, or was stopped.
 bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options);
-inline constexpr double most_warp_error = 0.05; // pixels of the target
+inline constexpr double max_warp_error = 0.05; // pixels of the target
 
 /// Puts an image of the same size beneath one that is transparent in places.
 void lay_under(Image& top, const Image& beneath);

@@ -8,12 +8,12 @@
 namespace reljef::io {
 namespace {
 
-constexpr int least_window_cols = 64; // so that there are not too many
+constexpr int min_window_cols = 64; // so that there are not too many
 
 /// A block or some rows of it, or some narrow blocks.
 glm::ivec2 window_for(glm::ivec2 block, glm::ivec2 size) {
-    const int cols = std::min(std::clamp(block.x, least_window_cols, most_window_pixels), size.x);
-    return {cols, std::clamp(std::min(block.y, size.y), 1, most_window_pixels / cols)};
+    const int cols = std::min(std::clamp(block.x, min_window_cols, max_window_pixels), size.x);
+    return {cols, std::clamp(std::min(block.y, size.y), 1, max_window_pixels / cols)};
 }
 
 } // namespace
@@ -22,7 +22,7 @@ std::vector<PixelWindow> sampled_windows(glm::ivec2 size, glm::ivec2 block) {
     const glm::ivec2 window = window_for(block, size);
     const std::int64_t across = (size.x - 1) / window.x + 1;
     const std::int64_t count = across * ((size.y - 1) / window.y + 1);
-    const std::int64_t wanted = most_sampled_pixels / (window.x * window.y) + 1;
+    const std::int64_t wanted = max_sampled_pixels / (window.x * window.y) + 1;
     std::int64_t step = std::max<std::int64_t>(1, (count + wanted - 1) / wanted);
     step += step > 1 && step % across == 0 ? 1 : 0; // not always the same column
     std::vector<PixelWindow> windows;

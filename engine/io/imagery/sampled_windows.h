@@ -13,10 +13,10 @@ struct PixelWindow {
 };
 
 /// All of an image of `size` pixels that is stored in blocks of `block`, or as much of it, evenly
-/// spread, as makes `most_sampled_pixels`, and a window more. None has more than
-/// `most_window_pixels`: what is read at a time is no larger where a file claims huge blocks.
+/// spread, as makes `max_sampled_pixels`, and a window more. None has more than
+/// `max_window_pixels`: what is read at a time is no larger where a file claims huge blocks.
 std::vector<PixelWindow> sampled_windows(glm::ivec2 size, glm::ivec2 block);
-inline constexpr int most_sampled_pixels = 1 << 22;
-inline constexpr int most_window_pixels = 1 << 18;
+inline constexpr int max_sampled_pixels = 1 << 22;
+inline constexpr int max_window_pixels = 1 << 18;
 
 } // namespace reljef::io

@@ -23,10 +23,10 @@ namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr GIntBig most_cached_bytes = GIntBig{1} << 28;
-constexpr std::size_t most_messages = 10;
+constexpr GIntBig max_cached_bytes = GIntBig{1} << 28;
+constexpr std::size_t max_messages = 10;
 constexpr std::size_t longest_message = 200;
-constexpr int most_archive_entries = 1000;
+constexpr int max_archive_entries = 1000;
 constexpr std::size_t largest_block = std::size_t{1} << 28; // bytes
 
 std::string one_line(std::string text) {
@@ -53,7 +53,7 @@ std::string extension_of(const fs::path& path) {
 std::string raster_in_zip(const fs::path& path) {
     const std::string archive = "/vsizip/{" + path.string() + "}";
     const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
-    for (int i = 0; i < std::min(entries.size(), most_archive_entries); ++i) {
+    for (int i = 0; i < std::min(entries.size(), max_archive_entries); ++i) {
         std::string entry = archive + "/" + entries[i];
         if (entry.back() != '/' && GDALIdentifyDriver(entry.c_str(), nullptr) != nullptr) {
             return entry;
@@ -154,13 +154,13 @@ void register_drivers() {
         set_default("GDAL_HTTP_LOW_SPEED_LIMIT", "100"); // bytes a second
         set_default("GDAL_HTTP_MAX_RETRY", "2");
         set_default("GDAL_HTTP_RETRY_DELAY", "1");
-        GDALSetCacheMax64(std::min(GDALGetCacheMax64(), most_cached_bytes));
+        GDALSetCacheMax64(std::min(GDALGetCacheMax64(), max_cached_bytes));
     });
 }
 
 void limit_block_cache(std::size_t bytes) {
     register_drivers();
-    GDALSetCacheMax64(std::min(static_cast<GIntBig>(bytes), most_cached_bytes));
+    GDALSetCacheMax64(std::min(static_cast<GIntBig>(bytes), max_cached_bytes));
 }
 
 GdalMessages::GdalMessages() : strict_jpeg_("GDAL_ERROR_ON_LIBJPEG_WARNING", "TRUE", false) {
@@ -184,7 +184,7 @@ void GdalMessages::handle(CPLErr kind, CPLErrorNum /*number*/, const char* text)
             self->has_lost_blocks_ || message.find("_TIFFPartialReadStrip") != std::string::npos;
     }
     std::vector<std::string>& all = self->all_;
-    if (all.size() < most_messages && std::find(all.begin(), all.end(), message) == all.end()) {
+    if (all.size() < max_messages && std::find(all.begin(), all.end(), message) == all.end()) {
         all.push_back(std::move(message));
     }
 }

@@ -353,27 +353,27 @@ namespace {
 Result<Place> with_good_spacing(Place place, const std::string& name) {
     const glm::dvec2 spacing = place.spacing;
     const auto fits = [](double side) {
-        return side >= terrain::least_spacing && side <= terrain::most_spacing;
+        return side >= terrain::min_spacing && side <= terrain::max_spacing;
     };
     if (fits(spacing.x) && fits(spacing.y)) {
         return place;
     }
     return Error{fmt::format("{}: its samples are {} × {} m apart, {} to {} m were expected", name,
-                             spacing.x, spacing.y, terrain::least_spacing, terrain::most_spacing)};
+                             spacing.x, spacing.y, terrain::min_spacing, terrain::max_spacing)};
 }
 
 } // namespace
 
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes) {
-    using terrain::least_spacing;
-    using terrain::most_spacing;
+    using terrain::min_spacing;
+    using terrain::max_spacing;
     if (options.spacing &&
-        !(*options.spacing >= least_spacing && *options.spacing <= most_spacing)) {
+        !(*options.spacing >= min_spacing && *options.spacing <= max_spacing)) {
         return Error{
             fmt::format("{}: spacing {} was asked for, a number of metres from {} to {} was "
                         "expected",
-                        name, *options.spacing, least_spacing, most_spacing)};
+                        name, *options.spacing, min_spacing, max_spacing)};
     }
     if (auto good = check_affine(dataset, name); !good) {
         return good.error();

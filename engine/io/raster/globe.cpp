@@ -15,7 +15,7 @@ namespace {
 
 constexpr double same_place = 1e-2; // of a step: what a whole turn of steps with few digits misses
 constexpr double at_pole = 1e-6;    // of a step
-constexpr int least_around = 4;
+constexpr int min_around = 4;
 
 double whole_turn(const OGRSpatialReference& crs) {
     return 2.0 * std::numbers::pi / crs.GetAngularUnits();
@@ -83,7 +83,7 @@ int samples_around(const OGRSpatialReference& crs, const geo::PixelAffine& affin
     const double samples = whole_turn(crs) / std::abs(affine.x_col);
     const double whole = std::round(samples);
     const bool closes =
-        whole >= least_around && whole < 1e9 && std::abs(samples - whole) <= same_place;
+        whole >= min_around && whole < 1e9 && std::abs(samples - whole) <= same_place;
     return closes ? static_cast<int>(whole) : 0;
 }
 

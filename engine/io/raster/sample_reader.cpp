@@ -12,7 +12,7 @@
 namespace reljef::io {
 namespace {
 
-constexpr int most_taps = 4; // stored samples a side that are averaged into one
+constexpr int max_taps = 4; // stored samples a side that are averaged into one
 // Stored values read at a time: of a whole raster, by one thread, in rows as long as they come; of
 // a window, by many.
 constexpr int samples_of_raster = 1 << 21;
@@ -64,7 +64,7 @@ Source source_of(GDALDataset& dataset, const ReadPlan& plan, int bands) {
 class TileReader {
 public:
     TileReader(Source source, const ReadPlan& plan)
-        : source_(std::move(source)), plan_(plan), taps_(std::min(plan.reduction, most_taps)) {}
+        : source_(std::move(source)), plan_(plan), taps_(std::min(plan.reduction, max_taps)) {}
 
     [[nodiscard]] int taps() const { return taps_; }
     [[nodiscard]] std::span<double> first() { return std::span(values_).first(count_); }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view terrarium_name = "terrarium+";
 constexpr std::string_view terrain_rgb_name = "terrain-rgb+";
 constexpr int usual_levels = 15; // of the public sets
-constexpr int most_levels = 22;  // 2^30 samples a side
+constexpr int max_levels = 22;  // 2^30 samples a side
 // Half the side of web mercator's square, metres: π times the equator's radius.
 constexpr double half_side = std::numbers::pi * 6378137.0;
 
@@ -88,7 +88,7 @@ struct FolderLevel {
 
 FolderLevel finest_level(const fs::path& folder) {
     FolderLevel found;
-    const int level = numbers_in(folder, most_levels + 1).high;
+    const int level = numbers_in(folder, max_levels + 1).high;
     const int count = level < 0 ? 0 : 1 << level; // tiles a side
     for (const NumberedEntry& column : numbered_entries(folder / std::to_string(level), count)) {
         const TileNumbers rows = numbers_in(column.path, count);
@@ -124,7 +124,7 @@ Result<TileSource> source_of_address(const std::string& address) {
     if (at != std::string::npos) {
         const auto end = text.find('}', at);
         const auto level = whole_number(text.substr(at + 3, end - at - 3));
-        source.level = level && *level <= most_levels ? *level : -1;
+        source.level = level && *level <= max_levels ? *level : -1;
         text.erase(at + 2, end - at - 2);
     }
     auto url = with(text, "{z}", "${z}");
@@ -133,7 +133,7 @@ Result<TileSource> source_of_address(const std::string& address) {
     if (!url || source.level < 0) {
         return Error{fmt::format("{}: found as the address of tiles, one with {{z}} (or {{z:15}}, "
                                  "at most {{z:{}}}), {{x}} and {{y}} was expected",
-                                 address, most_levels)};
+                                 address, max_levels)};
     }
     source.url = std::move(*url);
     return source;
@@ -185,15 +185,15 @@ double encoded_height(HeightEncoding encoding, double red, double green, double 
 bool may_be_heights(std::span<const double> red, std::span<const double> green,
                     std::span<const double> blue) {
     // Heights of so many neighbours are grey only where the ground is level.
-    constexpr int most_grey = 32;
-    constexpr int most_steps = 2;
+    constexpr int max_grey = 32;
+    constexpr int max_steps = 2;
     int grey = 0;
     int steps = 0;
     for (std::size_t i = 0; i < red.size(); ++i) {
         const bool is_grey = red[i] == green[i] && red[i] == blue[i] && red[i] > 0.0;
         steps = is_grey && grey > 0 ? steps + (red[i] == red[i - 1] ? 0 : 1) : 0;
         grey = is_grey ? grey + 1 : 0;
-        if (grey > most_grey && steps > most_steps) {
+        if (grey > max_grey && steps > max_steps) {
             return false;
         }
     }

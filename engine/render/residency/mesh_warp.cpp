@@ -32,7 +32,7 @@ WarpGrid warp_grid(const scene::TexturePlane& plane, const scene::TextureDetail&
     const glm::dvec2 size = plane.high - plane.low;
     const glm::dvec2 texels =
         size * glm::dvec2(detail.repeats) * glm::dvec2(heights.cols(), heights.rows());
-    const double share = std::min(std::sqrt(most_warp_samples / (texels.x * texels.y)), 1.0);
+    const double share = std::min(std::sqrt(max_warp_samples / (texels.x * texels.y)), 1.0);
     const glm::dvec2 count = glm::clamp(glm::floor(texels * share), 2.0, 16384.0);
     return {glm::ivec2(count), plane.low, size};
 }

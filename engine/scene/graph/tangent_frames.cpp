@@ -82,11 +82,11 @@ float density_of(double metres) {
 TangentFrame frame_of(const Gradients& gradients, glm::vec3 vertex_normal) {
     // What is left of a direction across the normal that rounding of a float normal (2^-24) turns
     // by no more than 2^-4.
-    constexpr double least_share = 0x1p-20;
+    constexpr double min_share = 0x1p-20;
     const glm::dvec3 normal = unit_normal(vertex_normal);
     const glm::dvec3 across = gradients.tangent - normal * glm::dot(normal, gradients.tangent);
     const double length = glm::length(across);
-    if (!(length > least_share * gradients.weight)) {
+    if (!(length > min_share * gradients.weight)) {
         return {glm::vec3(any_across(normal)), 1.0F, glm::vec2(0.0F)};
     }
     const glm::dvec3 tangent = across / length;

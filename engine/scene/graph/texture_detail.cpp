@@ -104,10 +104,10 @@ glm::dvec3 shared_direction(const Mesh& mesh, std::span<const std::size_t> verti
             sum += glm::dvec3(normal);
         }
     }
-    constexpr double least_share = 1.0 / (most_lift * most_lift); // of a normal's length, squared
+    constexpr double min_share = 1.0 / (max_lift * max_lift); // of a normal's length, squared
     const glm::dvec3 mean = sum / static_cast<double>(normals.size());
     const double share = glm::dot(mean, mean);
-    return share > 0.0 ? mean / std::max(share, least_share) : glm::dvec3(normals.front());
+    return share > 0.0 ? mean / std::max(share, min_share) : glm::dvec3(normals.front());
 }
 
 // Calls `visit` with the vertices at each place.
@@ -141,12 +141,12 @@ double relief_height(const Mesh& mesh, const TextureDetail& detail) {
 }
 
 double raised_above(const Mesh& mesh, const TextureDetail& detail) {
-    return most_lift * (1.0 + detail.offset) * relief_height(mesh, detail);
+    return max_lift * (1.0 + detail.offset) * relief_height(mesh, detail);
 }
 
 double hull_reach(const Mesh& mesh, const TextureDetail& detail) {
     const auto offset = static_cast<double>(detail.offset);
-    return most_lift * (std::max(1.0 + offset, -offset) + hull_margin) *
+    return max_lift * (std::max(1.0 + offset, -offset) + hull_margin) *
            relief_height(mesh, detail);
 }
 
@@ -169,7 +169,7 @@ int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels) {
     }
     const std::size_t triangles = std::max<std::size_t>(mesh.indices.size() / 3, 1);
     const double most =
-        std::sqrt(static_cast<double>(most_displaced_triangles) / static_cast<double>(triangles));
+        std::sqrt(static_cast<double>(max_displaced_triangles) / static_cast<double>(triangles));
     return static_cast<int>(std::clamp(std::ceil(longest / texels), 1.0, std::max(most, 1.0)));
 }
 

@@ -33,7 +33,7 @@ double relief_height(const Mesh& mesh, const TextureDetail& detail);
 
 /// A vertex that is lifted by 1 goes no farther: over an edge as far as each of its faces needs,
 /// see SharedPlace, but no spike is longer.
-inline constexpr double most_lift = 2.0;
+inline constexpr double max_lift = 2.0;
 
 /// Metres that displacement adds to a mesh's bounds, at most.
 double raised_above(const Mesh& mesh, const TextureDetail& detail);
@@ -48,9 +48,9 @@ inline constexpr double hull_margin = 1.0 / 4096.0;
 Mesh tessellated(const Mesh& mesh, int n);
 
 /// Into how many parts each edge is cut so that vertices lie no more than `texels` of the heights
-/// apart, and there are no more than most_displaced_triangles. Precondition: a set is there.
+/// apart, and there are no more than max_displaced_triangles. Precondition: a set is there.
 int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels);
-inline constexpr std::size_t most_displaced_triangles = 1'000'000;
+inline constexpr std::size_t max_displaced_triangles = 1'000'000;
 
 /// The positions moved along the normals to the heights at their texture coordinates. Vertices at
 /// one place stay together: they share the mean of their heights, and go along the mean of their

@@ -42,11 +42,11 @@ constexpr std::array polygons_parameters{
         "error"),
     parameter_row<&Polygons::error>(
         {.name = "error",
-         .high = most_polygons_error,
+         .high = max_polygons_error,
          .meaning = "pixels that no pixel is farther from where it belongs, instead of levels; 0: "
                     "by levels",
          .is_tacit = true,
-         .min_above_low = least_polygons_error}),
+         .min_above_low = min_polygons_error}),
     parameter_row<&Polygons::morph>(
         {.name = "morph",
          .meaning = "with error, 1: vertices rise to their places as the view nears, so that "

@@ -12,8 +12,8 @@ namespace reljef::scene {
 struct Technique;
 
 /// The range of an error that polygons can promise, pixels: a rasterizer's own takes most of less.
-inline constexpr double least_polygons_error = 0.02;
-inline constexpr double most_polygons_error = 16.0;
+inline constexpr double min_polygons_error = 0.02;
+inline constexpr double max_polygons_error = 16.0;
 
 /// A parameter of a technique: its row, and the member that holds it.
 struct ParameterInfo : NumberInfo {

@@ -109,16 +109,16 @@ private:
 };
 
 // Ground beyond the horizon of a whole Earth leans over; it counts as upright.
-constexpr double least_upright = 1e-6;
+constexpr double min_upright = 1e-6;
 // Of the way to the north: shorter ways to the east are at a pole.
-constexpr double least_east = 1e-6;
+constexpr double min_east = 1e-6;
 
 glm::vec2 slope_of(glm::dvec3 normal) {
-    return glm::vec2(glm::dvec2(-normal.x, -normal.y) / std::max(normal.z, least_upright));
+    return glm::vec2(glm::dvec2(-normal.x, -normal.y) / std::max(normal.z, min_upright));
 }
 
 glm::vec2 scene_slope(const Axes& axes, glm::dvec2 rise_per_sample) {
-    if (glm::length(axes.east) <= least_east * glm::length(axes.north)) {
+    if (glm::length(axes.east) <= min_east * glm::length(axes.north)) {
         return slope_of(axes.up);
     }
     const glm::dvec3 cross = glm::cross(axes.east + rise_per_sample.x * axes.up,

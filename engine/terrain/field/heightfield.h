@@ -22,8 +22,8 @@ struct HeightRange {
 };
 
 /// Between samples, metres: from less than any scanner's pixel to a planet in a hundred samples.
-inline constexpr double least_spacing = 1e-6;
-inline constexpr double most_spacing = 1e6;
+inline constexpr double min_spacing = 1e-6;
+inline constexpr double max_spacing = 1e6;
 
 /// A grid of heights and where it lies. `col` grows east, `row` grows south; (0,0) is the centre of
 /// the north-west sample; between samples the surface is the bilinear interpolation of the four

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double bend_tolerance = 1e-3;    // samples, and metres of height
 constexpr double quartic_tolerance = 1e-5; // the same
-constexpr int most_halvings = 24;
-constexpr int most_halvings_unmapped = 8; // of a stretch without a place on the map
+constexpr int max_halvings = 24;
+constexpr int max_halvings_unmapped = 8; // of a stretch without a place on the map
 
 // A place on a world ray and where that is on the grid; nowhere where the map has no place for it.
 struct RayPlace {
@@ -35,9 +35,9 @@ Bend bend_of(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
 // A box around a stretch, with twice the room that its bend asks for; nothing where it is bent so
 // much that its middle says little about the rest.
 std::optional<Box> box_around(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
-    constexpr double most_bend = 0.25; // of the chord
+    constexpr double max_bend = 0.25; // of the chord
     const Bend bend = bend_of(from, halfway, to);
-    if (bend.across > most_bend * glm::distance(glm::dvec2(from), glm::dvec2(to))) {
+    if (bend.across > max_bend * glm::distance(glm::dvec2(from), glm::dvec2(to))) {
         return std::nullopt;
     }
     Box box;
@@ -125,7 +125,7 @@ public:
         if (placement_.kind() == PlacementKind::plane) {
             return first_hit_on_chord(from, to);
         }
-        return first_hit_between(from, place_at(middle_of(from, to)), to, most_halvings);
+        return first_hit_between(from, place_at(middle_of(from, to)), to, max_halvings);
     }
 
 private:
@@ -147,7 +147,7 @@ private:
             return first_hit_near_chord(from, to);
         }
         const bool unmapped = !from.sample && !halfway.sample && !to.sample;
-        if (halvings <= (unmapped ? most_halvings - most_halvings_unmapped : 0)) {
+        if (halvings <= (unmapped ? max_halvings - max_halvings_unmapped : 0)) {
             return first_hit_on_chord(from, to);
         }
         const RayPlace before = place_at(middle_of(from, halfway));
@@ -229,12 +229,12 @@ private:
     // closer.
     [[nodiscard]] SurfaceHit moved_onto_surface(const SurfaceHit& hit, const RayPlace& from,
                                                 const RayPlace& to) const {
-        constexpr int most_secants = 4;
+        constexpr int max_secants = 4;
         constexpr double close_enough = 1e-8; // metres of height
         RayPlace best = place_at(hit.t);
         double best_miss = clearance(best);
         double step = -best_miss / slope_over_surface(hit, from, to);
-        for (int i = 0; i < most_secants && std::abs(best_miss) > close_enough; ++i) {
+        for (int i = 0; i < max_secants && std::abs(best_miss) > close_enough; ++i) {
             const RayPlace next = place_at(best.t + step);
             const double miss = clearance(next);
             if (!(std::abs(miss) < std::abs(best_miss))) {

@@ -39,7 +39,7 @@ SplitKind kind_below(SplitKind kind) {
 
 constexpr std::uint16_t no_vertex = std::numeric_limits<std::uint16_t>::max();
 // Three vertices more must fit.
-constexpr std::size_t most_vertices = no_vertex - 3;
+constexpr std::size_t max_vertices = no_vertex - 3;
 
 std::uint64_t key_of(glm::ivec2 place) {
     return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.x)) << 32U) |
@@ -54,7 +54,7 @@ public:
           at_samples_(tile.cols + 1, tile.rows + 1, no_vertex) {}
 
     void add(const BisectionTriangle& triangle) {
-        if (parts_.empty() || parts_.back().vertices.size() > most_vertices) {
+        if (parts_.empty() || parts_.back().vertices.size() > max_vertices) {
             begin_part();
         }
         for (const glm::ivec2 corner : {triangle.apex, triangle.left, triangle.right}) {
@@ -111,13 +111,13 @@ Sight sight_of(const ErrorView& view, const Split& split) {
 // is finite.
 bool shows_more(const ErrorView& view, const Split& split) {
     if (!view.perspective) {
-        return view.scale * split.error > view.most_error;
+        return view.scale * split.error > view.max_error;
     }
     const double reach = view.stretch * split.radius;
     const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
     const double shown = view.scale * split.error;
-    // shown * (lateral + reach) > most_error * depth², without a root.
-    const double room = view.most_error * depth * depth - shown * reach;
+    // shown * (lateral + reach) > max_error * depth², without a root.
+    const double room = view.max_error * depth * depth - shown * reach;
     const glm::dvec3 lateral = view.lateral_axes * split.center + view.lateral_origin;
     return split.error > 0.0 &&
            (depth <= 0.0 || room < 0.0 || shown * shown * glm::dot(lateral, lateral) > room * room);
@@ -126,14 +126,14 @@ bool shows_more(const ErrorView& view, const Split& split) {
 // The error that is seen over the most. Precondition: it is seen, and finite.
 double shown_share(const ErrorView& view, const Split& split) {
     if (!view.perspective) {
-        return view.scale * split.error / view.most_error;
+        return view.scale * split.error / view.max_error;
     }
     const double reach = view.stretch * split.radius;
     const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
     const double lateral =
         glm::length(view.lateral_axes * split.center + view.lateral_origin) + reach;
     return depth <= 0.0 ? std::numeric_limits<double>::infinity()
-                        : view.scale * split.error * lateral / (view.most_error * depth * depth);
+                        : view.scale * split.error * lateral / (view.max_error * depth * depth);
 }
 
 // The vertices of a tile that are not at their places.
@@ -170,7 +170,7 @@ private:
 };
 
 ErrorView view_of_first_rise(ErrorView view) {
-    view.most_error *= view.morph_from;
+    view.max_error *= view.morph_from;
     return view;
 }
 
@@ -262,8 +262,8 @@ private:
     }
 
     [[nodiscard]] Choice choice_at(glm::ivec2 middle, SplitKind kind, bool is_seen) {
-        constexpr int least_size = 2; // steps: their middle is a step
-        if (kind.size < least_size) {
+        constexpr int min_size = 2; // steps: their middle is a step
+        if (kind.size < min_size) {
             return {false, is_seen};
         }
         if (kind.size <= steps_per_sample) {

@@ -19,7 +19,7 @@ namespace reljef::terrain {
 /// scale · error · lateral / depth² pixels (the least depth, the greatest lateral distance of where
 /// it is and where it belongs); without one by scale · error.
 struct ErrorView {
-    double most_error = 1.0; ///< pixels, > 0
+    double max_error = 1.0; ///< pixels, > 0
     double scale = 1.0;
     bool perspective = true;
     std::array<glm::dvec4, 5> sides{}; ///< of what is seen: dot(xyz, p) + w >= 0, xyz of length 1

@@ -15,7 +15,7 @@ constexpr int patch_samples = patch_cells + 1;
 
 int level_at(double distance, double patch_size, int levels) {
     int level = 0;
-    for (int i = 1; i < std::min(levels, most_patch_levels); ++i) {
+    for (int i = 1; i < std::min(levels, max_patch_levels); ++i) {
         const int patches = i + 1 + i / 2;
         level = distance >= patch_size * patches ? i : level;
     }

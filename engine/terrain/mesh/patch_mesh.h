@@ -16,7 +16,7 @@ namespace reljef::terrain {
 /// Cells along a patch's side: 17² samples.
 inline constexpr int patch_cells = 16;
 /// Levels beyond are not used, as Irrlicht uses none for patches of 17 samples.
-inline constexpr int most_patch_levels = 4;
+inline constexpr int max_patch_levels = 4;
 
 /// The level of detail of each patch of a heightfield, patch row after patch row: 0 finest, below
 /// `levels`, by the distance of its middle from `eye` (scene metres) alone, as the terrain node of

@@ -51,7 +51,7 @@ std::vector<Tile> cut(const Heightfield& heightfield, const Placement& placement
 Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last,
                   HeightRange range) {
     Box box;
-    glm::dvec3 most_bend(0.0);
+    glm::dvec3 max_bend(0.0);
     for (const double height : {range.low, range.high}) {
         std::array<std::array<glm::dvec3, 3>, 3> places;
         for (std::size_t j = 0; j < 3; ++j) {
@@ -62,13 +62,13 @@ Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last,
             }
         }
         for (std::size_t k = 0; k < 3; ++k) {
-            most_bend = glm::max(most_bend, bend(places[k][0], places[k][1], places[k][2]) +
+            max_bend = glm::max(max_bend, bend(places[k][0], places[k][1], places[k][2]) +
                                                 bend(places[0][k], places[1][k], places[2][k]));
         }
     }
     if (placement.kind() == PlacementKind::ellipsoid) {
-        box.low -= 0.25 * most_bend;
-        box.high += 0.25 * most_bend;
+        box.low -= 0.25 * max_bend;
+        box.high += 0.25 * max_bend;
     }
     return box;
 }

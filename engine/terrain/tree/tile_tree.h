@@ -20,7 +20,7 @@ struct TreeTile {
 };
 
 /// The most samples a side that a tree reaches.
-inline constexpr int most_tree_samples = 1 << 30;
+inline constexpr int max_tree_samples = 1 << 30;
 
 /// Tiles of at most `tile_cells` cells a side over a raster of any size, each of which is covered
 /// by up to four of the level below. Neighbours share their border vertices. Nothing is kept: a
@@ -28,7 +28,7 @@ inline constexpr int most_tree_samples = 1 << 30;
 class TileTree {
 public:
     /// `is_around`: the last column lies where the first does, and tiles of both meet.
-    /// Precondition: 2 to most_tree_samples samples a side.
+    /// Precondition: 2 to max_tree_samples samples a side.
     TileTree(int cols, int rows, bool is_around = false);
 
     [[nodiscard]] int cols() const { return last_.x + 1; }

@@ -51,6 +51,17 @@ TEST(Manual, PagesAreFormattedWithoutWarnings) {
     }
 }
 
+// The reader's first language may not be English.
+TEST(Manual, UsesPlainWords) {
+    for (const ManualFile& file : manual_of(app::reljef_program())) {
+        for (const char* const word :
+             {" told", " tells", " asked for", " promise", " so many", " of which", " is to be",
+              " are to be", " where they", " what is "}) {
+            EXPECT_THAT(file.text, testing::Not(HasSubstr(word))) << file.path;
+        }
+    }
+}
+
 TEST(Manual, BashCompletesVerbsAndOptions) {
     const test::TemporaryFolder folder;
     const std::string script =

@@ -80,7 +80,7 @@ TEST(JsonReport, every_row_has_every_key_and_null_where_there_is_nothing) {
 
 TEST(JsonReport, too_few_frames_are_noisy_and_have_neither_interval_nor_floor) {
     Results results = test::made_results();
-    results.rows[1].timing->frames = least_frames - 1;
+    results.rows[1].timing->frames = min_frames - 1;
     results.rows[1].timing->interval.reset();
     results.rows[1].timing->noise_floor.reset();
     const json rows = json::parse(json_report(results)).at("rows");
@@ -147,8 +147,8 @@ TEST(JsonReport, missing_row_has_no_time_and_no_error_but_the_sources_figure) {
 
 TEST(JsonReport, row_above_the_noise_is_noisy) {
     Results results = test::made_results();
-    results.rows[0].timing->noise_floor = most_noise;
-    results.rows[1].timing->noise_floor = 1.01 * most_noise;
+    results.rows[0].timing->noise_floor = max_noise;
+    results.rows[1].timing->noise_floor = 1.01 * max_noise;
     const json rows = json::parse(json_report(results)).at("rows");
     EXPECT_EQ(rows.at(0).at("noisy"), false);
     EXPECT_EQ(rows.at(1).at("noisy"), true);

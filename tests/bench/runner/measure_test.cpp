@@ -28,8 +28,8 @@ protected:
     MeasureOptions rounds(int count) {
         MeasureOptions options;
         options.warm_up_rounds = 0;
-        options.least_rounds = count;
-        options.most_rounds = count;
+        options.min_rounds = count;
+        options.max_rounds = count;
         options.seconds = 0.0;
         options.now_ms = [this] { return now_ms_; };
         return options;
@@ -66,7 +66,7 @@ TEST_F(Measuring, warm_up_is_drawn_and_not_timed) {
 TEST_F(Measuring, goes_on_until_the_time_is_over) {
     const std::vector<DrawFrame> things{thing('A', 60.0), thing('B', 40.0)};
     auto options = rounds(5);
-    options.most_rounds = 1000;
+    options.max_rounds = 1000;
     options.seconds = 2.0;
     const auto measured = measure(things, options);
     ASSERT_TRUE(measured);
@@ -76,7 +76,7 @@ TEST_F(Measuring, goes_on_until_the_time_is_over) {
 TEST_F(Measuring, slow_frames_get_the_least_rounds_all_the_same) {
     const std::vector<DrawFrame> things{thing('A', 60'000.0), thing('B', 40'000.0)};
     auto options = rounds(5);
-    options.most_rounds = 1000;
+    options.max_rounds = 1000;
     options.seconds = 2.0;
     const auto measured = measure(things, options);
     ASSERT_TRUE(measured);
@@ -86,7 +86,7 @@ TEST_F(Measuring, slow_frames_get_the_least_rounds_all_the_same) {
 TEST_F(Measuring, fast_frames_end_at_the_most_rounds) {
     const std::vector<DrawFrame> things{thing('A', 0.001)};
     auto options = rounds(5);
-    options.most_rounds = 70;
+    options.max_rounds = 70;
     options.seconds = 100.0;
     const auto measured = measure(things, options);
     ASSERT_TRUE(measured);
@@ -97,7 +97,7 @@ TEST_F(Measuring, last_limit_holds_even_for_slow_frames) {
     const std::vector<DrawFrame> things{thing('A', 3000.0), thing('B', 1000.0)};
     auto options = rounds(5);
     options.warm_up_rounds = 1;
-    options.most_seconds = 15.0; // the warm-up and two rounds take 12, one more would end at 16
+    options.max_seconds = 15.0; // the warm-up and two rounds take 12, one more would end at 16
     const auto measured = measure(things, options);
     ASSERT_TRUE(measured);
     EXPECT_THAT(measured->ms, Each(SizeIs(2)));
@@ -108,7 +108,7 @@ TEST_F(Measuring, there_is_one_round_even_beyond_the_last_limit) {
     for (const double limit : {0.1, -1.0}) {
         auto options = rounds(5);
         options.warm_up_rounds = 1;
-        options.most_seconds = limit;
+        options.max_seconds = limit;
         const auto measured = measure(things, options);
         ASSERT_TRUE(measured);
         EXPECT_THAT(measured->ms, Each(SizeIs(1)));
@@ -132,7 +132,7 @@ TEST_F(Measuring, progress_rises_to_one) {
     const std::vector<DrawFrame> things{thing('A', 60.0), thing('B', 40.0)};
     for (const double seconds : {0.0, 0.2, 2.0}) {
         auto options = rounds(5);
-        options.most_rounds = 12;
+        options.max_rounds = 12;
         options.seconds = seconds;
         double last = 0.0;
         options.progress = [&](double fraction) {
@@ -156,7 +156,7 @@ protected:
 
     MeasureOptions noisy_options() {
         auto options = rounds(5);
-        options.most_rounds = 1000;
+        options.max_rounds = 1000;
         options.seconds = 2.0;
         options.null_pair = {0, 2};
         options.noisy_seconds = 20.0;
@@ -188,7 +188,7 @@ TEST_F(MeasuringNoise, pair_that_stays_noisy_ends_at_the_limit_and_keeps_its_flo
 
 TEST_F(MeasuringNoise, rounds_that_were_asked_for_stay_as_many) {
     auto options = noisy_options();
-    options.most_rounds = options.least_rounds;
+    options.max_rounds = options.min_rounds;
     const auto measured = measure(pair(1.5, 1e9), options);
     ASSERT_TRUE(measured);
     EXPECT_THAT(measured->ms, Each(SizeIs(5)));
@@ -196,7 +196,7 @@ TEST_F(MeasuringNoise, rounds_that_were_asked_for_stay_as_many) {
 
 TEST_F(MeasuringNoise, last_limit_holds_for_noise_too) {
     auto options = noisy_options();
-    options.most_seconds = 4.0;
+    options.max_seconds = 4.0;
     const auto measured = measure(pair(1.5, 1e9), options);
     ASSERT_TRUE(measured);
     EXPECT_THAT(measured->ms, Each(SizeIs(13))); // one more would end at 4.2 s
@@ -277,7 +277,7 @@ TEST(MeasuringByTheSystemClock, is_in_milliseconds) {
         return {};
     }};
     MeasureOptions options;
-    options.most_rounds = options.least_rounds;
+    options.max_rounds = options.min_rounds;
     const auto measured = measure(things, options);
     ASSERT_TRUE(measured);
     EXPECT_THAT(measured->ms.front(), Each(testing::Ge(3.0)));

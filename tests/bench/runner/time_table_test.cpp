@@ -34,9 +34,9 @@ TEST(TimeTable, only_quick_runs_that_are_not_told_their_rounds_are_bounded) {
     SuiteOptions rounds = quick_options();
     rounds.rounds = 3;
     EXPECT_TRUE(std::isinf(group_seconds(rounds, 1000.0, 1)));
-    EXPECT_TRUE(std::isinf(measuring(rounds, 1, 0.0).most_seconds));
-    EXPECT_EQ(measuring(rounds, 1, 0.0).least_rounds, 3);
-    EXPECT_EQ(measuring(rounds, 1, 0.0).most_rounds, 3);
+    EXPECT_TRUE(std::isinf(measuring(rounds, 1, 0.0).max_seconds));
+    EXPECT_EQ(measuring(rounds, 1, 0.0).min_rounds, 3);
+    EXPECT_EQ(measuring(rounds, 1, 0.0).max_rounds, 3);
 }
 
 // Whatever the groups take, if each keeps to its share the run keeps to the minute.
@@ -67,7 +67,7 @@ TEST(TimeTable, candidate_more_costs_what_those_before_it_did) {
 
 TEST(TimeTable, group_fits_where_all_it_judged_can_be_drawn_often_enough) {
     const GroupCost cost{.elapsed = 2.0, .judging = 1.0, .judged = 1, .round = 0.5, .frames = 2};
-    const double needed = 2.0 + 0.5 * static_cast<double>(least_frames);
+    const double needed = 2.0 + 0.5 * static_cast<double>(min_frames);
     EXPECT_TRUE(fits(cost, needed));
     EXPECT_FALSE(fits(cost, needed - 0.01));
     EXPECT_TRUE(fits(cost, std::numeric_limits<double>::infinity()));
@@ -92,9 +92,9 @@ TEST(TimeTable, candidates_that_were_let_in_fit_into_the_groups_time) {
 TEST(TimeTable, quick_groups_are_timed_for_ten_seconds_together) {
     const SuiteOptions quick = quick_options();
     EXPECT_DOUBLE_EQ(8.0 * measuring(quick, 8, 3.0).seconds, 10.0);
-    EXPECT_EQ(measuring(quick, 8, 3.0).most_seconds, 3.0);
+    EXPECT_EQ(measuring(quick, 8, 3.0).max_seconds, 3.0);
     EXPECT_GT(measuring({}, 8, 3.0).seconds, measuring(quick, 8, 3.0).seconds);
-    EXPECT_TRUE(std::isinf(measuring({}, 8, 3.0).most_seconds));
+    EXPECT_TRUE(std::isinf(measuring({}, 8, 3.0).max_seconds));
 }
 
 } // namespace

@@ -53,7 +53,7 @@ TEST(Flight, counts_what_it_read_took_and_waited_for) {
     EXPECT_EQ(results->times.drawing_ms.size(), 4U);
     EXPECT_EQ(results->times.waiting_ms.size(), 4U);
     EXPECT_GE(results->seconds, results->seconds_to_first_frame);
-    EXPECT_GE(results->most_memory, results->times.memory_before);
+    EXPECT_GE(results->max_memory, results->times.memory_before);
     const auto report = nlohmann::json::parse(flight_json(*results));
     EXPECT_EQ(report.at("schema"), "reljef-bench-flight/1");
     EXPECT_EQ(report.at("frames"), 4);

@@ -36,7 +36,7 @@ void expect_same_splits(const terrain::Bisection& found, const terrain::Bisectio
 class BisectionCache : public testing::Test {
 protected:
     [[nodiscard]] BisectionCacheOptions options() const {
-        return {.folder = folder_.path() / "cache", .least_seconds = 0.0, .parallel = {}};
+        return {.folder = folder_.path() / "cache", .min_seconds = 0.0, .parallel = {}};
     }
     [[nodiscard]] std::optional<CachedBisection> cached(const BisectionCacheOptions& with) const {
         return cached_bisection(terrain_.heightfield, terrain_.placement, with);
@@ -154,7 +154,7 @@ TEST_F(BisectionCache, WhatIsStoppedLeavesNothing) {
 TEST_F(BisectionCache, WhatIsMadeAtOnceIsNotKept) {
     std::filesystem::remove(file());
     BisectionCacheOptions patient = options();
-    patient.least_seconds = 1e9;
+    patient.min_seconds = 1e9;
     EXPECT_TRUE(cached(patient));
     EXPECT_FALSE(std::filesystem::exists(file()));
 }

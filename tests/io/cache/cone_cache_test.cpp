@@ -19,7 +19,7 @@ protected:
     CachedCones cones() {
         return cached_cones(
                    heights_.view(),
-                   {.folder = folder_.path() / "cache", .least_seconds = 0.0, .parallel = {}})
+                   {.folder = folder_.path() / "cache", .min_seconds = 0.0, .parallel = {}})
             .value();
     }
     [[nodiscard]] std::filesystem::path file() const {
@@ -57,14 +57,14 @@ TEST_F(ConeCache, ItIsReadAndNotMadeAgain) {
     stopped.request_stop();
     const auto again = cached_cones(
         heights_.view(), {.folder = folder_.path() / "cache",
-                          .least_seconds = 0.0,
+                          .min_seconds = 0.0,
                           .parallel = {.threads = 0, .stop = stopped.get_token(), .progress = {}}});
     EXPECT_TRUE(again);
     heights_(3, 3) = 0.5F;
     EXPECT_FALSE(
         cached_cones(heights_.view(),
                      {.folder = folder_.path() / "cache",
-                      .least_seconds = 0.0,
+                      .min_seconds = 0.0,
                       .parallel = {.threads = 0, .stop = stopped.get_token(), .progress = {}}}));
 }
 
@@ -101,7 +101,7 @@ TEST_F(ConeCache, WithoutAPlaceToKeepThemTheyAreMade) {
     static_cast<void>(folder_.write("taken", "a file"));
     const auto in_a_file =
         cached_cones(heights_.view(),
-                     {.folder = folder_.path() / "taken", .least_seconds = 0.0, .parallel = {}})
+                     {.folder = folder_.path() / "taken", .min_seconds = 0.0, .parallel = {}})
             .value();
     EXPECT_EQ(in_a_file.cones->plain, made_->plain);
     EXPECT_THAT(in_a_file.note, HasSubstr("cannot be written"));
@@ -110,7 +110,7 @@ TEST_F(ConeCache, WithoutAPlaceToKeepThemTheyAreMade) {
 TEST_F(ConeCache, WhatIsMadeAtOnceIsNotKept) {
     const auto folder_of_none = folder_.path() / "none";
     static_cast<void>(cached_cones(
-        heights_.view(), {.folder = folder_of_none, .least_seconds = 1e9, .parallel = {}}));
+        heights_.view(), {.folder = folder_of_none, .min_seconds = 1e9, .parallel = {}}));
     EXPECT_FALSE(std::filesystem::exists(folder_of_none));
 }
 

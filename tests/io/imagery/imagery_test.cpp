@@ -378,8 +378,8 @@ public:
 TEST_F(Imagery, OfAHugeOneInDeepColoursOnlyAPartIsLookedAtForItsWhite) {
     CountedImage vast(400'000);
     EXPECT_EQ(white_of(vast), 255.0);
-    EXPECT_GT(vast.pixels, 3U * most_sampled_pixels / 2U);
-    EXPECT_LE(vast.pixels, 3U * (most_sampled_pixels + most_window_pixels));
+    EXPECT_GT(vast.pixels, 3U * max_sampled_pixels / 2U);
+    EXPECT_LE(vast.pixels, 3U * (max_sampled_pixels + max_window_pixels));
 }
 
 /// At most so many files more than are open now, for the scope.

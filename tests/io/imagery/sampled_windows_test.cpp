@@ -35,13 +35,13 @@ TEST(SampledWindows, AreSmallAndFewWhateverTheBlocks) {
             for (const PixelWindow& window : sampled_windows(size, block)) {
                 const double area = static_cast<double>(window.size.x) * window.size.y;
                 ASSERT_GE(std::min(window.size.x, window.size.y), 1);
-                ASSERT_LE(area, most_window_pixels);
+                ASSERT_LE(area, max_window_pixels);
                 ASSERT_LE(window.first.x, size.x - window.size.x);
                 ASSERT_LE(window.first.y, size.y - window.size.y);
                 pixels += area;
             }
             EXPECT_GE(pixels, 1.0);
-            EXPECT_LE(pixels, most_sampled_pixels + most_window_pixels);
+            EXPECT_LE(pixels, max_sampled_pixels + max_window_pixels);
         }
     }
 }

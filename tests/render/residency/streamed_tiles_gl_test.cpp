@@ -125,7 +125,7 @@ TEST(TileChoices, DrawNoMoreThanMemoryHolds) {
         world.look({chance.between(-700, 700), chance.between(-700, 700), 50.0},
                    {chance.between(-700, 700), chance.between(-700, 700), 0.0});
         world.bring();
-        ASSERT_LE(world.choice().drawn.size(), world.stream->most_drawn());
+        ASSERT_LE(world.choice().drawn.size(), world.stream->max_drawn());
         ASSERT_LE(world.stream->stats().bytes, 44 * scene::bytes_per_tile);
     }
 }

@@ -20,10 +20,10 @@ using test::all_triangles;
 using test::PlacedTerrain;
 using test::Triangle;
 
-ErrorView uniform_view(double most_error) {
+ErrorView uniform_view(double max_error) {
     ErrorView view;
     view.perspective = false;
-    view.most_error = most_error;
+    view.max_error = max_error;
     return view;
 }
 
@@ -147,10 +147,10 @@ TEST(BisectionLevels, ASmallerErrorOnlyAddsVertices) {
 
 using SplitFigures = std::vector<std::tuple<double, double>>;
 
-SplitFigures all_splits(const Bisection& bisection, int least_size = steps_per_sample) {
+SplitFigures all_splits(const Bisection& bisection, int min_size = steps_per_sample) {
     SplitFigures figures;
     const glm::ivec2 end = bisection.end();
-    for (int size = least_size; size <= steps_per_sample * tile_cells; size *= 2) {
+    for (int size = min_size; size <= steps_per_sample * tile_cells; size *= 2) {
         for (int y = 0; y <= end.y; y += size / 2) {
             for (int x = 0; x <= end.x; x += size / 2) {
                 const bool in_col = x % size != 0;

@@ -20,10 +20,10 @@ using test::PlacedTerrain;
 constexpr double first_rise = 0.5;
 
 // A metre of error is a pixel everywhere.
-ErrorView rising_view(double most_error, double morph_from = first_rise) {
+ErrorView rising_view(double max_error, double morph_from = first_rise) {
     ErrorView view;
     view.perspective = false;
-    view.most_error = most_error;
+    view.max_error = max_error;
     view.morph_from = morph_from;
     return view;
 }

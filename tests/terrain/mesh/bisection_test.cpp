@@ -73,7 +73,7 @@ std::vector<MadeTerrain> hard_terrains() {
 // A view from anywhere around, or one of a uniform error.
 ErrorView chance_view(test::Chance& chance, const Heightfield& heightfield) {
     ErrorView view;
-    view.most_error = std::exp(chance.between(0.0, 4.0));
+    view.max_error = std::exp(chance.between(0.0, 4.0));
     view.perspective = !chance.one_in(4);
     if (view.perspective) {
         const glm::dvec2 half = 0.5 * heightfield.spacing *
@@ -121,7 +121,7 @@ TEST(Bisection, AViewThatAllowsEverythingTakesFourTrianglesATile) {
     const PlacedTerrain terrain({"", test::plane_heightfield(rough_hills(257, 129, 1)), 1.0});
     ErrorView view;
     view.perspective = false;
-    view.most_error = 1e6;
+    view.max_error = 1e6;
     EXPECT_EQ(all_triangles(terrain, view).size(), 8U);
 }
 
@@ -157,7 +157,7 @@ TEST(Bisection, NoPointIsFartherFromTheSurfaceThanTheViewAllows) {
         for (const double most : {0.05, 0.3, 1.0, 4.0, 20.0, 1000.0}) {
             ErrorView view;
             view.perspective = false;
-            view.most_error = most;
+            view.max_error = most;
             const auto triangles = all_triangles(terrain, view);
             double farthest = 0.0;
             for (int i = 0; i < 4000; ++i, ++points) {
@@ -203,7 +203,7 @@ TEST(Bisection, NoVisiblePointIsSeenFartherOffThanTheViewAllows) {
                 if (depth - off > 0.0 && is_seen(view, shown) && terrain.name != "spike") {
                     const double lateral = glm::length(shown + view.lateral_origin);
                     ASSERT_LE(view.scale * (off - place_rounding) * lateral,
-                              view.most_error * depth * (depth - off) * (1.0 + 1e-9))
+                              view.max_error * depth * (depth - off) * (1.0 + 1e-9))
                         << terrain.name << ' ' << depth;
                 }
             }
@@ -253,7 +253,7 @@ TEST(Bisection, ALowerErrorNeverTakesFewerTriangles) {
     view.perspective = false;
     std::size_t before = std::numeric_limits<std::size_t>::max();
     for (const double most : {0.2, 0.5, 1.0, 2.0, 10.0, 100.0}) {
-        view.most_error = most;
+        view.max_error = most;
         const std::size_t count = all_triangles(terrain, view).size();
         EXPECT_LT(count, before) << most;
         before = count;

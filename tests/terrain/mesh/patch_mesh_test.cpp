@@ -56,7 +56,7 @@ TEST(PatchMesh, CoversTheHeightfieldOnceWithTrianglesThatMeetWhateverTheLevels) 
         for (int i = 0; i < 20; ++i) {
             Grid<std::uint8_t> levels = patch_levels(heightfield, placement, {0, 0, 0}, 1);
             for (std::uint8_t& level : levels.samples()) {
-                level = static_cast<std::uint8_t>(random() % most_patch_levels);
+                level = static_cast<std::uint8_t>(random() % max_patch_levels);
             }
             std::vector<Triangulation> tiles;
             for (const Tile& tile : tile_layout(heightfield, placement)) {

@@ -15,10 +15,10 @@
 namespace reljef::terrain {
 namespace {
 
-ErrorView metres_view(double most_error) {
+ErrorView metres_view(double max_error) {
     ErrorView view;
     view.perspective = false;
-    view.most_error = most_error;
+    view.max_error = max_error;
     return view;
 }
 
