@@ -42,9 +42,10 @@ struct FrameSinkOptions {
     double frames_per_second = 25.0;
 };
 
-/// One picture, a picture on standard output as PNG ("-"), a numbered sequence ("frames/%04d.png"; missing folders are made) or a video
-/// (through ffmpeg), by what `output` looks like. Fails where it cannot be written, where many
-/// frames would go to one picture, and where ffmpeg is needed and missing.
+/// One picture, a picture on standard output as PNG ("-"), a numbered sequence ("frames/%04d.png";
+/// missing folders are made) or a video (through ffmpeg), by what `output` looks like. Fails where
+/// it cannot be written, where many frames would go to one picture, and where ffmpeg is needed and
+/// missing.
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const std::filesystem::path& output,
                                                    const FrameSinkOptions& options);
 

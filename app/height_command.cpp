@@ -12,7 +12,7 @@
 #include "app/cli/options.h"
 #include "app/commands.h"
 #include "app/place_file.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/session/terrain_source.h"
 
 namespace reljef::app {

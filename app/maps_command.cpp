@@ -208,15 +208,15 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
         ->type_name("FILE");
     cli::add_parsed(
         arguments, "--border", choice.making.border,
-        cli::word_of<material::TileBorder>("--border", {{"wrap", material::TileBorder::wrap},
-                                                        {"clamp", material::TileBorder::clamp}}),
+        cli::word_of<material::WrapMode>(
+            "--border", {{"wrap", material::WrapMode::wrap}, {"clamp", material::WrapMode::clamp}}),
         "beyond the picture: wrap repeats it, clamp repeats its border (wrap)", "RULE");
     cli::add_parsed(arguments, "--scale", choice.making.scale,
                     cli::number_in("--scale", 0.0, 1000.0, true),
                     "height of 1 in widths of the picture (0.05)", "S");
-    cli::add_parsed(arguments, "--octaves", choice.making.octaves,
-                    cli::whole_number_in("--octaves", 1, 12),
-                    "from colors: number of scales that count as relief, each twice as coarse (5)", "N");
+    cli::add_parsed(
+        arguments, "--octaves", choice.making.octaves, cli::whole_number_in("--octaves", 1, 12),
+        "from colors: number of scales that count as relief, each twice as coarse (5)", "N");
     arguments.add_flag("--dark-is-high", choice.making.dark_is_high,
                        "from colors: darker is higher");
     cli::add_parsed(arguments, "--green", choice.making.green_up,
@@ -226,8 +226,8 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
     arguments.add_flag("--sobel", choice.making.sobel,
                        "compute normals with Sobel's filter instead of bilinear slopes");
     cli::add_parsed(arguments, "--threads", choice.threads,
-                    cli::whole_number_in("--threads", 0, 1024), "number of threads; 0: one for each processor (0)",
-                    "N");
+                    cli::whole_number_in("--threads", 0, 1024),
+                    "number of threads; 0: one for each processor (0)", "N");
     arguments.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 

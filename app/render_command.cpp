@@ -93,7 +93,7 @@ session::Underground underground(const RenderChoice& choice) {
 }
 
 Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
-                         session::FrameMaker& maker, const std::optional<scene::FlyPath>& path,
+                         session::FrameMaker& maker, const std::optional<scene::CameraPath>& path,
                          session::Log& log, const cli::Interrupt& interrupt) {
     const int frames = choice.view.frames;
     auto sink =
@@ -245,9 +245,9 @@ Result<HitBuffer> find_hits(const RenderChoice& choice, const session::TerrainSc
     return hits && !going_on ? Result<HitBuffer>(going_on.error()) : std::move(hits);
 }
 
-Result<std::optional<scene::FlyPath>> path_of(const session::TerrainScene& scene,
-                                              const RenderChoice& choice, session::Log& log) {
-    using Path = std::optional<scene::FlyPath>;
+Result<std::optional<scene::CameraPath>> path_of(const session::TerrainScene& scene,
+                                                 const RenderChoice& choice, session::Log& log) {
+    using Path = std::optional<scene::CameraPath>;
     if (choice.view.path.empty()) {
         return Path();
     }

@@ -4,8 +4,8 @@
 #include <stop_token>
 #include <string_view>
 
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/core/worker_pool.h"
 #include "engine/terrain/field/heightfield.h"
 
 namespace reljef::terrains {

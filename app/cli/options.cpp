@@ -103,9 +103,9 @@ Result<void> set_detail_number(session::DetailChoice& choice, const std::string&
     }
     const bool is_width = key == "width";
     const auto value =
-        is_width ? number_in("--detail: width", material::min_tile_width,
-                             material::max_tile_width)(text)
-                 : number_in("--detail: scale", 0.0, material::max_tile_scale, true)(text);
+        is_width
+            ? number_in("--detail: width", material::min_tile_width, material::max_tile_width)(text)
+            : number_in("--detail: scale", 0.0, material::max_tile_scale, true)(text);
     if (!value) {
         return value.error();
     }
@@ -151,8 +151,10 @@ CLI::Validator existing_folder() {
 }
 
 void add_picture_options(CLI::App& command, ViewChoice& choice) {
-    add_parsed(command, "--context", choice.context, parse_context,
-               "OpenGL context: auto, glfw (window), egl (GPU without a window) or osmesa (CPU) (auto)", "KIND");
+    add_parsed(
+        command, "--context", choice.context, parse_context,
+        "OpenGL context: auto, glfw (window), egl (GPU without a window) or osmesa (CPU) (auto)",
+        "KIND");
     add_parsed(
         command, "--size", choice.size, [](const std::string& text) { return parse_size(text); },
         "size of the picture, pixels (1024x768)", "WxH");
@@ -232,9 +234,10 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         ->type_name("NAME|FILE")
         ->excludes(eye)
         ->excludes(camera);
-    command.add_flag("--allow-underground", choice.allow_underground,
-                     "do not lift a camera that is below the ground (lifted, with a note; exit status "
-                     "1 if a scene or path file placed it). Orthographic cameras are never lifted");
+    command.add_flag(
+        "--allow-underground", choice.allow_underground,
+        "do not lift a camera that is below the ground (lifted, with a note; exit status "
+        "1 if a scene or path file placed it). Orthographic cameras are never lifted");
     add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
                "number of pictures along the path (1)", "N");
     add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
@@ -327,10 +330,9 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
         ->required();
     add_parsed(command, "--area", choice.area, parse_area,
                "use only this part of a folder of files, degrees", "SOUTH,WEST,NORTH,EAST");
-    add_parsed(command, "--memory", choice.memory_megabytes,
-               whole_number_in("--memory", 1, 1'000'000),
-               "memory for the terrain, megabytes; larger terrains are read tile by tile (512)",
-               "MB");
+    add_parsed(
+        command, "--memory", choice.memory_megabytes, whole_number_in("--memory", 1, 1'000'000),
+        "memory for the terrain, megabytes; larger terrains are read tile by tile (512)", "MB");
     add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
                "number of threads; 0: one for each processor (0)", "N");
     command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
@@ -358,7 +360,8 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                word_of<terrain::PlacementKind>("--placement",
                                                {{"plane", terrain::PlacementKind::plane},
                                                 {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
-               "plane, or ellipsoid: on the curved Earth (ellipsoid for georeferenced terrains)", "KIND");
+               "plane, or ellipsoid: on the curved Earth (ellipsoid for georeferenced terrains)",
+               "KIND");
     add_parsed(command, "--gaps", choice.gaps,
                word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
                "between the files of a folder: holes, or sea at 0 m (holes)", "KIND");

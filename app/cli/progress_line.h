@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::cli {
 

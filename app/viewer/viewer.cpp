@@ -173,7 +173,7 @@ std::string Viewer::keys() {
     return text;
 }
 
-Viewer::Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size,
+Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
                const ViewerOptions& options)
     : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
       techniques_(techniques_with(material().technique, scene)), switch_(scene, options.maps),

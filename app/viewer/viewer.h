@@ -11,7 +11,7 @@
 #include "app/viewer/appearance_switch.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
-#include "engine/scene/motion/fly_path.h"
+#include "engine/scene/motion/camera_path.h"
 #include "engine/scene/motion/free_flight.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/scene_setup.h"
@@ -41,7 +41,7 @@ class Viewer {
 public:
     /// Precondition: `scene` is as make_scene() gives it and outlives the viewer. `size` is the
     /// picture's, pixels. While the maps of the scene's technique are made, a coarser one is shown.
-    Viewer(session::TerrainScene& scene, scene::FlyPath path, glm::ivec2 size,
+    Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
            const ViewerOptions& options = {});
 
     /// What each key does, for people: a line each.
@@ -114,7 +114,7 @@ private:
     [[nodiscard]] const scene::Material& material() const;
 
     session::TerrainScene& scene_;
-    scene::FlyPath path_;
+    scene::CameraPath path_;
     glm::ivec2 size_;
     scene::Camera start_;
     std::vector<scene::Technique> techniques_; // as asked for, in the catalogue's order

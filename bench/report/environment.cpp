@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::bench {
 namespace {

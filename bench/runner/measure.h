@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/core/worker_pool.h"
 
 namespace reljef::bench {
 

@@ -25,7 +25,7 @@ struct Suite {
     std::string name;
     std::vector<Group> groups;
     bool keep_stages = true; ///< all opened before anything is measured, see Stages
-    int max_view_cols = 0;  ///< of a row's pictures, see RowViews
+    int max_view_cols = 0;   ///< of a row's pictures, see RowViews
     /// Whether a quick run leaves out candidates of a group where there is no time for them, the
     /// last first as far as it knows their cost; Results::left_out says which.
     bool may_leave_out = true;

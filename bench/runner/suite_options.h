@@ -5,7 +5,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/platform/context.h"
 
 namespace reljef::bench {

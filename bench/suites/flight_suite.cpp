@@ -34,7 +34,7 @@ Result<session::TerrainScene> flight_scene(const FlightOptions& options, session
     return session::open_scene(terrain, view, log, stop);
 }
 
-Result<void> fly(session::TerrainScene& scene, const scene::FlyPath& path,
+Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
                  session::DeviceFrames& frames, session::Log& log, const Stopwatch& watch,
                  FlightResults& results, const std::stop_token& stop) {
     const int count = results.options.view.frames;

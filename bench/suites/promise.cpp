@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "app/cli/progress_line.h"
-#include "bench/runner/chance_views.h"
+#include "bench/runner/random_views.h"
 #include "bench/runner/stage.h"
 #include "bench/runner/suite_device.h"
 #include "engine/scene/motion/animators.h"
-#include "engine/scene/motion/fly_path.h"
+#include "engine/scene/motion/camera_path.h"
 #include "engine/truth/geometric_error.h"
 
 namespace reljef::bench {
@@ -24,7 +24,7 @@ constexpr double flight_time = 3.0; // seconds of the path, from its middle on: 
 
 struct Flight {
     std::string name;
-    scene::FlyPath path;
+    scene::CameraPath path;
 };
 
 // Some pixels of a frame.

@@ -18,7 +18,7 @@ namespace {
 
 using SelectionJson = nlohmann::ordered_json;
 
-constexpr int samples = 1601;   // 13 tiles a side
+constexpr int samples = 1601;  // 13 tiles a side
 constexpr double max_ms = 0.2; // for 10,000 tiles
 
 struct SelectionView {

@@ -13,7 +13,7 @@ double quantile(std::span<const double> samples, double share);
 /// The middle sample, or the mean of the two in the middle. Precondition as quantile().
 double median(std::span<const double> samples);
 
-/// What is told of samples, such as frame times or errors, in their unit.
+/// Summary of samples, such as frame times or errors, in their unit.
 struct Summary {
     double median = 0.0;
     double p95 = 0.0;

@@ -79,7 +79,7 @@ glm::dvec2 GeodeticMap::middle() const {
     return first_ + 0.5 * step_ * glm::dvec2(control_.cols() - 1, control_.rows() - 1);
 }
 
-GeodeticMap GeodeticMap::closed(const Closing& closing, int cols, int rows) const {
+GeodeticMap GeodeticMap::closed(const GlobalWrap& closing, int cols, int rows) const {
     GeodeticMap map(*this);
     map.rows_ = ClosedRows(closing, rows);
     if (closing.east) {

@@ -41,7 +41,7 @@ struct PixelAffine {
 
 /// Samples beside those of a source that goes all around the Earth, so that nothing is missing
 /// between its last column and its first, and around the poles.
-struct Closing {
+struct GlobalWrap {
     bool around = false; ///< the last column lies where the first does
     bool east = false;   ///< it was added: the first again
     /// A row more at the pole, so many rows from the outermost sample, in (0, 1]; 0: none.
@@ -59,16 +59,16 @@ struct Closing {
 class ClosedRows {
 public:
     ClosedRows() = default;
-    ClosedRows(const Closing& closing, int source_rows)
+    ClosedRows(const GlobalWrap& closing, int source_rows)
         : closing_(closing), last_(source_rows - 1.0) {}
 
-    [[nodiscard]] const Closing& closing() const { return closing_; }
+    [[nodiscard]] const GlobalWrap& closing() const { return closing_; }
     /// From a row of the closed raster, 0 the first of all, to that of the source, and back.
     [[nodiscard]] double source_row(double row) const;
     [[nodiscard]] double closed_row(double source_row) const;
 
 private:
-    Closing closing_;
+    GlobalWrap closing_;
     double last_ = 0.0; // of the source
 };
 
@@ -91,7 +91,7 @@ public:
 
     /// The same map with the samples of a closing around `cols`×`rows` of a source: (0,0) is now
     /// the first of all.
-    [[nodiscard]] GeodeticMap closed(const Closing& closing, int cols, int rows) const;
+    [[nodiscard]] GeodeticMap closed(const GlobalWrap& closing, int cols, int rows) const;
     [[nodiscard]] const ClosedRows& rows() const { return rows_; }
 
     /// (latitude, longitude), degrees. Outside the control points the outermost cubic runs on, but

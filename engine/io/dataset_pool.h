@@ -16,14 +16,14 @@ namespace reljef::io {
 /// what one has borrowed nobody else uses.
 class DatasetPool {
 public:
-    /// At most so many rasters stay open while nobody reads them.
+    /// Rasters that stay open while nobody reads them, at most.
     static constexpr std::size_t max_idle = 32;
 
     using Opener =
         std::function<Result<Dataset>(const std::filesystem::path&, const GdalMessages&)>;
     explicit DatasetPool(Opener open = open_raster) : open_(std::move(open)) {}
 
-    /// What tells whether a file is still the one that was opened; the same for all on servers.
+    /// Changes if a file is no longer the one that was opened; the same for all files on servers.
     struct FileState {
         std::filesystem::file_time_type changed;
         std::uintmax_t bytes = 0;

@@ -21,7 +21,7 @@ public:
             notes_.push_back(sentence);
         }
     }
-    /// Of a file, ready to follow its name. Files of which the same is told share a sentence.
+    /// Note on a file, ready to follow its name. Files with the same note share a sentence.
     void add(const std::filesystem::path& file, const std::string& words) {
         const std::lock_guard lock(mutex_);
         if (known_.insert(file.string() + ": " + words).second) {

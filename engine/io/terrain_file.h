@@ -18,7 +18,7 @@ namespace reljef::io {
 /// longest_image_side and a share of the budget; alpha is 0 where the image has nothing, so that a
 /// tint shows there.
 ///
-/// What is odd about the file is told in Terrain::notes. Errors name the file, what was found and
+/// Terrain::notes says what is odd about the file. Errors name the file, what was found and
 /// what was expected. Nothing is written beside the file. Safe from several threads at a time.
 Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
                                       const RasterOptions& options = {});

@@ -16,7 +16,7 @@
 namespace reljef::io {
 namespace {
 
-constexpr int block_side = 1024;   // lattice points read at a time
+constexpr int block_side = 1024; // lattice points read at a time
 constexpr int min_chunk = 16384; // places that are worth a transform of their own
 // Of a sample: degrees in double tell a ten-thousandth of it, and a place that was computed to be
 // on a sample should have that sample's very value.
@@ -120,7 +120,7 @@ struct Block {
 };
 
 /// Of a point on the way to a pole that a layer is closed by, the nearest that its cells reach.
-glm::dvec2 in_reach(const TileLayer& layer, const geo::Closing& closing, glm::dvec2 point) {
+glm::dvec2 in_reach(const TileLayer& layer, const geo::GlobalWrap& closing, glm::dvec2 point) {
     const double north = -point.y;
     const double south = point.y - (layer.rows - 1.0);
     if (north > 0.0 && north <= closing.north + on_sample) {
@@ -131,7 +131,7 @@ glm::dvec2 in_reach(const TileLayer& layer, const geo::Closing& closing, glm::dv
     return point;
 }
 
-std::vector<Block> blocks_of(const TileLayer& layer, const geo::Closing& closing,
+std::vector<Block> blocks_of(const TileLayer& layer, const geo::GlobalWrap& closing,
                              std::span<const glm::dvec2> points) {
     std::unordered_map<std::int64_t, std::size_t> numbers;
     std::vector<Block> blocks;
@@ -159,13 +159,13 @@ enum class Reach { samples, half_a_cell };
 
 /// The heights of the poles that a layer goes around, metres; NaN where no point needs them.
 struct Poles {
-    geo::Closing closing;
+    geo::GlobalWrap closing;
     double north = void_value;
     double south = void_value;
 };
 
 /// The mean of a row; NaN where it has no height.
-double mean_of_row(const TileLayer& layer, int row, const TileReading& reading,
+double mean_of_row(const TileLayer& layer, int row, const TileContent& reading,
                    std::vector<TileFault>& faults) {
     const CellWindow window{1, glm::ivec2(0), {0, row}, layer.cols, 1};
     const Grid<double> heights = read_cells(layer, window, reading, faults);
@@ -179,7 +179,7 @@ double mean_of_row(const TileLayer& layer, int row, const TileReading& reading,
 }
 
 Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
-               const TileReading& reading, std::vector<TileFault>& faults) {
+               const TileContent& reading, std::vector<TileFault>& faults) {
     const int last = layer.rows - 1;
     bool any_north = false;
     bool any_south = false;
@@ -220,7 +220,7 @@ public:
 
     /// Reads what the points need, then calls answer(index, answer).
     template <class Answer>
-    void find(const TileReading& reading, std::vector<TileFault>& faults, const Answer& answer) {
+    void find(const TileContent& reading, std::vector<TileFault>& faults, const Answer& answer) {
         std::vector<OnTile> found;
         found.reserve(block_.points.size());
         for (const int index : block_.points) {
@@ -337,7 +337,7 @@ std::vector<int> unanswered(std::span<const HeightAnswer> answers, Reach reach) 
 }
 
 void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach reach,
-               const TileReading& reading, unsigned threads, TileSet::Heights& result) {
+               const TileContent& reading, unsigned threads, TileSet::Heights& result) {
     const std::vector<int> wanted = unanswered(result.answers, reach);
     if (wanted.empty()) {
         return;

@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/io/cache/fnv_hash.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/sample_decoder.h"
-#include "engine/io/side_files.h"
+#include "engine/io/sidecar_files.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {

@@ -19,7 +19,7 @@ enum class TileUse : std::uint8_t { heights, picture, fault };
 /// What the index keeps of one file.
 struct IndexedFile {
     std::string path;          ///< below the folder, with '/'
-    std::uint64_t bytes = 0;   ///< with the next two: tells whether the file is still the same
+    std::uint64_t bytes = 0;   ///< with the next two: to see whether the file is still the same
     std::int64_t modified = 0; ///< ticks of the file system's clock
     std::uint64_t beside = 0;  ///< checksum of the names, sizes and times of its side files
     bool opened = false;       ///< what could not be opened is tried again each time

@@ -221,12 +221,12 @@ private:
     Grid<std::uint8_t> closed_;
 };
 
-std::filesystem::path path_of(const LayerTile& tile, const TileReading& reading) {
+std::filesystem::path path_of(const LayerTile& tile, const TileContent& reading) {
     return reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path;
 }
 
 /// As the index knows it, also where it was replaced.
-Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileReading& reading,
+Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileContent& reading,
                                             const GdalMessages& messages) {
     const std::filesystem::path path = path_of(tile, reading);
     const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
@@ -246,7 +246,7 @@ Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileRea
 constexpr std::chrono::seconds longest_answer{5}; // of a server that does not hang
 
 /// Nobody waits for a server that does not answer again and again.
-Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileReading& reading,
+Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileContent& reading,
                                  const GdalMessages& messages) {
     const std::filesystem::path path = path_of(tile, reading);
     if (auto wrong = reading.failing->given_up(path)) {
@@ -266,7 +266,7 @@ struct TileValues {
 
 /// The part of a tile that lies in `part`, lattice points.
 Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int reduction,
-                             const TileReading& reading) {
+                             const TileContent& reading) {
     const std::filesystem::path path = path_of(tile, reading);
     GdalMessages messages;
     auto dataset = borrow(tile, reading, messages);
@@ -281,7 +281,7 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     auto values =
         read_heights(**dataset, result.plan, path.string(), reading.options, messages, found);
     if (!values) {
-        if (!reading.options.stop.stop_requested() && !is_tile_pyramid(path)) {
+        if (!reading.options.stop.stop_requested() && !is_web_tiles(path)) {
             dataset->spoil();
             if (is_remote(path)) {
                 reading.failing->note(path, values.error().message);
@@ -304,12 +304,12 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
 
 /// Samples of the finest level along a tile of the level that is read for a reduction.
 int side_of_pyramid_tile(int reduction) {
-    return tile_pyramid_side << std::max(0, std::ilogb(std::max(1, reduction / taps_a_side)));
+    return web_tiles_side << std::max(0, std::ilogb(std::max(1, reduction / taps_a_side)));
 }
 
 /// One by one, so that one that is damaged takes no other with it.
 void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reduction,
-                       const TileReading& reading, CellSums& sums, std::vector<TileFault>& faults) {
+                       const TileContent& reading, CellSums& sums, std::vector<TileFault>& faults) {
     const int side = side_of_pyramid_tile(reduction);
     const glm::ivec2 corner(tile.col, tile.row);
     const glm::ivec2 first = (part.low - corner) / side;
@@ -323,7 +323,7 @@ void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reducti
                 sums.add(tile, read->plan, read->values);
             } else if (!reading.options.stop.stop_requested()) {
                 const int level = std::ilogb(tile.cols / side);
-                faults.push_back(tile_pyramid_fault(path_of(tile, reading), {x, y}, level));
+                faults.push_back(web_tiles_fault(path_of(tile, reading), {x, y}, level));
             }
         }
     }
@@ -331,7 +331,7 @@ void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reducti
 
 /// Adds the part of a tile to sums over cells, or tells what fails.
 void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
-              const TileReading& reading, CellSums& sums, std::vector<TileFault>& faults) {
+              const TileContent& reading, CellSums& sums, std::vector<TileFault>& faults) {
     const auto begin = BackOff::Clock::now();
     const auto read = read_part(tile, part, reduction, reading);
     const std::filesystem::path path = path_of(tile, reading);
@@ -339,7 +339,7 @@ void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
         sums.add(tile, read->plan, read->values);
         return;
     }
-    if (!is_tile_pyramid(path) || reading.options.stop.stop_requested()) {
+    if (!is_web_tiles(path) || reading.options.stop.stop_requested()) {
         faults.push_back({path, read.error().message});
         return;
     }
@@ -398,7 +398,7 @@ std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
 }
 
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
-                        const TileReading& reading, std::vector<TileFault>& faults) {
+                        const TileContent& reading, std::vector<TileFault>& faults) {
     CellSums sums(window);
     for (const LayerTile& tile : layer.tiles) {
         const Rectangle part = overlap(tile, window);

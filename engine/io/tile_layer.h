@@ -83,7 +83,7 @@ struct CellWindow {
 };
 
 /// Where and how files are read.
-struct TileReading {
+struct TileContent {
     std::span<const IndexedFile> files;
     std::span<const std::string> crs;               ///< WKT, by IndexedFile::crs
     std::filesystem::path folder;                   ///< the files' paths begin here
@@ -98,6 +98,6 @@ struct TileReading {
 /// where there is none. What fails is added to the faults and left out: a file, of a tile pyramid
 /// only those of its tiles that cannot be read.
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
-                        const TileReading& reading, std::vector<TileFault>& faults);
+                        const TileContent& reading, std::vector<TileFault>& faults);
 
 } // namespace reljef::io

@@ -6,7 +6,7 @@
 
 namespace reljef::io {
 
-/// Where the usable files of an index lie. Those that have no place on Earth are told in `faults`.
+/// Places of the usable files of an index. `faults` names those without a place on Earth.
 /// Across the antimeridian longitudes run on, so that the set is as narrow as it can be.
 std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
                                     std::vector<TileFault>& faults);

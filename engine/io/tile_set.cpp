@@ -208,8 +208,8 @@ void keep_each_once(std::vector<TileFault>& faults) {
     faults.erase(std::unique(faults.begin(), faults.end(), same), faults.end());
 }
 
-TileReading TileSet::State::reading(const std::stop_token& stop) const {
-    TileReading reading{indexed, indexed_crs, folder, {}, &bytes_read, &pool, &failing, &new_notes};
+TileContent TileSet::State::reading(const std::stop_token& stop) const {
+    TileContent reading{indexed, indexed_crs, folder, {}, &bytes_read, &pool, &failing, &new_notes};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
     reading.options.stop = stop;
@@ -328,7 +328,7 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const geo::GeodeticArea& ar
                     static_cast<int>(high.y - low.y) + 1};
 }
 
-geo::Closing TileSet::closing(const TileGrid& grid) const {
+geo::GlobalWrap TileSet::closing(const TileGrid& grid) const {
     return closing_of(crs_from_text(state_->crs), affine_of(grid), grid.cols, grid.rows);
 }
 

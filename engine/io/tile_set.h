@@ -12,11 +12,11 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/core/worker_pool.h"
 #include "engine/geo/geodetic_area.h"
 #include "engine/io/raster/raster.h"
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 #include "engine/terrain/field/heightfield.h"
 
 namespace reljef::io {
@@ -105,7 +105,7 @@ public:
     /// The part of `grid` in an area; fails where there is none.
     [[nodiscard]] Result<TileGrid> part(const TileGrid& grid, const geo::GeodeticArea& area) const;
     /// What is missing of a grid that goes all around the Earth.
-    [[nodiscard]] geo::Closing closing(const TileGrid& grid) const;
+    [[nodiscard]] geo::GlobalWrap closing(const TileGrid& grid) const;
     /// Every `reduction`-th part of `grid` a side: its samples are the middles of whole blocks.
     [[nodiscard]] static TileGrid reduced(const TileGrid& grid, int reduction);
 
@@ -133,7 +133,7 @@ public:
     [[nodiscard]] std::size_t bytes_read() const;
 
     /// All of it, or a part, as one terrain at the finest whole-number reduction that fits the
-    /// memory. Files that fail are left out, and told in Terrain::faults.
+    /// memory. Files that fail are left out; Terrain::faults names them.
     [[nodiscard]] Result<terrain::Terrain> terrain(const TileTerrainOptions& options = {}) const;
 
 private:

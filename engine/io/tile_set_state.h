@@ -39,7 +39,7 @@ struct TileSet::State {
     mutable FailingFiles failing; ///< what a server does not give is not asked for by every tile
     mutable NewNotes new_notes;
 
-    [[nodiscard]] TileReading reading(const std::stop_token& stop) const;
+    [[nodiscard]] TileContent reading(const std::stop_token& stop) const;
     /// With a note where its overviews are of no use.
     [[nodiscard]] Result<Dataset> open_raster_of_set(const std::filesystem::path& path,
                                                      const GdalMessages& messages) const;

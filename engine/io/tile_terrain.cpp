@@ -9,7 +9,7 @@
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/globe.h"
 #include "engine/io/raster/placed_heightfield.h"
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {
@@ -212,7 +212,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
         return Error{fmt::format("{}: all {}×{} samples are voids, at least one height was "
                                  "expected{}{}",
                                  name(), samples_grid.cols, samples_grid.rows,
-                                 is_tile_pyramid(name()) ? "; no tile was found at its level" : "",
+                                 is_web_tiles(name()) ? "; no tile was found at its level" : "",
                                  result.faults.empty() ? "" : "; " + result.faults.front())};
     }
     note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);

@@ -160,7 +160,7 @@ bool has_gaps(const Grid<double>& heights) {
 }
 
 /// `edges` are heights for where no layer has all the cells around: half a cell from a tile's edge.
-void fill_from(const TileLayer& layer, const LayerPoints& points, const TileReading& reading,
+void fill_from(const TileLayer& layer, const LayerPoints& points, const TileContent& reading,
                const TileGrid& grid, TileWindow& result, Grid<double>& edges) {
     const CellWindow window = window_for(points, grid, layer);
     if (window.cols == 0) {
@@ -267,7 +267,7 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
     TileWindow result{edges, {}, 0};
     const GdalMessages unheard; // of places that a projection does not have
     std::atomic<std::size_t> bytes_read{0};
-    TileReading reading = state_->reading(stop);
+    TileContent reading = state_->reading(stop);
     reading.bytes_read = &bytes_read;
     std::vector<std::optional<LayerPoints>> points;
     for (const TileLayer& layer : state_->layers) {

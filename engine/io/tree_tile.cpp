@@ -89,7 +89,7 @@ void close_pole(const PolarCap& cap, const FromPole& from_pole, TileWindow& wind
 
 } // namespace
 
-ClosedGrid closed_grid(const TileGrid& grid, const geo::Closing& closing, int refinement) {
+ClosedGrid closed_grid(const TileGrid& grid, const geo::GlobalWrap& closing, int refinement) {
     ClosedGrid result{grid, closing, refinement};
     result.grid.first.y -= grid.step.y * closing.north_rows();
     result.grid.step /= static_cast<double>(refinement);

@@ -18,14 +18,14 @@ TileWindow read_tree_tile(const TileSet& tiles, const TileGrid& grid, const terr
 /// A grid and what closes it where it goes all around the Earth.
 struct ClosedGrid {
     TileGrid grid; ///< with the samples of the closing: at a pole they lie on beyond it
-    geo::Closing closing;
+    geo::GlobalWrap closing;
     int refinement = 1;        ///< samples of the grid in one of the source's
     double north_height = 0.0; ///< of the poles, metres
     double south_height = 0.0;
 };
 
 /// `refinement` samples for one of `grid`, which has no closing yet.
-ClosedGrid closed_grid(const TileGrid& grid, const geo::Closing& closing, int refinement);
+ClosedGrid closed_grid(const TileGrid& grid, const geo::GlobalWrap& closing, int refinement);
 
 /// The same where the last column is the first again, and poles have one height.
 TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,

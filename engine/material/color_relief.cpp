@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/material/tile_border.h"
+#include "engine/material/wrap_mode.h"
 
 namespace reljef::material {
 namespace {
@@ -31,7 +31,7 @@ int mirrored_index(int index, int count) {
 }
 
 int index_outside(int index, int count, bool wraps) {
-    return wraps ? index_beyond(index, count, TileBorder::wrap) : mirrored_index(index, count);
+    return wraps ? index_beyond(index, count, WrapMode::wrap) : mirrored_index(index, count);
 }
 
 // Binomial, its taps `step` samples apart along one axis.

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "engine/core/grid.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::material {
 

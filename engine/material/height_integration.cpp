@@ -20,9 +20,9 @@ struct Links {
     [[nodiscard]] int next_row(int row) const { return row + 1 < rows() ? row + 1 : 0; }
 };
 
-Links first_links(int cols, int rows, TileBorder border) {
+Links first_links(int cols, int rows, WrapMode border) {
     Links links{Grid<double>(cols, rows, 1.0), Grid<double>(cols, rows, 1.0)};
-    const double across = border == TileBorder::wrap ? 1.0 : 0.0;
+    const double across = border == WrapMode::wrap ? 1.0 : 0.0;
     for (int row = 0; row < rows; ++row) {
         links.east(cols - 1, row) = cols > 1 ? across : 0.0;
     }

@@ -11,8 +11,8 @@
 namespace reljef::material {
 
 struct IntegrationOptions {
-    glm::dvec2 spacing{1.0}; ///< between samples, > 0; the heights come out in its unit
-    TileBorder border = TileBorder::clamp; ///< discard is as clamp
+    glm::dvec2 spacing{1.0};           ///< between samples, > 0; the heights come out in its unit
+    WrapMode border = WrapMode::clamp; ///< discard is as clamp
     /// Ends once what is wrong with the equations is this much smaller than at first (both as the
     /// root of a sum of squares), or after so many rounds.
     double reduction = 1e-8;

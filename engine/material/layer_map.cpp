@@ -147,8 +147,8 @@ std::optional<float> mean_around(const Grid<std::optional<float>>& values, int c
     float sum = 0.0F;
     int count = 0;
     for (const glm::ivec2 way : ways) {
-        const auto& other = values(index_beyond(col + way.x, values.cols(), TileBorder::wrap),
-                                   index_beyond(row + way.y, values.rows(), TileBorder::wrap));
+        const auto& other = values(index_beyond(col + way.x, values.cols(), WrapMode::wrap),
+                                   index_beyond(row + way.y, values.rows(), WrapMode::wrap));
         sum += other.value_or(0.0F);
         count += other ? 1 : 0;
     }
@@ -293,7 +293,7 @@ LayerMap seen_from_behind(const LayerMap& layers) {
     });
 }
 
-LayerNormals layer_normals(const LayerMap& layers, float scale, TileBorder border) {
+LayerNormals layer_normals(const LayerMap& layers, float scale, WrapMode border) {
     const Grid<glm::vec4>& heights = layers.heights();
     const int cols = heights.cols();
     const int rows = heights.rows();

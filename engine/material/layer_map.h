@@ -9,7 +9,7 @@
 
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
-#include "engine/material/tile_border.h"
+#include "engine/material/wrap_mode.h"
 
 namespace reljef::material {
 
@@ -56,7 +56,7 @@ struct LayerNormals {
 };
 /// From central differences over the border, of a height of 1 that lifts a point `scale` tile
 /// widths. Precondition: not empty, scale > 0.
-LayerNormals layer_normals(const LayerMap& layers, float scale, TileBorder border);
+LayerNormals layer_normals(const LayerMap& layers, float scale, WrapMode border);
 
 /// A closed mesh in tile space: x and y are texture coordinates, z the height; what lies beyond the
 /// tile counts in the next copy. Every three indices are one triangle, counter-clockwise from the

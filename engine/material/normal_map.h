@@ -7,7 +7,7 @@
 
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
-#include "engine/material/tile_border.h"
+#include "engine/material/wrap_mode.h"
 
 namespace reljef::material {
 
@@ -23,7 +23,7 @@ enum class NormalFilter {
 struct NormalOptions {
     glm::dvec2 spacing{1.0}; ///< between samples, in the heights' unit, > 0
     NormalFilter filter = NormalFilter::bilinear;
-    TileBorder border = TileBorder::clamp; ///< discard is as clamp
+    WrapMode border = WrapMode::clamp; ///< discard is as clamp
 };
 
 /// Unit normals of a height surface at its samples: x east, y north, z up. At a clamped border the

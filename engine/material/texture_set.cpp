@@ -102,7 +102,7 @@ template <class At> bool has_seam_along(int lines, int length, const At& at) {
 
 } // namespace
 
-Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, TileBorder border) {
+Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, WrapMode border) {
     check(!heights.empty(), "normals of an empty tile");
     NormalOptions options;
     options.spacing =
@@ -133,7 +133,7 @@ bool has_seam(GridView<const float> heights) {
                           [&](int line, int i) { return heights(i, line); });
 }
 
-Result<TextureSet> completed(TextureSet set, TileBorder border) {
+Result<TextureSet> completed(TextureSet set, WrapMode border) {
     if (auto fault = fault_of(set)) {
         return *fault;
     }
@@ -142,7 +142,7 @@ Result<TextureSet> completed(TextureSet set, TileBorder border) {
     }
     mend_normals(set);
     note_sizes(set);
-    if (border == TileBorder::wrap && has_seam(set.heights.view())) {
+    if (border == WrapMode::wrap && has_seam(set.heights.view())) {
         set.notes.push_back(fmt::format("{}: opposite borders do not fit together; where the tile "
                                         "repeats, a seam shows",
                                         set.name));

@@ -12,13 +12,13 @@
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/material/layer_map.h"
-#include "engine/material/tile_border.h"
+#include "engine/material/wrap_mode.h"
 
 namespace reljef::material {
 
 /// The cones over one side of a tile, made beforehand: over cone_field() of seen_heights().
 struct KnownCones {
-    TileBorder border = TileBorder::wrap; ///< wrap, or clamp where the tile does not repeat
+    WrapMode border = WrapMode::wrap; ///< wrap, or clamp where the tile does not repeat
     bool from_behind = false;
     std::shared_ptr<const ConeMaps> of_field;
 };
@@ -34,7 +34,7 @@ struct TextureSet {
     std::optional<LayerMap> layers; ///< where one height a place says too little
     Grid<glm::vec3> normals;        ///< unit length, z > 0: x along u, y along v, z off the surface
     std::vector<KnownCones> cones;  ///< those not among them are made when they are needed
-    float scale = 0.05F;     ///< of the normals: a height of 1 lifts a point so many tile widths
+    float scale = 0.05F;            ///< of the normals: height of 1, in tile widths
     float specular = 0.10F;  ///< linear, what a surface turned into the mirror direction adds
     float shininess = 32.0F; ///< exponent of Blinn and Phong
     std::vector<std::string> notes; ///< what a person should know about the maps
@@ -48,7 +48,7 @@ inline constexpr double max_tile_scale = 10.0;
 /// Normals of a tile whose height of 1 lifts a point `scale` tile widths, from central differences
 /// over the border: at a texel's centre the mean of the two slopes that the bilinear surface has
 /// there, exactly. Precondition: not empty.
-Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, TileBorder border);
+Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, WrapMode border);
 
 /// The heights as a side of the tile shows them: from behind what is left of them to 1.
 Grid<float> seen_heights(const Grid<float>& heights, bool from_behind);
@@ -62,7 +62,7 @@ inline constexpr double seam_limit = 4.0;
 /// or not off the surface) becomes (0, 0, 1), with a note; maps of different sizes and borders that
 /// do not fit together where the tile is to be repeated get a note. Fails where colours or heights
 /// are missing, a height is outside [0,1], or the scale is no number above 0.
-Result<TextureSet> completed(TextureSet set, TileBorder border);
+Result<TextureSet> completed(TextureSet set, WrapMode border);
 
 /// Which solids a tile's maps say.
 enum class LayerKind {

@@ -6,15 +6,15 @@ namespace reljef::material {
 namespace {
 
 // By the shorter side: a strip's field stays a strip.
-int field_margin(int cols, int rows, TileBorder border) {
-    return border == TileBorder::wrap ? std::max(std::min(cols, rows) / 4, 1) : 0;
+int field_margin(int cols, int rows, WrapMode border) {
+    return border == WrapMode::wrap ? std::max(std::min(cols, rows) / 4, 1) : 0;
 }
 
 } // namespace
 
-Grid<float> cone_field(GridView<const float> heights, TileBorder border) {
+Grid<float> cone_field(GridView<const float> heights, WrapMode border) {
     const int margin = field_margin(heights.cols(), heights.rows(), border);
-    const bool wraps = border == TileBorder::wrap;
+    const bool wraps = border == WrapMode::wrap;
     // A cell needs four samples.
     const int cols = wraps ? heights.cols() + 2 * margin + 1 : std::max(heights.cols(), 2);
     const int rows = wraps ? heights.rows() + 2 * margin + 1 : std::max(heights.rows(), 2);
@@ -28,9 +28,9 @@ Grid<float> cone_field(GridView<const float> heights, TileBorder border) {
     return field;
 }
 
-Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, TileBorder border) {
+Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, WrapMode border) {
     const int margin = field_margin(cols, rows, border);
-    const bool wraps = border == TileBorder::wrap;
+    const bool wraps = border == WrapMode::wrap;
     const float widest = wraps ? static_cast<float>(margin) : widest_cone;
     Grid<float> cones(wraps ? cols : std::max(cols - 1, 1), wraps ? rows : std::max(rows - 1, 1));
     for (int row = 0; row < cones.rows(); ++row) {
@@ -41,9 +41,9 @@ Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, TileBord
     return cones;
 }
 
-ConeMaps tile_cones(const ConeMaps& of_field, int cols, int rows, TileBorder border) {
+ConeMaps tile_cones(const ConeMaps& of_field, int cols, int rows, WrapMode border) {
     Grid<float> plain = tile_cones(of_field.plain, cols, rows, border);
-    if (border != TileBorder::wrap) {
+    if (border != WrapMode::wrap) {
         return {plain, plain};
     }
     return {std::move(plain), tile_cones(of_field.relaxed, cols, rows, border)};

@@ -7,11 +7,11 @@
 #include "engine/core/stopwatch.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/render/passes/draw_state.h"
-#include "engine/render/passes/mesh_painter.h"
-#include "engine/render/passes/painting.h"
-#include "engine/render/passes/relief_painter.h"
-#include "engine/render/passes/sky_painter.h"
-#include "engine/render/passes/terrain_painter.h"
+#include "engine/render/passes/frame_context.h"
+#include "engine/render/passes/mesh_pass.h"
+#include "engine/render/passes/relief_pass.h"
+#include "engine/render/passes/sky_pass.h"
+#include "engine/render/passes/terrain_pass.h"
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/technique_support.h"
 
@@ -226,17 +226,17 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
     DrawState state(shaders_, blocks_, stats);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
-    const Painting painting{.list = list,
-                            .residency = residency_,
-                            .hits = hits,
-                            .features = scene_features(list, hits, picture.samples()),
-                            .picture = picture,
-                            .beams = beam_target_.framebuffer(),
-                            .no_vertices = no_vertices_,
-                            .state = state};
+    const FrameContext frame_context{.list = list,
+                                     .residency = residency_,
+                                     .hits = hits,
+                                     .features = scene_features(list, hits, picture.samples()),
+                                     .picture = picture,
+                                     .beams = beam_target_.framebuffer(),
+                                     .no_vertices = no_vertices_,
+                                     .state = state};
     for (const auto paint :
          {paint_terrain_tiles, paint_streamed_tiles, paint_reliefs, paint_meshes, paint_sky}) {
-        if (auto painted = paint(painting); !painted) {
+        if (auto painted = paint(frame_context); !painted) {
             return painted;
         }
     }

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::scene {
 namespace {
@@ -24,7 +24,7 @@ struct Surround {
 };
 
 // Voids get the overview's heights, the same for every tile and level.
-Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileMaker& maker,
+Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileBuilder& maker,
                                       terrain::TreeTile tile) {
     Grid<std::uint8_t> voids(heights.cols(), heights.rows());
     const auto view = maker.overview().heightfield().heights.view();
@@ -42,7 +42,7 @@ Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileMaker& mak
     return voids;
 }
 
-Surround surround_of(const TileMaker& maker, terrain::TreeTile tile, Grid<float> heights) {
+Surround surround_of(const TileBuilder& maker, terrain::TreeTile tile, Grid<float> heights) {
     Surround around{std::move(heights), {}, {}};
     around.voids = fill_from_overview(around.heights, maker, tile);
     around.places = Grid<glm::dvec3>(around.heights.cols(), around.heights.rows());
@@ -184,8 +184,9 @@ std::size_t bytes_of_tile(int texels_per_cell) {
     return bytes_per_tile + static_cast<std::size_t>(bytes_per_texel * more);
 }
 
-TileMaker::TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
-                     int reduction, const ImageryDetail& imagery, const geo::Closing& closing)
+TileBuilder::TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
+                         int reduction, const ImageryDetail& imagery,
+                         const geo::GlobalWrap& closing)
     : overview_(std::move(overview)), tree_(tree), reduction_(reduction), imagery_(imagery),
       tint_(overview_->heightfield()) {
     check(reduction >= 1 && imagery.refinement >= 1,
@@ -196,15 +197,15 @@ TileMaker::TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::Ti
     }
 }
 
-double TileMaker::step(terrain::TreeTile tile) const {
+double TileBuilder::step(terrain::TreeTile tile) const {
     return static_cast<double>(terrain::TileTree::step(tile)) / imagery_.refinement;
 }
 
-glm::dvec2 TileMaker::first(terrain::TreeTile tile) const {
+glm::dvec2 TileBuilder::first(terrain::TreeTile tile) const {
     return glm::dvec2(terrain::TileTree::first(tile)) / static_cast<double>(imagery_.refinement);
 }
 
-glm::dvec2 TileMaker::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
+glm::dvec2 TileBuilder::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
     glm::dvec2 at(tree_.sample(tile, vertex));
     if (rows_.closing().east) {
         // Around the Earth there are samples on either side.
@@ -214,23 +215,23 @@ glm::dvec2 TileMaker::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
     return at / static_cast<double>(imagery_.refinement);
 }
 
-glm::dvec2 TileMaker::tree_sample(glm::dvec2 sample) const {
+glm::dvec2 TileBuilder::tree_sample(glm::dvec2 sample) const {
     return sample * static_cast<double>(imagery_.refinement);
 }
 
-glm::dvec2 TileMaker::on_overview(glm::dvec2 sample) const {
+glm::dvec2 TileBuilder::on_overview(glm::dvec2 sample) const {
     sample.y = rows_.source_row(sample.y);
     const glm::dvec2 at = (sample - 0.5 * (reduction_ - 1)) / static_cast<double>(reduction_);
     return {at.x, overview_rows_.closed_row(at.y)};
 }
 
-glm::dvec2 TileMaker::from_overview(glm::dvec2 sample) const {
+glm::dvec2 TileBuilder::from_overview(glm::dvec2 sample) const {
     sample.y = overview_rows_.source_row(sample.y);
     const glm::dvec2 at = sample * static_cast<double>(reduction_) + 0.5 * (reduction_ - 1);
     return {at.x, rows_.closed_row(at.y)};
 }
 
-glm::dvec2 TileMaker::around_overview(glm::dvec2 overview_sample) const {
+glm::dvec2 TileBuilder::around_overview(glm::dvec2 overview_sample) const {
     const int turn = overview_->heightfield().heights.cols() - 1;
     if (overview_rows_.closing().east) {
         overview_sample.x -= turn * std::floor(overview_sample.x / turn);
@@ -238,11 +239,11 @@ glm::dvec2 TileMaker::around_overview(glm::dvec2 overview_sample) const {
     return overview_sample;
 }
 
-bool TileMaker::has_all_samples(terrain::TreeTile tile) const {
+bool TileBuilder::has_all_samples(terrain::TreeTile tile) const {
     return terrain::TileTree::step(tile) <= imagery_.refinement;
 }
 
-int TileMaker::texels_per_cell(int level) const {
+int TileBuilder::texels_per_cell(int level) const {
     if (imagery_.finest_pixel <= 0.0) {
         return 1;
     }
@@ -254,34 +255,34 @@ int TileMaker::texels_per_cell(int level) const {
     return texels;
 }
 
-glm::ivec2 TileMaker::picture_size(terrain::TreeTile tile) const {
+glm::ivec2 TileBuilder::picture_size(terrain::TreeTile tile) const {
     return tree_.cells(tile) * texels_per_cell(tile.level) + 1;
 }
 
-double TileMaker::texel(int level) const {
+double TileBuilder::texel(int level) const {
     return spacing(level) / texels_per_cell(level);
 }
 
-std::size_t TileMaker::bytes_per_tile() const {
+std::size_t TileBuilder::bytes_per_tile() const {
     return bytes_of_tile(texels_per_cell(tree_.root().level));
 }
 
-double TileMaker::spacing(int level) const {
+double TileBuilder::spacing(int level) const {
     const glm::dvec2 spacing = overview_->heightfield().spacing;
     return std::max(spacing.x, spacing.y) / reduction_ * step({level, 0, 0});
 }
 
-glm::dvec3 TileMaker::place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const {
+glm::dvec3 TileBuilder::place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const {
     const glm::dvec2 at = on_overview(sample(tile, vertex));
     return overview_->placement().world_from_sample({at, height});
 }
 
-Box TileMaker::bounds(terrain::TreeTile tile, terrain::HeightRange range) const {
+Box TileBuilder::bounds(terrain::TreeTile tile, terrain::HeightRange range) const {
     const auto at = [&](glm::ivec2 vertex) { return on_overview(sample(tile, vertex)); };
     return terrain::placed_bounds(overview_->placement(), at({0, 0}), at(tree_.cells(tile)), range);
 }
 
-Grid<float> TileMaker::overview_heights(terrain::TreeTile tile) const {
+Grid<float> TileBuilder::overview_heights(terrain::TreeTile tile) const {
     const terrain::Heightfield& overview = overview_->heightfield();
     const int taps = std::max(1, static_cast<int>(step(tile) / reduction_));
     const glm::ivec2 count = tree_.cells(tile) + 3;
@@ -296,7 +297,7 @@ Grid<float> TileMaker::overview_heights(terrain::TreeTile tile) const {
     return heights;
 }
 
-double TileMaker::overview_error(terrain::TreeTile tile) const {
+double TileBuilder::overview_error(terrain::TreeTile tile) const {
     const Grid<float>& heights = overview_->heightfield().heights;
     if (step(tile) >= reduction_) {
         return 0.0;
@@ -319,7 +320,7 @@ double TileMaker::overview_error(terrain::TreeTile tile) const {
     return overview_->placement().exaggeration() * most;
 }
 
-Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {
+Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, float height) const {
     const Rgba8 tint = tint_.at(height);
     const Image& picture = overview_->terrain().color;
     if (picture.empty()) {
@@ -335,8 +336,8 @@ Rgba8 TileMaker::color_at(glm::dvec2 overview_sample, float height) const {
     return nearest.a < 128 ? tint : rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8));
 }
 
-Image TileMaker::vertex_colors(const StreamedTile& tile, const Grid<float>& around,
-                               const Grid<std::uint8_t>& voids, bool with_overview) const {
+Image TileBuilder::vertex_colors(const StreamedTile& tile, const Grid<float>& around,
+                                 const Grid<std::uint8_t>& voids, bool with_overview) const {
     Image colors(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < colors.rows(); ++row) {
         for (int col = 0; col < colors.cols(); ++col) {
@@ -351,8 +352,8 @@ Image TileMaker::vertex_colors(const StreamedTile& tile, const Grid<float>& arou
     return colors;
 }
 
-StreamedTile TileMaker::make(terrain::TreeTile tile, Grid<float> heights,
-                             const TilePicture& picture) const {
+StreamedTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
+                               const TilePicture& picture) const {
     const glm::ivec2 cells = tree_.cells(tile);
     check(heights.cols() == cells.x + 3 && heights.rows() == cells.y + 3,
           "a tile's heights with one around were expected");
@@ -382,7 +383,7 @@ namespace {
 // Metres along a tile: on wider ones the ground bends by more than a degree.
 constexpr double widest_with_one_up = 100e3;
 
-glm::vec3 up_at(const TileMaker& maker, const StreamedTile& tile, glm::ivec2 vertex) {
+glm::vec3 up_at(const TileBuilder& maker, const StreamedTile& tile, glm::ivec2 vertex) {
     const glm::dvec3 size = tile.bounds.size();
     return std::max({size.x, size.y, size.z}) <= widest_with_one_up
                ? tile.up
@@ -391,7 +392,7 @@ glm::vec3 up_at(const TileMaker& maker, const StreamedTile& tile, glm::ivec2 ver
 
 } // namespace
 
-Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
+Image lit_tile(const TileBuilder& maker, const StreamedTile& tile,
                const TerrainIrradiance& irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);

@@ -52,7 +52,7 @@ struct StreamedTile : TileSummary {
     glm::vec3 up{0.0F, 0.0F, 1.0F};
     Image albedo;                 ///< edge to edge over the vertices, at least a texel each, sRGB
     Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; the last ones may be cut
-    bool of_overview = false;     ///< the heights are TileMaker::overview_heights
+    bool of_overview = false;     ///< the heights are TileBuilder::overview_heights
 
     /// Of a vertex, local metres, to half a unit: 4 µm where the tile is 12 km wide.
     [[nodiscard]] glm::dvec3 place(glm::ivec2 vertex) const {
@@ -80,7 +80,7 @@ inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;
 /// larger than a pixel.
 inline constexpr int max_texels_per_cell = 4;
 
-/// What a tile of full size with a picture of so many takes, drawn.
+/// Bytes of a drawn tile of full size with a picture of this many texels.
 std::size_t bytes_of_tile(int texels_per_cell);
 
 /// Images that tiles show.
@@ -95,12 +95,13 @@ struct ImageryDetail {
 /// Makes tiles of a terrain from their samples. What an overview of the whole terrain knows holds
 /// for them too: where they stand, the scale of colours, the draped picture, the sun's shadows.
 /// Safe from several threads at a time.
-class TileMaker {
+class TileBuilder {
 public:
     /// `reduction`: samples of the terrain a side in one of the overview's, which lies in the
     /// middle of them. `closing`: of the tree's raster, where it goes all around the Earth.
-    TileMaker(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree, int reduction,
-              const ImageryDetail& imagery = {}, const geo::Closing& closing = {});
+    TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
+                int reduction, const ImageryDetail& imagery = {},
+                const geo::GlobalWrap& closing = {});
 
     [[nodiscard]] const terrain::TileTree& tree() const { return tree_; }
     [[nodiscard]] const TerrainSurface& overview() const { return *overview_; }
@@ -161,7 +162,7 @@ private:
 
 /// What a tile sends to the eye: its colour in the light, of the albedo's size, sRGB. Light is
 /// linear between vertices.
-Image lit_tile(const TileMaker& maker, const StreamedTile& tile,
+Image lit_tile(const TileBuilder& maker, const StreamedTile& tile,
                const TerrainIrradiance& irradiance);
 
 } // namespace reljef::scene

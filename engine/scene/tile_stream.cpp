@@ -7,7 +7,7 @@
 
 #include <glm/common.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::scene {
 namespace {
@@ -37,7 +37,7 @@ std::size_t texels_shown(const Image& texels) {
 
 } // namespace
 
-TileStream::TileStream(TileMaker maker, TileReader read, const TileStreamOptions& options)
+TileStream::TileStream(TileBuilder maker, TileContentReader read, const TileStreamOptions& options)
     : maker_(std::move(maker)), read_(std::move(read)), options_(options) {
     const unsigned count = thread_count(options.threads);
     for (unsigned i = 0; i < count; ++i) {
@@ -81,7 +81,7 @@ std::optional<TileSummary> TileStream::recall(terrain::TreeTile tile) const {
 std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
     const glm::dvec2 last(tree().cols() - 1, tree().rows() - 1);
     glm::dvec2 sample = maker_.tree_sample(maker_.from_overview(overview_sample));
-    if (tree().is_around() && (sample.x < 0.0 || sample.x > last.x)) {
+    if (tree().wraps_longitude() && (sample.x < 0.0 || sample.x > last.x)) {
         sample.x -= last.x * std::floor(sample.x / last.x);
     }
     sample = glm::clamp(sample, glm::dvec2(0.0), last);
@@ -261,7 +261,7 @@ void TileStream::work(const std::stop_token& stop) {
         const auto entry = tiles_.find(*tile);
         const Made before = entry != tiles_.end() ? entry->second.made : Made{};
         lock.unlock();
-        TileReading reading = read_(*tile, cancelled);
+        TileContent reading = read_(*tile, cancelled);
         const bool stopped = cancelled.stop_requested();
         Made made;
         if (!stopped && reading.faults.empty()) {
@@ -273,7 +273,7 @@ void TileStream::work(const std::stop_token& stop) {
     }
 }
 
-TileStream::Made TileStream::make(terrain::TreeTile tile, TileReading& reading,
+TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& reading,
                                   const Made& before) const {
     StreamedTile made = maker_.make(tile, std::move(reading.heights), reading.picture);
     made.of_overview = reading.of_overview;
@@ -302,7 +302,7 @@ TileStream::Made TileStream::better_of(const Made& before, Made now, bool has_wh
     return {std::make_shared<const StreamedTile>(std::move(tile)), with_picture.shown};
 }
 
-void TileStream::finish(terrain::TreeTile tile, const TileReading& reading, Made made,
+void TileStream::finish(terrain::TreeTile tile, const TileContent& reading, Made made,
                         bool stopped) {
     in_flight_.erase(tile);
     stats_.bytes_read += reading.bytes_read;
@@ -342,11 +342,11 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
 
 // What is wrong with a file is wrong for each of its tiles: they wait together, so that a flight is
 // held up once by a file and not by every tile that comes into view.
-void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults) {
+void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileContent::Fault> faults) {
     ++stats_.failed;
     const auto now = Clock::now();
     TileFailure failure;
-    for (const TileReading::Fault& fault : faults) {
+    for (const TileContent::Fault& fault : faults) {
         const BackOff& file = file_failure(fault.file, now);
         if (failure.files.empty() || failure.latest.again() < file.again()) {
             failure.latest = file;
@@ -375,8 +375,8 @@ void TileStream::forget_failure(terrain::TreeTile tile) {
     }
 }
 
-void TileStream::tell(std::span<const TileReading::Fault> faults) {
-    for (const TileReading::Fault& fault : faults) {
+void TileStream::tell(std::span<const TileContent::Fault> faults) {
+    for (const TileContent::Fault& fault : faults) {
         if (faults_.emplace(fault.file, fault.message).second) {
             new_faults_.push_back(fault.message);
         }

@@ -21,11 +21,11 @@
 
 namespace reljef::scene {
 
-/// What a source has for a tile: heights at its vertices and one step around them (NaN: none), what
-/// images show of it, and what went wrong, one sentence a file. With faults the heights do not
-/// count; with those of its picture the tile is drawn as it is, and read again: its picture, and
-/// its heights where they are the overview's.
-struct TileReading {
+/// A tile as read from its source: heights at its vertices and one step around them (NaN: none),
+/// its picture, and faults, one sentence per file. If `faults` is not empty, the heights are
+/// unusable. If only `picture_faults` is not empty, the tile is drawn, and its picture is read
+/// again; so are its heights if they are the overview's.
+struct TileContent {
     Grid<float> heights;
     TilePicture picture;
     struct Fault {
@@ -34,13 +34,13 @@ struct TileReading {
     };
     std::vector<Fault> faults;
     std::vector<Fault> picture_faults; ///< and of heights that the overview stands in for
-    bool of_overview = false;          ///< the heights are TileMaker::overview_heights
+    bool of_overview = false;          ///< the heights are TileBuilder::overview_heights
     std::size_t bytes_read = 0;        ///< that it took from its files
     std::vector<std::string> notes;    ///< that came up, each once in the stream's life
 };
 
 /// Reads a tile; called from several threads at a time. May give up where a stop is asked for.
-using TileReader = std::function<TileReading(terrain::TreeTile, std::stop_token)>;
+using TileContentReader = std::function<TileContent(terrain::TreeTile, std::stop_token)>;
 
 struct TileStreamOptions {
     /// Bytes, for tiles here and when drawn; a 64th of it more for what is remembered of others.
@@ -62,23 +62,23 @@ struct TileStreamStats {
     std::size_t bytes_read = 0; ///< by all readings
 };
 
-/// The tiles of a terrain that are in memory, and the threads that read those that are wanted. The
-/// only thing of a scene that changes by itself: tiles come, never while one looks at them (they
-/// are shared). The least recently seen ones go when memory runs out.
+/// The tiles of a terrain that are in memory, and the threads that read the requested ones. The
+/// only part of a scene that changes by itself. Tiles are shared, so none changes while it is used.
+/// When memory runs out, the least recently used ones are evicted.
 class TileStream {
 public:
-    TileStream(TileMaker maker, TileReader read, const TileStreamOptions& options = {});
+    TileStream(TileBuilder maker, TileContentReader read, const TileStreamOptions& options = {});
     ~TileStream();
     TileStream(const TileStream&) = delete;
     TileStream& operator=(const TileStream&) = delete;
 
-    [[nodiscard]] const TileMaker& maker() const { return maker_; }
+    [[nodiscard]] const TileBuilder& maker() const { return maker_; }
     [[nodiscard]] const terrain::TileTree& tree() const { return maker_.tree(); }
 
     /// A tile that is in memory, else null.
     [[nodiscard]] std::shared_ptr<const StreamedTile> find(terrain::TreeTile tile) const;
-    /// What tiles are chosen by, of one that is there or went: that it was not worth its memory
-    /// need not be found out by reading it again. Of those that went first nothing is left.
+    /// Summary of a resident or evicted tile. Avoids re-reading tiles that were rejected. Empty for
+    /// tiles that were evicted long ago.
     [[nodiscard]] std::optional<TileSummary> recall(terrain::TreeTile tile) const;
     /// The finest tile that is there over a sample of the overview, and the place on its vertices.
     struct Found {
@@ -141,13 +141,13 @@ private:
     void work(const std::stop_token& stop);
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
-    [[nodiscard]] Made make(terrain::TreeTile tile, TileReading& reading, const Made& before) const;
+    [[nodiscard]] Made make(terrain::TreeTile tile, TileContent& reading, const Made& before) const;
     static Made better_of(const Made& before, Made now, bool has_whole_picture);
-    void finish(terrain::TreeTile tile, const TileReading& reading, Made made, bool stopped);
-    void note_failure(terrain::TreeTile tile, std::span<const TileReading::Fault> faults);
+    void finish(terrain::TreeTile tile, const TileContent& reading, Made made, bool stopped);
+    void note_failure(terrain::TreeTile tile, std::span<const TileContent::Fault> faults);
     void forget_failure(terrain::TreeTile tile);
     const BackOff& file_failure(const std::string& file, Clock::time_point now);
-    void tell(std::span<const TileReading::Fault> faults);
+    void tell(std::span<const TileContent::Fault> faults);
     void keep(terrain::TreeTile tile, Made made);
     [[nodiscard]] std::vector<terrain::TreeTile>
     asked_for(std::span<const terrain::TreeTile> tiles) const;
@@ -156,8 +156,8 @@ private:
     void remember(const TileSummary& tile);
     [[nodiscard]] bool is_settled() const;
 
-    const TileMaker maker_;
-    const TileReader read_;
+    const TileBuilder maker_;
+    const TileContentReader read_;
     const TileStreamOptions options_;
 
     mutable std::mutex mutex_;

@@ -80,7 +80,7 @@ public:
     /// Fails where a key has no place in the scene; places between keys that have none are left
     /// out.
     [[nodiscard]] Result<std::vector<Waypoint>> waypoints(const std::string& name) const {
-        const auto profile = scene::FlyPath::create(profile_);
+        const auto profile = scene::CameraPath::create(profile_);
         if (!profile) {
             return Error{fmt::format("{}: {}", name, profile.error().message)};
         }
@@ -102,7 +102,7 @@ public:
 
 private:
     [[nodiscard]] std::vector<Waypoint> places_after(std::size_t key,
-                                                     const scene::FlyPath& profile) const {
+                                                     const scene::CameraPath& profile) const {
         std::vector<Waypoint> found;
         if (key + 1 == keys_.size()) {
             return found;
@@ -128,8 +128,8 @@ private:
     const scene::TerrainSurface& surface_;
     std::span<const io::GeodeticKey> keys_;
     std::vector<geo::Geodetic> places_;
-    std::vector<geo::Geodesic> ways_;    // from each key to the next
-    std::vector<scene::FlyKey> profile_; // x: metres since the first key, y: the height there
+    std::vector<geo::Geodesic> ways_;      // from each key to the next
+    std::vector<scene::Keyframe> profile_; // x: metres since the first key, y: the height there
     double way_ = 0.0;
 };
 
@@ -159,9 +159,9 @@ glm::dvec3 carried(glm::dvec3 direction, glm::dvec3 from_up, glm::dvec3 to_up) {
 }
 
 // Of all places: keys look as they say, those between turn from one to the next.
-std::vector<scene::FlyKey> with_looks(const terrain::Placement& placement,
-                                      std::span<const io::GeodeticKey> keys,
-                                      std::span<const Waypoint> places) {
+std::vector<scene::Keyframe> with_looks(const terrain::Placement& placement,
+                                        std::span<const io::GeodeticKey> keys,
+                                        std::span<const Waypoint> places) {
     struct KeyLook {
         glm::dvec3 look{0.0};
         glm::dvec3 up{0.0};
@@ -173,7 +173,7 @@ std::vector<scene::FlyKey> with_looks(const terrain::Placement& placement,
                              placement.up(places[i].eye)});
         }
     }
-    std::vector<scene::FlyKey> fly_keys;
+    std::vector<scene::Keyframe> keyframes;
     for (const Waypoint& place : places) {
         glm::dvec3 look = looks[place.key].look;
         if (place.share > 0.0) {
@@ -182,16 +182,16 @@ std::vector<scene::FlyKey> with_looks(const terrain::Placement& placement,
             look = glm::mix(carried(look, looks[place.key].up, up), carried(next.look, next.up, up),
                             place.share);
         }
-        fly_keys.push_back({place.time, place.eye, place.eye + look});
+        keyframes.push_back({place.time, place.eye, place.eye + look});
     }
-    return fly_keys;
+    return keyframes;
 }
 
 } // namespace
 
-Result<std::vector<scene::FlyKey>> flight_keys(const scene::TerrainSurface& surface,
-                                               std::vector<io::GeodeticKey> keys,
-                                               const std::string& name) {
+Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& surface,
+                                                 std::vector<io::GeodeticKey> keys,
+                                                 const std::string& name) {
     sort_by_time(keys);
     const auto places = Route(surface, keys).waypoints(name);
     if (!places) {

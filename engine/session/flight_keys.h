@@ -5,7 +5,7 @@
 
 #include "engine/io/formats/flight_file.h"
 #include "engine/scene/graph/terrain_node.h"
-#include "engine/scene/motion/fly_path.h"
+#include "engine/scene/motion/camera_path.h"
 
 namespace reljef::session {
 
@@ -16,8 +16,8 @@ namespace reljef::session {
 /// angles, else to the next of all keys, as a rule at most 3 km on; those between turn from one
 /// look to the next. Fails for a terrain without a place on Earth, and for keys beside its map;
 /// `name` is the file's, for the error.
-Result<std::vector<scene::FlyKey>> flight_keys(const scene::TerrainSurface& surface,
-                                               std::vector<io::GeodeticKey> keys,
-                                               const std::string& name);
+Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& surface,
+                                                 std::vector<io::GeodeticKey> keys,
+                                                 const std::string& name);
 
 } // namespace reljef::session

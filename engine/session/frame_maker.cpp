@@ -186,7 +186,7 @@ std::string TruthFrames::stats() const {
                        prepare_ms_, draw_ms_);
 }
 
-Lift fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+Lift fly_above_ground(TerrainScene& scene, const scene::CameraPath& path, int index, int frames,
                       FrameMaker& maker, const std::stop_token& stop, Underground underground) {
     fly_to(scene, path, index, frames);
     if (underground == Underground::allowed) {

@@ -9,7 +9,7 @@
 
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/device.h"
@@ -20,35 +20,35 @@
 
 namespace reljef::session {
 
-/// What draws the frames of one scene, of which only the camera moves from frame to frame.
+/// Draws the frames of one scene. Only the camera moves from frame to frame.
 class FrameMaker {
 public:
     virtual ~FrameMaker() = default;
-    /// Waits for the tiles that the next frame shows. Drawing waits, too.
+    /// Waits for the tiles of the next frame. Drawing waits, too.
     virtual void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) = 0;
-    /// Progress is that of this frame.
+    /// Draws a frame; progress counts this frame only.
     virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
     virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                         const ParallelOptions& parallel) = 0;
-    /// What the last frame took and skipped, as lines.
+    /// Counts and times of the last frame, one per line.
     [[nodiscard]] virtual std::string stats() const = 0;
 };
 
-/// What frames took; nothing of it before the first one.
+/// Times and memory of all frames.
 struct FrameTimes {
-    std::vector<double> waiting_ms; ///< of each, for tiles that are read part by part
-    std::vector<double> drawing_ms; ///< of each, until it is there
-    std::size_t memory_before = 0;  ///< that the process had at most before the terrain was read
+    std::vector<double> waiting_ms; ///< of each frame, for streamed tiles
+    std::vector<double> drawing_ms; ///< of each frame, selection included
+    std::size_t memory_before = 0;  ///< largest of the process before the terrain was read, bytes
 };
 
 struct DeviceFramesOptions {
-    bool timed = false; ///< waits for each frame's end, too
+    bool timed = false; ///< waits for the end of each frame
 };
 
 /// Draws with OpenGL.
 class DeviceFrames : public FrameMaker {
 public:
-    /// The log gets the faults of tiles that are read meanwhile, and outlives this.
+    /// `log` receives the faults of streamed tiles and outlives this.
     DeviceFrames(Device device, Log& log, const DeviceFramesOptions& options = {});
     void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) override;
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
@@ -92,18 +92,18 @@ private:
     double draw_ms_ = 0.0;
 };
 
-/// What becomes of cameras below the ground.
+/// What happens to cameras below the ground.
 enum class Underground { lifted, allowed };
 
 /// Moves the camera as fly_to, then raises it above the ground that the frame shows (see
 /// keep_above_ground in ground.h), for which it waits. A camera that is close to the ground is
 /// raised, too: then Lift::depth is 0. Does not raise a camera that may be underground.
-Lift fly_above_ground(TerrainScene& scene, const scene::FlyPath& path, int index, int frames,
+Lift fly_above_ground(TerrainScene& scene, const scene::CameraPath& path, int index, int frames,
                       FrameMaker& maker, const std::stop_token& stop,
                       Underground underground = Underground::lifted);
 
-/// Lifts a camera that stands still and is below the ground that its view shows (see lift_camera in
-/// ground.h): waits for that ground before, and for what the lifted camera shows.
+/// Lifts a camera that is below the ground (see lift_camera in ground.h). Waits for the ground that
+/// its view shows before, and again after each lift.
 Lift stand_above_ground(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop,
                         Underground underground = Underground::lifted);
 

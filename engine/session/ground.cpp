@@ -73,7 +73,7 @@ std::string metres_text(double metres) {
 }
 
 constexpr double largest_share = 0.25; // of the height above the ground, for a step along a ray
-constexpr double min_share = 1e-3;   // of the way so far
+constexpr double min_share = 1e-3;     // of the way so far
 constexpr double step_in_sides = 1e-3; // of the box that holds the ground, where none is below
 constexpr int max_steps_of_ray = 4096;
 constexpr int halvings = 30;
@@ -188,8 +188,8 @@ double keep_above_ground(TerrainScene& scene) {
     if (!sample) {
         return 0.0;
     }
-    const double least = highest_at(terrain, glm::dvec2(*sample)) +
-                         min_clearance(scene) / placement.exaggeration();
+    const double least =
+        highest_at(terrain, glm::dvec2(*sample)) + min_clearance(scene) / placement.exaggeration();
     if (!(sample->z < least)) {
         return 0.0;
     }

@@ -9,28 +9,28 @@
 
 namespace reljef::session {
 
-// The ground that is there: of the finest tile where the terrain is read part by part.
+// Queries of the ground: of the finest loaded tile of a streamed terrain.
 
-/// Of an eye, true metres along the place's own vertical; nothing beside the terrain.
+/// Eye height above ground, true metres along the local vertical; empty off the terrain.
 std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye);
 
-/// What is straight below or above x, y, with the highest that any triangulation has there.
+/// The ground at x, y, with the highest point that any triangulation has there.
 std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y);
 
-/// Of the picture's middle, metres from pixel to pixel across the view; nothing where it shows no
-/// ground.
+/// Metres per pixel at the middle of the picture, across the view; empty if it shows no ground.
 std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
                                        const scene::Camera& camera, int pixels_high);
 
-/// How far an eye stays above all that may be drawn below it, metres: less on small terrains.
+/// Smallest height of an eye above everything that may be drawn below it, metres. Less on small
+/// terrains.
 double min_clearance(const TerrainScene& scene);
 
-/// Raises the camera, and what it looks at, along the place's own vertical to the least clearance.
-/// Returns by how many metres; 0 where it stays, and beside the terrain.
+/// Raises the camera and its target along the local vertical to the smallest clearance. Returns by
+/// how many metres; 0 if it stays, and off the terrain.
 double keep_above_ground(TerrainScene& scene);
 
-/// How a camera that stands below the ground comes to stand above it. Scene metres along the
-/// place's own vertical, the exaggeration included.
+/// The lift of a camera from below the ground. Scene metres along the local vertical, exaggeration
+/// included.
 struct Lift {
     double depth = 0.0;  ///< below the ground
     double metres = 0.0; ///< from there up; 0: the camera stays
@@ -42,13 +42,13 @@ struct Lift {
 /// rounding.
 inline constexpr double ground_rounding = 1e-3;
 
-/// Lifts an eye below the ground to at least `clearance` metres above all that may be drawn there,
-/// along its own vertical. An eye on or above the ground, beside the terrain, or over a void stays.
-/// The ground is that of the finest tile that is there, and of the overview before.
+/// The lift of an eye below the ground to at least `clearance` metres above everything that may be
+/// drawn there, along the local vertical. None for an eye on or above the ground, off the terrain
+/// or over a void. Before finer tiles are loaded, the ground is that of the overview.
 Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance);
 
-/// Lifts the scene's camera, with what it looks at, by the ground that is there. A map (an
-/// orthographic camera) stays.
+/// Lifts the scene's camera and its target above the ground that is loaded. Orthographic cameras
+/// stay.
 Lift lift_camera(TerrainScene& scene);
 
 /// The message about a lift: "--eye: 12.3 m below the ground: lifted to 0.5 m above it;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::session {
 

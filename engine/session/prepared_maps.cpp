@@ -15,7 +15,7 @@ namespace {
 std::vector<material::KnownCones> sides_of(const scene::Technique& technique) {
     const bool wraps =
         technique.options.border.value_or(scene::BorderRule::wrap) == scene::BorderRule::wrap;
-    const auto border = wraps ? material::TileBorder::wrap : material::TileBorder::clamp;
+    const auto border = wraps ? material::WrapMode::wrap : material::WrapMode::clamp;
     std::vector<material::KnownCones> sides{{border, false, nullptr}};
     if (technique.options.two_sided) {
         sides.push_back({border, true, nullptr});

@@ -75,16 +75,16 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
                               scene.bounds, ground);
 }
 
-Result<std::vector<scene::FlyKey>> fly_keys_of(const TerrainScene& scene, const io::Flight& flight,
-                                               const std::string& name) {
+Result<std::vector<scene::Keyframe>>
+keyframes_of(const TerrainScene& scene, const io::Flight& flight, const std::string& name) {
     if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight.keys)) {
         return flight_keys(*scene.terrain->get<scene::TerrainNode>()->surface, *on_earth, name);
     }
-    std::vector<scene::FlyKey> fly_keys;
+    std::vector<scene::Keyframe> keyframes;
     for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight.keys)) {
-        fly_keys.push_back({key.time, key.eye, key.look});
+        keyframes.push_back({key.time, key.eye, key.look});
     }
-    return fly_keys;
+    return keyframes;
 }
 
 // The nearest depth drawn: so close that nothing in reach of the eye is cut, and far above the
@@ -258,7 +258,7 @@ Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions
                        : description.error();
 }
 
-Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& name, Log& log) {
+Result<scene::CameraPath> open_path(const TerrainScene& scene, const std::string& name, Log& log) {
     if (name == "orbit") {
         return scene::orbit_path(scene.bounds);
     }
@@ -278,18 +278,18 @@ Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& n
     for (const std::string& note : flight->notes) {
         log.note(note);
     }
-    auto fly_keys = fly_keys_of(scene, *flight, name);
-    if (!fly_keys) {
-        return fly_keys.error();
+    auto keyframes = keyframes_of(scene, *flight, name);
+    if (!keyframes) {
+        return keyframes.error();
     }
-    return scene::FlyPath::create(std::move(*fly_keys));
+    return scene::CameraPath::create(std::move(*keyframes));
 }
 
 bool is_path_file(const std::string& name) {
     return std::filesystem::path(name).extension() == ".toml";
 }
 
-void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames) {
+void fly_to(TerrainScene& scene, const scene::CameraPath& path, int index, int frames) {
     const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
     auto& camera = *scene.camera->get<scene::Camera>();
     camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/motion/fly_path.h"
+#include "engine/scene/motion/camera_path.h"
 #include "engine/session/log.h"
 #include "engine/session/options.h"
 #include "engine/session/terrain_source.h"
@@ -53,13 +53,13 @@ Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions
                                 const std::stop_token& stop = {});
 
 /// The camera path that `name` names: "orbit", "flyover" or a path file, whose notes are logged.
-Result<scene::FlyPath> open_path(const TerrainScene& scene, const std::string& name, Log& log);
+Result<scene::CameraPath> open_path(const TerrainScene& scene, const std::string& name, Log& log);
 
 /// Whether `name` is a path file: neither a built-in path nor a measured track (GPX, KML, GeoJSON).
 bool is_path_file(const std::string& name);
 
 /// Puts the camera where frame `index` of so many evenly spread along a path sees from, be it under
 /// the ground: see fly_above_ground in frame_maker.h.
-void fly_to(TerrainScene& scene, const scene::FlyPath& path, int index, int frames);
+void fly_to(TerrainScene& scene, const scene::CameraPath& path, int index, int frames);
 
 } // namespace reljef::session

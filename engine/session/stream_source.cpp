@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/tree_tile.h"
 #include "engine/scene/tile_stream.h"
@@ -85,7 +85,7 @@ int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, do
     constexpr int max_refinement = 64;
     const int most =
         std::min(max_refinement, terrain::max_tree_samples /
-                                      std::max(stream.plan.grid.cols, stream.plan.grid.rows));
+                                     std::max(stream.plan.grid.cols, stream.plan.grid.rows));
     int refinement = 1;
     while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
         refinement *= 2;

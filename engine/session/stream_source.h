@@ -11,8 +11,8 @@
 
 namespace reljef::session {
 
-/// The images over a terrain that may be streamed: opened once, as the look for what is white in
-/// 16-bit ones takes seconds.
+/// The images over a terrain that may be streamed. They are opened once, because finding the white
+/// point of 16-bit images takes seconds.
 struct OpenImagery {
     std::shared_ptr<const io::ImagerySet> set; ///< null: none needed, or none that can be opened
     std::string fault;                         ///< why none can be opened
@@ -22,21 +22,21 @@ struct OpenImagery {
     }
 };
 
-/// Opens them where tiles would show them.
+/// Opens the images if tiles would show them.
 OpenImagery open_imagery(const io::TileSet& tiles, const SourceOptions& choice,
                          const io::TileTerrainOptions& options);
 
-/// Whether images are finer than one picture over all of the terrain may be.
+/// Whether images are finer than the largest single picture over the terrain.
 bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& options,
                         const OpenImagery& imagery);
 
-/// How the tiles are to be read as they are needed; nothing where all fits or that is not wanted.
-/// GDAL's memory for blocks is limited to its share then.
+/// How tiles are read on demand; nothing if all fits the memory or streaming is off.
+/// Then GDAL's block cache is limited to its share of the memory.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const SourceOptions& choice,
                                           io::TileTerrainOptions options,
                                           const OpenImagery& imagery);
 
-/// What tiles show of images. `spacing`: metres from sample to sample of the terrain.
+/// The resolution of tile images. `spacing`: metres between samples of the terrain.
 scene::ImageryDetail imagery_detail(const io::ImagerySet& imagery, const StreamSource& stream,
                                     double spacing);
 

@@ -43,8 +43,8 @@ void return_freed_blocks() {
 #endif
 }
 
-scene::TileReading reading_of(const io::TileWindow& window) {
-    scene::TileReading reading;
+scene::TileContent reading_of(const io::TileWindow& window) {
+    scene::TileContent reading;
     reading.bytes_read = window.bytes_read;
     reading.heights = Grid<float>(window.heights.cols(), window.heights.rows());
     for (std::size_t i = 0; i < window.heights.size(); ++i) {
@@ -56,8 +56,8 @@ scene::TileReading reading_of(const io::TileWindow& window) {
     return reading;
 }
 
-scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::TreeTile tile) {
-    scene::TileReading reading;
+scene::TileContent overview_reading(const scene::TileBuilder& maker, terrain::TreeTile tile) {
+    scene::TileContent reading;
     reading.heights = maker.overview_heights(tile);
     reading.of_overview = true;
     return reading;
@@ -66,12 +66,12 @@ scene::TileReading overview_reading(const scene::TileMaker& maker, terrain::Tree
 // Where its files fail, a tile that is no finer than the overview is made of it, and read again: no
 // file keeps those of others from being drawn. What fails is told as faults of the picture: those
 // are of tiles that are drawn as they are.
-scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduction,
-                                       terrain::TreeTile tile, scene::TileReading reading) {
+scene::TileContent reading_or_overview(const scene::TileBuilder& maker, int reduction,
+                                       terrain::TreeTile tile, scene::TileContent reading) {
     if (reading.faults.empty() || maker.step(tile) < reduction) {
         return reading;
     }
-    scene::TileReading coarse = overview_reading(maker, tile);
+    scene::TileContent coarse = overview_reading(maker, tile);
     coarse.bytes_read = reading.bytes_read;
     coarse.notes = std::move(reading.notes);
     coarse.picture_faults = std::move(reading.faults);
@@ -80,8 +80,8 @@ scene::TileReading reading_or_overview(const scene::TileMaker& maker, int reduct
 
 // Adds what images show of a tile.
 void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
-                 const scene::TileMaker& maker, terrain::TreeTile tile, const std::stop_token& stop,
-                 scene::TileReading& reading) {
+                 const scene::TileBuilder& maker, terrain::TreeTile tile,
+                 const std::stop_token& stop, scene::TileContent& reading) {
     const glm::ivec2 cells = maker.tree().cells(tile);
     io::ImageryWindow window =
         images.read(io::picture_grid(grid, tile, cells, maker.picture_size(tile)),
@@ -156,17 +156,17 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const io::ClosedGrid ground =
         ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
     // On a plane the two ends of a globe are far apart.
-    const bool is_around =
+    const bool wraps_longitude =
         ground.closing.around && overview->placement().kind() == terrain::PlacementKind::ellipsoid;
-    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, is_around);
-    scene::TileMaker maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
-                           ground.closing);
+    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, wraps_longitude);
+    scene::TileBuilder maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
+                             ground.closing);
     const auto read = [tiles = *source.tiles, images = source.imagery, ground, maker,
                        reduction = source.stream->plan.reduction,
                        step_of_overview = source.stream->step_of_overview,
                        gaps = source.stream->gaps](terrain::TreeTile tile,
                                                    const std::stop_token& stop) {
-        scene::TileReading reading =
+        scene::TileContent reading =
             step_of_overview > 0 && maker.step(tile) >= step_of_overview
                 ? overview_reading(maker, tile)
                 : reading_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));

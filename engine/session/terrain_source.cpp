@@ -7,7 +7,7 @@
 #include "engine/io/cache/cone_cache.h"
 #include "engine/io/formats/geoid_file.h"
 #include "engine/io/raster/raster.h"
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 #include "engine/io/terrain_file.h"
 #include "engine/io/tree_tile.h"
 #include "engine/session/stream_source.h"
@@ -208,7 +208,7 @@ bool is_folder(const fs::path& path) {
 
 // Whether its heights are many files.
 bool is_set(const io::SceneDescription& description) {
-    return is_folder(description.heights) || io::is_tile_pyramid(description.heights);
+    return is_folder(description.heights) || io::is_web_tiles(description.heights);
 }
 
 Result<void> refuse_folder_options(const SourceOptions& choice,
@@ -317,7 +317,7 @@ Result<io::SceneDescription> describe(const std::string& terrain) {
     }
     std::error_code ignored;
     if (!fs::exists(path, ignored) && !path.has_extension() && !path.has_parent_path() &&
-        !io::is_tile_pyramid(path)) {
+        !io::is_web_tiles(path)) {
         std::string names;
         for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
             names += std::string(scene.name) + ", ";
@@ -337,8 +337,8 @@ std::optional<geo::GeodeticArea> area_of(const SourceOptions& choice,
     if (choice.area || description.area) {
         return choice.area ? choice.area : description.area;
     }
-    return io::is_tile_pyramid(description.heights) ? io::tile_pyramid_area(description.heights)
-                                                    : std::nullopt;
+    return io::is_web_tiles(description.heights) ? io::web_tiles_area(description.heights)
+                                                 : std::nullopt;
 }
 
 Result<TerrainSource> open_terrain(const SourceOptions& choice, Log& log,

@@ -4,8 +4,8 @@
 
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/core/worker_pool.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/truth/scene_caster.h"
 #include "engine/truth/shading.h"

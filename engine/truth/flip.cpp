@@ -13,7 +13,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/truth/picture_size.h"
 #include "engine/truth/separable_filter.h"
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/parallel_for.h"
 #include "engine/core/statistics.h"
-#include "engine/core/worker_pool.h"
 
 namespace reljef::truth {
 namespace {
@@ -48,7 +48,7 @@ Verdict verdict_on(const Hit& shown, const Hit& true_hit, double texels_off) {
         return shows_terrain(true_hit) ? Verdict::hole : Verdict::no_terrain;
     }
     return shows_terrain(true_hit) && texels_off <= max_texels_off ? Verdict::right
-                                                                    : Verdict::wrong;
+                                                                   : Verdict::wrong;
 }
 
 GeometricErrors blank_errors(int cols, int rows) {

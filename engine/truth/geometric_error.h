@@ -22,7 +22,7 @@ struct SurfaceView {
     scene::Camera camera;             ///< world metres
 };
 
-/// What is told of an error's distribution over pixels, in the error's unit.
+/// Summary of an error's distribution over pixels, in the error's unit.
 struct Distribution {
     std::size_t count = 0; ///< pixels it rests on, at least 1
     double median = 0.0;
@@ -71,7 +71,7 @@ double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 p
 /// How far two hits lie apart on the heightfield, texels; infinity where one is not finite.
 double hit_error(const Hit& shown, const Hit& true_hit);
 
-/// How one pixel's errors are told.
+/// How the errors of one pixel are given.
 struct PixelMeasure {
     /// How far from a pixel's centre the place falls that it shows, pixels.
     std::function<double(glm::ivec2 pixel, const Hit& hit)> reprojection;

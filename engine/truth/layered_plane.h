@@ -31,7 +31,7 @@ public:
     static Result<LayeredPlane> create(GridView<const glm::vec4> layers,
                                        const ReliefOptions& options);
 
-    /// A ray that goes through so many cells meets nothing.
+    /// A ray that passes through this many cells meets nothing.
     static constexpr int max_cells = 1'000'000;
 
     /// The first place where a ray that was outside comes inside, t in `range` (begin finite);

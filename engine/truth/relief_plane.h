@@ -8,16 +8,16 @@
 #include "engine/core/geometry.h"
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
-#include "engine/material/tile_border.h"
+#include "engine/material/wrap_mode.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 
 namespace reljef::truth {
 
-using Border = material::TileBorder;
+using Border = material::WrapMode;
 
 struct ReliefOptions {
     double width = 1.0;   ///< metres that texture coordinates 0 … 1 cover, both ways; > 0
-    double scale = 0.1;   ///< a height of 1 lifts a point so many widths; > 0
+    double scale = 0.1;   ///< height of 1, in widths; > 0
     double offset = -1.0; ///< of the heights against the plane, in [−1, 0]: −1 sinks all below it
     Border border = Border::wrap;
 };

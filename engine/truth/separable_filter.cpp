@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::truth {
 namespace {

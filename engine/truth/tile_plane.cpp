@@ -72,7 +72,7 @@ Result<TilePlane> TilePlane::create(TileSquare square) {
     }
     plane.layers_ = material::layers_of(*made.set, *made.layers);
     plane.layer_normals_ = material::layer_normals(plane.layers_, static_cast<float>(made.scale),
-                                                   material::TileBorder::wrap);
+                                                   material::WrapMode::wrap);
     auto layered =
         LayeredPlane::create(plane.layers_.heights().view(), relief_options(made, plane.width_));
     if (!layered) {

@@ -57,7 +57,7 @@ HeightRange range_of(const scene::StreamedTile& tile, glm::dvec2 first, glm::dve
 
 } // namespace
 
-DrawnGround::DrawnGround(const scene::TileMaker& maker)
+DrawnGround::DrawnGround(const scene::TileBuilder& maker)
     : maker_(&maker), last_(maker.tree().cols() - 1, maker.tree().rows() - 1), branches_(1) {}
 
 void DrawnGround::add(std::shared_ptr<const scene::StreamedTile> tile) {

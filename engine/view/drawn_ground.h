@@ -16,7 +16,7 @@ namespace reljef::view {
 class DrawnGround {
 public:
     /// Precondition: of a terrain on a plane; outlives it.
-    explicit DrawnGround(const scene::TileMaker& maker);
+    explicit DrawnGround(const scene::TileBuilder& maker);
 
     /// Precondition: it overlaps none that is there.
     void add(std::shared_ptr<const scene::StreamedTile> tile);
@@ -41,7 +41,7 @@ private:
     [[nodiscard]] std::optional<terrain::HeightRange> range_within(glm::dvec2 first,
                                                                    glm::dvec2 end) const;
 
-    const scene::TileMaker* maker_;
+    const scene::TileBuilder* maker_;
     glm::dvec2 last_{0.0}; // sample of the tree
     std::vector<Part> parts_;
     std::vector<Branch> branches_; // the root first

@@ -10,7 +10,7 @@
 
 namespace reljef::view {
 
-/// Rasterizers move vertices onto a grid of so many steps to a pixel, in practice.
+/// Steps per pixel of the grid that rasterizers move vertices onto, in practice.
 inline constexpr float vertex_steps = 256.0F;
 /// By so much of the error that may be shown, pixels, a triangle may be off by that: half the
 /// diagonal of a step, and as much again for what is interpolated in floats.

@@ -17,7 +17,7 @@ constexpr double stretch_growth_of_tiles = 1.0 + 1.0 / 8.0;
 
 } // namespace
 
-NearerGround::NearerGround(const scene::TileMaker& maker,
+NearerGround::NearerGround(const scene::TileBuilder& maker,
                            const std::optional<terrain::HorizonView>& view)
     : maker_(maker), view_(view), ground_(maker) {}
 

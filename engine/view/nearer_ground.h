@@ -13,7 +13,7 @@ namespace reljef::view {
 class NearerGround {
 public:
     /// Nothing hides anything where the view is absent. Precondition: else as DrawnGround.
-    NearerGround(const scene::TileMaker& maker, const std::optional<terrain::HorizonView>& view);
+    NearerGround(const scene::TileBuilder& maker, const std::optional<terrain::HorizonView>& view);
     NearerGround(const NearerGround&) = delete;
 
     /// A tile that is drawn. Precondition: as DrawnGround::add.
@@ -29,7 +29,7 @@ private:
     [[nodiscard]] std::optional<terrain::HeightRange> range_at_eye(const DrawnGround& ground) const;
     void make_horizon();
 
-    const scene::TileMaker& maker_;
+    const scene::TileBuilder& maker_;
     std::optional<terrain::HorizonView> view_;
     DrawnGround ground_;
     std::optional<double> under_eye_; // metres; highest

@@ -14,7 +14,7 @@
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
 #include "engine/view/occlusion.h"
-#include "engine/view/tile_choice.h"
+#include "engine/view/tile_selection.h"
 
 namespace reljef::view {
 namespace {
@@ -145,18 +145,18 @@ private:
         }
         const bool flat =
             scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
-        TileChoice choice = choose_tiles(terrain, list_.camera, list_.size, world_from_local,
-                                         {.keeps_hidden = !options_.occlusion});
+        TileSelection choice = select_tiles(terrain, list_.camera, list_.size, world_from_local,
+                                            {.keeps_hidden = !options_.occlusion});
         requests_.push_back({terrain.stream, std::move(choice.wanted), std::move(choice.used)});
-        const auto add = [&](TileChoice::Drawn& drawn, bool is_hidden) {
+        const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
             list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
                                             drawn.distance, detail_of(terrain, drawn.distance),
                                             drawn.error, is_hidden});
         };
-        for (TileChoice::Drawn& drawn : choice.drawn) {
+        for (TileSelection::Drawn& drawn : choice.drawn) {
             add(drawn, false);
         }
-        for (TileChoice::Drawn& hidden : choice.hidden) {
+        for (TileSelection::Drawn& hidden : choice.hidden) {
             add(hidden, true);
         }
         list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
@@ -263,7 +263,7 @@ std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::
     scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& transform) {
         const auto* terrain = node.get<scene::TerrainNode>();
         if (terrain != nullptr && has_streamed_tiles(*terrain)) {
-            TileChoice choice = choose_tiles(*terrain, camera, size, transform);
+            TileSelection choice = select_tiles(*terrain, camera, size, transform);
             requests.push_back({terrain->stream, std::move(choice.wanted), std::move(choice.used)});
         }
     });

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/terrain/mesh/bisection.h"
 #include "engine/terrain/tree/shared_splits.h"

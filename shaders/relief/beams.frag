@@ -2,7 +2,7 @@
 
 // A pixel here is the beam of all rays of a block of pixels: down to which height it meets nothing of a
 // relief (Laine and Karras 2010, beam optimization; here on a pyramid of greatest heights).
-layout(binding = greatest_heights_unit) uniform sampler2D greatest_heights; // level 0: of a cell's corners
+layout(binding = greatest_heights_unit) uniform sampler2D max_mipmap; // level 0: of a cell's corners
 uniform ivec2 last_cell;
 uniform int top_level;
 // Of the search space, of the place (1, x, y) on the picture, as gl_FragCoord.
@@ -56,10 +56,10 @@ float greatest_within(vec2 low, vec2 high) {
     int level = min(findMSB(max(max(extent.x, extent.y) - 1, 0)) + 1, top_level);
     first >>= level;
     last >>= level;
-    vec4 heights = vec4(texelFetch(greatest_heights, first, level).r,
-                        texelFetch(greatest_heights, ivec2(last.x, first.y), level).r,
-                        texelFetch(greatest_heights, ivec2(first.x, last.y), level).r,
-                        texelFetch(greatest_heights, last, level).r);
+    vec4 heights = vec4(texelFetch(max_mipmap, first, level).r,
+                        texelFetch(max_mipmap, ivec2(last.x, first.y), level).r,
+                        texelFetch(max_mipmap, ivec2(first.x, last.y), level).r,
+                        texelFetch(max_mipmap, last, level).r);
     return most(heights);
 }
 

@@ -20,5 +20,5 @@ bool stays(inout vec3 start, inout Walk walk) {
 }
 
 float greatest_in(Walk walk) {
-    return texelFetch(greatest_heights, walk.block, walk.level).r;
+    return texelFetch(max_mipmap, walk.block, walk.level).r;
 }

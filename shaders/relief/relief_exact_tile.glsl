@@ -39,5 +39,5 @@ bool stays(inout vec3 start, inout Walk walk) {
 
 float greatest_in(Walk walk) {
     ivec2 block = clamp(walk.block, ivec2(0), last_cell >> walk.level);
-    return texelFetch(greatest_heights, block, walk.level).r;
+    return texelFetch(max_mipmap, block, walk.level).r;
 }

@@ -10,7 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "terrains/gallery/detail_cells.h"
 #include "terrains/gallery/sheet_tiles.h"
 #include "terrains/natural/noise.h"
@@ -320,7 +320,7 @@ Result<material::TextureSet> generate_detail(std::string_view name, const Detail
     set.specular = kind->specular;
     set.shininess = kind->shininess;
     kind->add_sides(set);
-    return material::completed(std::move(set), material::TileBorder::wrap);
+    return material::completed(std::move(set), material::WrapMode::wrap);
 }
 
 } // namespace reljef::terrains

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <queue>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "terrains/natural/noise.h"
 
 namespace reljef::terrains {

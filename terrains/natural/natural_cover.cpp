@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "terrains/natural/noise.h"
 
 namespace reljef::terrains::natural {

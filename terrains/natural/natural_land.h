@@ -9,7 +9,7 @@
 
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "terrains/natural/erosion.h"
 
 /// The steps of generate_natural. All grids of a land have the same size; lengths are in metres of

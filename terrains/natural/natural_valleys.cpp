@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::terrains::natural {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "terrains/generators.h"
 #include "terrains/urban/urban_light.h"
 #include "terrains/urban/urban_tile.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::terrains::urban {
 namespace {

@@ -223,7 +223,7 @@ TEST(UniformsByString, StayWhereUniformsAreDeclared) {
     }
     for (const char* const text :
          {"program.set(uniforms.eye, eye);", "maps.lit.bind(bindings::lit_map_unit);",
-          "painting.picture.bind();", "// set_uniform(\"eye\")", "offset(\"x\");"}) {
+          "frame_context.picture.bind();", "// set_uniform(\"eye\")", "offset(\"x\");"}) {
         EXPECT_THAT(uniforms_by_string(file_with("engine/render/passes/a.cpp", text)), IsEmpty())
             << text;
     }

@@ -151,7 +151,7 @@ TEST(GeodeticMap, OfAWholeGlobeEndsAtThePoles) {
     }
     // 35×17 samples 10° apart, 36 and 18 with what closes them.
     const GeodeticMap source(degrees, glm::dvec2(0.0), {4.25, 2.0});
-    Closing closing{.around = true, .east = true, .north = 1.0, .south = 1.0};
+    GlobalWrap closing{.around = true, .east = true, .north = 1.0, .south = 1.0};
     const GeodeticMap whole = source.closed(closing, 35, 17);
     EXPECT_NEAR(whole.latitude_longitude({3.0, 0.0}).x, 90.0, 1e-12);
     EXPECT_NEAR(whole.latitude_longitude({3.0, 18.0}).x, -90.0, 1e-12);

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/geo/place.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/raster.h"

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/io/image/image.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/tree_tile.h"

@@ -24,16 +24,16 @@ struct Waves {
     double max_lost = 0.0; // of all amplitudes: sin²(ω/2)
 };
 
-Waves random_waves(Chance& chance, material::TileBorder border) {
+Waves random_waves(Chance& chance, material::WrapMode border) {
     const int cols = chance.whole(2, 70);
     const int rows = chance.whole(2, 70);
     Waves waves{Grid<float>(cols, rows), 0.0};
     const double turn =
-        border == material::TileBorder::wrap ? 2.0 * std::numbers::pi : std::numbers::pi;
+        border == material::WrapMode::wrap ? 2.0 * std::numbers::pi : std::numbers::pi;
     for (int i = 0; i < 4; ++i) {
         const glm::dvec2 omega(turn * chance.whole(0, cols / 12) / cols,
                                turn * chance.whole(0, rows / 12) / rows);
-        const double phase = border == material::TileBorder::wrap ? chance.between(0.0, 6.0) : 0.0;
+        const double phase = border == material::WrapMode::wrap ? chance.between(0.0, 6.0) : 0.0;
         const double amplitude = chance.between(0.5, 2.0);
         const double half = std::sin(0.5 * std::max(omega.x, omega.y));
         waves.max_lost += amplitude * half * half;
@@ -65,8 +65,7 @@ double greatest_difference(const Grid<float>& a, const Grid<float>& b) {
 
 TEST(HeightIntegration, OfASurfacesNormalsGivesTheSurfaceLessItsShortestWaves) {
     Chance chance(1);
-    for (const material::TileBorder border :
-         {material::TileBorder::wrap, material::TileBorder::clamp}) {
+    for (const material::WrapMode border : {material::WrapMode::wrap, material::WrapMode::clamp}) {
         for (int i = 0; i < 150; ++i) {
             const Waves waves = random_waves(chance, border);
             const glm::dvec2 spacing{chance.between(0.5, 20.0), chance.between(0.5, 20.0)};
@@ -136,7 +135,7 @@ TEST(HeightIntegration, ItTakesFewRoundsHoweverLargeTheMap) {
 TEST(HeightIntegration, ASlopeThatDoesNotCloseIsSpreadOutWhereItWraps) {
     const Grid<glm::vec3> normals(16, 16, glm::vec3(-0.5F, 0.25F, 1.0F));
     const auto wrapped =
-        material::heights_from_normals(normals.view(), {.border = material::TileBorder::wrap})
+        material::heights_from_normals(normals.view(), {.border = material::WrapMode::wrap})
             .heights;
     EXPECT_NEAR(wrapped(3, 4), 0.0F, 1e-6F);
     const auto clamped = material::heights_from_normals(normals.view()).heights;

@@ -81,7 +81,7 @@ TEST(LayerMap, NormalsPointOffTheSolidAndLeanAsTheLayersDo) {
         }
     }
     const material::LayerNormals normals = material::layer_normals(
-        material::LayerMap::create(heights).value(), 0.5F, material::TileBorder::clamp);
+        material::LayerMap::create(heights).value(), 0.5F, material::WrapMode::clamp);
     // 0.01 a texel are 0.16 a tile's width, 0.02 are 0.16 a tile's height: times the scale.
     const glm::vec3 top = glm::normalize(glm::vec3(-0.08F, -0.08F, 1.0F));
     const glm::vec3 bottom = glm::normalize(glm::vec3(-0.08F, -0.08F, -1.0F));
@@ -212,14 +212,14 @@ TEST(LayersOfASet, FallBackToWhatItsHeightsSay) {
     material::TextureSet set;
     set.color = Image(4, 4);
     set.heights = any_heights(4, 4, chance);
-    set = material::completed(set, material::TileBorder::wrap).value();
+    set = material::completed(set, material::WrapMode::wrap).value();
     const float height = set.heights(1, 2);
     EXPECT_EQ(material::layers_of(set, material::LayerKind::multi).heights()(1, 2),
               glm::vec4(height, 0.0F, 0.0F, 0.0F));
     EXPECT_EQ(material::layers_of(set, material::LayerKind::dual).heights()(1, 2),
               glm::vec4(0.5F + 0.5F * height, 0.5F, 0.0F, 0.0F));
     set.back_heights = Grid<float>(3, 4, 0.5F);
-    EXPECT_THAT(material::completed(set, material::TileBorder::wrap).error().message,
+    EXPECT_THAT(material::completed(set, material::WrapMode::wrap).error().message,
                 HasSubstr("of the back of 3 x 4"));
 }
 

@@ -59,8 +59,7 @@ TEST(NormalMap, WrappedItDoesNotSeeTheBorder) {
     const Grid<float> heights = test::random_heights(9, 8, 0.0F, 3.0F, 3);
     for (const material::NormalFilter filter :
          {material::NormalFilter::bilinear, material::NormalFilter::sobel}) {
-        const material::NormalOptions options{.filter = filter,
-                                              .border = material::TileBorder::wrap};
+        const material::NormalOptions options{.filter = filter, .border = material::WrapMode::wrap};
         const auto normals = material::normals_from_heights(heights.view(), options);
         const auto moved = test::made_heights(
             9, 8, [&](int col, int row) { return heights((col + 4) % 9, (row + 5) % 8); });

@@ -26,7 +26,7 @@ material::TextureSet level_set(int cols = 8, int rows = 8) {
 }
 
 std::string error_of(material::TextureSet set) {
-    const auto done = material::completed(std::move(set), material::TileBorder::wrap);
+    const auto done = material::completed(std::move(set), material::WrapMode::wrap);
     EXPECT_FALSE(done);
     return done ? "" : done.error().message;
 }
@@ -38,7 +38,7 @@ TEST(TileNormals, AreThoseOfARampExactly) {
             ramp(col, row) = 0.03125F * static_cast<float>(col) + 0.0625F * static_cast<float>(row);
         }
     }
-    const auto normals = material::tile_normals(ramp.view(), 0.25F, material::TileBorder::clamp);
+    const auto normals = material::tile_normals(ramp.view(), 0.25F, material::WrapMode::clamp);
     // Rises by 16/32 over the tile's width and by 8/16 over its height, times the scale.
     const glm::vec3 expected = glm::normalize(glm::vec3(-0.125F, -0.125F, 1.0F));
     for (int row = 1; row + 1 < ramp.rows(); ++row) {
@@ -54,7 +54,7 @@ TEST(TileNormals, AreTheMeanOfTheSlopesOnBothSidesOverTheBorderToo) {
     for (float& height : heights.samples()) {
         height = static_cast<float>(chance.between(0.0, 1.0));
     }
-    const auto normals = material::tile_normals(heights.view(), 0.5F, material::TileBorder::wrap);
+    const auto normals = material::tile_normals(heights.view(), 0.5F, material::WrapMode::wrap);
     for (int row = 0; row < 7; ++row) {
         for (int col = 0; col < 9; ++col) {
             const double before = heights(col, row) - heights((col + 8) % 9, row);
@@ -66,7 +66,7 @@ TEST(TileNormals, AreTheMeanOfTheSlopesOnBothSidesOverTheBorderToo) {
 }
 
 TEST(TextureSet, MakesNormalsWhereThereAreNone) {
-    const auto set = material::completed(level_set(), material::TileBorder::wrap);
+    const auto set = material::completed(level_set(), material::WrapMode::wrap);
     ASSERT_TRUE(set);
     EXPECT_EQ(set->normals(3, 3), glm::vec3(0.0F, 0.0F, 1.0F));
     EXPECT_THAT(set->notes, IsEmpty());
@@ -78,7 +78,7 @@ TEST(TextureSet, NormalsThatAreNoneStandUprightAndAreTold) {
     set.normals(1, 2) = glm::vec3(0.0F);
     set.normals(3, 4) = glm::vec3(0.0F, 0.0F, -1.0F);
     set.normals(5, 6) = glm::vec3(std::numeric_limits<float>::quiet_NaN());
-    const auto done = material::completed(std::move(set), material::TileBorder::wrap);
+    const auto done = material::completed(std::move(set), material::WrapMode::wrap);
     ASSERT_TRUE(done);
     EXPECT_EQ(done->normals(1, 2), glm::vec3(0.0F, 0.0F, 1.0F));
     EXPECT_EQ(done->normals(3, 4), glm::vec3(0.0F, 0.0F, 1.0F));
@@ -90,7 +90,7 @@ TEST(TextureSet, NormalsThatAreNoneStandUprightAndAreTold) {
 TEST(TextureSet, MapsOfDifferentSizesAreTold) {
     material::TextureSet set = level_set(8, 4);
     set.color = Image(16, 4);
-    const auto done = material::completed(std::move(set), material::TileBorder::wrap);
+    const auto done = material::completed(std::move(set), material::WrapMode::wrap);
     ASSERT_TRUE(done);
     EXPECT_THAT(done->notes,
                 ElementsAre(AllOf(HasSubstr("colours of 16 x 4"), HasSubstr("heights of 8 x 4"))));
@@ -105,9 +105,9 @@ TEST(TextureSet, ASeamIsToldOnlyWhereTheTileIsToRepeat) {
             }
         }
         EXPECT_TRUE(material::has_seam(set.heights.view()));
-        EXPECT_THAT(material::completed(set, material::TileBorder::wrap)->notes,
+        EXPECT_THAT(material::completed(set, material::WrapMode::wrap)->notes,
                     ElementsAre(HasSubstr("do not fit together")));
-        EXPECT_THAT(material::completed(set, material::TileBorder::clamp)->notes, IsEmpty());
+        EXPECT_THAT(material::completed(set, material::WrapMode::clamp)->notes, IsEmpty());
     }
     Grid<float> waves(32, 32);
     for (int row = 0; row < 32; ++row) {

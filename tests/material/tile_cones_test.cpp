@@ -38,8 +38,8 @@ TEST(TileCones, HoldNothingOfTheNextCopiesEither) {
         }
         const material::ConeMaps cones = material::tile_cones(
             *material::cone_maps(
-                material::cone_field(heights.view(), material::TileBorder::wrap).view()),
-            cols, rows, material::TileBorder::wrap);
+                material::cone_field(heights.view(), material::WrapMode::wrap).view()),
+            cols, rows, material::WrapMode::wrap);
         ASSERT_EQ(cones.plain.cols(), cols);
         ASSERT_EQ(cones.relaxed.rows(), rows);
         for (int i = 0; i < 200'000; ++i) {
@@ -60,8 +60,8 @@ TEST(TileCones, OfATileThatDoesNotRepeatHaveACellBetweenEachTwoTexels) {
     const Grid<float> heights(5, 1, 0.5F);
     const material::ConeMaps cones = material::tile_cones(
         *material::cone_maps(
-            material::cone_field(heights.view(), material::TileBorder::clamp).view()),
-        5, 1, material::TileBorder::clamp);
+            material::cone_field(heights.view(), material::WrapMode::clamp).view()),
+        5, 1, material::WrapMode::clamp);
     EXPECT_EQ(cones.plain.cols(), 4);
     EXPECT_EQ(cones.plain.rows(), 1);
     EXPECT_NEAR(cones.plain(3, 0), material::widest_cone, 1e-3F); // rounded down
@@ -74,8 +74,8 @@ TEST(TileCones, OfATileThatDoesNotRepeatTrustNothingBeyondItsBorder) {
     for (int col = 0; col < 24; ++col) {
         ridge(col, 0) = 1.0F - 0.04F * static_cast<float>(col);
     }
-    for (const material::TileBorder border :
-         {material::TileBorder::clamp, material::TileBorder::discard}) {
+    for (const material::WrapMode border :
+         {material::WrapMode::clamp, material::WrapMode::discard}) {
         const material::ConeMaps cones = material::tile_cones(
             *material::cone_maps(material::cone_field(ridge.view(), border).view()), 24, 24,
             border);

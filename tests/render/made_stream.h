@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/scene/tile_stream.h"
-#include "engine/view/tile_choice.h"
+#include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 
 namespace reljef::render {
@@ -9,7 +9,7 @@ namespace reljef::render {
 /// Reads until a view of `size` wants no more tiles of the terrain's stream.
 inline void bring_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera) {
     while (true) {
-        const auto choice = view::choose_tiles(terrain, camera, size, glm::dmat4(1.0));
+        const auto choice = view::select_tiles(terrain, camera, size, glm::dmat4(1.0));
         terrain.stream->request(choice.wanted, choice.used);
         if (choice.wanted.empty()) {
             return;

@@ -264,7 +264,7 @@ std::shared_ptr<const material::TextureSet> waves(Rgba8 front = {230, 230, 230, 
     }
     set.scale = 0.2F;
     return std::make_shared<const material::TextureSet>(
-        material::completed(std::move(set), material::TileBorder::wrap).value());
+        material::completed(std::move(set), material::WrapMode::wrap).value());
 }
 
 TEST_F(SamplesGlTest, OutlinesOfMeshesAreSmoothWithEveryTechnique) {

@@ -8,7 +8,7 @@
 
 #include "engine/scene/tile_stream.h"
 #include "engine/view/streamed_cut.h"
-#include "engine/view/tile_choice.h"
+#include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
 #include "tests/session/made_session.h"
@@ -78,7 +78,7 @@ protected:
         node.material.technique = scene::parse_technique("polygons:error=1").value();
         const terrain::TileTree tree(ground_samples, ground_samples);
         const auto read = [ground = ground_, tree](TreeTile tile, const std::stop_token&) {
-            scene::TileReading reading;
+            scene::TileContent reading;
             reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
                 return mean_around(*ground, glm::dvec2(tree.sample(tile, vertex)),
                                    terrain::TileTree::step(tile));
@@ -86,7 +86,7 @@ protected:
             return reading;
         };
         node.stream = std::make_shared<scene::TileStream>(
-            scene::TileMaker(node.surface, tree, static_cast<int>(ground_reduction)), read,
+            scene::TileBuilder(node.surface, tree, static_cast<int>(ground_reduction)), read,
             scene::TileStreamOptions{.memory_budget = 300 * scene::bytes_per_tile, .threads = 2});
     }
 

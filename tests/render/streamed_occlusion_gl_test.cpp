@@ -10,7 +10,7 @@
 
 #include "engine/scene/tile_stream.h"
 #include "engine/view/occlusion.h"
-#include "engine/view/tile_choice.h"
+#include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
@@ -66,8 +66,8 @@ struct Ridges {
 };
 
 // Heights as means, as far as the ridges are not the same then.
-scene::TileReading read_ridges(const Ridges& ridges, TreeTile tile) {
-    scene::TileReading reading;
+scene::TileContent read_ridges(const Ridges& ridges, TreeTile tile) {
+    scene::TileContent reading;
     if (ridges.fails(tile)) {
         reading.faults.push_back({"ridges.tif", "ridges.tif cannot be read"});
         return reading;
@@ -109,25 +109,25 @@ struct RidgeWorld {
         scene.add_light();
         scene.set_sky({});
         terrain->stream = std::make_shared<scene::TileStream>(
-            scene::TileMaker(terrain->surface, terrain::TileTree(ridge_samples, ridge_samples),
-                             ridge_reduction),
+            scene::TileBuilder(terrain->surface, terrain::TileTree(ridge_samples, ridge_samples),
+                               ridge_reduction),
             [ridges](TreeTile tile, const std::stop_token&) { return read_ridges(ridges, tile); },
             scene::TileStreamOptions{.memory_budget = ridges.tiles * scene::bytes_per_tile,
                                      .threads = 2,
                                      .first_pause = std::chrono::milliseconds(1)});
     }
 
-    [[nodiscard]] view::TileChoice choice(const view::TileChoiceOptions& options = {}) const {
-        return view::choose_tiles(*terrain, scene.camera(), picture, glm::dmat4(1.0), options);
+    [[nodiscard]] view::TileSelection choice(const view::TileSelectionOptions& options = {}) const {
+        return view::select_tiles(*terrain, scene.camera(), picture, glm::dmat4(1.0), options);
     }
 
     void look(const Camera& view) { *camera->get<Camera>() = view; }
 
     // All that is wanted and can be read.
-    void bring(const view::TileChoiceOptions& options = {}) const {
+    void bring(const view::TileSelectionOptions& options = {}) const {
         const auto is_given_up = [&](TreeTile tile) { return terrain->stream->has_given_up(tile); };
         while (true) {
-            const view::TileChoice now = choice(options);
+            const view::TileSelection now = choice(options);
             terrain->stream->request(now.wanted, now.used);
             if (std::all_of(now.wanted.begin(), now.wanted.end(), is_given_up)) {
                 return;
@@ -137,15 +137,15 @@ struct RidgeWorld {
     }
 };
 
-std::vector<TreeTile> drawn_tiles(const view::TileChoice& choice) {
+std::vector<TreeTile> drawn_tiles(const view::TileSelection& choice) {
     std::vector<TreeTile> tiles;
-    for (const view::TileChoice::Drawn& drawn : choice.drawn) {
+    for (const view::TileSelection::Drawn& drawn : choice.drawn) {
         tiles.push_back(drawn.tile->id);
     }
     return tiles;
 }
 
-int hidden_tiles(const view::TileChoice& choice) {
+int hidden_tiles(const view::TileSelection& choice) {
     return static_cast<int>(choice.hidden.size()) + choice.hidden_unread;
 }
 
@@ -263,7 +263,7 @@ TEST(StreamedOcclusionChoice, WhereATileFailsNothingIsHidden) {
     world.picture = whole.picture;
     world.look(camera);
     world.bring();
-    const view::TileChoice choice = world.choice();
+    const view::TileSelection choice = world.choice();
     EXPECT_EQ(choice.wanted, std::vector{farthest});
     EXPECT_EQ(hidden_tiles(choice), 0);
     world.bring({.keeps_hidden = true});
@@ -280,9 +280,9 @@ TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShor
         for (int i = 0; i < 4; ++i) {
             world.look(i % 2 == 0 ? view_from_valley(chance) : view_across_ridges(chance));
             for (int round = 0; round < 12; ++round) {
-                const view::TileChoice choice = world.choice();
+                const view::TileSelection choice = world.choice();
                 double worst = 0.0; // pixels
-                for (const view::TileChoice::Drawn& drawn : choice.drawn) {
+                for (const view::TileSelection::Drawn& drawn : choice.drawn) {
                     worst = std::max(worst, drawn.error);
                 }
                 ASSERT_LE(choice.drawn.size(), world.terrain->stream->max_drawn());
@@ -307,7 +307,7 @@ TEST(StreamedOcclusionChoice, TilesThatWaitForOthersStayInMemory) {
     const scene::TileStream& stream = *world.terrain->stream;
     ASSERT_EQ(world.choice().wanted, std::vector{failing});
     for (int round = 0; round < 30; ++round) {
-        const view::TileChoice choice = world.choice();
+        const view::TileSelection choice = world.choice();
         std::vector<TreeTile> wanted = choice.wanted;
         wanted.insert(wanted.end(), {{0, round % 24, 0}, {0, round % 24, 23}}); // of views ahead
         world.terrain->stream->request(wanted, choice.used);

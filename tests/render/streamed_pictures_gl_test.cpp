@@ -4,7 +4,7 @@
 #include "engine/core/bilinear.h"
 #include "engine/render/residency/streamed_tiles.h"
 #include "engine/scene/tile_stream.h"
-#include "engine/view/tile_choice.h"
+#include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
 #include "tests/session/made_session.h"
@@ -49,7 +49,7 @@ public:
         terrain = &test::add_terrain(scene, std::move(heightfield));
         camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
         auto& node = *terrain->get<scene::TerrainNode>();
-        const scene::TileMaker maker(
+        const scene::TileBuilder maker(
             node.surface, terrain::TileTree(tree_side, tree_side), overview_reduction,
             {.finest_pixel = 0.125,
              .refinement = refinement,
@@ -73,8 +73,8 @@ public:
     std::shared_ptr<scene::TileStream> stream;
 
 private:
-    static scene::TileReading read(const scene::TileMaker& maker, TreeTile tile, Show show) {
-        scene::TileReading reading;
+    static scene::TileContent read(const scene::TileBuilder& maker, TreeTile tile, Show show) {
+        scene::TileContent reading;
         reading.heights = test::tile_heights(maker.tree().cells(tile), [&](glm::ivec2 vertex) {
             return hill(maker.sample(tile, vertex));
         });
@@ -147,7 +147,7 @@ std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
     }
     scene::GroundDetail detail;
     detail.set = std::make_shared<const material::TextureSet>(
-        material::completed(std::move(set), material::TileBorder::wrap).value());
+        material::completed(std::move(set), material::WrapMode::wrap).value());
     detail.width = 6.0;
     detail.technique = scene::parse_technique("exact:shadow=hard").value();
     return std::make_shared<const scene::GroundDetail>(std::move(detail));
@@ -171,7 +171,7 @@ TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
     const std::array lights{linear_from_rgba8(colors[0]).g, linear_from_rgba8(colors[1]).g};
     const Image detailed = picture(two_colours(colors[0], colors[1]));
     const HitBuffer hits = test::must(made.draw_hits(world.scene));
-    const scene::TileMaker& maker = world.stream->maker();
+    const scene::TileBuilder& maker = world.stream->maker();
     int compared = 0;
     int worst = 0;
     int striped = 0;
@@ -205,7 +205,7 @@ TEST_F(StreamedPicturesGlTest, WhereImagesAreFinerFinerTilesAreDrawn) {
     const auto finest_level = [&](glm::dvec3 eye) {
         world.look_down(eye);
         int level = 99;
-        for (const auto& drawn : view::choose_tiles(*world.terrain->get<scene::TerrainNode>(),
+        for (const auto& drawn : view::select_tiles(*world.terrain->get<scene::TerrainNode>(),
                                                     world.scene.camera(), size, glm::dmat4(1.0))
                                      .drawn) {
             level = std::min(level, drawn.tile->id.level);
@@ -235,14 +235,14 @@ TEST(StreamedVertices, StandWhereADoubleOracleHasThemSeenFromAMetre) {
     Scene scene;
     Node& terrain = test::add_terrain(scene, std::move(heightfield));
     auto& node = *terrain.get<scene::TerrainNode>();
-    const scene::TileMaker maker(node.surface, terrain::TileTree(wide, wide), 8);
+    const scene::TileBuilder maker(node.surface, terrain::TileTree(wide, wide), 8);
     const TreeTile id{0, 15, 3};
     const glm::ivec2 count = maker.tree().cells(id) + 3;
     const auto heights = test::made_heights(count.x, count.y, [](int col, int row) {
         return 1000.0 + 700.0 * std::sin(0.37 * col) * std::cos(0.21 * row);
     });
     node.stream = std::make_shared<scene::TileStream>(
-        maker, [](TreeTile, const std::stop_token&) { return scene::TileReading{}; });
+        maker, [](TreeTile, const std::stop_token&) { return scene::TileContent{}; });
     view::StreamedDraw draw;
     draw.terrain = &node;
     draw.tile = std::make_shared<const scene::StreamedTile>(maker.make(id, heights));

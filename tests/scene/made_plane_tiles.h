@@ -28,16 +28,16 @@ inline std::shared_ptr<const scene::TerrainSurface> overview() {
     return std::make_shared<const scene::TerrainSurface>(std::move(*surface));
 }
 
-inline scene::TileReading read_plane(terrain::TreeTile tile, const std::stop_token& /*stop*/) {
+inline scene::TileContent read_plane(terrain::TreeTile tile, const std::stop_token& /*stop*/) {
     const terrain::TileTree tree(side, side);
-    scene::TileReading reading;
+    scene::TileContent reading;
     reading.heights = tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
         return height_of(glm::dvec2(tree.sample(tile, vertex)));
     });
     return reading;
 }
 
-inline scene::TileMaker maker() {
+inline scene::TileBuilder maker() {
     return {overview(), terrain::TileTree(side, side), reduction};
 }
 

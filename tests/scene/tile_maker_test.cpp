@@ -17,7 +17,7 @@ using terrain::TreeTile;
 using namespace test::plane_tiles;
 
 TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
-    const TileMaker make = maker();
+    const TileBuilder make = maker();
     const auto& placement = make.overview().placement();
     for (const TreeTile tile : {TreeTile{3, 0, 0}, {2, 1, 0}, {1, 3, 2}, {0, 7, 7}, {0, 0, 5}}) {
         const StreamedTile made = make.make(tile, read_plane(tile, {}).heights);
@@ -49,8 +49,8 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
 }
 
 TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
-    const TileMaker make(overview(), TileTree(side, side), reduction,
-                         {.finest_pixel = 2.0, .refinement = 1});
+    const TileBuilder make(overview(), TileTree(side, side), reduction,
+                           {.finest_pixel = 2.0, .refinement = 1});
     const TreeTile tile{0, 3, 3};
     EXPECT_EQ(make.picture_size(tile), glm::ivec2(513)); // 10 m a cell: at most four texels
     EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(513));
@@ -65,7 +65,7 @@ TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
 }
 
 TEST(TileMakers, MakeTheCoarsestTilesOfTheOverview) {
-    const TileMaker make = maker();
+    const TileBuilder make = maker();
     for (const int level : {3, 2, 0}) {
         const TreeTile tile{level, 0, 0};
         const Grid<float> found = make.overview_heights(tile);
@@ -89,16 +89,16 @@ TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
     const auto surface = TerrainSurface::create(terrain);
     ASSERT_TRUE(surface);
     // Levels whose steps are 2 and 4 of the overview's samples: vertices at 320 and 320 ± 32.
-    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(9217, 9217),
-                         reduction);
+    const TileBuilder make(std::make_shared<const TerrainSurface>(*surface), TileTree(9217, 9217),
+                           reduction);
     EXPECT_FLOAT_EQ(make.overview_heights({4, 0, 0})(21, 21), 16.0F / 4.0F);
     EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(11, 11), 16.0F / 16.0F);
     EXPECT_FLOAT_EQ(make.overview_heights({5, 0, 0})(12, 12), 0.0F);
 }
 
 TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
-    const TileMaker make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
-                         {.finest_pixel = 0.5, .refinement = 4});
+    const TileBuilder make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
+                           {.finest_pixel = 0.5, .refinement = 4});
     EXPECT_EQ(make.first({0, 4, 8}), glm::dvec2(128.0, 256.0));
     EXPECT_EQ(make.sample({0, 4, 8}, {2, 4}), glm::dvec2(128.5, 257.0));
     EXPECT_DOUBLE_EQ(make.spacing(0), 2.5);
@@ -115,8 +115,8 @@ double globe_height(glm::dvec2 sample) {
 }
 
 /// 72×36 samples around the Earth, 5° apart, and what closes them.
-TileMaker globe_maker() {
-    constexpr geo::Closing closing{.around = true, .east = true, .north = 0.5, .south = 0.5};
+TileBuilder globe_maker() {
+    constexpr geo::GlobalWrap closing{.around = true, .east = true, .north = 0.5, .south = 0.5};
     Grid<glm::dvec2> degrees(9, 9);
     for (int row = 0; row < 9; ++row) {
         for (int col = 0; col < 9; ++col) {
@@ -148,7 +148,7 @@ TileMaker globe_maker() {
 }
 
 TEST(TileMakers, OfAWholeGlobeMeetAcrossTheAntimeridianAndAtThePoles) {
-    const TileMaker make = globe_maker();
+    const TileBuilder make = globe_maker();
     const TreeTile all{0, 0, 0};
     Grid<float> heights(75, 40);
     for (int row = 0; row < 40; ++row) {

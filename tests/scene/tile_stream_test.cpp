@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "tests/scene/made_plane_tiles.h"
 
 namespace reljef::scene {
@@ -25,10 +25,10 @@ TEST(TileStreams, TilesMadeOfACoarserOverviewHaveItsError) {
     heights(40, 40) = 16.0F; // over samples 320 to 327
     const auto surface = TerrainSurface::create(terrain);
     ASSERT_TRUE(surface);
-    const TileMaker make(std::make_shared<const TerrainSurface>(*surface), TileTree(side, side),
-                         reduction);
+    const TileBuilder make(std::make_shared<const TerrainSurface>(*surface), TileTree(side, side),
+                           reduction);
     TileStream stream(make, [make](TreeTile tile, const std::stop_token& /*stop*/) {
-        TileReading reading;
+        TileContent reading;
         reading.heights = make.overview_heights(tile);
         reading.of_overview = true;
         return reading;
@@ -45,8 +45,8 @@ TEST(TileStreams, HavePicturesOfFewerTexelsWhereMemoryIsSmall) {
         const std::size_t budget = megabytes << 20U;
         const int texels = TileStream::texels_within(budget);
         EXPECT_EQ(texels, megabytes < 80 ? 1 : megabytes < 135 ? 2 : 4);
-        const TileMaker make(overview(), TileTree(side, side), reduction,
-                             {.finest_pixel = 0.1, .refinement = 1, .max_texels = texels});
+        const TileBuilder make(overview(), TileTree(side, side), reduction,
+                               {.finest_pixel = 0.1, .refinement = 1, .max_texels = texels});
         EXPECT_EQ(make.bytes_per_tile(), bytes_of_tile(texels));
         EXPECT_TRUE(texels == 1 || 2 * TileStream::min_drawn * make.bytes_per_tile() <= budget);
     }
@@ -97,10 +97,10 @@ TEST(TileStreams, DropWhatOneViewHadTooMuchWhenOthersBegin) {
 // 1301 tiles of 85 kB: more than are remembered of those that go.
 TEST(TileStreams, RememberWhatWentThoughNotWithoutEnd) {
     constexpr int tiles = 1301;
-    const TileMaker narrow(overview(), TileTree(tiles * terrain::tile_cells + 1, 3), reduction);
+    const TileBuilder narrow(overview(), TileTree(tiles * terrain::tile_cells + 1, 3), reduction);
     TileStream stream(narrow,
                       [&](TreeTile tile, const std::stop_token& /*stop*/) {
-                          TileReading reading;
+                          TileContent reading;
                           reading.heights =
                               test::tile_heights(narrow.tree().cells(tile),
                                                  [](glm::ivec2 vertex) { return 1.0 * vertex.x; });
@@ -151,7 +151,7 @@ TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
     std::atomic<int> readings{0};
     TileStream stream(maker(),
                       [&](TreeTile tile, const std::stop_token& stop) {
-                          TileReading reading = read_plane(tile, stop);
+                          TileContent reading = read_plane(tile, stop);
                           if (++readings < 3) {
                               reading.faults = {{"a.tif", "a.tif: is cut"}};
                           }
@@ -173,7 +173,7 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
     std::atomic<bool> recovers{false};
     TileStream stream(maker(),
                       [&](TreeTile tile, const std::stop_token& stop) {
-                          TileReading reading = read_plane(tile, stop);
+                          TileContent reading = read_plane(tile, stop);
                           if (++readings < 3) {
                               reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
                               return reading;
@@ -205,7 +205,7 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
     std::atomic<int> readings{0};
     TileStream stream(maker(),
                       [&](TreeTile tile, const std::stop_token& stop) {
-                          TileReading reading = read_plane(tile, stop);
+                          TileContent reading = read_plane(tile, stop);
                           if (++readings == 1) {
                               reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
                               return reading;
@@ -277,8 +277,8 @@ protected:
     }
 
 private:
-    static TileReading read(const Attempt& attempt, TreeTile wanted, const std::stop_token& stop) {
-        TileReading reading = read_plane(wanted, stop);
+    static TileContent read(const Attempt& attempt, TreeTile wanted, const std::stop_token& stop) {
+        TileContent reading = read_plane(wanted, stop);
         reading.of_overview = attempt.of_overview;
         for (float& height : reading.heights.samples()) {
             height += attempt.heights_above;
@@ -330,7 +330,7 @@ TEST_F(RecoveringTile, TakesOfALaterReadingTheHeightsThatTheOverviewStoodInFor) 
 TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
     TileStream stream(maker(),
                       [](TreeTile tile, const std::stop_token& stop) {
-                          TileReading reading = read_plane(tile, stop);
+                          TileContent reading = read_plane(tile, stop);
                           if (tile.col == 3) { // each tile has a file of its own
                               const std::string file = std::to_string(tile.row) + ".tif";
                               reading.faults = {{file, file + ": is cut"}};
@@ -351,7 +351,7 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
 TEST(TileStreams, HaveAnotherRevisionOnceATileIsGivenUp) {
     TileStream stream(maker(),
                       [](TreeTile tile, const std::stop_token& stop) {
-                          TileReading reading = read_plane(tile, stop);
+                          TileContent reading = read_plane(tile, stop);
                           reading.faults = {{"b.tif", "b.tif: is gone"}};
                           return reading;
                       },
@@ -368,7 +368,7 @@ TEST(TileStreams, WaitOnceForAFileThatFailsForGood) {
     std::atomic<bool> is_back{false};
     TileStream stream(maker(),
                       [&](TreeTile tile, const std::stop_token& stop) {
-                          TileReading reading = read_plane(tile, stop);
+                          TileContent reading = read_plane(tile, stop);
                           if (!is_back) {
                               reading.faults = {{"b.tif", "b.tif: is gone"}};
                           }

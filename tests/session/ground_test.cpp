@@ -69,15 +69,15 @@ protected:
     test::EnvironmentVariable cache_{"XDG_CACHE_HOME", (folder_.path() / "cache").string()};
 };
 
-scene::FlyPath northward_path(glm::dvec3 start) {
+scene::CameraPath northward_path(glm::dvec3 start) {
     const glm::dvec3 north(0.0, 300.0, 0.0);
-    return *scene::FlyPath::create(
+    return *scene::CameraPath::create(
         {{0.0, start, start + north}, {1.0, start + north, start + 2.0 * north}});
 }
 
 TEST_F(StreamedCanyon, FramesOfAFlightAreRaisedOverTheFineGroundOnly) {
     session::TerrainScene scene = scene_of();
-    const scene::FlyPath path = northward_path({0.0, -300.0, 5.0});
+    const scene::CameraPath path = northward_path({0.0, -300.0, 5.0});
     TilesOnly maker;
     for (int i = 0; i < 3; ++i) {
         EXPECT_FALSE(session::fly_above_ground(scene, path, i, 3, maker, {})) << i;
@@ -87,7 +87,7 @@ TEST_F(StreamedCanyon, FramesOfAFlightAreRaisedOverTheFineGroundOnly) {
 
 TEST_F(StreamedCanyon, WhatARaisedFrameShowsIsThere) {
     session::TerrainScene scene = scene_of();
-    const scene::FlyPath path = northward_path({500.0, -300.0, 200.0});
+    const scene::CameraPath path = northward_path({500.0, -300.0, 200.0});
     TilesOnly maker;
     EXPECT_NEAR(session::fly_above_ground(scene, path, 0, 2, maker, {}).metres,
                 800.0 + session::min_clearance(scene), 1e-9);
@@ -124,7 +124,7 @@ TEST_F(StreamedCanyon, ACameraUnderThePlateauIsLiftedUnlessItMayBeThere) {
     EXPECT_NEAR(lift.metres, 800.0 + session::min_clearance(scene), 1e-9);
     EXPECT_EQ(camera.eye, before.eye + lift.way);
     EXPECT_EQ(camera.look.z, before.look.z + lift.way.z);
-    const scene::FlyPath path = northward_path(before.eye);
+    const scene::CameraPath path = northward_path(before.eye);
     EXPECT_FALSE(
         session::fly_above_ground(scene, path, 0, 2, maker, {}, session::Underground::allowed));
     EXPECT_EQ(camera.eye, before.eye);

@@ -23,8 +23,8 @@ inline Result<session::TerrainScene> make_scene(session::TerrainSource source,
     return session::make_scene(std::move(source), options, view, silent);
 }
 
-inline Result<scene::FlyPath> open_path(const session::TerrainScene& scene,
-                                        const std::string& name) {
+inline Result<scene::CameraPath> open_path(const session::TerrainScene& scene,
+                                           const std::string& name) {
     session::Log silent;
     return session::open_path(scene, name, silent);
 }

@@ -197,7 +197,7 @@ TEST_F(Flight, LooksAlongItsWayAllTheTime) {
         const glm::dvec3 forward = scene::view_axes(camera).forward;
         EXPECT_NEAR(glm::dot(forward, placement_of(scene).up(camera.eye)), 0.0, 1e-3) << i;
         if (i < 29) {
-            const scene::FlyKey next = path->at((i + 1) / 29.0 * path->duration());
+            const scene::Keyframe next = path->at((i + 1) / 29.0 * path->duration());
             EXPECT_GT(glm::dot(forward, glm::normalize(next.eye - camera.eye)), 0.999) << i;
         }
     }

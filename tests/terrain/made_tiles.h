@@ -15,7 +15,7 @@ Grid<float> overview_heights(int side, int reduction, const Height& height) {
     });
 }
 
-/// Of a tile of a tree, as scene::TileReading has them: with one around its vertices; `height` of a
+/// Of a tile of a tree, as scene::TileContent has them: with one around its vertices; `height` of a
 /// vertex, glm::ivec2.
 template <class Height> Grid<float> tile_heights(glm::ivec2 cells, const Height& height) {
     return made_heights(cells.x + 3, cells.y + 3,

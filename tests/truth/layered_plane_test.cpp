@@ -72,7 +72,7 @@ TEST(LayeredPlane, NoRayEntersASolidBeforeItsHit) {
         for (int step = 0; step < 300; ++step) {
             const glm::dvec3 at = ray.at(end * (step + 0.5) / 301.0);
             const glm::dvec4 here =
-                layers_at(layers, {at.x + 0.5, 0.5 - at.y}, material::TileBorder::wrap);
+                layers_at(layers, {at.x + 0.5, 0.5 - at.y}, material::WrapMode::wrap);
             const double height = at.z / 0.2 + 0.5;
             ASSERT_FALSE((height < here.x - 1e-9 && height > here.y + 1e-9) ||
                          (height < here.z - 1e-9 && height > here.w + 1e-9))
@@ -80,7 +80,7 @@ TEST(LayeredPlane, NoRayEntersASolidBeforeItsHit) {
         }
         if (hit) {
             const glm::dvec4 here =
-                layers_at(layers, hit->texture_coordinate, material::TileBorder::wrap);
+                layers_at(layers, hit->texture_coordinate, material::WrapMode::wrap);
             ASSERT_NEAR(hit->height, here[hit->layer], 1e-9);
         }
     }

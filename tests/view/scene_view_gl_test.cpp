@@ -112,12 +112,12 @@ TEST(SceneViews, TilesThatComeAreSeen) {
     ViewedWorld world;
     const terrain::TileTree tree(65, 65);
     const auto read = [tree](terrain::TreeTile tile, const std::stop_token&) {
-        scene::TileReading reading;
+        scene::TileContent reading;
         reading.heights = Grid<float>(tree.cells(tile).x + 3, tree.cells(tile).y + 3);
         return reading;
     };
     world.ground().stream = std::make_shared<scene::TileStream>(
-        scene::TileMaker(world.ground().surface, tree, 1), read);
+        scene::TileBuilder(world.ground().surface, tree, 1), read);
     view::SceneView view(world.scene, size);
     EXPECT_FALSE(view.look(world.scene, size));
     const std::array wanted{tree.root()};

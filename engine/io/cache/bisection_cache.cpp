@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/stopwatch.h"
-#include "engine/io/cache/kept_numbers.h"
+#include "engine/io/cache/array_cache.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;

@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/terrain/mesh/bisection.h"
 
 namespace reljef::io {
 
 struct BisectionCacheOptions {
     std::optional<std::filesystem::path> folder; ///< made when needed; absent: nothing is kept
-    double min_seconds = 0.5;                  ///< what is made sooner is not kept
+    double min_seconds = 0.5;                    ///< what is made sooner is not kept
     ParallelOptions parallel;
 };
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/material/cone_map.h"
 
 namespace reljef::io {
@@ -16,7 +16,7 @@ std::optional<std::filesystem::path> cache_folder();
 
 struct ConeCacheOptions {
     std::optional<std::filesystem::path> folder; ///< made when needed; absent: nothing is kept
-    double min_seconds = 1.0;                  ///< what is made sooner is not kept
+    double min_seconds = 1.0;                    ///< what is made sooner is not kept
     ParallelOptions parallel;
 };
 

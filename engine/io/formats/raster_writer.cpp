@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int written_block = 256;     // samples of a side
-constexpr int min_overview = 256;    // samples of a side
+constexpr int min_overview = 256;      // samples of a side
 constexpr double writing_share = 0.75; // of the time; the rest for the overviews
 constexpr int utm_zone_32_north = 32632;
 

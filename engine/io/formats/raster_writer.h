@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/core/worker_pool.h"
 
 namespace reljef::io {
 

@@ -12,7 +12,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/io/raster/gdal_dataset.h"
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 
 namespace reljef::io {
 namespace {
@@ -120,7 +120,7 @@ std::optional<std::ptrdiff_t> line_of_endless_name(std::string_view text) {
 
 // Addresses lie where they say; of tiles of heights in colours the folder follows a '+'.
 std::filesystem::path beside(const std::filesystem::path& folder, const std::string& name) {
-    if (is_tile_pyramid(name)) {
+    if (is_web_tiles(name)) {
         const auto address = name.find('+') + 1;
         const std::filesystem::path rest = beside(folder, name.substr(address));
         return name.substr(0, address) + rest.string();

@@ -46,7 +46,7 @@ std::vector<std::string> notes_on(const SurfaceMapOptions& options, const std::s
                                     "--scale {}, they come in steps of {:.2g} m",
                                     file, options.scale, options.scale / 255.0));
     }
-    if (options.border == material::TileBorder::wrap && material::has_seam(heights.view())) {
+    if (options.border == material::WrapMode::wrap && material::has_seam(heights.view())) {
         notes.push_back(fmt::format("{}: opposite borders do not fit together; where the tile "
                                     "repeats, a seam shows",
                                     file));
@@ -199,7 +199,7 @@ Result<Channels> made_cones(const Grid<float>& heights, material::ConeKind kind,
         return Error{"interrupted"};
     }
     const Grid<float> at_samples = material::cones_at_samples(*cones);
-    const bool wraps = options.border == material::TileBorder::wrap;
+    const bool wraps = options.border == material::WrapMode::wrap;
     return cone_channels(
         wraps ? material::tile_cones(at_samples, heights.cols(), heights.rows(), options.border)
               : at_samples,
@@ -248,7 +248,7 @@ Result<PictureHeights> heights_of_picture(const std::filesystem::path& picture,
     return PictureHeights{material::heights_from_colors(
                               *image, {.octaves = options.octaves,
                                        .dark_is_high = options.dark_is_high,
-                                       .wraps = options.border == material::TileBorder::wrap}),
+                                       .wraps = options.border == material::WrapMode::wrap}),
                           {}};
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/core/grid.h"
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/core/worker_pool.h"
 #include "engine/io/image/channels.h"
 #include "engine/material/color_relief.h"
 #include "engine/material/texture_set.h"
@@ -21,8 +21,8 @@ enum class MapInput { heights, normals, colors };
 /// How maps of surface detail are made.
 struct SurfaceMapOptions {
     MapInput input = MapInput::heights;
-    material::TileBorder border = material::TileBorder::wrap;
-    double scale = 0.05;       ///< a height of 1 lifts a point so many widths; > 0
+    material::WrapMode border = material::WrapMode::wrap;
+    double scale = 0.05;       ///< height of 1, in widths; > 0
     bool green_up = false;     ///< y of stored normals grows against the rows
     bool sobel = false;        ///< normals by Sobel's filter
     bool dark_is_high = false; ///< of colours

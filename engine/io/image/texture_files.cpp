@@ -62,7 +62,7 @@ glm::vec3 decoded_normal(const Channels& channels, int col, int row) {
 
 // The two conventions differ in the sign of y, and files do not say which is theirs.
 bool is_against_rows(const Grid<glm::vec3>& normals, const material::TextureSet& set,
-                     material::TileBorder border) {
+                     material::WrapMode border) {
     const auto from_heights = material::tile_normals(set.heights.view(), set.scale, border);
     if (normals.cols() != from_heights.cols() || normals.rows() != from_heights.rows()) {
         return false;

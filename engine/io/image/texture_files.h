@@ -22,9 +22,9 @@ struct TextureFiles {
 };
 
 struct TextureOptions {
-    float scale = 0.05F; ///< a height of 1 lifts a point so many tile widths; > 0
+    float scale = 0.05F; ///< height of 1, in tile widths; > 0
     double width = 1.0;  ///< metres that the tile covers, for the notes; > 0
-    material::TileBorder border = material::TileBorder::wrap;
+    material::WrapMode border = material::WrapMode::wrap;
 };
 
 /// The pictures in a folder by what their names say (texture_role.h); of colours, where no name

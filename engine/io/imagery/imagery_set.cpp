@@ -10,7 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/io/dataset_pool.h"
 #include "engine/io/failing_files.h"
 #include "engine/io/imagery/degree_box.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/core/color.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {

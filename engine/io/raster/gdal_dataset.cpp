@@ -17,7 +17,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/raster/raster.h"
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -63,8 +63,8 @@ std::string raster_in_zip(const fs::path& path) {
 }
 
 Result<std::string> name_for_gdal(const fs::path& path) {
-    if (is_tile_pyramid(path)) {
-        return tile_pyramid_description(path);
+    if (is_web_tiles(path)) {
+        return web_tiles_description(path);
     }
     if (is_remote(path)) {
         const std::string name = path.string();
@@ -133,7 +133,7 @@ void set_default(const char* option, const char* value) {
 bool is_remote(const fs::path& path) {
     const std::string name = path.string();
     const std::array<std::string_view, 4> beginnings{"http://", "https://", "ftp://", "/vsi"};
-    return is_tile_pyramid(path) ||
+    return is_web_tiles(path) ||
            std::any_of(beginnings.begin(), beginnings.end(),
                        [&](std::string_view beginning) { return name.starts_with(beginning); });
 }

@@ -187,7 +187,7 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
     place.closing =
         closing_of(crs, affine_of_samples(affine, place.grid), place.grid.cols, place.grid.rows);
     place.georeference = georeference_of(dataset, crs, affine, *exact, place, notes);
-    place.closing = place.georeference ? place.closing : geo::Closing{};
+    place.closing = place.georeference ? place.closing : geo::GlobalWrap{};
     return place;
 }
 
@@ -366,10 +366,9 @@ Result<Place> with_good_spacing(Place place, const std::string& name) {
 
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes) {
-    using terrain::min_spacing;
     using terrain::max_spacing;
-    if (options.spacing &&
-        !(*options.spacing >= min_spacing && *options.spacing <= max_spacing)) {
+    using terrain::min_spacing;
+    if (options.spacing && !(*options.spacing >= min_spacing && *options.spacing <= max_spacing)) {
         return Error{
             fmt::format("{}: spacing {} was asked for, a number of metres from {} to {} was "
                         "expected",

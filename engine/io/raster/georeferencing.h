@@ -51,7 +51,7 @@ struct Place {
     std::optional<geo::Georeference> georeference;
     /// What is to be added to the samples of a raster that goes all around the Earth; the
     /// georeference has it already, the grid has not.
-    geo::Closing closing;
+    geo::GlobalWrap closing;
 };
 
 /// Fails where the file places its samples nowhere, absurdly close or far, and where

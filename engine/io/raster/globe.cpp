@@ -27,7 +27,7 @@ double steps_to_pole(double latitude, double pole, double step) {
     return steps > at_pole && steps <= 1.0 + at_pole ? steps : 0.0;
 }
 
-template <class T> Grid<T> with_room(const Grid<T>& grid, const geo::Closing& closing) {
+template <class T> Grid<T> with_room(const Grid<T>& grid, const geo::GlobalWrap& closing) {
     Grid<T> result(grid.cols() + closing.cols(), grid.rows() + closing.rows());
     for (int row = 0; row < grid.rows(); ++row) {
         const auto target = result.row(row + closing.north_rows());
@@ -94,10 +94,10 @@ int samples_around(GDALDataset& dataset) {
     return crs ? samples_around(*crs, *affine) : 0;
 }
 
-geo::Closing closing_of(const OGRSpatialReference& crs, const geo::PixelAffine& affine, int cols,
-                        int rows) {
+geo::GlobalWrap closing_of(const OGRSpatialReference& crs, const geo::PixelAffine& affine, int cols,
+                           int rows) {
     const int around = samples_around(crs, affine);
-    geo::Closing closing;
+    geo::GlobalWrap closing;
     if (around == 0 || cols < around || cols > around + 1 || affine.y_row >= 0.0) {
         return closing;
     }
@@ -110,7 +110,7 @@ geo::Closing closing_of(const OGRSpatialReference& crs, const geo::PixelAffine& 
     return closing;
 }
 
-SampleGrid closed(SampleGrid grid, const geo::Closing& closing) {
+SampleGrid closed(SampleGrid grid, const geo::GlobalWrap& closing) {
     grid.origin.y -= grid.step.y * closing.north_rows();
     grid.cols += closing.cols();
     grid.rows += closing.rows();
@@ -118,7 +118,7 @@ SampleGrid closed(SampleGrid grid, const geo::Closing& closing) {
 }
 
 void close_samples(Grid<float>& heights, Grid<std::uint8_t>& void_mask,
-                   const geo::Closing& closing) {
+                   const geo::GlobalWrap& closing) {
     if (closing.cols() == 0 && closing.rows() == 0) {
         return;
     }

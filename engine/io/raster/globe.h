@@ -21,15 +21,15 @@ int samples_around(GDALDataset& dataset);
 /// What is missing of a raster that goes all around the Earth: the column from its last to its
 /// first, and around a pole that is at most a row away. `affine`: of its samples, the first in the
 /// north-west.
-geo::Closing closing_of(const OGRSpatialReference& crs, const geo::PixelAffine& affine, int cols,
-                        int rows);
+geo::GlobalWrap closing_of(const OGRSpatialReference& crs, const geo::PixelAffine& affine, int cols,
+                           int rows);
 
 /// The samples with those of a closing; at a pole they lie on beyond it.
-SampleGrid closed(SampleGrid grid, const geo::Closing& closing);
+SampleGrid closed(SampleGrid grid, const geo::GlobalWrap& closing);
 
 /// Heights and voids (empty: none) with those of a closing. A pole has one height: the mean of the
 /// outermost row without its voids, and a void where that has nothing else.
 void close_samples(Grid<float>& heights, Grid<std::uint8_t>& void_mask,
-                   const geo::Closing& closing);
+                   const geo::GlobalWrap& closing);
 
 } // namespace reljef::io

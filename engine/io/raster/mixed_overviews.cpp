@@ -9,7 +9,7 @@
 
 #include "engine/core/grid.h"
 #include "engine/io/raster/sample_decoder.h"
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 
 namespace reljef::io {
 namespace {
@@ -141,7 +141,7 @@ bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder)
 
 std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesystem::path& path) {
     GDALRasterBand& band = *dataset.GetRasterBand(1);
-    if (is_tile_pyramid(path) || kind_of_values(dataset) != ValueKind::plain ||
+    if (is_web_tiles(path) || kind_of_values(dataset) != ValueKind::plain ||
         band.GetOverviewCount() == 0) {
         return false;
     }

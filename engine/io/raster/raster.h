@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/core/worker_pool.h"
 #include "engine/terrain/field/heightfield.h"
 
 namespace reljef::io {

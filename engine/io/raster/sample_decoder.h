@@ -12,7 +12,7 @@
 
 #include "engine/core/result.h"
 #include "engine/io/raster/raster.h"
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 
 namespace reljef::io {
 

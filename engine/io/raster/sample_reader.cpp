@@ -61,9 +61,9 @@ Source source_of(GDALDataset& dataset, const ReadPlan& plan, int bands) {
 }
 
 /// Reads tiles of stored values, `taps` of every `plan.reduction` a side.
-class TileReader {
+class TileContentReader {
 public:
-    TileReader(Source source, const ReadPlan& plan)
+    TileContentReader(Source source, const ReadPlan& plan)
         : source_(std::move(source)), plan_(plan), taps_(std::min(plan.reduction, max_taps)) {}
 
     [[nodiscard]] int taps() const { return taps_; }
@@ -146,7 +146,7 @@ Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time
                        SampleDecoder& decoder, const std::string& name,
                        const RasterOptions& options, const GdalMessages& messages,
                        const Store& store) {
-    TileReader reader(source_of(dataset, plan, decoder.bands()), plan);
+    TileContentReader reader(source_of(dataset, plan, decoder.bands()), plan);
     const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), at_a_time);
     const std::size_t errors = messages.errors();
     for (std::size_t i = 0; i < tiles.size(); ++i) {

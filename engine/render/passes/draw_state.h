@@ -17,7 +17,7 @@
 namespace reljef::render {
 
 /// What is set for the draw calls of one frame. What is set already is not set again; what is set
-/// and drawn is counted. Each painter asks for all that it needs. Needs a current context.
+/// and drawn is counted. Each pass asks for all that it needs. Needs a current context.
 class DrawState {
 public:
     /// Sets what a frame begins with: reversed depth, filled triangles, their backs left out.
@@ -37,7 +37,7 @@ public:
     /// Draws all of a mesh with the program in use.
     void draw(const ResidentMesh& mesh, gl::IndexType type);
 
-    /// For what a painter sets and draws itself.
+    /// For what a pass sets and draws itself.
     [[nodiscard]] view::FrameStats& stats() { return stats_; }
 
 private:

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/grid_mesh.h"
 

@@ -158,7 +158,7 @@ void add_part(std::array<HullCorner, 4> part, const std::set<Edge>& parted,
 std::vector<HullPart> hull_parts(const scene::Mesh& mesh, const scene::TextureDetail& detail) {
     const HullHeights heights{scene::relief_height(mesh, detail),
                               static_cast<double>(detail.offset)};
-    const bool ends = detail.border == material::TileBorder::discard;
+    const bool ends = detail.border == material::WrapMode::discard;
     const Places places = ends ? upright_places(mesh) : scene::shared_places(mesh);
     const std::set<Edge> parted = ends ? std::set<Edge>() : parted_edges(mesh, places);
     std::vector<HullPart> hull;

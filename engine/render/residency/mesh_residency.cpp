@@ -67,7 +67,7 @@ bool has_hull(const view::MeshDraw& draw) {
 TileSide side_of(const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
     return {layers_for(material.technique.id()),
-            scene::shown_detail(material).border == material::TileBorder::wrap, draw.from_behind};
+            scene::shown_detail(material).border == material::WrapMode::wrap, draw.from_behind};
 }
 
 std::vector<PlainVertex> plain_vertices(const scene::Mesh& mesh) {

@@ -7,7 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/render/residency/prewarp.h"
 
 namespace reljef::render {

@@ -8,7 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/core/grid.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/graph/terrain_node.h"
 

@@ -81,7 +81,7 @@ Grid<glm::vec2> cone_texels(const material::ConeMaps& cones) {
     return texels;
 }
 
-std::vector<Grid<float>> greatest_heights(GridView<const float> relief_heights) {
+std::vector<Grid<float>> max_mipmap(GridView<const float> relief_heights) {
     std::vector<Grid<float>> levels;
     levels.push_back(cell_maxima(relief_heights));
     while (levels.back().cols() > 1 || levels.back().rows() > 1) {

@@ -30,7 +30,7 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface);
 /// Greatest heights, in [0,1] of the range, of blocks of 2^level cells a side: what a texture's mip
 /// chain holds. Level 0 has a power of two of cells a side, at least as many as there are; beyond
 /// the last one is 0.
-std::vector<Grid<float>> greatest_heights(GridView<const float> relief_heights);
+std::vector<Grid<float>> max_mipmap(GridView<const float> relief_heights);
 
 /// The plain (x) and the relaxed (y) cone of each cell; the last column and row, where there is no
 /// cell any more, have their neighbours'.

@@ -7,7 +7,7 @@
 
 #include <glm/matrix.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/gl/limits.h"
 #include "engine/render/residency/prewarp.h"
 #include "engine/render/residency/terrain_maps.h"
@@ -278,8 +278,7 @@ Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::Frame
         relief->heights = std::move(*texture);
     }
     if (needs_greatest) {
-        auto kept =
-            keep(pyramid_texture(greatest_heights(heights.view()), stats), relief->greatest);
+        auto kept = keep(pyramid_texture(max_mipmap(heights.view()), stats), relief->greatest);
         if (!kept) {
             return kept;
         }

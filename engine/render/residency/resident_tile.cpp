@@ -21,8 +21,8 @@ gl::Wrap wrap_of(bool wraps) {
     return wraps ? gl::Wrap::repeat : gl::Wrap::clamp;
 }
 
-material::TileBorder border_as(bool wraps) {
-    return wraps ? material::TileBorder::wrap : material::TileBorder::clamp;
+material::WrapMode border_as(bool wraps) {
+    return wraps ? material::WrapMode::wrap : material::WrapMode::clamp;
 }
 
 // Linear.
@@ -178,12 +178,12 @@ Result<gl::Texture2D> greatest_texture(const material::TextureSet& set, const Ti
                                        view::FrameStats& stats) {
     const Grid<float> heights =
         with_next_copies(material::seen_heights(set.heights, side.from_behind), side.wraps);
-    return pyramid_texture(greatest_heights(heights.view()), stats);
+    return pyramid_texture(max_mipmap(heights.view()), stats);
 }
 
 Result<gl::Texture2D> tile_cone_texture(const material::TextureSet& set, const TileSide& side,
                                         view::FrameStats& stats) {
-    const material::TileBorder border = border_as(side.wraps);
+    const material::WrapMode border = border_as(side.wraps);
     const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
     const Grid<float> field = material::cone_field(heights.view(), border);
     const auto known = known_cones(set, side);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/terrain/mesh/grid_triangles.h"
@@ -43,14 +43,14 @@ constexpr std::uint64_t kept_frames = 8;
 constexpr std::size_t uploaded_together = 8;
 
 // Texels lie edge to edge over the vertices.
-glm::vec4 lit_from_samples(const scene::TileMaker& maker, const scene::StreamedTile& tile) {
+glm::vec4 lit_from_samples(const scene::TileBuilder& maker, const scene::StreamedTile& tile) {
     const glm::dvec2 texels(tile.albedo.cols(), tile.albedo.rows());
     const glm::dvec2 samples = glm::dvec2(tile.cells) * maker.step(tile.id);
     return {glm::vec2((texels - 1.0) / (samples * texels)), glm::vec2(0.5 / texels)};
 }
 
 // A tile's ground_map, of the albedo's size; the sun's shadows are the overview's.
-GroundMap streamed_ground(const scene::TileMaker& maker, const scene::StreamedTile& tile,
+GroundMap streamed_ground(const scene::TileBuilder& maker, const scene::StreamedTile& tile,
                           const scene::TerrainIrradiance* irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
@@ -78,8 +78,8 @@ std::set<terrain::TreeTile> tiles_of(const std::vector<terrain::EdgeMove>& moves
 }
 
 // Around the Earth a sample is many: the one that is nearest to a place.
-glm::dvec2 nearest_turn(const scene::TileMaker& maker, glm::dvec2 sample, glm::dvec2 place) {
-    if (maker.tree().is_around()) {
+glm::dvec2 nearest_turn(const scene::TileBuilder& maker, glm::dvec2 sample, glm::dvec2 place) {
+    if (maker.tree().wraps_longitude()) {
         const terrain::TreeTile root = maker.tree().root();
         const double turn = maker.sample(root, maker.tree().cells(root)).x - maker.first(root).x;
         sample.x -= turn * std::round((sample.x - place.x) / turn);
@@ -93,7 +93,7 @@ view::GridMesh streamed_mesh(const view::StreamedDraw& draw,
                              const std::vector<terrain::EdgeMove>& moves,
                              const StreamedByTile& drawn) {
     const scene::StreamedTile& tile = *draw.tile;
-    const scene::TileMaker& maker = draw.terrain->stream->maker();
+    const scene::TileBuilder& maker = draw.terrain->stream->maker();
     const glm::dvec2 first = maker.first(tile.id);
     view::GridMesh mesh{tile.cells.x, tile.cells.y, {}};
     const auto vertex_of = [&](const view::StreamedDraw& from, glm::ivec2 vertex, glm::ivec2 own) {

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/terrain/field/gradient.h"
 
 namespace reljef::render {

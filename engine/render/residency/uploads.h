@@ -26,7 +26,7 @@ Result<gl::Texture2D> height_texture(const Grid<float>& heights, view::FrameStat
 Result<gl::Texture2D> tile_height_texture(const Grid<float>& heights, gl::Wrap wrap,
                                           view::FrameStats& stats);
 
-/// One level after the other, as greatest_heights() gives them.
+/// One level after the other, as max_mipmap() gives them.
 Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels,
                                       view::FrameStats& stats);
 

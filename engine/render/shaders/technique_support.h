@@ -18,7 +18,7 @@ struct DrawnSurface {
     glm::ivec2 samples{0};
 };
 
-/// What of a context's limits a technique would exceed, as "found, expected"; nothing where it can
+/// The limit of a context that a technique would exceed, as "found, expected"; nothing where it can
 /// draw the surface: OpenGL below 4.5, in whose language the shaders are; fewer texture units than
 /// its maps take; heights, or the pyramid over them, that are wider than a texture may be.
 std::optional<std::string> lack_of(scene::TechniqueId id, const DrawnSurface& surface,

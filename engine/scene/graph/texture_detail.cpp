@@ -122,10 +122,10 @@ template <class Visit> void visit_places(const Mesh& mesh, const Visit& visit) {
     }
 }
 
-int index_on_tile(int index, int count, material::TileBorder border) {
+int index_on_tile(int index, int count, material::WrapMode border) {
     const int rest = index % count;
-    return border == material::TileBorder::wrap ? (rest < 0 ? rest + count : rest)
-                                                : std::clamp(index, 0, count - 1);
+    return border == material::WrapMode::wrap ? (rest < 0 ? rest + count : rest)
+                                              : std::clamp(index, 0, count - 1);
 }
 
 } // namespace
@@ -146,8 +146,7 @@ double raised_above(const Mesh& mesh, const TextureDetail& detail) {
 
 double hull_reach(const Mesh& mesh, const TextureDetail& detail) {
     const auto offset = static_cast<double>(detail.offset);
-    return max_lift * (std::max(1.0 + offset, -offset) + hull_margin) *
-           relief_height(mesh, detail);
+    return max_lift * (std::max(1.0 + offset, -offset) + hull_margin) * relief_height(mesh, detail);
 }
 
 Mesh tessellated(const Mesh& mesh, int n) {
@@ -209,7 +208,7 @@ std::vector<SharedPlace> shared_places(const Mesh& mesh) {
 }
 
 double tile_height(const material::TextureSet& set, glm::dvec2 coordinate,
-                   material::TileBorder border) {
+                   material::WrapMode border) {
     const Grid<float>& heights = set.heights;
     const glm::ivec2 size(heights.cols(), heights.rows());
     const glm::dvec2 place = coordinate * glm::dvec2(size) - 0.5;

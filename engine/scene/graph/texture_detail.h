@@ -16,10 +16,10 @@ namespace reljef::scene {
 struct TextureDetail {
     std::shared_ptr<const material::TextureSet> set; ///< as completed() gave it
     glm::vec2 repeats{1.0F}; ///< tiles along texture coordinates 0 … 1; > 0
-    float scale = 0.05F;     ///< a height of 1 lifts a point so many tile widths; > 0
+    float scale = 0.05F;     ///< height of 1, in tile widths; > 0
     /// Of the heights against the mesh, in [−1, 0]: −1 sinks all below it, 0 lifts all above.
     float offset = -1.0F;
-    material::TileBorder border = material::TileBorder::wrap;
+    material::WrapMode border = material::WrapMode::wrap;
 
     friend bool operator==(const TextureDetail&, const TextureDetail&) = default;
 };
@@ -68,6 +68,6 @@ std::vector<SharedPlace> shared_places(const Mesh& mesh);
 /// Height in [0,1] at a tile's coordinate, bilinear between texel centres, as GL samples; beyond
 /// the tile (discard) the border's.
 double tile_height(const material::TextureSet& set, glm::dvec2 coordinate,
-                   material::TileBorder border);
+                   material::WrapMode border);
 
 } // namespace reljef::scene

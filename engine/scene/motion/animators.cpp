@@ -8,14 +8,14 @@
 
 namespace reljef::scene {
 
-Camera at_key(Camera camera, const FlyKey& key) {
+Camera at_key(Camera camera, const Keyframe& key) {
     camera.eye = key.eye;
     camera.look = key.look;
     camera.up = {0.0, 0.0, 1.0};
     return camera;
 }
 
-Animator fly_path_animator(FlyPath path) {
+Animator camera_path_animator(CameraPath path) {
     return [path = std::move(path)](Node& node, double time) {
         if (auto* camera = node.get<Camera>()) {
             const double lap = path.duration();

@@ -13,9 +13,8 @@ namespace reljef::scene {
 /// with the distance, and counts in no hit: that is the terrain's own.
 struct GroundDetail {
     std::shared_ptr<const material::TextureSet> set; ///< as completed() gave it
-    double width = 4.0; ///< metres that a tile covers, [terrain::min_tile_width, max_tile_width]
-    float scale =
-        0.05F; ///< a height of 1 lifts a point so many tile widths; (0, terrain::max_tile_scale]
+    double width = 4.0;  ///< metres that a tile covers, [terrain::min_tile_width, max_tile_width]
+    float scale = 0.05F; ///< height of 1, in tile widths; (0, terrain::max_tile_scale]
     Technique technique{Relief{}}; ///< as check_ground_technique allows
 };
 

@@ -46,7 +46,7 @@ struct SmoothEdges {
 };
 
 /// What lies beyond the border of a detail tile.
-using BorderRule = material::TileBorder;
+using BorderRule = material::WrapMode;
 
 /// What a technique does in addition to its search for the surface. By default it does nothing
 /// more.

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::terrain {
 namespace {
@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    [[nodiscard]] const geo::Closing& closing() const { return rows_.closing(); }
+    [[nodiscard]] const geo::GlobalWrap& closing() const { return rows_.closing(); }
     [[nodiscard]] int first_row() const { return closing().north_rows(); }
 
     glm::ivec2 last_;

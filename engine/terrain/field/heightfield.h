@@ -43,8 +43,7 @@ struct Terrain {
     std::string name; ///< file or built-in name, for messages and titles
     Heightfield heightfield;
     Image color; ///< covers the heightfield edge sample to edge sample; may be empty
-    std::vector<std::string>
-        notes; ///< what the reader should be told: undeclared voids, a reduced read
+    std::vector<std::string> notes; ///< for the user: undeclared voids, a reduced read
     std::vector<std::string> faults =
         {}; ///< files that were to be read and failed, a sentence each; the rest is there
 };

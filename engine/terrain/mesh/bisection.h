@@ -12,7 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/grid.h"
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/placement.h"
 

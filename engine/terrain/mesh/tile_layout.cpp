@@ -63,7 +63,7 @@ Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last,
         }
         for (std::size_t k = 0; k < 3; ++k) {
             max_bend = glm::max(max_bend, bend(places[k][0], places[k][1], places[k][2]) +
-                                                bend(places[0][k], places[1][k], places[2][k]));
+                                              bend(places[0][k], places[1][k], places[2][k]));
         }
     }
     if (placement.kind() == PlacementKind::ellipsoid) {

@@ -13,7 +13,7 @@ bool touch(const TileTree& tree, TreeTile a, TreeTile b) {
     const glm::ivec2 last_a = tree.sample(a, tree.cells(a));
     const glm::ivec2 last_b = tree.sample(b, tree.cells(b));
     const auto reaches_around = [&](int last, int first) {
-        return tree.is_around() && first == 0 && tree.other_end(last) == 0;
+        return tree.wraps_longitude() && first == 0 && tree.other_end(last) == 0;
     };
     const bool across = (first_a.x <= last_b.x && first_b.x <= last_a.x) ||
                         reaches_around(last_a.x, first_b.x) || reaches_around(last_b.x, first_a.x);

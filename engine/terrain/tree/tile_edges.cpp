@@ -34,7 +34,7 @@ public:
     // where there is none or only finer ones.
     [[nodiscard]] std::optional<TreeTile> beside(TreeTile tile, glm::ivec2 side) const {
         TreeTile neighbour{tile.level, tile.col + side.x, tile.row + side.y};
-        if (tree_.is_around()) {
+        if (tree_.wraps_longitude()) {
             const int cols = tree_.tile_cols(tile.level);
             neighbour.col = (neighbour.col + cols) % cols;
         }

@@ -8,8 +8,8 @@
 
 namespace reljef::terrain {
 
-TileTree::TileTree(int cols, int rows, bool is_around)
-    : last_(cols - 1, rows - 1), is_around_(is_around) {
+TileTree::TileTree(int cols, int rows, bool wraps_longitude)
+    : last_(cols - 1, rows - 1), is_around_(wraps_longitude) {
     check(std::min(cols, rows) >= 2 && std::max(cols, rows) <= max_tree_samples,
           "a tile tree needs 2 to 2^30 samples a side");
     while (tile_cells * step({levels_ - 1, 0, 0}) < std::max(last_.x, last_.y)) {

@@ -27,9 +27,9 @@ inline constexpr int max_tree_samples = 1 << 30;
 /// tile is where its numbers say.
 class TileTree {
 public:
-    /// `is_around`: the last column lies where the first does, and tiles of both meet.
+    /// `wraps_longitude`: the last column lies where the first does, and tiles of both meet.
     /// Precondition: 2 to max_tree_samples samples a side.
-    TileTree(int cols, int rows, bool is_around = false);
+    TileTree(int cols, int rows, bool wraps_longitude = false);
 
     [[nodiscard]] int cols() const { return last_.x + 1; }
     [[nodiscard]] int rows() const { return last_.y + 1; }
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] int other_end(int col) const;
     /// How many columns of tiles a level has.
     [[nodiscard]] int tile_cols(int level) const;
-    [[nodiscard]] bool is_around() const { return is_around_; }
+    [[nodiscard]] bool wraps_longitude() const { return is_around_; }
     /// The tile that covers all.
     [[nodiscard]] TreeTile root() const { return {levels_ - 1, 0, 0}; }
     /// The tiles below that cover it; none at level 0.

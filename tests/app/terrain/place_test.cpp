@@ -176,7 +176,7 @@ TEST_F(AlpineBlock, HasNoHoleFromAnyPose) {
 
 TEST_F(AlpineBlock, ShowsOnePlaceFromAThousandKilometresDownToAMetre) {
     // Where the corners of all four files meet: a vertex of tiles of many levels.
-    const scene::TileMaker& maker = place_->node().stream->maker();
+    const scene::TileBuilder& maker = place_->node().stream->maker();
     const terrain::TreeTile tile{0, 1200 / terrain::tile_cells, 1200 / terrain::tile_cells};
     const glm::ivec2 vertex(1200 % terrain::tile_cells);
     constexpr double corner_height = 2411.0; // of all four

@@ -202,7 +202,7 @@ TEST_F(ViewerTest, PathUnderTheGroundIsRaisedAndThatIsKnown) {
     }
     EXPECT_EQ(viewer.path_raised(), 0.0) << "around the terrain, and above it";
     session::TerrainScene fresh = hill_scene();
-    auto below = scene::FlyPath::create(
+    auto below = scene::CameraPath::create(
         {{0.0, {-100, -90, 40}, {0, 0, 0}}, {1.0, {100, -90, -20}, {0, 0, 0}}});
     Viewer raised{fresh, std::move(*below), {400, 300}};
     raised.toggle_path();
@@ -229,7 +229,7 @@ TEST_F(ViewerTest, SteeringTakesOverFromThePath) {
 TEST_F(ViewerTest, PathOfOneKeyIsDrawnOnce) {
     session::TerrainScene fresh = hill_scene();
     Viewer still{
-        fresh, scene::FlyPath::create({{0.0, {0, -90, 90}, {0, 0, 0}}}).value(), {400, 300}};
+        fresh, scene::CameraPath::create({{0.0, {0, -90, 90}, {0, 0, 0}}}).value(), {400, 300}};
     still.toggle_path();
     still.advance(frame);
     EXPECT_TRUE(still.take_redraw());

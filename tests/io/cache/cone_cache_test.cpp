@@ -109,8 +109,8 @@ TEST_F(ConeCache, WithoutAPlaceToKeepThemTheyAreMade) {
 
 TEST_F(ConeCache, WhatIsMadeAtOnceIsNotKept) {
     const auto folder_of_none = folder_.path() / "none";
-    static_cast<void>(cached_cones(
-        heights_.view(), {.folder = folder_of_none, .min_seconds = 1e9, .parallel = {}}));
+    static_cast<void>(cached_cones(heights_.view(),
+                                   {.folder = folder_of_none, .min_seconds = 1e9, .parallel = {}}));
     EXPECT_FALSE(std::filesystem::exists(folder_of_none));
 }
 

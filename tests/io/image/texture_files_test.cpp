@@ -71,7 +71,7 @@ protected:
             }
         }
         const auto normals =
-            material::tile_normals(heights.view(), 0.05F, material::TileBorder::wrap);
+            material::tile_normals(heights.view(), 0.05F, material::WrapMode::wrap);
         write_channels(file(name), {32, 32}, 3, OIIO::TypeDesc::UINT16,
                        [&](int col, int row, int channel) {
                            const float value = normals(col, row)[channel];
@@ -110,7 +110,7 @@ TEST_F(TextureFilesTest, NormalsOfEitherConventionFollowTheHeights) {
     const auto up = read_texture_set(files);
     ASSERT_TRUE(down && up);
     const auto expected =
-        material::tile_normals(down->heights.view(), 0.05F, material::TileBorder::wrap);
+        material::tile_normals(down->heights.view(), 0.05F, material::WrapMode::wrap);
     for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_LT(glm::distance(down->normals.samples()[i], expected.samples()[i]), 1e-3F);
         ASSERT_LT(glm::distance(up->normals.samples()[i], expected.samples()[i]), 1e-3F);
@@ -200,7 +200,7 @@ TEST_F(TextureFilesTest, AMaskPunchesHolesAndABackLiesBehind) {
                    [](int, int, int) { return 0.25F; });
     files = find_texture_files(folder_.path()).value();
     EXPECT_EQ(files.heights, file("a_height.png"));
-    const auto set = read_texture_set(files, {.border = material::TileBorder::clamp});
+    const auto set = read_texture_set(files, {.border = material::WrapMode::clamp});
     ASSERT_TRUE(set) << set.error().message;
     EXPECT_EQ(set->heights(15, 9), 0.0F);
     EXPECT_NEAR(set->heights(16, 9), wave_height(16, 9), 1e-4);
@@ -316,7 +316,7 @@ TEST_P(RealTextures, AreReadWithNormalsThatAgreeWithTheHeights) {
     const auto set = read_texture_set(*files);
     ASSERT_TRUE(set) << set.error().message;
     const auto made =
-        material::tile_normals(set->heights.view(), set->scale, material::TileBorder::wrap);
+        material::tile_normals(set->heights.view(), set->scale, material::WrapMode::wrap);
     glm::dvec2 agreement(0.0);
     for (std::size_t i = 0; i < made.size() && made.size() == set->normals.size(); ++i) {
         agreement +=

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 #include "engine/io/raster/crs_transform.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/process_state.h"

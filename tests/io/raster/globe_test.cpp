@@ -129,7 +129,7 @@ TEST_F(WholeGlobe, OnTheGridLinesIsClosedAlready) {
     const terrain::Heightfield heightfield = read();
     EXPECT_EQ(heightfield.heights.cols(), 73);
     EXPECT_EQ(heightfield.heights.rows(), 37);
-    const geo::Closing closing = heightfield.georeference->geodetic.rows().closing();
+    const geo::GlobalWrap closing = heightfield.georeference->geodetic.rows().closing();
     EXPECT_TRUE(closing.around);
     EXPECT_FALSE(closing.east);
 }
@@ -218,7 +218,7 @@ TEST_F(WholeGlobe, AnAreaAllAroundHasAllColumnsWhereverItBegins) {
 TEST_F(WholeGlobe, TilesMeetAcrossTheAntimeridianAtEveryLevel) {
     write({720, 360, -179.75, 89.75, 0.5}, {2, 4});
     const TileSet set = tiles();
-    const geo::Closing closing = set.closing(set.grid());
+    const geo::GlobalWrap closing = set.closing(set.grid());
     EXPECT_EQ(set.files().size(), 1U);
     EXPECT_EQ(set.grid().cols, 720);
     ClosedGrid ground = closed_grid(set.grid(), closing, 1);
@@ -273,7 +273,7 @@ TEST_F(WholeGlobe, APictureShowsAtThePoleWhatLiesThere) {
             picture(col, row) = {grey, grey, grey, 255};
         }
     }
-    geo::Closing closing;
+    geo::GlobalWrap closing;
     closing.north = 0.5;
     closing.south = 0.5;
     close_picture(picture, {closing, 3}, 0.0, 4.0);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/tile_stream.h"
-#include "engine/view/tile_choice.h"
+#include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
 #include "tests/session/made_session.h"
@@ -31,9 +31,9 @@ Grid<float> rough_hills(int samples, double step, double offset) {
     });
 }
 
-scene::TileReading read_hills(const Grid<float>& all, TreeTile tile) {
+scene::TileContent read_hills(const Grid<float>& all, TreeTile tile) {
     const terrain::TileTree tree(side, side);
-    scene::TileReading reading;
+    scene::TileContent reading;
     reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
         const glm::ivec2 sample = tree.sample(tile, vertex);
         // Coarser levels are higher: where two meet without their borders joined is a step.
@@ -60,18 +60,18 @@ struct StreamedWorld {
         auto& node = *terrain->get<scene::TerrainNode>();
         const auto all = std::make_shared<const Grid<float>>(rough_hills(side, 1.0, 0.0));
         stream = std::make_shared<scene::TileStream>(
-            scene::TileMaker(node.surface, terrain::TileTree(side, side), reduction),
+            scene::TileBuilder(node.surface, terrain::TileTree(side, side), reduction),
             [all](TreeTile tile, const std::stop_token&) { return read_hills(*all, tile); },
             scene::TileStreamOptions{.memory_budget = tiles * scene::bytes_per_tile, .threads = 2});
         node.stream = stream;
     }
-    [[nodiscard]] view::TileChoice choice(glm::ivec2 picture = size) const {
-        return view::choose_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
+    [[nodiscard]] view::TileSelection choice(glm::ivec2 picture = size) const {
+        return view::select_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
                                   glm::dmat4(1.0));
     }
     // Requests what the view needs, and does not wait.
-    view::TileChoice request() const {
-        view::TileChoice chosen = choice();
+    view::TileSelection request() const {
+        view::TileSelection chosen = choice();
         stream->request(chosen.wanted, chosen.used);
         return chosen;
     }
@@ -99,7 +99,7 @@ TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
         world.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
         world.bring();
         std::set<TreeTile> drawn;
-        const view::TileChoice choice = world.choice();
+        const view::TileSelection choice = world.choice();
         for (const auto& [tile, distance, error] : choice.drawn) {
             drawn.insert(tile->id);
             const double pixels = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
@@ -160,11 +160,11 @@ TEST(TileChoices, WhereMemoryLimitsTheChoiceIsTheSameWhateverCameBefore) {
         flown.bring();
         fresh.bring();
         std::vector<TreeTile> expected;
-        for (const view::TileChoice::Drawn& drawn : fresh.choice().drawn) {
+        for (const view::TileSelection::Drawn& drawn : fresh.choice().drawn) {
             expected.push_back(drawn.tile->id);
         }
         std::vector<TreeTile> found;
-        for (const view::TileChoice::Drawn& drawn : flown.choice().drawn) {
+        for (const view::TileSelection::Drawn& drawn : flown.choice().drawn) {
             found.push_back(drawn.tile->id);
         }
         ASSERT_EQ(found, expected) << round;
@@ -286,10 +286,10 @@ TEST_F(StreamedTilesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
 }
 
 // A drawn tile onto whose vertices one beside it, of its own level, is moved.
-TreeTile tile_beside_another(const view::TileChoice& choice) {
-    for (const view::TileChoice::Drawn& drawn : choice.drawn) {
+TreeTile tile_beside_another(const view::TileSelection& choice) {
+    for (const view::TileSelection::Drawn& drawn : choice.drawn) {
         const TreeTile id = drawn.tile->id;
-        for (const view::TileChoice::Drawn& other : choice.drawn) {
+        for (const view::TileSelection::Drawn& other : choice.drawn) {
             if (other.tile->id == TreeTile{id.level, id.col + 1, id.row}) {
                 return id;
             }
@@ -313,7 +313,7 @@ TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem
     std::atomic<bool> recovers{false};
     const Grid<float> all = rough_hills(side, 1.0, 0.0);
     const auto read = [&](TreeTile tile, const std::stop_token& stop) {
-        scene::TileReading reading = read_hills(all, tile);
+        scene::TileContent reading = read_hills(all, tile);
         if (tile == failing && ++readings == 1) {
             for (float& height : reading.heights.samples()) {
                 height += 25.0F;
@@ -367,7 +367,7 @@ std::shared_ptr<const scene::GroundDetail> striped_detail() {
     }
     scene::GroundDetail detail;
     detail.set = std::make_shared<const material::TextureSet>(
-        material::completed(std::move(set), material::TileBorder::wrap).value());
+        material::completed(std::move(set), material::WrapMode::wrap).value());
     detail.width = 6.0;
     detail.scale = 0.1F;
     detail.technique = scene::parse_technique("exact:shadow=hard").value();

@@ -10,14 +10,14 @@
 namespace reljef::scene {
 namespace {
 
-FlyPath path_along_x() {
-    return FlyPath::create({{1.0, {0.0, 0.0, 0.0}, {0.0, 9.0, 0.0}}, {3.0, {8.0, 0.0, 0.0}, {}}})
+CameraPath path_along_x() {
+    return CameraPath::create({{1.0, {0.0, 0.0, 0.0}, {0.0, 9.0, 0.0}}, {3.0, {8.0, 0.0, 0.0}, {}}})
         .value();
 }
 
 double x_at(double time) {
     Node node("camera", Camera{});
-    node.add_animator(fly_path_animator(path_along_x()));
+    node.add_animator(camera_path_animator(path_along_x()));
     node.animate(time);
     return node.get<Camera>()->eye.x;
 }
@@ -40,14 +40,15 @@ TEST(FlyPathAnimator, StaysOnThePathWhateverTheTime) {
 
 TEST(FlyPathAnimator, LeavesANodeWithoutACameraAlone) {
     Node node("light", Light{});
-    node.add_animator(fly_path_animator(path_along_x()));
+    node.add_animator(camera_path_animator(path_along_x()));
     node.animate(1.0);
     EXPECT_EQ(node.world_from_local(), glm::dmat4(1.0));
 }
 
 TEST(FlyPathAnimator, OfASingleKeyStandsThere) {
     Node node("camera", Camera{});
-    node.add_animator(fly_path_animator(FlyPath::create({{5.0, {1.0, 2.0, 3.0}, {}}}).value()));
+    node.add_animator(
+        camera_path_animator(CameraPath::create({{5.0, {1.0, 2.0, 3.0}, {}}}).value()));
     node.animate(77.0);
     EXPECT_EQ(node.get<Camera>()->eye, glm::dvec3(1.0, 2.0, 3.0));
 }

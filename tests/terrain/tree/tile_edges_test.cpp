@@ -85,11 +85,11 @@ TEST(TileEdges, TilesOfAnyLevelsMeetVertexOnVertex) {
     // Around the Earth the two ends are neighbours, too.
     std::mt19937 random(7);
     for (int round = 0; round < 60; ++round) {
-        const bool is_around = round % 3 == 2;
+        const bool wraps_longitude = round % 3 == 2;
         constexpr int two_tiles = 2 * tile_cells * 16; // of the coarsest that covers have
-        std::uniform_int_distribution<int> cols(is_around ? two_tiles : 2, 9000);
+        std::uniform_int_distribution<int> cols(wraps_longitude ? two_tiles : 2, 9000);
         std::uniform_int_distribution<int> rows(2, 9000);
-        const TileTree tree(cols(random), rows(random), is_around);
+        const TileTree tree(cols(random), rows(random), wraps_longitude);
         const auto cover = random_cover(tree, random, 0.15 + 0.01 * round);
         using Key = std::tuple<TreeTile, int, int>;
         std::map<std::pair<Key, Key>, int> edges;
@@ -113,8 +113,9 @@ TEST(TileEdges, TilesOfAnyLevelsMeetVertexOnVertex) {
             };
             const glm::ivec2 a = place(edge.first);
             const glm::ivec2 b = place(edge.second);
-            const bool on_border = (!is_around && a.x == b.x && (a.x == 0 || a.x == last.x)) ||
-                                   (a.y == b.y && (a.y == 0 || a.y == last.y));
+            const bool on_border =
+                (!wraps_longitude && a.x == b.x && (a.x == 0 || a.x == last.x)) ||
+                (a.y == b.y && (a.y == 0 || a.y == last.y));
             ASSERT_TRUE(on_border)
                 << "round " << round << ": " << a.x << "," << a.y << " to " << b.x << "," << b.y;
         }

@@ -40,7 +40,7 @@ std::shared_ptr<const material::TextureSet> checkered_set() {
     set.scale = tile_scale;
     set.specular = 0.3F;
     return std::make_shared<const material::TextureSet>(
-        material::completed(std::move(set), TileBorder::wrap).value());
+        material::completed(std::move(set), WrapMode::wrap).value());
 }
 
 Image mean_color() {
@@ -231,7 +231,7 @@ std::shared_ptr<const material::TextureSet> blocky_set() {
     set.color = Image(2, 2, bright);
     set.scale = tile_scale;
     return std::make_shared<const material::TextureSet>(
-        material::completed(std::move(set), TileBorder::wrap).value());
+        material::completed(std::move(set), WrapMode::wrap).value());
 }
 
 // Means of `side` times `side` pixels, linear.

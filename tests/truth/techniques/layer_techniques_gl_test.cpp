@@ -71,7 +71,7 @@ TileErrors layer_errors(const Panel& panel, material::LayerKind kind, const HitB
 }
 
 TEST_F(LayerTechniquesGlTest, FourLayerHitsAreThoseOfARayAgainstTheLayersFromEitherSide) {
-    for (const TileBorder border : {TileBorder::wrap, TileBorder::clamp, TileBorder::discard}) {
+    for (const WrapMode border : {WrapMode::wrap, WrapMode::clamp, WrapMode::discard}) {
         Panel panel(Grid<float>(32, 32, 0.5F));
         panel.detail().set = layered_set(layered_waves(32));
         panel.detail().border = border;
@@ -288,10 +288,10 @@ TEST_F(LayerTechniquesGlTest, TheUpperLayerThrowsAShadowOnTheLower) {
 // Cones over a tile and its copies lead to the surface, in few steps.
 TEST_F(LayerTechniquesGlTest, ConesOverATileLeadToItsSurfaceBeyondEveryBorder) {
     for (const auto& [border, technique] :
-         {std::pair{TileBorder::wrap, "cone:n=128,k=8,step=0"},
-          std::pair{TileBorder::wrap, "cone:relaxed=0,n=256,step=0"},
-          std::pair{TileBorder::clamp, "cone:n=128,k=8,step=0"},
-          std::pair{TileBorder::discard, "cone:n=128,k=8,step=0"}}) {
+         {std::pair{WrapMode::wrap, "cone:n=128,k=8,step=0"},
+          std::pair{WrapMode::wrap, "cone:relaxed=0,n=256,step=0"},
+          std::pair{WrapMode::clamp, "cone:n=128,k=8,step=0"},
+          std::pair{WrapMode::discard, "cone:n=128,k=8,step=0"}}) {
         Panel panel(wave_tile(32));
         panel.detail().border = border;
         const TileErrors found = tile_errors(panel, panel.hits(technique));

@@ -25,7 +25,7 @@ class MeshTechniquesGlTest : public test::GlTest {};
 TEST_F(MeshTechniquesGlTest, ExactShowsTheTrueFirstHitBeyondEveryBorder) {
     RELJEF_RELEASE_ONLY("the same shader on the tiles of other tests");
     for (const MadeTile& tile : hard_tiles()) {
-        for (const TileBorder border : {TileBorder::wrap, TileBorder::clamp, TileBorder::discard}) {
+        for (const WrapMode border : {WrapMode::wrap, WrapMode::clamp, WrapMode::discard}) {
             Panel panel(tile.heights);
             panel.detail().border = border;
             const TileErrors found = tile_errors(panel, panel.hits("exact"));
@@ -115,7 +115,7 @@ TEST_F(MeshTechniquesGlTest, LimitedParallaxNeverShiftsFurtherThanTheReliefIsDee
                 const Hit& to = shown.samples()[i];
                 return from.is_sky() ? 0.0
                                      : apart({from.col, from.row}, {to.col, to.row}, panel.texels,
-                                             TileBorder::wrap);
+                                             WrapMode::wrap);
             };
             farthest = std::max(farthest, off(limited));
             farthest_plain = std::max(farthest_plain, off(plain));
@@ -315,12 +315,12 @@ TEST_F(MeshTechniquesGlTest, PrewarpShowsOnAFlatMeshWhatRaysFind) {
 TEST_F(MeshTechniquesGlTest, TheTechniquesBorderComesBeforeTheMaterials) {
     Panel panel(noise_tile(16, 16, 13));
     for (const auto& [word, border] :
-         {std::pair{"wrap", TileBorder::wrap}, std::pair{"clamp", TileBorder::clamp},
-          std::pair{"discard", TileBorder::discard}}) {
+         {std::pair{"wrap", WrapMode::wrap}, std::pair{"clamp", WrapMode::clamp},
+          std::pair{"discard", WrapMode::discard}}) {
         const HitBuffer hits = panel.hits(std::string("exact:border=") + word);
         panel.detail().border = border;
         EXPECT_LE(tile_errors(panel, hits).wrong_percent(), 0.01) << word;
-        panel.detail().border = TileBorder::wrap;
+        panel.detail().border = WrapMode::wrap;
     }
 }
 
@@ -404,7 +404,7 @@ TEST_F(MeshTechniquesGlTest, OptionsDoOnMeshesWhatTheySay) {
         const Hit& other = flat.samples()[i];
         if (!one.is_sky() && !other.is_sky()) {
             ASSERT_LT(
-                apart({one.col, one.row}, {other.col, other.row}, panel.texels, TileBorder::wrap),
+                apart({one.col, one.row}, {other.col, other.row}, panel.texels, WrapMode::wrap),
                 0.05);
         }
     }

@@ -60,7 +60,7 @@ TileErrors errors_everywhere(const Panel& panel, const std::vector<PlacedRelief>
 Panel bordered_panel(Grid<float> heights, float offset,
                      std::shared_ptr<session::SceneRenderer> driver = panel_driver()) {
     Panel panel(std::move(heights), 1.0F, std::move(driver));
-    panel.detail().border = TileBorder::discard;
+    panel.detail().border = WrapMode::discard;
     panel.detail().offset = offset;
     return panel;
 }
@@ -333,7 +333,7 @@ TEST_F(SilhouettesGlTest, ColoursAreAsSharpAsOnTheMesh) {
             i / 8 % 2 == 0 ? Rgba8{230, 230, 230, 255} : Rgba8{20, 20, 20, 255};
     }
     panel.detail().set = std::make_shared<const material::TextureSet>(
-        material::completed(std::move(set), TileBorder::wrap).value());
+        material::completed(std::move(set), WrapMode::wrap).value());
     panel.detail().offset = 0.0F;
     panel.node->get<scene::MeshNode>()->mesh =
         std::make_shared<const scene::Mesh>(scene::sphere_mesh(1.0F, 96));

@@ -21,7 +21,7 @@
 
 namespace reljef::truth {
 
-using material::TileBorder;
+using material::WrapMode;
 
 inline constexpr glm::ivec2 mesh_picture{240, 180};
 inline constexpr float plane_side = 6.0F; // metres
@@ -88,7 +88,7 @@ inline std::shared_ptr<const material::TextureSet> made_set(Grid<float> heights,
     set.scale = scale;
     set.specular = specular;
     return std::make_shared<const material::TextureSet>(
-        material::completed(std::move(set), TileBorder::wrap).value());
+        material::completed(std::move(set), WrapMode::wrap).value());
 }
 
 // Four layers that fall; here and there one of the solids is a hole.
@@ -107,16 +107,15 @@ inline Grid<glm::vec4> layered_noise(int cols, int rows, unsigned seed) {
 }
 
 // Bilinear between texel centres, as GL samples.
-inline glm::dvec4 layers_at(const Grid<glm::vec4>& layers, glm::dvec2 coordinate,
-                            TileBorder border) {
+inline glm::dvec4 layers_at(const Grid<glm::vec4>& layers, glm::dvec2 coordinate, WrapMode border) {
     const glm::ivec2 size(layers.cols(), layers.rows());
     const glm::dvec2 place = coordinate * glm::dvec2(size) - 0.5;
     const glm::ivec2 cell(glm::floor(place));
     const glm::dvec2 part = place - glm::dvec2(cell);
     const auto at = [&](int right, int down) {
         glm::ivec2 texel = cell + glm::ivec2(right, down);
-        texel = border == TileBorder::wrap ? ((texel % size) + size) % size
-                                           : glm::clamp(texel, glm::ivec2(0), size - 1);
+        texel = border == WrapMode::wrap ? ((texel % size) + size) % size
+                                         : glm::clamp(texel, glm::ivec2(0), size - 1);
         return glm::dvec4(layers(texel.x, texel.y));
     };
     return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
@@ -166,9 +165,9 @@ struct Panel {
 };
 
 // How far two places on a tile lie apart, texels; over the border where it wraps.
-inline double apart(glm::dvec2 one, glm::dvec2 other, glm::ivec2 texels, TileBorder border) {
+inline double apart(glm::dvec2 one, glm::dvec2 other, glm::ivec2 texels, WrapMode border) {
     glm::dvec2 way = one - other;
-    if (border == TileBorder::wrap) {
+    if (border == WrapMode::wrap) {
         way -= glm::dvec2(texels) * glm::round(way / glm::dvec2(texels));
     }
     return glm::length(way);

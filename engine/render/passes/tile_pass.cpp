@@ -1,4 +1,4 @@
-#include "engine/render/passes/tile_painter.h"
+#include "engine/render/passes/tile_pass.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "engine/io/cache/kept_numbers.h"
+#include "engine/io/cache/array_cache.h"
 
 #include <bit>
 #include <cstring>

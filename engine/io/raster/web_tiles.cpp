@@ -1,4 +1,4 @@
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 
 #include <algorithm>
 #include <charconv>
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view terrarium_name = "terrarium+";
 constexpr std::string_view terrain_rgb_name = "terrain-rgb+";
 constexpr int usual_levels = 15; // of the public sets
-constexpr int max_levels = 22;  // 2^30 samples a side
+constexpr int max_levels = 22;   // 2^30 samples a side
 // Half the side of web mercator's square, metres: π times the equator's radius.
 constexpr double half_side = std::numbers::pi * 6378137.0;
 
@@ -200,7 +200,7 @@ bool may_be_heights(std::span<const double> red, std::span<const double> green,
     return true;
 }
 
-TileFault tile_pyramid_fault(const fs::path& path, glm::ivec2 tile, int level) {
+TileFault web_tiles_fault(const fs::path& path, glm::ivec2 tile, int level) {
     const std::string name = fmt::format("{}/{}/{}", level, tile.x, tile.y);
     return {path / name, fmt::format("{}: its tile {} cannot be read, a whole picture of heights "
                                      "in red, green and blue was expected",
@@ -213,7 +213,7 @@ HeightEncoding height_encoding_of(std::string_view name) {
                                                 : HeightEncoding::none;
 }
 
-Result<std::string> tile_pyramid_description(const fs::path& path) {
+Result<std::string> web_tiles_description(const fs::path& path) {
     const auto source = source_of(path);
     if (!source) {
         return source.error();
@@ -229,7 +229,7 @@ Result<std::string> tile_pyramid_description(const fs::path& path) {
         escaped(source->url), half_side, source->level);
 }
 
-std::optional<geo::GeodeticArea> tile_pyramid_area(const fs::path& path) {
+std::optional<geo::GeodeticArea> web_tiles_area(const fs::path& path) {
     const std::string address = address_of(path);
     if (is_address(address)) {
         return std::nullopt;

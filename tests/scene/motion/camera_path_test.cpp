@@ -1,4 +1,4 @@
-#include "engine/scene/motion/fly_path.h"
+#include "engine/scene/motion/camera_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,20 +14,20 @@ namespace {
 
 using testing::HasSubstr;
 
-FlyPath path_of(std::vector<FlyKey> keys) {
-    auto path = FlyPath::create(std::move(keys));
+CameraPath path_of(std::vector<Keyframe> keys) {
+    auto path = CameraPath::create(std::move(keys));
     EXPECT_TRUE(path);
     return std::move(path).value();
 }
 
-bool is_finite(const FlyKey& key) {
+bool is_finite(const Keyframe& key) {
     return std::isfinite(glm::dot(key.eye, key.eye)) && std::isfinite(glm::dot(key.look, key.look));
 }
 
-std::vector<FlyKey> random_keys(std::mt19937& random, int count) {
+std::vector<Keyframe> random_keys(std::mt19937& random, int count) {
     std::uniform_real_distribution<double> place(-100.0, 100.0);
     std::uniform_real_distribution<double> wait(0.0, 3.0);
-    std::vector<FlyKey> keys;
+    std::vector<Keyframe> keys;
     double time = place(random);
     for (int i = 0; i < count; ++i) {
         keys.push_back({time,
@@ -38,12 +38,12 @@ std::vector<FlyKey> random_keys(std::mt19937& random, int count) {
     return keys;
 }
 
-TEST(FlyPath, PassesThroughItsKeys) {
+TEST(CameraPath, PassesThroughItsKeys) {
     std::mt19937 random(1);
     for (int round = 0; round < 200; ++round) {
         const auto keys = random_keys(random, 1 + round % 9);
-        const FlyPath path = path_of(keys);
-        for (const FlyKey& key : keys) {
+        const CameraPath path = path_of(keys);
+        for (const Keyframe& key : keys) {
             ASSERT_LE(glm::distance(path.at(key.time).eye, key.eye), 1e-9);
             ASSERT_LE(glm::distance(path.at(key.time).look, key.look), 1e-9);
         }
@@ -59,15 +59,15 @@ void expect_between(glm::dvec3 place, glm::dvec3 a, glm::dvec3 b) {
     }
 }
 
-TEST(FlyPath, NeverLeavesTheRangeOfTheTwoKeysAround) {
+TEST(CameraPath, NeverLeavesTheRangeOfTheTwoKeysAround) {
     std::mt19937 random(2);
     for (int round = 0; round < 100; ++round) {
         const auto keys = random_keys(random, 6);
-        const FlyPath path = path_of(keys);
+        const CameraPath path = path_of(keys);
         for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
             for (int step = 0; step <= 50; ++step) {
                 const double time = std::lerp(keys[i].time, keys[i + 1].time, step / 50.0);
-                const FlyKey at = path.at(time);
+                const Keyframe at = path.at(time);
                 expect_between(at.eye, keys[i].eye, keys[i + 1].eye);
                 expect_between(at.look, keys[i].look, keys[i + 1].look);
                 if (HasFatalFailure()) {
@@ -78,11 +78,11 @@ TEST(FlyPath, NeverLeavesTheRangeOfTheTwoKeysAround) {
     }
 }
 
-TEST(FlyPath, EveryPieceIsMonotone) {
-    const FlyPath path = path_of({{0.0, {0.0, 0.0, 0.0}, {}},
-                                  {1.0, {1.0, 0.0, 0.0}, {}},
-                                  {1.1, {100.0, 0.0, 0.0}, {}},
-                                  {5.0, {101.0, 0.0, 0.0}, {}}});
+TEST(CameraPath, EveryPieceIsMonotone) {
+    const CameraPath path = path_of({{0.0, {0.0, 0.0, 0.0}, {}},
+                                     {1.0, {1.0, 0.0, 0.0}, {}},
+                                     {1.1, {100.0, 0.0, 0.0}, {}},
+                                     {5.0, {101.0, 0.0, 0.0}, {}}});
     double before = -1.0;
     for (double time = 0.0; time <= 5.0; time += 1e-3) {
         const double x = path.at(time).eye.x;
@@ -91,14 +91,14 @@ TEST(FlyPath, EveryPieceIsMonotone) {
     }
 }
 
-TEST(FlyPath, IsSmoothAtItsKeys) {
+TEST(CameraPath, IsSmoothAtItsKeys) {
     std::mt19937 random(3);
     for (int round = 0; round < 50; ++round) {
         auto keys = random_keys(random, 5);
         for (std::size_t i = 0; i < keys.size(); ++i) {
             keys[i].time = static_cast<double>(i);
         }
-        const FlyPath path = path_of(keys);
+        const CameraPath path = path_of(keys);
         constexpr double h = 1e-5;
         for (const double time : {1.0, 2.0, 3.0}) {
             const glm::dvec3 before = (path.at(time).eye - path.at(time - h).eye) / h;
@@ -108,50 +108,50 @@ TEST(FlyPath, IsSmoothAtItsKeys) {
     }
 }
 
-TEST(FlyPath, GoesStraightAtAnEvenSpeedAlongALine) {
-    std::vector<FlyKey> keys;
+TEST(CameraPath, GoesStraightAtAnEvenSpeedAlongALine) {
+    std::vector<Keyframe> keys;
     for (int i = 0; i < 6; ++i) {
         keys.push_back({2.0 * i, {3.0 * i, -i, 7.0}, {}});
     }
-    const FlyPath path = path_of(keys);
+    const CameraPath path = path_of(keys);
     for (double time = 2.0; time <= 8.0; time += 0.1) {
         EXPECT_LE(glm::distance(path.at(time).eye, {1.5 * time, -0.5 * time, 7.0}), 1e-12);
     }
 }
 
-TEST(FlyPath, TakesKeysInAnyOrder) {
+TEST(CameraPath, TakesKeysInAnyOrder) {
     std::mt19937 random(4);
     auto keys = random_keys(random, 8);
-    const FlyPath sorted = path_of(keys);
+    const CameraPath sorted = path_of(keys);
     std::shuffle(keys.begin(), keys.end(), random);
-    const FlyPath shuffled = path_of(keys);
+    const CameraPath shuffled = path_of(keys);
     for (double time = sorted.begin(); time < sorted.end(); time += 0.1) {
         ASSERT_EQ(sorted.at(time).eye, shuffled.at(time).eye);
     }
 }
 
-TEST(FlyPath, OfKeysAtOneTimeTheLastCounts) {
-    const FlyPath path = path_of({{1.0, {1.0, 0.0, 0.0}, {}},
-                                  {2.0, {2.0, 0.0, 0.0}, {}},
-                                  {1.0, {5.0, 0.0, 0.0}, {}},
-                                  {2.0, {7.0, 0.0, 0.0}, {}}});
+TEST(CameraPath, OfKeysAtOneTimeTheLastCounts) {
+    const CameraPath path = path_of({{1.0, {1.0, 0.0, 0.0}, {}},
+                                     {2.0, {2.0, 0.0, 0.0}, {}},
+                                     {1.0, {5.0, 0.0, 0.0}, {}},
+                                     {2.0, {7.0, 0.0, 0.0}, {}}});
     EXPECT_EQ(path.at(1.0).eye.x, 5.0);
     EXPECT_EQ(path.at(2.0).eye.x, 7.0);
     EXPECT_EQ(path_of({{1.0, {1.0, 0.0, 0.0}, {}}, {1.0, {2.0, 0.0, 0.0}, {}}}).duration(), 0.0);
 }
 
 // Slopes between keys that nearly coincide overflow where they are not handled.
-TEST(FlyPath, IsFiniteWithKeysAHairsBreadthApart) {
+TEST(CameraPath, IsFiniteWithKeysAHairsBreadthApart) {
     const double least = std::numeric_limits<double>::denorm_min();
     for (const double gap : {least, 1e-300, 1e-160, 1e-30}) {
-        const FlyPath path = path_of({{0.0, {0.0, 0.0, 0.0}, {}},
-                                      {gap, {1e6, -1e-300, 1e-200}, {}},
-                                      {2.0 * gap, {2e6, -1.0, 1e200}, {}},
-                                      {1.0, {3e6, -2.0, 1e200}, {}},
-                                      {1.0 + 1e-15, {4e6, -3.0, 0.0}, {}}});
+        const CameraPath path = path_of({{0.0, {0.0, 0.0, 0.0}, {}},
+                                         {gap, {1e6, -1e-300, 1e-200}, {}},
+                                         {2.0 * gap, {2e6, -1.0, 1e200}, {}},
+                                         {1.0, {3e6, -2.0, 1e200}, {}},
+                                         {1.0 + 1e-15, {4e6, -3.0, 0.0}, {}}});
         for (const double time :
              {0.0, 0.5 * gap, gap, 1.5 * gap, 2.0 * gap, 1e-20, 0.5, 1.0, 2.0}) {
-            const FlyKey at = path.at(time);
+            const Keyframe at = path.at(time);
             ASSERT_TRUE(std::isfinite(at.eye.x) && std::isfinite(at.eye.y) &&
                         std::isfinite(at.eye.z))
                 << gap << ' ' << time;
@@ -159,8 +159,8 @@ TEST(FlyPath, IsFiniteWithKeysAHairsBreadthApart) {
     }
 }
 
-TEST(FlyPath, StandsStillBeforeAndAfterAndAtTimesThatAreNone) {
-    const FlyPath path =
+TEST(CameraPath, StandsStillBeforeAndAfterAndAtTimesThatAreNone) {
+    const CameraPath path =
         path_of({{1.0, {1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}, {2.0, {7.0, 8.0, 9.0}, {0.0, 0.0, 0.0}}});
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double time : {-infinity, -1e308, 0.0, 1.0, std::nan("")}) {
@@ -172,26 +172,26 @@ TEST(FlyPath, StandsStillBeforeAndAfterAndAtTimesThatAreNone) {
     }
 }
 
-TEST(FlyPath, TimeMayGoBackwards) {
+TEST(CameraPath, TimeMayGoBackwards) {
     std::mt19937 random(5);
-    const FlyPath path = path_of(random_keys(random, 7));
-    const FlyKey early = path.at(path.begin() + 1.0);
+    const CameraPath path = path_of(random_keys(random, 7));
+    const Keyframe early = path.at(path.begin() + 1.0);
     (void)path.at(path.end());
     EXPECT_EQ(path.at(path.begin() + 1.0).eye, early.eye);
 }
 
-TEST(FlyPath, NoKeyIsAnErrorThatSaysSo) {
-    const auto path = FlyPath::create({});
+TEST(CameraPath, NoKeyIsAnErrorThatSaysSo) {
+    const auto path = CameraPath::create({});
     ASSERT_FALSE(path);
     EXPECT_THAT(path.error().message, HasSubstr("no key"));
 }
 
-TEST(FlyPath, AKeyThatIsNotFiniteIsAnErrorThatNamesIt) {
+TEST(CameraPath, AKeyThatIsNotFiniteIsAnErrorThatNamesIt) {
     const double nan = std::nan("");
     const double infinity = std::numeric_limits<double>::infinity();
-    for (const FlyKey& bad : {FlyKey{nan, {}, {}}, FlyKey{1.0, {0.0, infinity, 0.0}, {}},
-                              FlyKey{1.0, {}, {0.0, 0.0, nan}}}) {
-        const auto path = FlyPath::create({{0.0, {}, {}}, bad});
+    for (const Keyframe& bad : {Keyframe{nan, {}, {}}, Keyframe{1.0, {0.0, infinity, 0.0}, {}},
+                                Keyframe{1.0, {}, {0.0, 0.0, nan}}}) {
+        const auto path = CameraPath::create({{0.0, {}, {}}, bad});
         ASSERT_FALSE(path);
         EXPECT_THAT(path.error().message, HasSubstr("key 2"));
     }
@@ -199,7 +199,7 @@ TEST(FlyPath, AKeyThatIsNotFiniteIsAnErrorThatNamesIt) {
 
 TEST(OrbitPath, GoesOnceAroundAndKeepsItsDistance) {
     const Box bounds{{-10.0, -5.0, 1.0}, {30.0, 15.0, 4.0}};
-    const FlyPath path = orbit_path(bounds, 12.0);
+    const CameraPath path = orbit_path(bounds, 12.0);
     EXPECT_EQ(path.duration(), 12.0);
     EXPECT_LE(glm::distance(path.at(0.0).eye, path.at(12.0).eye), 1e-9);
     const glm::dvec3 middle = bounds.center();
@@ -207,7 +207,7 @@ TEST(OrbitPath, GoesOnceAroundAndKeepsItsDistance) {
     EXPECT_GT(radius, 20.0) << "outside the bounds";
     glm::dvec2 sum(0.0);
     for (int i = 0; i < 100; ++i) {
-        const FlyKey at = path.at(0.12 * i);
+        const Keyframe at = path.at(0.12 * i);
         EXPECT_NEAR(glm::distance(glm::dvec2(at.eye), glm::dvec2(middle)), radius, 0.01 * radius);
         EXPECT_GT(at.eye.z, bounds.high.z);
         EXPECT_EQ(glm::dvec2(at.look), glm::dvec2(middle));
@@ -221,9 +221,9 @@ TEST(FlyoverPath, StaysAboveTheGround) {
     const auto ground = [](double x, double y) {
         return 60.0 + 60.0 * std::sin(0.02 * x) * std::cos(0.017 * y);
     };
-    const FlyPath path = flyover_path(bounds, ground, 30.0);
+    const CameraPath path = flyover_path(bounds, ground, 30.0);
     for (double time = 0.0; time <= 30.0; time += 0.02) {
-        const FlyKey at = path.at(time);
+        const Keyframe at = path.at(time);
         ASSERT_TRUE(is_finite(at));
         ASSERT_GT(at.eye.z, ground(at.eye.x, at.eye.y)) << time;
     }

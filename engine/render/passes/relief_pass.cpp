@@ -1,4 +1,4 @@
-#include "engine/render/passes/relief_painter.h"
+#include "engine/render/passes/relief_pass.h"
 
 #include <algorithm>
 
@@ -14,20 +14,20 @@ namespace reljef::render {
 namespace {
 
 // How far down the rays of each block of pixels meet nothing.
-Result<void> paint_beams(const Painting& painting, const view::ReliefDraw& draw) {
-    DrawState& state = painting.state;
+Result<void> paint_beams(const FrameContext& frame_context, const view::ReliefDraw& draw) {
+    DrawState& state = frame_context.state;
     auto program = state.use({ShaderKind::beams});
     if (!program) {
         return program.error();
     }
-    const ResidentRelief& relief = painting.residency.relief(draw);
+    const ResidentRelief& relief = frame_context.residency.relief(draw);
     state.set_wireframe(false);
     set_beams(**program, relief,
-              picture_rays(painting.list.camera, painting.list.size, relief.space,
+              picture_rays(frame_context.list.camera, frame_context.list.size, relief.space,
                            glm::inverse(draw.world_from_local)));
-    painting.beams.bind();
+    frame_context.beams.bind();
     gl::draw_arrays(gl::Primitive::triangles, 0, 3);
-    painting.picture.bind();
+    frame_context.picture.bind();
     state.stats().state_changes += 3;
     ++state.stats().draws;
     return {};
@@ -75,13 +75,13 @@ ReliefBlock relief_block(const ReliefSpace& space) {
 }
 
 // Texels of the lit map that a pixel facing the eye covers, a metre away.
-float texels_per_metre_away(const Painting& painting, const view::ReliefDraw& draw,
+float texels_per_metre_away(const FrameContext& frame_context, const view::ReliefDraw& draw,
                             const ReliefSpace& space) {
-    const view::DrawList& list = painting.list;
-    if (painting.hits || !is_perspective(list.camera)) {
+    const view::DrawList& list = frame_context.list;
+    if (frame_context.hits || !is_perspective(list.camera)) {
         return 1e6F; // no limit
     }
-    const ResidentMaps& maps = painting.residency.maps(*draw.terrain);
+    const ResidentMaps& maps = frame_context.residency.maps(*draw.terrain);
     const glm::vec2 texels_per_sample =
         glm::vec2(maps.lit_from_sample) * glm::vec2(maps.lit.size());
     const glm::vec2 texels_per_metre = texels_per_sample / glm::vec2(space.metres_per_unit);
@@ -89,43 +89,43 @@ float texels_per_metre_away(const Painting& painting, const view::ReliefDraw& dr
     return ray.x * std::max(texels_per_metre.x, texels_per_metre.y);
 }
 
-Result<void> set_relief(gl::Program& program, const Painting& painting,
+Result<void> set_relief(gl::Program& program, const FrameContext& frame_context,
                         const view::ReliefDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    const ResidentRelief& relief = painting.residency.relief(draw);
-    if (!painting.hits) {
-        bind_light(program, painting.residency.maps(*draw.terrain));
-        ++painting.state.stats().state_changes;
+    const ResidentRelief& relief = frame_context.residency.relief(draw);
+    if (!frame_context.hits) {
+        bind_light(program, frame_context.residency.maps(*draw.terrain));
+        ++frame_context.state.stats().state_changes;
     }
     set_heights(program, relief);
-    set_space(program, painting.list.camera, relief.space, draw.world_from_local);
+    set_space(program, frame_context.list.camera, relief.space, draw.world_from_local);
     if (has_beams(technique)) {
-        painting.beams.color().bind(bindings::clear_heights_unit);
+        frame_context.beams.color().bind(bindings::clear_heights_unit);
     }
     program.set(uniforms.texels_per_metre_away,
-                texels_per_metre_away(painting, draw, relief.space));
-    if (auto set = painting.state.set(relief_block(relief.space)); !set) {
+                texels_per_metre_away(frame_context, draw, relief.space));
+    if (auto set = frame_context.state.set(relief_block(relief.space)); !set) {
         return set;
     }
-    return painting.state.set(technique_block(technique, reference_height(technique)));
+    return frame_context.state.set(technique_block(technique, reference_height(technique)));
 }
 
-Result<void> paint_relief(const Painting& painting, const view::ReliefDraw& draw) {
+Result<void> paint_relief(const FrameContext& frame_context, const view::ReliefDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    DrawState& state = painting.state;
-    painting.no_vertices.bind();
+    DrawState& state = frame_context.state;
+    frame_context.no_vertices.bind();
     if (has_beams(technique)) {
-        if (auto painted = paint_beams(painting, draw); !painted) {
+        if (auto painted = paint_beams(frame_context, draw); !painted) {
             return painted;
         }
     }
     auto program =
-        state.use({ShaderKind::relief, painting.features | technique_features(technique)});
+        state.use({ShaderKind::relief, frame_context.features | technique_features(technique)});
     if (!program) {
         return program.error();
     }
     state.set_wireframe(draw.terrain->material.wireframe);
-    if (auto set = set_relief(**program, painting, draw); !set) {
+    if (auto set = set_relief(**program, frame_context, draw); !set) {
         return set;
     }
     constexpr int box_vertices = 14; // relief.vert
@@ -140,11 +140,11 @@ Result<void> paint_relief(const Painting& painting, const view::ReliefDraw& draw
 
 } // namespace
 
-Result<void> paint_reliefs(const Painting& painting) {
-    for (const view::ReliefDraw& draw : painting.list.reliefs) {
+Result<void> paint_reliefs(const FrameContext& frame_context) {
+    for (const view::ReliefDraw& draw : frame_context.list.reliefs) {
         // The box's far sides are seen from inside, too.
-        painting.state.set_culling(gl::Culling::front);
-        if (auto painted = paint_relief(painting, draw); !painted) {
+        frame_context.state.set_culling(gl::Culling::front);
+        if (auto painted = paint_relief(frame_context, draw); !painted) {
             return painted;
         }
     }

@@ -12,7 +12,7 @@
 namespace reljef::view {
 
 /// The tiles of a streamed terrain that a view shows.
-struct TileChoice {
+struct TileSelection {
     struct Drawn {
         std::shared_ptr<const scene::StreamedTile> tile;
         double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
@@ -31,10 +31,10 @@ struct TileChoice {
 /// The error on the picture that streamed tiles are chosen for where the technique names none,
 /// pixels.
 inline constexpr double default_tile_error = 1.0;
-/// Where the error allows it, samples are seen at most so many times as far apart.
+/// Largest distance of samples on screen, in error bounds, if the error allows it.
 inline constexpr double samples_apart_in_errors = 4.0;
 
-struct TileChoiceOptions {
+struct TileSelectionOptions {
     /// What nearer ground hides is wanted and chosen as finely as all else, to be `hidden`: for
     /// looking at what it takes from the picture to leave it out.
     bool keeps_hidden = false;
@@ -50,8 +50,8 @@ struct TileChoiceOptions {
 /// out of the coarser ones' range and error: what sticks out of these by more, as a tower of a few
 /// samples may, is missed behind nearer ground as beyond the picture's border. The same view of the
 /// same tiles gives the same choice. Nothing at all while the root is not there.
-TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
-                        glm::ivec2 size, const glm::dmat4& world_from_local,
-                        const TileChoiceOptions& options = {});
+TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                           glm::ivec2 size, const glm::dmat4& world_from_local,
+                           const TileSelectionOptions& options = {});
 
 } // namespace reljef::view

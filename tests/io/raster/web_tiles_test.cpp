@@ -1,4 +1,4 @@
-#include "engine/io/raster/tile_pyramid.h"
+#include "engine/io/raster/web_tiles.h"
 
 #include <cmath>
 #include <numbers>
@@ -130,7 +130,7 @@ TEST_P(TilePyramids, OneThatAServerFailsToGiveTakesNoOtherWithIt) {
     const auto tiles = TileSet::open(GetParam() + server.url("{z:6}/{x}/{y}.png"));
     ASSERT_TRUE(tiles) << tiles.error().message;
     TileTerrainOptions options;
-    options.area = tile_pyramid_area(name());
+    options.area = web_tiles_area(name());
     const auto terrain = tiles->terrain(options);
     ASSERT_TRUE(terrain) << terrain.error().message;
     EXPECT_EQ(terrain->heightfield.void_count, 3U * 256U * 256U);
@@ -141,7 +141,7 @@ TEST_P(TilePyramids, OneThatAServerFailsToGiveTakesNoOtherWithIt) {
 }
 
 TEST_P(TilePyramids, OfAFolderAreATerrainWhereTheyLie) {
-    const auto area = tile_pyramid_area(name());
+    const auto area = web_tiles_area(name());
     ASSERT_TRUE(area);
     EXPECT_NEAR(area->west, place_of_pixel(33 * 256, 0.0, 6).y, 1e-12);
     EXPECT_NEAR(area->east, place_of_pixel(35 * 256 - 1, 0.0, 6).y, 1e-12);
@@ -167,7 +167,7 @@ TEST_P(TilePyramids, OneThatIsDamagedTakesNoOtherWithIt) {
     const auto tiles = TileSet::open(name());
     ASSERT_TRUE(tiles) << tiles.error().message;
     TileTerrainOptions options;
-    options.area = tile_pyramid_area(name());
+    options.area = web_tiles_area(name());
     const auto terrain = tiles->terrain(options);
     ASSERT_TRUE(terrain) << terrain.error().message;
     EXPECT_EQ(terrain->heightfield.void_count, 2U * 256U * 256U);
@@ -186,7 +186,7 @@ TEST_P(TilePyramids, OneInGreyIsNoHeights) {
     const auto tiles = TileSet::open(name());
     ASSERT_TRUE(tiles) << tiles.error().message;
     TileTerrainOptions options;
-    options.area = tile_pyramid_area(name());
+    options.area = web_tiles_area(name());
     const auto terrain = tiles->terrain(options);
     ASSERT_TRUE(terrain) << terrain.error().message;
     EXPECT_EQ(terrain->heightfield.void_count, 2U * 256U * 256U);
@@ -199,7 +199,7 @@ TEST_P(TilePyramids, TakeNoNameOfAFolderForATileThatCannotBe) {
         std::filesystem::create_directories(folder_.path() / name);
     }
     folder_.write("6/40.png", "no column of tiles");
-    const auto area = tile_pyramid_area(name());
+    const auto area = web_tiles_area(name());
     ASSERT_TRUE(area);
     EXPECT_NEAR(area->west, place_of_pixel(33 * 256, 0.0, 6).y, 1e-12);
     EXPECT_NEAR(area->east, place_of_pixel(35 * 256 - 1, 0.0, 6).y, 1e-12);

@@ -1,4 +1,4 @@
-#include "engine/render/passes/painting.h"
+#include "engine/render/passes/frame_context.h"
 
 #include "engine/render/shaders/view_values.h"
 

@@ -1,9 +1,9 @@
-#include "engine/render/passes/ground_painter.h"
+#include "engine/render/passes/ground_pass.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/render/passes/tile_painter.h"
+#include "engine/render/passes/tile_pass.h"
 #include "engine/render/shaders/relief_options.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
@@ -39,10 +39,10 @@ ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLeve
     return {ShaderKind::textured_terrain, features | look};
 }
 
-Result<void> set_ground(gl::Program& program, const Painting& painting,
+Result<void> set_ground(gl::Program& program, const FrameContext& frame_context,
                         const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
     const scene::GroundDetail& detail = *terrain.detail;
-    const TileResidency& tiles = painting.residency.ground().tiles();
+    const TileResidency& tiles = frame_context.residency.ground().tiles();
     const ResidentTile& tile = tiles.tile(detail.set, ground_side());
     const ResidentSurface& surface = tiles.surface(detail.set, ground_side());
     bind_tile(program, tile, surface);
@@ -50,16 +50,16 @@ Result<void> set_ground(gl::Program& program, const Painting& painting,
     program.set(uniforms.local_from_relative, glm::mat3(glm::inverse(directions)));
     program.set(uniforms.world_from_normal, world_from_normal(world_from_local));
     program.set(uniforms.tiles_at_eye,
-                tiles_at_eye(world_from_local, painting.list.camera, detail.width));
+                tiles_at_eye(world_from_local, frame_context.list.camera, detail.width));
     const auto width = static_cast<float>(detail.width);
     DetailBlock block = detail_block(*detail.set, surface, detail.scale * width, sunk);
     block.detail_repeats.z = width;
     block.mean_color = glm::vec4(divisible(tile.mean_color), 0.0F);
     block.seen_pixels = glm::vec4(view::seen_tile_pixels, view::seen_height_pixels(terrain));
-    if (auto set = painting.state.set(block); !set) {
+    if (auto set = frame_context.state.set(block); !set) {
         return set;
     }
-    return painting.state.set(technique_block(over_mesh(detail.technique, sunk), 0.5));
+    return frame_context.state.set(technique_block(over_mesh(detail.technique, sunk), 0.5));
 }
 
 } // namespace reljef::render

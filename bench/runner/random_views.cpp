@@ -1,13 +1,13 @@
-#include "bench/runner/chance_views.h"
+#include "bench/runner/random_views.h"
 
 #include <cmath>
 
 namespace reljef::bench {
 namespace {
 
-constexpr double beyond = 0.2;       // of the width, beside the terrain
+constexpr double beyond = 0.2;     // of the width, beside the terrain
 constexpr double min_above = 0.02; // of the width, × e^-1 … e^3
-constexpr double usual_fov = 57.3;   // degrees
+constexpr double usual_fov = 57.3; // degrees
 
 // The same numbers from every standard library, unlike its distributions.
 double between(std::mt19937& random, double low, double high) {

@@ -1,4 +1,4 @@
-#include "engine/view/tile_choice.h"
+#include "engine/view/tile_selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,8 +84,7 @@ public:
         eye_ = glm::dvec3(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
         if (is_solid && !terrain.material.wireframe &&
             stream_.maker().overview().placement().kind() == terrain::PlacementKind::plane) {
-            horizon_ =
-                horizon_view(camera, size, world_from_local, errors_of_horizon * max_error_);
+            horizon_ = horizon_view(camera, size, world_from_local, errors_of_horizon * max_error_);
         }
     }
 
@@ -117,7 +116,8 @@ public:
         return glm::distance(eye, glm::clamp(eye, glm::dvec2(local.low), glm::dvec2(local.high)));
     }
 
-    [[nodiscard]] TileChoice::Drawn drawn(std::shared_ptr<const scene::StreamedTile> tile) const {
+    [[nodiscard]] TileSelection::Drawn
+    drawn(std::shared_ptr<const scene::StreamedTile> tile) const {
         const double distance = distance_to(*tile);
         const bool is_whole = tile->id.level == 0 || stream_.maker().has_all_samples(tile->id);
         const double error = is_whole ? 0.0 : tile->error * pixels_per_metre(distance);
@@ -164,7 +164,7 @@ private:
 
 // What keeps a walk from the tiles that the view should have.
 struct WalkLimits {
-    double max_excess = 1.0;          // tiles of no more do not give way
+    double max_excess = 1.0;           // tiles of no more do not give way
     std::set<terrain::TreeTile> whole; // nor do these: what is below them is not there
     // Nearer ground hides what is behind it. Only where nothing else keeps tiles from giving way:
     // a border goes to the vertices of the coarsest tile beside it, however far that is off.
@@ -183,7 +183,7 @@ struct WalkLimits {
 // One walk through the tree, from the eye outwards.
 class TreeWalk {
 public:
-    TreeWalk(const StreamView& view, const WalkLimits& limits, const TileChoiceOptions& options)
+    TreeWalk(const StreamView& view, const WalkLimits& limits, const TileSelectionOptions& options)
         : view_(view), limits_(limits), options_(options),
           nearer_(view.stream().maker(), limits.hides ? view.horizon() : std::nullopt) {}
     TreeWalk(const TreeWalk&) = delete;
@@ -203,7 +203,7 @@ public:
     [[nodiscard]] const std::vector<Candidate>& missing() const { return missing_; }
     /// What would be drawn, and what is above it.
     [[nodiscard]] const std::vector<terrain::TreeTile>& used() const { return seen_; }
-    TileChoice take() { return std::move(choice_); }
+    TileSelection take() { return std::move(choice_); }
 
 private:
     void visit(const Candidate& candidate) {
@@ -279,7 +279,7 @@ private:
 
     void push_below(const Candidate& candidate, const KnownTile& known, double urgency,
                     bool is_hidden) {
-        const scene::TileMaker& maker = view_.stream().maker();
+        const scene::TileBuilder& maker = view_.stream().maker();
         const bool is_foreseen = candidate.is_foreseen || known.tile == nullptr;
         for (const terrain::TreeTile below : view_.stream().tree().children(candidate.id)) {
             const Box expected = maker.bounds(below, range_below(known.summary, errors_hidden));
@@ -310,13 +310,13 @@ private:
 
     const StreamView& view_;
     const WalkLimits& limits_;
-    const TileChoiceOptions& options_;
+    const TileSelectionOptions& options_;
     NearerGround nearer_;
     std::priority_queue<Candidate> open_;
     std::vector<Candidate> missing_;
     std::size_t leaves_ = 0; // that would be drawn if all of them were there
     std::vector<terrain::TreeTile> seen_;
-    TileChoice choice_;
+    TileSelection choice_;
 };
 
 // The excess above which tiles may give way so that no more are drawn than memory holds: the
@@ -378,8 +378,8 @@ bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>&
 
 // Walks until one finds all that it needs. An end there is: each walk but the last raises the limit
 // so far that memory holds all, or keeps a tile whole that gave way, or is the last that hides.
-TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
-                  const TileChoiceOptions& options) {
+TileSelection chosen(const StreamView& view, const scene::StreamedTile& root,
+                     const TileSelectionOptions& options) {
     const scene::TileStream& stream = view.stream();
     WalkLimits limits;
     std::optional<std::vector<terrain::TreeTile>> wanted;
@@ -399,7 +399,7 @@ TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
             wanted = max_urgent(walk.missing());
         }
         if (walk.missing().empty()) {
-            TileChoice choice = walk.take();
+            TileSelection choice = walk.take();
             choice.wanted = std::move(*wanted);
             choice.used.assign(used.begin(), used.end());
             return choice;
@@ -412,14 +412,14 @@ TileChoice chosen(const StreamView& view, const scene::StreamedTile& root,
 
 } // namespace
 
-TileChoice choose_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
-                        glm::ivec2 size, const glm::dmat4& world_from_local,
-                        const TileChoiceOptions& options) {
+TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                           glm::ivec2 size, const glm::dmat4& world_from_local,
+                           const TileSelectionOptions& options) {
     check(terrain.stream != nullptr, "a streamed terrain was expected");
     const scene::TileStream& stream = *terrain.stream;
     const auto root = stream.find(stream.tree().root());
     if (root == nullptr) {
-        TileChoice choice;
+        TileSelection choice;
         choice.has_root = false;
         choice.wanted.push_back(stream.tree().root());
         return choice;

@@ -1,8 +1,8 @@
-#include "engine/render/passes/mesh_painter.h"
+#include "engine/render/passes/mesh_pass.h"
 
 #include <glm/matrix.hpp>
 
-#include "engine/render/passes/tile_painter.h"
+#include "engine/render/passes/tile_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
 #include "engine/render/shaders/uniforms.h"
@@ -32,7 +32,7 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
     if (material.detail.set == nullptr) {
         return {ShaderKind::mesh, features};
     }
-    const bool wraps = scene::shown_detail(material).border == material::TileBorder::wrap;
+    const bool wraps = scene::shown_detail(material).border == material::WrapMode::wrap;
     features |= wraps ? feature_wrap : 0U;
     features |= technique_features(material.technique);
     if (!scene::looks_for_surface(material.technique.id())) {
@@ -47,26 +47,27 @@ DetailBlock mesh_detail(const view::MeshDraw& draw, const MeshResidency& residen
     const double lift = scene::relief_height(*draw.mesh->mesh, detail);
     DetailBlock block = detail_block(*detail.set, residency.surface(draw), static_cast<float>(lift),
                                      mesh_height(draw));
-    const bool bounded = detail.border == material::TileBorder::discard;
+    const bool bounded = detail.border == material::WrapMode::discard;
     block.detail_heights.w = draw.from_behind ? -1.0F : 1.0F;
     block.detail_repeats = glm::vec4(detail.repeats, 0.0F, bounded ? 1.0F : 0.0F);
     return block;
 }
 
 // What the programs of meshes with a tile ask for, beside the transform.
-Result<void> set_tile(gl::Program& program, const view::MeshDraw& draw, const Painting& painting) {
-    const MeshResidency& residency = painting.residency.meshes();
+Result<void> set_tile(gl::Program& program, const view::MeshDraw& draw,
+                      const FrameContext& frame_context) {
+    const MeshResidency& residency = frame_context.residency.meshes();
     bind_tile(program, residency.tile(draw), residency.surface(draw));
     if (const gl::Texture2D* const warp = residency.warp(draw)) {
         bind_warp(program, draw, *warp);
     }
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
     program.set(uniforms.local_from_relative, glm::mat3(local_from_world));
-    ++painting.state.stats().state_changes;
-    if (auto set = painting.state.set(mesh_detail(draw, residency)); !set) {
+    ++frame_context.state.stats().state_changes;
+    if (auto set = frame_context.state.set(mesh_detail(draw, residency)); !set) {
         return set;
     }
-    return painting.state.set(
+    return frame_context.state.set(
         technique_block(over_mesh(draw.mesh->material.technique, mesh_height(draw)),
                         static_cast<double>(mesh_height(draw))));
 }
@@ -85,12 +86,12 @@ void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull)
     ++stats.state_changes;
 }
 
-Result<void> paint_mesh(const Painting& painting, const view::MeshDraw& draw) {
+Result<void> paint_mesh(const FrameContext& frame_context, const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
-    const scene::Camera& camera = painting.list.camera;
-    const MeshResidency& residency = painting.residency.meshes();
-    DrawState& state = painting.state;
-    auto program = state.use(mesh_variant(material, painting.features));
+    const scene::Camera& camera = frame_context.list.camera;
+    const MeshResidency& residency = frame_context.residency.meshes();
+    DrawState& state = frame_context.state;
+    auto program = state.use(mesh_variant(material, frame_context.features));
     if (!program) {
         return program.error();
     }
@@ -102,7 +103,7 @@ Result<void> paint_mesh(const Painting& painting, const view::MeshDraw& draw) {
     (*program)->set(uniforms.albedo, material.color);
     const bool has_tile = material.detail.set != nullptr;
     if (has_tile) {
-        if (auto set = set_tile(**program, draw, painting); !set) {
+        if (auto set = set_tile(**program, draw, frame_context); !set) {
             return set;
         }
     }
@@ -116,12 +117,12 @@ Result<void> paint_mesh(const Painting& painting, const view::MeshDraw& draw) {
 
 } // namespace
 
-Result<void> paint_meshes(const Painting& painting) {
-    for (const view::MeshDraw& draw : painting.list.meshes) {
+Result<void> paint_meshes(const FrameContext& frame_context) {
+    for (const view::MeshDraw& draw : frame_context.list.meshes) {
         if (draw.mesh->mesh->indices.empty()) {
             continue;
         }
-        if (auto painted = paint_mesh(painting, draw); !painted) {
+        if (auto painted = paint_mesh(frame_context, draw); !painted) {
             return painted;
         }
     }

@@ -3,7 +3,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "engine/gl/program.h"
-#include "engine/render/passes/painting.h"
+#include "engine/render/passes/frame_context.h"
 #include "engine/render/shaders/shader_library.h"
 #include "engine/view/ground_view.h"
 
@@ -16,7 +16,7 @@ ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLeve
 
 /// What these programs ask for beside the terrain's maps and its place. Fails where the driver has
 /// no memory.
-Result<void> set_ground(gl::Program& program, const Painting& painting,
+Result<void> set_ground(gl::Program& program, const FrameContext& frame_context,
                         const scene::TerrainNode& terrain, const glm::dmat4& world_from_local);
 
 } // namespace reljef::render

@@ -1,9 +1,9 @@
-#include "engine/render/passes/terrain_painter.h"
+#include "engine/render/passes/terrain_pass.h"
 
 #include <algorithm>
 
 #include "engine/core/geometry.h"
-#include "engine/render/passes/ground_painter.h"
+#include "engine/render/passes/ground_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
@@ -22,10 +22,10 @@ void bind_ground(gl::Program& program, const ResidentGround& ground) {
 }
 
 // What a terrain's tiles share is set once for all that follow each other.
-class TerrainPainter {
+class TerrainPass {
 public:
-    explicit TerrainPainter(const Painting& painting)
-        : painting_(painting), state_(painting.state) {
+    explicit TerrainPass(const FrameContext& frame_context)
+        : painting_(frame_context), state_(frame_context.state) {
         state_.set_culling(gl::Culling::back);
     }
 
@@ -159,7 +159,7 @@ private:
         ++state_.stats().state_changes;
     }
 
-    const Painting& painting_;
+    const FrameContext& painting_;
     DrawState& state_;
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* terrain_ = nullptr;        // that the program is set for
@@ -167,10 +167,10 @@ private:
 };
 
 template <class Draw>
-Result<void> paint_all(const Painting& painting, const std::vector<Draw>& draws) {
-    TerrainPainter painter(painting);
+Result<void> paint_all(const FrameContext& frame_context, const std::vector<Draw>& draws) {
+    TerrainPass pass(frame_context);
     for (const Draw& draw : draws) {
-        if (auto drawn = painter.draw(draw); !drawn) {
+        if (auto drawn = pass.draw(draw); !drawn) {
             return drawn;
         }
     }
@@ -179,12 +179,12 @@ Result<void> paint_all(const Painting& painting, const std::vector<Draw>& draws)
 
 } // namespace
 
-Result<void> paint_terrain_tiles(const Painting& painting) {
-    return paint_all(painting, painting.list.tiles);
+Result<void> paint_terrain_tiles(const FrameContext& frame_context) {
+    return paint_all(frame_context, frame_context.list.tiles);
 }
 
-Result<void> paint_streamed_tiles(const Painting& painting) {
-    return paint_all(painting, painting.list.streamed_tiles);
+Result<void> paint_streamed_tiles(const FrameContext& frame_context) {
+    return paint_all(frame_context, frame_context.list.streamed_tiles);
 }
 
 } // namespace reljef::render

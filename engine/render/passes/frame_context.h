@@ -11,8 +11,8 @@
 
 namespace reljef::render {
 
-/// One frame as its painters see it: a file for each kind of thing.
-struct Painting {
+/// One frame as its passes see it: a file for each kind of thing.
+struct FrameContext {
     const view::DrawList& list;
     const Residency& residency; ///< prepared for the list
     bool hits;                  ///< what each pixel shows is drawn, instead of its colour

@@ -1,12 +1,12 @@
-#include "engine/render/passes/sky_painter.h"
+#include "engine/render/passes/sky_pass.h"
 
 namespace reljef::render {
-Result<void> paint_sky(const Painting& painting) {
-    if (!painting.list.sky || painting.hits) {
+Result<void> paint_sky(const FrameContext& frame_context) {
+    if (!frame_context.list.sky || frame_context.hits) {
         return {};
     }
-    DrawState& state = painting.state;
-    auto program = state.use({ShaderKind::sky, painting.features});
+    DrawState& state = frame_context.state;
+    auto program = state.use({ShaderKind::sky, frame_context.features});
     if (!program) {
         return program.error();
     }
@@ -14,7 +14,7 @@ Result<void> paint_sky(const Painting& painting) {
     state.set_wireframe(false);
     gl::set_depth_writing(false);
     gl::set_depth_test(gl::DepthTest::greater_or_equal);
-    painting.no_vertices.bind();
+    frame_context.no_vertices.bind();
     gl::draw_arrays(gl::Primitive::triangles, 0, 3);
     gl::set_depth_writing(true);
     gl::set_depth_test(gl::DepthTest::greater);

@@ -37,25 +37,25 @@ bool may_be_heights(std::span<const double> red, std::span<const double> green,
                     std::span<const double> blue);
 
 /// Pixels along a tile.
-inline constexpr int tile_pyramid_side = 256;
+inline constexpr int web_tiles_side = 256;
 
 /// Of one tile (x, y) of a level that cannot be read.
-TileFault tile_pyramid_fault(const std::filesystem::path& path, glm::ivec2 tile, int level);
+TileFault web_tiles_fault(const std::filesystem::path& path, glm::ivec2 tile, int level);
 
 /// By how the name begins; none: it names no such tiles.
 HeightEncoding height_encoding_of(std::string_view name);
-inline bool is_tile_pyramid(const std::filesystem::path& path) {
+inline bool is_web_tiles(const std::filesystem::path& path) {
     return height_encoding_of(path.string()) != HeightEncoding::none;
 }
 
 /// What GDAL's driver for tiles on servers (WMS, service TMS) opens: a raster of all the Earth with
 /// each level as an overview. Levels go to that of `{z:12}`, else 15; in a folder to the highest
 /// that is there. Black where there is no tile. Fails where a folder has no tiles, or an address
-/// lacks {z}, {x} or {y}. Precondition: is_tile_pyramid.
-Result<std::string> tile_pyramid_description(const std::filesystem::path& path);
+/// lacks {z}, {x} or {y}. Precondition: is_web_tiles.
+Result<std::string> web_tiles_description(const std::filesystem::path& path);
 
 /// Where a folder has tiles of its finest level, from their outermost pixels' middles on; nothing
 /// for addresses.
-std::optional<geo::GeodeticArea> tile_pyramid_area(const std::filesystem::path& path);
+std::optional<geo::GeodeticArea> web_tiles_area(const std::filesystem::path& path);
 
 } // namespace reljef::io

@@ -1,4 +1,4 @@
-#include "engine/io/side_files.h"
+#include "engine/io/sidecar_files.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "engine/core/worker_pool.h"
+#include "engine/core/parallel_for.h"
 
 #include <algorithm>
 #include <atomic>

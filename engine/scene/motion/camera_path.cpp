@@ -1,4 +1,4 @@
-#include "engine/scene/motion/fly_path.h"
+#include "engine/scene/motion/camera_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ double hermite(Knot a, Knot b, Knot c, Knot d, double time) {
 
 } // namespace
 
-Result<FlyPath> FlyPath::create(std::vector<FlyKey> keys) {
+Result<CameraPath> CameraPath::create(std::vector<Keyframe> keys) {
     if (keys.empty()) {
         return Error{"fly path: no key found, at least one was expected"};
     }
@@ -56,19 +56,19 @@ Result<FlyPath> FlyPath::create(std::vector<FlyKey> keys) {
         }
     }
     std::stable_sort(keys.begin(), keys.end(),
-                     [](const FlyKey& a, const FlyKey& b) { return a.time < b.time; });
-    std::vector<FlyKey> distinct;
-    for (const FlyKey& key : keys) {
+                     [](const Keyframe& a, const Keyframe& b) { return a.time < b.time; });
+    std::vector<Keyframe> distinct;
+    for (const Keyframe& key : keys) {
         if (!distinct.empty() && distinct.back().time == key.time) {
             distinct.back() = key;
         } else {
             distinct.push_back(key);
         }
     }
-    return FlyPath(std::move(distinct));
+    return CameraPath(std::move(distinct));
 }
 
-FlyKey FlyPath::at(double time) const {
+Keyframe CameraPath::at(double time) const {
     if (!(time > begin())) {
         return keys_.front();
     }
@@ -76,39 +76,39 @@ FlyKey FlyPath::at(double time) const {
         return keys_.back();
     }
     const auto next = std::upper_bound(keys_.begin(), keys_.end(), time,
-                                       [](double t, const FlyKey& key) { return t < key.time; });
-    const FlyKey& b = *(next - 1);
-    const FlyKey& c = *next;
-    const FlyKey& a = next - 1 == keys_.begin() ? b : *(next - 2);
-    const FlyKey& d = next + 1 == keys_.end() ? c : *(next + 1);
-    FlyKey key{time, {}, {}};
+                                       [](double t, const Keyframe& key) { return t < key.time; });
+    const Keyframe& b = *(next - 1);
+    const Keyframe& c = *next;
+    const Keyframe& a = next - 1 == keys_.begin() ? b : *(next - 2);
+    const Keyframe& d = next + 1 == keys_.end() ? c : *(next + 1);
+    Keyframe key{time, {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
-        const auto along = [&](glm::dvec3 FlyKey::*place) {
-            const auto knot = [&](const FlyKey& k) { return Knot{k.time, (k.*place)[axis]}; };
+        const auto along = [&](glm::dvec3 Keyframe::*place) {
+            const auto knot = [&](const Keyframe& k) { return Knot{k.time, (k.*place)[axis]}; };
             return hermite(knot(a), knot(b), knot(c), knot(d), time);
         };
-        key.eye[axis] = along(&FlyKey::eye);
-        key.look[axis] = along(&FlyKey::look);
+        key.eye[axis] = along(&Keyframe::eye);
+        key.look[axis] = along(&Keyframe::look);
     }
     return key;
 }
 
-FlyPath orbit_path(const Box& bounds, double seconds) {
+CameraPath orbit_path(const Box& bounds, double seconds) {
     constexpr int steps = 64;
     const glm::dvec3 middle = bounds.center();
     const double radius = 0.62 * std::max(bounds.size().x, bounds.size().y);
-    std::vector<FlyKey> keys;
+    std::vector<Keyframe> keys;
     for (int i = 0; i <= steps; ++i) {
         const double angle = glm::radians(360.0 * i / steps - 90.0);
         const glm::dvec3 eye{middle.x + radius * std::cos(angle),
                              middle.y + radius * std::sin(angle), bounds.high.z + 0.45 * radius};
         keys.push_back({seconds * i / steps, eye, {middle.x, middle.y, bounds.low.z}});
     }
-    return FlyPath::create(std::move(keys)).value();
+    return CameraPath::create(std::move(keys)).value();
 }
 
-FlyPath flyover_path(const Box& bounds, const std::function<double(double, double)>& ground,
-                     double seconds) {
+CameraPath flyover_path(const Box& bounds, const std::function<double(double, double)>& ground,
+                        double seconds) {
     constexpr int steps = 48;
     const glm::dvec3 size = bounds.size();
     const glm::dvec3 middle = bounds.center();
@@ -129,7 +129,7 @@ FlyPath flyover_path(const Box& bounds, const std::function<double(double, doubl
         }
         return highest + above;
     };
-    std::vector<FlyKey> keys;
+    std::vector<Keyframe> keys;
     for (int i = 0; i <= steps; ++i) {
         const double share = static_cast<double>(i) / steps;
         const glm::dvec2 at = track(share);
@@ -140,7 +140,7 @@ FlyPath flyover_path(const Box& bounds, const std::function<double(double, doubl
                         {at.x, at.y, eye_z},
                         {ahead.x, ahead.y, eye_z - 0.32 * 0.2 * width - 0.5 * above}});
     }
-    return FlyPath::create(std::move(keys)).value();
+    return CameraPath::create(std::move(keys)).value();
 }
 
 } // namespace reljef::scene
