@@ -51,7 +51,8 @@ test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string
     const std::string script =
         "until_true() { for _ in $(seq 300); do \"$@\" && return; sleep 0.1; done; echo \"never: "
         "$*\"; "
-        "kill -9 $viewer; exit 9; }\n"
+        "kill -9 $viewer 2>/dev/null; wait $viewer; echo \"the viewer ended with $?\"; exit 9; "
+        "}\n"
         "has_title() { xdotool getwindowname $window | grep -qF -- \"$1\"; }\n"
         "titled() { until_true has_title \"$1\"; }\n"
         "pressed() { xdotool key --window $window $1; }\n"
