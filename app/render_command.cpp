@@ -92,9 +92,11 @@ session::Underground underground(const RenderChoice& choice) {
                                          : session::Underground::lifted;
 }
 
-Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
-                         session::FrameMaker& maker, const std::optional<scene::CameraPath>& path,
-                         session::Log& log, const cli::Interrupt& interrupt) {
+// Returns which cameras were raised above the ground.
+Result<cli::RaisedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
+                                      session::FrameMaker& maker,
+                                      const std::optional<scene::CameraPath>& path,
+                                      const cli::Interrupt& interrupt) {
     const int frames = choice.view.frames;
     auto sink =
         make_frame_sink(choice.output, {.size = choice.view.size,
@@ -118,22 +120,22 @@ Result<void> draw_frames(const RenderChoice& choice, session::TerrainScene& scen
             return picture.error();
         }
         if (auto going_on = check_interrupt(interrupt); !going_on) { // while it was drawn
-            return going_on;
+            return going_on.error();
         }
         if (auto written = (*sink)->write(*picture, index); !written) {
-            return written;
+            return written.error();
         }
         sheet.add(std::move(*picture), index);
         line.update((index + 1.0) / frames);
     }
     if (auto finished = (*sink)->finish(); !finished) {
-        return finished;
+        return finished.error();
     }
     if (choice.stats) {
         fmt::print("{}", maker.stats());
     }
-    auto written = sheet.write(choice.contact_sheet);
-    return written ? raised.report(log, choice.view.path) : written;
+    const auto written = sheet.write(choice.contact_sheet);
+    return written ? Result<cli::RaisedFrames>(raised) : written.error();
 }
 
 void expect_standard_output(const RenderChoice& choice) {
@@ -293,18 +295,20 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         }
         hits = std::move(*found);
     }
-    Result<void> drawn;
     if (!choice.output.empty()) {
-        drawn = draw_frames(choice, scene, maker, *path, log, interrupt);
-    } else if (*path) {
-        drawn = raised.report(log, choice.view.path);
+        auto drawn = draw_frames(choice, scene, maker, *path, interrupt);
+        if (!drawn) {
+            return drawn.error();
+        }
+        raised = *drawn;
     }
     if (hits) {
         if (auto written = io::write_hits(choice.hits, *hits); !written) {
             return written;
         }
     }
-    return drawn ? report_lift(lift, choice, has_camera_of_file, log) : drawn;
+    return *path ? raised.report(log, choice.view.path)
+                 : report_lift(lift, choice, has_camera_of_file, log);
 }
 
 Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {

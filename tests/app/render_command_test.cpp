@@ -7,6 +7,7 @@
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
+#include "tests/support/test_program.h"
 
 namespace reljef {
 namespace {
@@ -267,6 +268,21 @@ TEST(RenderCommand, standard_output_takes_the_picture_alone) {
     arguments = common;
     arguments.insert(arguments.end(), {"-", "--path", "orbit", "--frames", "2"});
     test::expect_refusal(test::reljef(arguments), 2, {"-o: '-' found"});
+}
+
+TEST(RenderCommand, hits_do_not_appear_beside_a_picture_that_cannot_be_written) {
+    const test::TemporaryFolder folder;
+    const auto hits = (folder.path() / "hits.exr").string();
+    const auto result = test::run_program(
+        "/bin/sh",
+        {"-c", "'" RELJEF_BINARY
+               "' render natural --size 160x120 --context osmesa --quiet --hit '" +
+                   hits + "' -o - > /dev/full"},
+        {});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("standard output: cannot be written"), std::string::npos)
+        << result.err;
+    EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(RenderCommand, same_command_same_bits) {
