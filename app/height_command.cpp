@@ -87,23 +87,23 @@ void print_answers(std::span<const std::string_view> texts,
     }
 }
 
-void keep_faults(std::vector<io::TileFault> found, const cli::TerrainChoice& choice,
-                 std::vector<io::TileFault>& faults) {
-    for (io::TileFault& fault : found) {
-        if (std::find(faults.begin(), faults.end(), fault) == faults.end()) {
+void keep_errors(std::vector<io::FileError> found, const cli::TerrainChoice& choice,
+                 std::vector<io::FileError>& errors) {
+    for (io::FileError& fault : found) {
+        if (std::find(errors.begin(), errors.end(), fault) == errors.end()) {
             if (!choice.quiet) {
-                cli::tell(fmt::format("reljef: left out: {}\n", fault.message));
+                cli::write_stderr(fmt::format("reljef: left out: {}\n", fault.message));
             }
-            faults.push_back(std::move(fault));
+            errors.push_back(std::move(fault));
         }
     }
 }
 
 // Where the files that have a place may be those that are left out.
-std::string left_out_text(std::span<const io::TileFault> faults) {
-    return faults.empty() ? std::string()
-                          : fmt::format("; {} of its files could not be read: {}", faults.size(),
-                                        faults.front().message);
+std::string left_out_text(std::span<const io::FileError> errors) {
+    return errors.empty() ? std::string()
+                          : fmt::format("; {} of its files could not be read: {}", errors.size(),
+                                        errors.front().message);
 }
 
 bool is_inside(glm::dvec2 place, const geo::GeodeticArea& area) {
@@ -125,9 +125,9 @@ io::TileSet::Heights heights_within(const session::HeightSource& source,
 }
 
 Result<void> print_places(const HeightChoice& choice, const session::HeightSource& source,
-                          std::vector<io::TileFault>& faults) {
+                          std::vector<io::FileError>& errors) {
     auto found = heights_within(source, choice.places);
-    keep_faults(std::move(found.faults), choice.terrain, faults);
+    keep_errors(std::move(found.errors), choice.terrain, errors);
     std::string out;
     for (std::size_t i = 0; i < choice.places.size(); ++i) {
         const glm::dvec2 place = choice.places[i];
@@ -135,7 +135,7 @@ Result<void> print_places(const HeightChoice& choice, const session::HeightSourc
             print(out);
             return Error{fmt::format("--at: {},{} found, a place on {}{} was expected{}", place.x,
                                      place.y, choice.terrain.terrain,
-                                     source.area ? " in its area" : "", left_out_text(faults))};
+                                     source.area ? " in its area" : "", left_out_text(errors))};
         }
         append_answer(fmt::format("{},{}", place.x, place.y), found.answers[i], out);
     }
@@ -144,7 +144,7 @@ Result<void> print_places(const HeightChoice& choice, const session::HeightSourc
 }
 
 Result<void> print_points(const HeightChoice& choice, const session::HeightSource& source,
-                          const cli::Interrupt& interrupt, std::vector<io::TileFault>& faults) {
+                          const cli::Interrupt& interrupt, std::vector<io::FileError>& errors) {
     auto file = PlaceFile::open(choice.points, bytes_of_piece(choice.terrain));
     if (!file) {
         return file.error();
@@ -159,7 +159,7 @@ Result<void> print_points(const HeightChoice& choice, const session::HeightSourc
         }
         auto heights = heights_within(source, read->places);
         print_answers(read->texts, heights.answers, static_cast<unsigned>(choice.terrain.threads));
-        keep_faults(std::move(heights.faults), choice.terrain, faults);
+        keep_errors(std::move(heights.errors), choice.terrain, errors);
     }
     return {};
 }
@@ -169,18 +169,18 @@ Result<void> print_heights(const HeightChoice& choice, const cli::Interrupt& int
     if (!source) {
         return source.error();
     }
-    std::vector<io::TileFault> faults;
-    keep_faults({source->tiles.faults().begin(), source->tiles.faults().end()}, choice.terrain,
-                faults);
-    if (auto printed = print_places(choice, *source, faults); !printed) {
+    std::vector<io::FileError> errors;
+    keep_errors({source->tiles.errors().begin(), source->tiles.errors().end()}, choice.terrain,
+                errors);
+    if (auto printed = print_places(choice, *source, errors); !printed) {
         return printed;
     }
     if (!choice.points.empty()) {
-        if (auto printed = print_points(choice, *source, interrupt, faults); !printed) {
+        if (auto printed = print_points(choice, *source, interrupt, errors); !printed) {
             return printed;
         }
     }
-    return session::report_faults(choice.terrain.terrain, faults.size());
+    return session::report_errors(choice.terrain.terrain, errors.size());
 }
 
 } // namespace

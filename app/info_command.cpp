@@ -223,7 +223,7 @@ Json describe(const session::TerrainSource& source, const cli::TerrainChoice& ch
     info["voids"] = heightfield.void_count;
     info["memory_bytes"] = heightfield.heights.size() * io::bytes_per_sample;
     info["notes"] = source.terrain.notes;
-    info["faults"] = source.terrain.faults;
+    info["faults"] = source.terrain.errors;
     if (const Json models = models_of(source, choice); !models.empty()) {
         info["models"] = models;
     }
@@ -320,7 +320,7 @@ Result<void> print_info(const InfoChoice& choice, const cli::Interrupt& interrup
     } else {
         print_text(info, choice.terrain);
     }
-    return session::report_faults(choice.terrain.terrain, source->terrain.faults.size());
+    return session::report_errors(choice.terrain.terrain, source->terrain.errors.size());
 }
 
 } // namespace

@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include "app/cli/console_log.h"
-#include "app/cli/misuse.h"
 #include "app/cli/options.h"
 #include "app/cli/output_files.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/raised_frames.h"
+#include "app/cli/usage_error.h"
 #include "app/commands.h"
 #include "app/frame_sink.h"
 #include "engine/io/image/image.h"
@@ -56,8 +56,8 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
 // The pictures on a contact sheet: as many of the frames as fit, evenly spread.
 class SheetPictures {
 public:
-    SheetPictures(bool wanted, int frames)
-        : step_(wanted ? (frames + max_sheet_pictures - 1) / max_sheet_pictures : 0) {}
+    SheetPictures(bool desired, int frames)
+        : step_(desired ? (frames + max_sheet_pictures - 1) / max_sheet_pictures : 0) {}
 
     void add(Image picture, int index) {
         if (step_ > 0 && index % step_ == 0) {
@@ -140,36 +140,37 @@ Result<cli::RaisedFrames> draw_frames(const RenderChoice& choice, session::Terra
 
 void expect_standard_output(const RenderChoice& choice) {
     if (choice.stats) {
-        cli::refuse("-o: - found beside --stats, which writes to standard output, too; a file was "
-                    "expected");
+        cli::fail_usage(
+            "-o: - found beside --stats, which writes to standard output, too; a file was "
+            "expected");
     }
     if (::isatty(STDOUT_FILENO) == 1) {
-        cli::refuse("-o: - found, and standard output is a terminal; a pipe or a file was "
-                    "expected");
+        cli::fail_usage("-o: - found, and standard output is a terminal; a pipe or a file was "
+                        "expected");
     }
 }
 
 // What the arguments alone show to be wrong.
 void expect_outputs(const RenderChoice& choice) {
     if (choice.output.empty() && choice.hits.empty()) {
-        cli::refuse("render: no output found, -o FILE or --hit FILE was expected");
+        cli::fail_usage("render: no output found, -o FILE or --hit FILE was expected");
     }
     if (choice.output.empty() && (choice.stats || !choice.contact_sheet.empty())) {
-        cli::refuse(
+        cli::fail_usage(
             "render: --stats or --contact-sheet found without -o FILE, whose frames they need");
     }
     if (!choice.hits.empty() && choice.view.frames > 1) {
-        cli::refuse("render: --hit found with many frames, one frame was expected");
+        cli::fail_usage("render: --hit found with many frames, one frame was expected");
     }
     if (choice.view.frames > 1 && choice.view.path.empty()) {
-        cli::refuse("render: --frames found without a --path to fly along");
+        cli::fail_usage("render: --frames found without a --path to fly along");
     }
     if (is_standard_output(choice.output)) {
         expect_standard_output(choice);
     }
     const auto expect_good = [&](const Result<void>& named) {
         if (!named) {
-            cli::refuse(named.error().message);
+            cli::fail_usage(named.error().message);
         }
     };
     if (!choice.output.empty()) {
@@ -347,9 +348,9 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
         !drawn) {
         return drawn;
     }
-    session::log_stream_faults(scene->scene, log);
-    return session::report_faults(choice.terrain.terrain,
-                                  scene->faulty_files + session::faulty_files(scene->scene));
+    session::log_stream_errors(scene->scene, log);
+    return session::report_errors(choice.terrain.terrain,
+                                  scene->failed_files + session::failed_files(scene->scene));
 }
 
 } // namespace

@@ -48,7 +48,7 @@ void add_compare_options(CLI::App& command, CompareChoice& choice) {
 
 // Reading and comparing leave nothing to tidy up.
 void end_at_once() {
-    cli::tell("reljef-bench: interrupted\n");
+    cli::write_stderr("reljef-bench: interrupted\n");
     std::_Exit(1);
 }
 

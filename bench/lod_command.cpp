@@ -141,7 +141,7 @@ void add_methods_option(CLI::App& command, LodChoice& choice) {
                      "is drawn");
 }
 
-[[noreturn]] void refuse(const std::string& message) {
+[[noreturn]] void fail_usage(const std::string& message) {
     throw CLI::ValidationError(message);
 }
 
@@ -153,8 +153,8 @@ std::string table_instead(const LodChoice& choice) {
     std::string instead;
     for (const auto& [is_asked, name] : asked) {
         if (is_asked && !instead.empty()) {
-            refuse("--poses, --methods, --growth, --selection: more than one found, one was "
-                   "expected");
+            fail_usage("--poses, --methods, --growth, --selection: more than one found, one was "
+                       "expected");
         }
         instead = is_asked ? name : instead;
     }
@@ -165,12 +165,13 @@ void check_outputs_of(const std::string& instead, const OutputChoice& outputs) {
     const bool has_markdown = instead == "--growth";
     if (!outputs.csv.empty() || !outputs.html.empty() ||
         (!has_markdown && !outputs.markdown.empty())) {
-        refuse(has_markdown
-                   ? "--growth: --csv or --html found, only --json and --markdown were expected "
-                     "with it"
-                   : fmt::format("{}: --csv, --markdown or --html found, only --json was expected "
-                                 "with it",
-                                 instead));
+        fail_usage(
+            has_markdown
+                ? "--growth: --csv or --html found, only --json and --markdown were expected "
+                  "with it"
+                : fmt::format("{}: --csv, --markdown or --html found, only --json was expected "
+                              "with it",
+                              instead));
     }
 }
 
@@ -180,13 +181,13 @@ void check_lod_options(const LodChoice& choice, const CLI::App& command) {
         check_outputs_of(instead, choice.outputs);
     }
     if ((choice.growth || choice.selection) && !choice.terrains.empty()) {
-        refuse(instead + ": --terrain found, none was expected with it");
+        fail_usage(instead + ": --terrain found, none was expected with it");
     }
     if (!choice.poses && !choice.growth && command.count("--max-error") > 0) {
-        refuse("--max-error: no --poses and no --growth found, one was expected with it");
+        fail_usage("--max-error: no --poses and no --growth found, one was expected with it");
     }
     if (!choice.growth && command.count("--memory") > 0) {
-        refuse("--memory: no --growth found, one was expected with it");
+        fail_usage("--memory: no --growth found, one was expected with it");
     }
 }
 

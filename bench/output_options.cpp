@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/cli/misuse.h"
+#include "app/cli/usage_error.h"
 #include "bench/page/page.h"
 #include "bench/report/report_csv.h"
 #include "bench/report/report_json.h"
@@ -115,7 +115,7 @@ Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::Name
     auto page = check_page_target(choice.html);
     std::error_code ignored;
     if (!page && std::filesystem::is_regular_file(choice.html, ignored)) {
-        cli::refuse(page.error().message);
+        cli::fail_usage(page.error().message);
     }
     return page;
 }

@@ -33,7 +33,7 @@ std::string_view kind_text(session::MessageKind kind) {
 
 void ConsoleLog::message(session::MessageKind kind, std::string_view sentence) {
     if (!quiet_) {
-        tell(fmt::format("reljef: {}: {}\n", kind_text(kind), sentence));
+        write_stderr(fmt::format("reljef: {}: {}\n", kind_text(kind), sentence));
     }
 }
 

@@ -246,7 +246,7 @@ int write_manual(const Program& program, const std::string& folder) {
         std::error_code code;
         std::filesystem::create_directories(path.parent_path(), code);
         if (const auto written = write_file(path, std::as_bytes(std::span(file.text))); !written) {
-            tell(fmt::format("{}\n", written.error().message));
+            write_stderr(fmt::format("{}\n", written.error().message));
             return 1;
         }
     }

@@ -6,7 +6,7 @@
 
 namespace reljef::cli {
 
-void tell(std::string_view text) noexcept {
+void write_stderr(std::string_view text) noexcept {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }

@@ -13,7 +13,7 @@
 #include "app/cli/parsed_option.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/terrain_node.h"
-#include "engine/scene/technique/ground_detail.h"
+#include "engine/scene/technique/terrain_detail.h"
 #include "engine/view/error_view.h"
 
 namespace reljef::cli {
@@ -84,7 +84,7 @@ Result<geo::GeodeticArea> parse_area(const std::string& text) {
 Result<scene::Technique> parse_detail_technique(const std::string& text) {
     auto technique = scene::parse_technique(text);
     if (technique) {
-        if (auto good = scene::check_ground_technique(*technique); !good) {
+        if (auto good = scene::check_terrain_detail_technique(*technique); !good) {
             return Error{"--detail-technique: " + good.error().message};
         }
     }
@@ -212,7 +212,7 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         [](const std::string& text) { return parse_point("--eye", text); },
         "position of the camera, scene metres", "x,y,z");
     auto* look = add_parsed(
-        command, "--look", choice.look,
+        command, "--look", choice.target,
         [](const std::string& text) { return parse_point("--look", text); },
         "point that the camera looks at, scene metres", "x,y,z");
     look->needs(eye);

@@ -45,7 +45,7 @@ std::string one_line(std::string_view message) {
 }
 
 int fail(const Program& program, std::string_view message) {
-    tell(fmt::format("{}: {}\n", program.name, one_line(message)));
+    write_stderr(fmt::format("{}: {}\n", program.name, one_line(message)));
     return failed;
 }
 
@@ -56,9 +56,9 @@ int fail_to_print(const Program& program) {
                                                       std::strerror(errno)));
 }
 
-int misuse(const Program& program, std::string message) {
+int usage_error(const Program& program, std::string message) {
     std::replace(message.begin(), message.end(), '\n', ' ');
-    tell(fmt::format("{}: {} (see --help)\n", program.name, printable(message)));
+    write_stderr(fmt::format("{}: {} (see --help)\n", program.name, printable(message)));
     return misused;
 }
 
@@ -68,7 +68,7 @@ int explain(const Program& program, const CLI::App& parser, const CLI::ParseErro
         parser.exit(error);
         return std::cout.flush() ? done : fail_to_print(program);
     }
-    return misuse(program, error.what());
+    return usage_error(program, error.what());
 }
 
 int run_command(const Program& program, const Command& command, const Interrupt& interrupt) {
@@ -81,7 +81,7 @@ int run_command(const Program& program, const Command& command, const Interrupt&
     }
     const std::string& message = result.error().message;
     if (result.error().kind == Error::Kind::usage) {
-        return misuse(program, message);
+        return usage_error(program, message);
     }
     const bool is_told = message.starts_with("interrupted");
     return fail(program, interrupt.requested() && !is_told ? "interrupted" : message);

@@ -31,7 +31,7 @@ ProgressLine::ProgressLine(std::string label, bool quiet)
 
 ProgressLine::~ProgressLine() {
     if (shown_ && terminal_) {
-        tell("\r\033[K");
+        write_stderr("\r\033[K");
     }
 }
 
@@ -45,15 +45,15 @@ void ProgressLine::update(double fraction) {
         if (shown_ && now - shown_at_ < between_redraws) {
             return;
         }
-        tell(fmt::format("\r\033[K{} {:.0f} %{}", label_, 100.0 * fraction,
-                         time_left(elapsed, fraction)));
+        write_stderr(fmt::format("\r\033[K{} {:.0f} %{}", label_, 100.0 * fraction,
+                                 time_left(elapsed, fraction)));
     } else {
         const int quarter = static_cast<int>(std::floor(4.0 * fraction));
         if (shown_ && quarter <= shown_quarter_) {
             return;
         }
         shown_quarter_ = quarter;
-        tell(
+        write_stderr(
             fmt::format("{} {:.0f} %{}\n", label_, 100.0 * fraction, time_left(elapsed, fraction)));
     }
     shown_ = true;

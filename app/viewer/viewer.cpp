@@ -79,7 +79,7 @@ scene::Camera perspective_start(const session::TerrainScene& scene) {
                            [&](double x, double y) { return scene.ground(x, y); });
     camera.projection = scene::ProjectionKind::perspective;
     camera.eye = overview.eye;
-    camera.look = overview.look;
+    camera.target = overview.target;
     camera.up = overview.up;
     return camera;
 }
@@ -280,7 +280,7 @@ void Viewer::advance_path(double seconds) {
     if (const double raised = glm::distance(asked_for.eye, next.eye); raised > min_raise) {
         path_raised_ = std::max(path_raised_, raised);
     }
-    if (next.eye != camera().eye || next.look != camera().look) {
+    if (next.eye != camera().eye || next.target != camera().target) {
         show_camera(next);
     }
 }

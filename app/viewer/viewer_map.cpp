@@ -34,7 +34,7 @@ Box around(const Box& terrain) {
 ViewerMap::ViewerMap(const scene::Camera& start, const Box& terrain, glm::ivec2 size)
     : camera_(start), reach_(around(terrain)), widest_(start.view_height * widest_in_starts),
       size_(glm::max(size, glm::ivec2(1))) {
-    reach_.add(start.look);
+    reach_.add(start.target);
 }
 
 bool ViewerMap::is_steered() const {
@@ -90,10 +90,10 @@ bool ViewerMap::receive_scroll(const ScrollEvent& event) {
 bool ViewerMap::advance(double seconds) {
     const double step = seconds > 0.0 ? std::min(seconds, longest_step) : 0.0;
     const double pace = step * (keys_.is_fast() ? shift_factor : 1.0);
-    const glm::dvec3 wanted = pace * keys_.direction();
-    if (wanted != glm::dvec3(0.0)) {
-        shift(pictures_per_second * camera_.view_height * glm::dvec2(wanted));
-        zoom(std::pow(zoom_per_second, wanted.z), 0.5 * size_);
+    const glm::dvec3 desired = pace * keys_.direction();
+    if (desired != glm::dvec3(0.0)) {
+        shift(pictures_per_second * camera_.view_height * glm::dvec2(desired));
+        zoom(std::pow(zoom_per_second, desired.z), 0.5 * size_);
     }
     if (step > 0.0) {
         keys_.forget_taps();
@@ -103,12 +103,12 @@ bool ViewerMap::advance(double seconds) {
 
 void ViewerMap::shift(glm::dvec2 metres) {
     const scene::ViewAxes axes = scene::view_axes(camera_);
-    const glm::dvec3 wanted = camera_.look + metres.x * axes.right + metres.y * axes.up;
+    const glm::dvec3 desired = camera_.target + metres.x * axes.right + metres.y * axes.up;
     if (!std::isfinite(metres.x) || !std::isfinite(metres.y)) {
         return;
     }
-    const glm::dvec3 way = glm::clamp(wanted, reach_.low, reach_.high) - camera_.look;
-    camera_.look += way;
+    const glm::dvec3 way = glm::clamp(desired, reach_.low, reach_.high) - camera_.target;
+    camera_.target += way;
     camera_.eye += way;
     changed_ = changed_ || way != glm::dvec3(0.0);
 }

@@ -48,7 +48,7 @@ public:
                     log_.note(drawn.error().message); // once: the next frame is drawn as before
                 }
             }
-            session::log_stream_faults(scene_.scene, log_);
+            session::log_stream_errors(scene_.scene, log_);
             viewer_.relay_to(log_);
             log_raised_path();
             serve_requests();

@@ -306,7 +306,7 @@ private:
         entry.row.what = fmt::format("irrlicht:lods={}", levels);
         entry.set_up = [this, &peer]() -> Result<void> {
             const glm::dvec3 eye = scene_->view().eye;
-            const glm::dvec3 look = scene_->view().look;
+            const glm::dvec3 look = scene_->view().target;
             const auto placed =
                 peer.ask(fmt::format("view {} {} {} {} {} {} {} {}", eye.x, eye.y, eye.z, look.x,
                                      look.y, look.z, range_.near, range_.far));
@@ -339,7 +339,7 @@ private:
         scene::Camera& camera = *scene_->camera->get<scene::Camera>();
         camera = still_;
         camera.eye += offset;
-        camera.look += offset;
+        camera.target += offset;
     }
 
     Result<HitBuffer> irrlicht_hits(PeerProcess& peer) {

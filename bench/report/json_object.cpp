@@ -62,7 +62,7 @@ void JsonFault::set(const std::string& place, const std::string& found,
 }
 
 JsonObject::JsonObject(const json& json, std::string place, JsonFault& fault)
-    : json_(&json), place_(std::move(place)), fault_(&fault) {
+    : json_(&json), place_(std::move(place)), error_(&fault) {
     if (!json.is_object()) {
         fault.set(place_.empty() ? "the document" : place_, found_text(json), "an object");
         json_ = &no_object();
@@ -89,7 +89,7 @@ const json* JsonObject::find(std::string_view key) const {
 
 void JsonObject::fail(std::string_view key, const std::string& expected) const {
     const json* value = find(key);
-    fault_->set(place_of(key), value == nullptr ? "nothing" : found_text(*value), expected);
+    error_->set(place_of(key), value == nullptr ? "nothing" : found_text(*value), expected);
 }
 
 std::string JsonObject::text(std::string_view key) const {
@@ -145,7 +145,7 @@ JsonObject JsonObject::object(std::string_view key) const {
     if (value == nullptr) {
         fail(key, "an object");
     }
-    return {value == nullptr ? no_object() : *value, place_of(key), *fault_};
+    return {value == nullptr ? no_object() : *value, place_of(key), *error_};
 }
 
 const json* JsonObject::find_array(std::string_view key) const {
@@ -160,8 +160,8 @@ const json* JsonObject::find_array(std::string_view key) const {
 void JsonObject::each(std::string_view key,
                       const std::function<void(const JsonObject&)>& read) const {
     const json* array = find_array(key);
-    for (std::size_t i = 0; array != nullptr && i < array->size() && !fault_->error(); ++i) {
-        read({(*array)[i], fmt::format("{}[{}]", place_of(key), i), *fault_});
+    for (std::size_t i = 0; array != nullptr && i < array->size() && !error_->error(); ++i) {
+        read({(*array)[i], fmt::format("{}[{}]", place_of(key), i), *error_});
     }
 }
 
@@ -170,7 +170,7 @@ std::vector<std::string> JsonObject::texts(std::string_view key) const {
     if (const json* array = find_array(key)) {
         for (const json& value : *array) {
             if (!value.is_string()) {
-                fault_->set(place_of(key), found_text(value), "texts");
+                error_->set(place_of(key), found_text(value), "texts");
                 return {};
             }
             texts.push_back(value.get<std::string>());
@@ -187,7 +187,7 @@ std::vector<double> JsonObject::numbers(std::string_view key, std::size_t count)
         numbers.push_back(value.is_number() ? value.get<double>()
                                             : std::numeric_limits<double>::quiet_NaN());
         if (!std::isfinite(numbers.back())) {
-            fault_->set(place_of(key), found_text(value), "numbers");
+            error_->set(place_of(key), found_text(value), "numbers");
         }
     }
     if (numbers.size() != count) {

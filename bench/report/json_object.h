@@ -72,7 +72,7 @@ private:
 
     const nlohmann::json* json_; // an object
     std::string place_;
-    JsonFault* fault_;
+    JsonFault* error_;
 };
 
 } // namespace reljef::bench

@@ -157,8 +157,8 @@ std::string picture_floor(const Row& exact) {
 
 std::vector<std::string> notes_of(std::span<const Row> rows) {
     std::vector<std::string> notes;
-    const auto tell = [&](std::string_view title, bool (*is_meant)(const Row&),
-                          std::string (*text_of)(const Row&)) {
+    const auto write_stderr = [&](std::string_view title, bool (*is_meant)(const Row&),
+                                  std::string (*text_of)(const Row&)) {
         std::vector<std::string> labels;
         for (const Row& row : rows) {
             if (!row.null_row && is_meant(row)) {
@@ -170,12 +170,12 @@ std::vector<std::string> notes_of(std::span<const Row> rows) {
         }
     };
     const auto label_of = [](const Row& row) { return row.setting.label; };
-    tell(
+    write_stderr(
         "missing, not there yet", [](const Row& row) { return row.missing(); }, label_of);
-    tell(
+    write_stderr(
         "shows nothing of the terrain here, so its time says nothing",
         [](const Row& row) { return row.shows_nothing(); }, label_of);
-    tell("≥, pixels whose error has no bound are not in it", has_unbounded, unbounded_text);
+    write_stderr("≥, pixels whose error has no bound are not in it", has_unbounded, unbounded_text);
     const auto exact = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
         return row.setting.technique == "exact" && row.error;
     });

@@ -58,8 +58,8 @@ Result<std::shared_ptr<const RowView>> RowViews::make(const ShownView& view) {
               view.truth->rows() == view.shown.rows() && view.reprojection.cols() == cols &&
               view.reprojection.rows() == view.shown.rows(),
           "a row's pictures are empty or differ in size");
-    const int wanted = max_cols_ > 0 ? (cols + max_cols_ - 1) / max_cols_ : 1;
-    const int factor = std::min({wanted, cols, view.shown.rows()});
+    const int desired = max_cols_ > 0 ? (cols + max_cols_ - 1) / max_cols_ : 1;
+    const int factor = std::min({desired, cols, view.shown.rows()});
     auto shown = io::encode_image(".jpg", smaller(view.shown, factor));
     if (!shown) {
         return shown.error();

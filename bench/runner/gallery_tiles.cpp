@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/cli/misuse.h"
+#include "app/cli/usage_error.h"
 #include "terrains/gallery/detail_tiles.h"
 
 namespace reljef::bench {
@@ -45,7 +45,7 @@ Result<truth::TileSquare> tile_square(std::string_view name, unsigned threads) {
     }
     const MeasuredTile* const tile = measured_tile(name);
     truth::TileSquare square;
-    square.set = std::make_shared<const material::TextureSet>(std::move(*set));
+    square.set = std::make_shared<const material::ReliefMaterial>(std::move(*set));
     square.layers = tile == nullptr ? std::nullopt : tile->layers;
     square.side = square_side;
     square.repeats = tiles_a_side;
@@ -98,10 +98,11 @@ void expect_suited(const std::vector<scene::Technique>& techniques,
                            [&](const StageChoice& stage) { return suits(technique.id(), stage); });
     };
     if (!techniques.empty() && std::none_of(techniques.begin(), techniques.end(), is_drawn)) {
-        cli::refuse(fmt::format("--technique: {} found, which shows nothing of {}; the gallery "
-                                "shows what bump, emboss, normal, displacement and the layers "
-                                "draw, terrains what polygons draws",
-                                scene::to_string(techniques.front()), fmt::join(terrains, ", ")));
+        cli::fail_usage(fmt::format("--technique: {} found, which shows nothing of {}; the gallery "
+                                    "shows what bump, emboss, normal, displacement and the layers "
+                                    "draw, terrains what polygons draws",
+                                    scene::to_string(techniques.front()),
+                                    fmt::join(terrains, ", ")));
     }
 }
 

@@ -30,7 +30,7 @@ public:
                 if (auto drawn = frames_[i](); !drawn) {
                     return drawn;
                 }
-                tell_progress(now_ms_());
+                report_progress(now_ms_());
             }
         }
         warm_up_seconds_ = seconds_until(now_ms_());
@@ -64,7 +64,7 @@ private:
         auto drawn = frames_[index]();
         const double end = now_ms_();
         result_.ms[index].push_back(end - begin);
-        tell_progress(end);
+        report_progress(end);
         return drawn;
     }
 
@@ -100,7 +100,7 @@ private:
                                  median(result_.ms[options_.null_pair->second]));
     }
 
-    void tell_progress(double now) {
+    void report_progress(double now) {
         ++frames_drawn_;
         if (options_.progress) {
             const double elapsed = seconds_until(now);

@@ -17,7 +17,7 @@ double between(std::mt19937& random, double low, double high) {
 
 } // namespace
 
-scene::Camera chance_view(std::mt19937& random, const scene::TerrainSurface& surface, double near) {
+scene::Camera random_view(std::mt19937& random, const scene::TerrainSurface& surface, double near) {
     const Box& bounds = surface.bounds();
     const glm::dvec3 size = bounds.size();
     scene::Camera camera;
@@ -27,9 +27,9 @@ scene::Camera chance_view(std::mt19937& random, const scene::TerrainSurface& sur
         between(random, bounds.low.y - beyond * size.y, bounds.high.y + beyond * size.y);
     const double above = min_above * size.x * std::exp(between(random, -1.0, 3.0));
     camera.eye = {x, y, surface.height_at(x, y).value_or(bounds.high.z) + above};
-    camera.look.x = between(random, bounds.low.x, bounds.high.x);
-    camera.look.y = between(random, bounds.low.y, bounds.high.y);
-    camera.look.z = bounds.center().z;
+    camera.target.x = between(random, bounds.low.x, bounds.high.x);
+    camera.target.y = between(random, bounds.low.y, bounds.high.y);
+    camera.target.z = bounds.center().z;
     const double chosen_fov = between(random, 10.0, 120.0);
     camera.vertical_fov = between(random, 0.0, 3.0) < 1.0 ? chosen_fov : usual_fov;
     camera.near = near;

@@ -34,11 +34,11 @@ public:
           groups_(static_cast<double>(groups)), judging_(options.quick ? 0.7 : 0.2) {}
 
     void begin_group(std::size_t index) { index_ = static_cast<double>(index); }
-    void tell_judged(double fraction) { tell(judging_ * fraction); }
-    void tell_timed(double fraction) { tell(std::lerp(judging_, 1.0, fraction)); }
+    void report_judged(double fraction) { report(judging_ * fraction); }
+    void report_timed(double fraction) { report(std::lerp(judging_, 1.0, fraction)); }
 
 private:
-    void tell(double fraction_of_group) {
+    void report(double fraction_of_group) {
         const double fraction = (index_ + fraction_of_group) / groups_;
         line_.update(fraction);
         if (progress_) {
@@ -251,12 +251,12 @@ private:
         MeasureOptions timing = measuring(options_, suite_.groups.size(),
                                           group_seconds(options_, since_begin_.seconds(), left));
         timing.stop = stop_;
-        timing.progress = [&](double fraction) { progress.tell_timed(fraction); };
+        timing.progress = [&](double fraction) { progress.report_timed(fraction); };
         const std::size_t first_row = results_.rows.size();
         if (auto timed = time_all(std::move(*entries), **stage, driver, timing); !timed) {
             return timed;
         }
-        tell_left_out(group, name, std::span(results_.rows).subspan(first_row));
+        note_left_out(group, name, std::span(results_.rows).subspan(first_row));
         return {};
     }
 
@@ -285,7 +285,7 @@ private:
             }
             cost = *after;
             kept.push_back(std::move(entries[i]));
-            progress.tell_judged(static_cast<double>(i + 1) / static_cast<double>(count));
+            progress.report_judged(static_cast<double>(i + 1) / static_cast<double>(count));
         }
         return ended_by_null_row(std::move(kept));
     }
@@ -381,7 +381,7 @@ private:
         }
     }
 
-    void tell_left_out(const Group& group, const std::string& stage, std::span<const Row> rows) {
+    void note_left_out(const Group& group, const std::string& stage, std::span<const Row> rows) {
         LeftOut left_out = left_out_of(group, stage, rows);
         if (left_out.settings > 0) {
             results_.notes.push_back(

@@ -76,7 +76,7 @@ std::string flight_json(const FlightResults& results) {
         {"drawing_ms", times_json(results.times.drawing_ms)},
         {"waiting_ms", times_json(results.times.waiting_ms)},
         {"tiles", results.stream ? stream_json(*results.stream) : FlightJson()},
-        {"faulty_files", results.faulty_files},
+        {"faulty_files", results.failed_files},
         {"memory",
          {{"allowed", static_cast<std::size_t>(options.terrain.memory_megabytes) << 20U},
           {"before", results.times.memory_before},
@@ -100,7 +100,7 @@ Result<void> report(const FlightResults& results, const std::filesystem::path& j
     }
     return results.stopped
                ? Result<void>(*results.stopped)
-               : session::report_faults(results.options.terrain.terrain, results.faulty_files);
+               : session::report_errors(results.options.terrain.terrain, results.failed_files);
 }
 
 } // namespace reljef::bench

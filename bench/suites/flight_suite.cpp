@@ -50,7 +50,7 @@ Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
             return drawn.error();
         }
         results.max_memory = std::max(results.max_memory, process_memory().now);
-        session::log_stream_faults(scene.scene, log);
+        session::log_stream_errors(scene.scene, log);
         if (index == 0) {
             results.seconds_to_first_frame = watch.seconds();
         }
@@ -90,7 +90,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
         log.note(good.error().message); // the times hold for the flight as it was flown
     }
     results.times = frames->times();
-    results.faulty_files = session::faulty_files(scene->scene);
+    results.failed_files = session::failed_files(scene->scene);
     results.max_memory =
         std::max({results.max_memory, process_memory().most, results.times.memory_before});
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;

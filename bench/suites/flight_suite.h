@@ -28,7 +28,7 @@ struct FlightResults {
     session::FrameTimes times;
     cli::RaisedFrames raised;
     std::optional<scene::TileStreamStats> stream; ///< absent where all fits the memory
-    std::size_t faulty_files = 0;
+    std::size_t failed_files = 0;
     std::size_t max_memory = 0;   ///< of the process, bytes
     std::optional<Error> stopped; ///< why there are fewer frames than asked for
 };

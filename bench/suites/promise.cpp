@@ -206,7 +206,7 @@ private:
         const double near = stage.scene().camera().near;
         Result<void> done;
         for (int i = 0; i < poses && done && !stop_.stop_requested(); ++i) {
-            stage.set_camera(chance_view(random_, surface, near));
+            stage.set_camera(random_view(random_, surface, near));
             const PixelLattice lattice{glm::ivec2(i, i / random_step) % random_step, random_step};
             done = judge_frame(stage, lattice, judge, driver, row);
             tell_frame();

@@ -16,7 +16,7 @@ using PromiseJson = nlohmann::ordered_json;
 
 PromiseJson camera_json(const scene::Camera& camera) {
     return {{"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
-            {"look", {camera.look.x, camera.look.y, camera.look.z}},
+            {"look", {camera.target.x, camera.target.y, camera.target.z}},
             {"fov", camera.vertical_fov}};
 }
 

@@ -24,7 +24,7 @@ constexpr double max_ms = 0.2; // for 10,000 tiles
 struct SelectionView {
     const char* name;
     glm::dvec3 eye; // in sides of all copies from the middle of their southern border
-    glm::dvec3 look;
+    glm::dvec3 target;
 };
 
 constexpr std::array views{
@@ -64,7 +64,7 @@ Result<void> fill(ManyTiles& made, int copies) {
 SelectionRow measure(ManyTiles& made, const SelectionView& view, const SelectionOptions& options) {
     auto& camera = *made.camera->get<scene::Camera>();
     camera.eye = made.side * view.eye;
-    camera.look = made.side * view.look;
+    camera.target = made.side * view.target;
     const view::SceneView seen(made.scene, options.suite.size);
     SelectionRow row;
     row.view = view.name;

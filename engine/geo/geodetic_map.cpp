@@ -144,12 +144,12 @@ Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const 
                         "degrees were expected",
                         latitude, longitude)};
     }
-    const Target wanted = target(latitude, longitude);
-    const auto& [first, second] = wanted.directions;
+    const Target desired = target(latitude, longitude);
+    const auto& [first, second] = desired.directions;
     glm::dvec2 sample = middle();
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
         const Value value = evaluate(sample);
-        const glm::dvec3 miss = wanted.at - value.at;
+        const glm::dvec3 miss = desired.at - value.at;
         const glm::dmat2 jacobian(glm::dot(value.by_col, first), glm::dot(value.by_col, second),
                                   glm::dot(value.by_row, first), glm::dot(value.by_row, second));
         const glm::dvec2 step =
@@ -160,7 +160,7 @@ Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const 
         }
         if (std::abs(step.x) <= converged_samples && std::abs(step.y) <= converged_samples) {
             const bool other_side =
-                kind_ == Kind::normals && glm::dot(base_ + wanted.at, base_ + value.at) <= 0.0;
+                kind_ == Kind::normals && glm::dot(base_ + desired.at, base_ + value.at) <= 0.0;
             return other_side ? Result<glm::dvec2>(no_sample(latitude, longitude))
                               : glm::dvec2(sample.x, rows_.closed_row(sample.y));
         }

@@ -120,7 +120,7 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
     }
     if (!options.imagery.empty()) {
         reading.progress = part(options.progress, 0.5, 1.0);
-        auto color = read_imagery(dataset, *place, reading, terrain.notes, terrain.faults);
+        auto color = read_imagery(dataset, *place, reading, terrain.notes, terrain.errors);
         if (!color) {
             return color.error();
         }

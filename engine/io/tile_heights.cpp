@@ -62,9 +62,9 @@ void to_crs(const TileLayer& layer, const CrsTransform& transform, std::span<glm
 
 /// Where places lie on the lattice of a layer; NaN where they have none.
 std::vector<glm::dvec2> lattice_points(const TileLayer& layer, std::span<const glm::dvec2> places,
-                                       std::span<const int> wanted, unsigned threads) {
-    std::vector<glm::dvec2> points(wanted.size());
-    const auto count = static_cast<int>(wanted.size());
+                                       std::span<const int> requested, unsigned threads) {
+    std::vector<glm::dvec2> points(requested.size());
+    const auto count = static_cast<int>(requested.size());
     const int size = std::max(min_chunk, count / static_cast<int>(thread_count(threads)) + 1);
     const auto transform_part = [&](int chunk) {
         const GdalMessages unheard; // of places that a projection does not have
@@ -72,7 +72,7 @@ std::vector<glm::dvec2> lattice_points(const TileLayer& layer, std::span<const g
         const auto part = std::span(points).subspan(
             begin, std::min(static_cast<std::size_t>(size), points.size() - begin));
         for (std::size_t i = 0; i < part.size(); ++i) {
-            const glm::dvec2 place = places[static_cast<std::size_t>(wanted[begin + i])];
+            const glm::dvec2 place = places[static_cast<std::size_t>(requested[begin + i])];
             part[i] = {place.y, place.x};
         }
         const auto transform = CrsTransform::create(wgs84_degrees, layer.crs, layer.box);
@@ -166,9 +166,9 @@ struct Poles {
 
 /// The mean of a row; NaN where it has no height.
 double mean_of_row(const TileLayer& layer, int row, const TileContent& reading,
-                   std::vector<TileFault>& faults) {
+                   std::vector<FileError>& errors) {
     const CellWindow window{1, glm::ivec2(0), {0, row}, layer.cols, 1};
-    const Grid<double> heights = read_cells(layer, window, reading, faults);
+    const Grid<double> heights = read_cells(layer, window, reading, errors);
     double sum = 0.0;
     int count = 0;
     for (const double height : heights.samples()) {
@@ -179,7 +179,7 @@ double mean_of_row(const TileLayer& layer, int row, const TileContent& reading,
 }
 
 Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
-               const TileContent& reading, std::vector<TileFault>& faults) {
+               const TileContent& reading, std::vector<FileError>& errors) {
     const int last = layer.rows - 1;
     bool any_north = false;
     bool any_south = false;
@@ -193,10 +193,10 @@ Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
             closing_of(crs_from_text(layer.crs), layer.crs_from_lattice, layer.cols, layer.rows);
     }
     if (any_north && poles.closing.north > 0.0) {
-        poles.north = mean_of_row(layer, 0, reading, faults);
+        poles.north = mean_of_row(layer, 0, reading, errors);
     }
     if (any_south && poles.closing.south > 0.0) {
-        poles.south = mean_of_row(layer, last, reading, faults);
+        poles.south = mean_of_row(layer, last, reading, errors);
     }
     return poles;
 }
@@ -220,7 +220,7 @@ public:
 
     /// Reads what the points need, then calls answer(index, answer).
     template <class Answer>
-    void find(const TileContent& reading, std::vector<TileFault>& faults, const Answer& answer) {
+    void find(const TileContent& reading, std::vector<FileError>& errors, const Answer& answer) {
         std::vector<OnTile> found;
         found.reserve(block_.points.size());
         for (const int index : block_.points) {
@@ -231,7 +231,7 @@ public:
         if (window.cols == 0) {
             return;
         }
-        const Grid<double> heights = read_cells(layer_, window, reading, faults);
+        const Grid<double> heights = read_cells(layer_, window, reading, errors);
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].tile != nullptr) {
                 const HeightAnswer flat =
@@ -326,35 +326,35 @@ private:
 /// The places that a layer may still answer: at first all without a height, to the edges of cells
 /// only those that no tile has.
 std::vector<int> unanswered(std::span<const HeightAnswer> answers, Reach reach) {
-    std::vector<int> wanted;
+    std::vector<int> requested;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const Kind kind = answers[i].kind;
         if (kind == Kind::outside || (kind == Kind::in_void && reach == Reach::samples)) {
-            wanted.push_back(static_cast<int>(i));
+            requested.push_back(static_cast<int>(i));
         }
     }
-    return wanted;
+    return requested;
 }
 
 void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach reach,
                const TileContent& reading, unsigned threads, TileSet::Heights& result) {
-    const std::vector<int> wanted = unanswered(result.answers, reach);
-    if (wanted.empty()) {
+    const std::vector<int> requested = unanswered(result.answers, reach);
+    if (requested.empty()) {
         return;
     }
-    const auto points = lattice_points(layer, places, wanted, threads);
-    const Poles poles = poles_of(layer, points, reading, result.faults);
+    const auto points = lattice_points(layer, places, requested, threads);
+    const Poles poles = poles_of(layer, points, reading, result.errors);
     const std::vector<Block> blocks = blocks_of(layer, poles.closing, points);
     std::mutex mutex;
     const auto answer_block = [&](int number) {
-        std::vector<TileFault> faults;
+        std::vector<FileError> errors;
         BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach, poles);
-        heights.find(reading, faults, [&](int index, HeightAnswer answer) {
-            const auto place = static_cast<std::size_t>(wanted[static_cast<std::size_t>(index)]);
+        heights.find(reading, errors, [&](int index, HeightAnswer answer) {
+            const auto place = static_cast<std::size_t>(requested[static_cast<std::size_t>(index)]);
             result.answers[place] = answer;
         });
         const std::lock_guard lock(mutex);
-        result.faults.insert(result.faults.end(), faults.begin(), faults.end());
+        result.errors.insert(result.errors.end(), errors.begin(), errors.end());
     };
     parallel_for(static_cast<int>(blocks.size()), answer_block,
                  {.threads = threads, .stop = {}, .progress = {}});
@@ -370,7 +370,7 @@ TileSet::Heights TileSet::heights(std::span<const glm::dvec2> places) const {
             ask_layer(layer, places, reach, state_->reading({}), state_->options.threads, result);
         }
     }
-    keep_each_once(result.faults);
+    keep_each_once(result.errors);
     return result;
 }
 

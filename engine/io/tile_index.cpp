@@ -72,7 +72,7 @@ struct Described {
     bool is_raster = true;
 };
 
-Described with_fault(Described described, std::string message) {
+Described with_error(Described described, std::string message) {
     described.file.use = TileUse::fault;
     described.file.fault = std::move(message);
     return described;
@@ -123,7 +123,7 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
         return described;
     }
     file.use = TileUse::heights;
-    return fault.empty() ? described : with_fault(std::move(described), std::move(fault));
+    return fault.empty() ? described : with_error(std::move(described), std::move(fault));
 }
 
 Described describe_file(const fs::path& path, IndexedFile file) {
@@ -131,7 +131,7 @@ Described describe_file(const fs::path& path, IndexedFile file) {
     const GdalMessages messages;
     const auto dataset = open_raster(path, messages);
     return dataset ? describe_dataset(**dataset, path.string(), std::move(described))
-                   : with_fault(std::move(described), dataset.error().message);
+                   : with_error(std::move(described), dataset.error().message);
 }
 
 Described describe_if_raster(const fs::path& path, IndexedFile file) {

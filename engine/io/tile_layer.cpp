@@ -309,7 +309,7 @@ int side_of_pyramid_tile(int reduction) {
 
 /// One by one, so that one that is damaged takes no other with it.
 void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reduction,
-                       const TileContent& reading, CellSums& sums, std::vector<TileFault>& faults) {
+                       const TileContent& reading, CellSums& sums, std::vector<FileError>& errors) {
     const int side = side_of_pyramid_tile(reduction);
     const glm::ivec2 corner(tile.col, tile.row);
     const glm::ivec2 first = (part.low - corner) / side;
@@ -323,7 +323,7 @@ void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reducti
                 sums.add(tile, read->plan, read->values);
             } else if (!reading.options.stop.stop_requested()) {
                 const int level = std::ilogb(tile.cols / side);
-                faults.push_back(web_tiles_fault(path_of(tile, reading), {x, y}, level));
+                errors.push_back(web_tiles_error(path_of(tile, reading), {x, y}, level));
             }
         }
     }
@@ -331,7 +331,7 @@ void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reducti
 
 /// Adds the part of a tile to sums over cells, or tells what fails.
 void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
-              const TileContent& reading, CellSums& sums, std::vector<TileFault>& faults) {
+              const TileContent& reading, CellSums& sums, std::vector<FileError>& errors) {
     const auto begin = BackOff::Clock::now();
     const auto read = read_part(tile, part, reduction, reading);
     const std::filesystem::path path = path_of(tile, reading);
@@ -340,7 +340,7 @@ void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
         return;
     }
     if (!is_web_tiles(path) || reading.options.stop.stop_requested()) {
-        faults.push_back({path, read.error().message});
+        errors.push_back({path, read.error().message});
         return;
     }
     // A server that hangs would hang for each of the tiles again.
@@ -348,15 +348,15 @@ void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
         reading.failing->note(path, read.error().message);
     }
     if (reading.failing->has_failed(path)) {
-        faults.push_back({path, read.error().message});
+        errors.push_back({path, read.error().message});
     } else {
-        add_pyramid_tiles(tile, part, reduction, reading, sums, faults);
+        add_pyramid_tiles(tile, part, reduction, reading, sums, errors);
     }
 }
 
 } // namespace
 
-double fineness(glm::dvec2 spacing) {
+double resolution(glm::dvec2 spacing) {
     return std::round(0.5 * std::log(spacing.x * spacing.y) / std::log(same_fineness));
 }
 
@@ -390,22 +390,22 @@ std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
         layers.push_back(finished(std::move(layer), files));
     }
     std::stable_sort(layers.begin(), layers.end(), [](const TileLayer& a, const TileLayer& b) {
-        const double fine_a = fineness(a.spacing);
-        const double fine_b = fineness(b.spacing);
+        const double fine_a = resolution(a.spacing);
+        const double fine_b = resolution(b.spacing);
         return fine_a != fine_b ? fine_a < fine_b : a.modified > b.modified;
     });
     return layers;
 }
 
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
-                        const TileContent& reading, std::vector<TileFault>& faults) {
+                        const TileContent& reading, std::vector<FileError>& errors) {
     CellSums sums(window);
     for (const LayerTile& tile : layer.tiles) {
         const Rectangle part = overlap(tile, window);
         if (part.empty() || reading.options.stop.stop_requested()) {
             continue;
         }
-        add_part(tile, part, window.reduction, reading, sums, faults);
+        add_part(tile, part, window.reduction, reading, sums, errors);
         sums.close_covered();
     }
     return std::move(sums).averages();

@@ -62,7 +62,7 @@ struct PlacedFile {
 
 /// Whole steps of about 1 %, smaller where samples or pixels are closer together: those of one step
 /// are equally fine.
-double fineness(glm::dvec2 spacing);
+double resolution(glm::dvec2 spacing);
 
 /// The layers of a set, the finest first; of equally fine ones the newer.
 std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
@@ -98,6 +98,6 @@ struct TileContent {
 /// where there is none. What fails is added to the faults and left out: a file, of a tile pyramid
 /// only those of its tiles that cannot be read.
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
-                        const TileContent& reading, std::vector<TileFault>& faults);
+                        const TileContent& reading, std::vector<FileError>& errors);
 
 } // namespace reljef::io

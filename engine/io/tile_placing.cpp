@@ -171,14 +171,14 @@ double metres_between(glm::dvec2 a, glm::dvec2 b) {
 }
 
 std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
-                                    std::vector<TileFault>& faults) {
+                                    std::vector<FileError>& errors) {
     const std::vector<IndexedCrs> systems = indexed_systems(index);
     std::vector<PlacedFile> files;
     for (std::size_t i = 0; i < index.files.size(); ++i) {
         const IndexedFile& file = index.files[i];
         const std::filesystem::path path = folder / file.path;
         if (file.use == TileUse::fault) {
-            faults.push_back({path, file.fault});
+            errors.push_back({path, file.fault});
         }
         if (file.use != TileUse::heights) {
             continue;
@@ -187,7 +187,7 @@ std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesyste
         if (place) {
             files.push_back(std::move(*place));
         } else {
-            faults.push_back({path, fmt::format("{}: lies where its coordinate system has no "
+            errors.push_back({path, fmt::format("{}: lies where its coordinate system has no "
                                                 "position on Earth, a tile on Earth was expected",
                                                 path.string())});
         }

@@ -156,12 +156,12 @@ void note_pictures(const TileIndex& index, std::vector<std::string>& notes) {
     }
 }
 
-Error nothing_usable(const std::string& name, std::span<const TileFault> faults) {
-    return {faults.empty()
+Error nothing_usable(const std::string& name, std::span<const FileError> errors) {
+    return {errors.empty()
                 ? fmt::format("{}: holds no raster of heights, at least one was expected", name)
                 : fmt::format("{}: none of its {} rasters can be used, at least one was expected; "
                               "the first: {}",
-                              name, faults.size(), faults.front().message)};
+                              name, errors.size(), errors.front().message)};
 }
 
 /// The outline of an area, longitude and latitude.
@@ -201,11 +201,11 @@ bool reaches_into(const TileFile& file, const geo::GeodeticArea& area) {
     return !beside && file.south < area.north && file.north > area.south;
 }
 
-void keep_each_once(std::vector<TileFault>& faults) {
-    const auto by_file = [](const TileFault& a, const TileFault& b) { return a.file < b.file; };
-    std::stable_sort(faults.begin(), faults.end(), by_file);
-    const auto same = [](const TileFault& a, const TileFault& b) { return a.file == b.file; };
-    faults.erase(std::unique(faults.begin(), faults.end(), same), faults.end());
+void keep_each_once(std::vector<FileError>& errors) {
+    const auto by_file = [](const FileError& a, const FileError& b) { return a.file < b.file; };
+    std::stable_sort(errors.begin(), errors.end(), by_file);
+    const auto same = [](const FileError& a, const FileError& b) { return a.file == b.file; };
+    errors.erase(std::unique(errors.begin(), errors.end(), same), errors.end());
 }
 
 TileContent TileSet::State::reading(const std::stop_token& stop) const {
@@ -239,9 +239,9 @@ Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOp
     std::error_code ignored;
     state->folder = std::filesystem::is_directory(path, ignored) ? path : std::filesystem::path();
     const GdalMessages unheard; // what is wrong is told as a fault
-    const std::vector<PlacedFile> placed = place_files(*index, state->folder, state->faults);
+    const std::vector<PlacedFile> placed = place_files(*index, state->folder, state->errors);
     if (placed.empty()) {
-        return nothing_usable(state->name, state->faults);
+        return nothing_usable(state->name, state->errors);
     }
     note_pictures(*index, state->notes);
     state->indexed = std::move(index->files);
@@ -266,8 +266,8 @@ const std::string& TileSet::name() const {
 std::span<const TileFile> TileSet::files() const {
     return state_->files;
 }
-std::span<const TileFault> TileSet::faults() const {
-    return state_->faults;
+std::span<const FileError> TileSet::errors() const {
+    return state_->errors;
 }
 std::span<const std::string> TileSet::notes() const {
     return state_->notes;

@@ -62,7 +62,7 @@ struct TileGrid {
 
 struct TileWindow {
     Grid<double> heights;          ///< metres; NaN at voids and holes
-    std::vector<TileFault> faults; ///< of the files that were to be read; each once
+    std::vector<FileError> errors; ///< of the files that were to be read; each once
     std::size_t bytes_read = 0;    ///< of samples taken from the files
 };
 
@@ -91,7 +91,7 @@ public:
 
     [[nodiscard]] const std::string& name() const;
     [[nodiscard]] std::span<const TileFile> files() const; ///< finest first
-    [[nodiscard]] std::span<const TileFault> faults() const;
+    [[nodiscard]] std::span<const FileError> errors() const;
     [[nodiscard]] std::span<const std::string> notes() const;
     /// Notes since the last call, each once: on files that were replaced by others.
     [[nodiscard]] std::vector<std::string> take_new_notes() const;
@@ -117,7 +117,7 @@ public:
     /// its full resolution, reading only what is needed. `faults` of files that were to be read.
     struct Heights {
         std::vector<HeightAnswer> answers;
-        std::vector<TileFault> faults;
+        std::vector<FileError> errors;
     };
     [[nodiscard]] Heights heights(std::span<const glm::dvec2> places) const;
 

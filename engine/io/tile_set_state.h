@@ -23,7 +23,7 @@ struct TileSet::State {
     std::vector<std::string> indexed_crs; ///< WKT, by IndexedFile::crs
     std::vector<TileLayer> layers;        ///< finest first
     std::vector<TileFile> files;
-    std::vector<TileFault> faults;
+    std::vector<FileError> errors;
     std::vector<std::string> notes;
     std::string crs; ///< of the grid: WKT, or WGS 84
     std::string crs_name;
@@ -51,6 +51,6 @@ inline geo::PixelAffine affine_of(const TileGrid& grid) {
 }
 
 /// Sorted by file, of each file the first.
-void keep_each_once(std::vector<TileFault>& faults);
+void keep_each_once(std::vector<FileError>& errors);
 
 } // namespace reljef::io

@@ -104,7 +104,7 @@ void store_block(const GridBlock& block, const Grid<double>& heights, Samples& s
 
 struct SetSamples {
     Samples samples;
-    std::vector<TileFault> faults;
+    std::vector<FileError> errors;
 };
 
 Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int reduction,
@@ -120,7 +120,7 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int redu
         const TileWindow window = tiles.read(block.grid, options.gaps, options.raster.stop);
         store_block(block, window.heights, result.samples);
         const std::lock_guard lock(mutex);
-        result.faults.insert(result.faults.end(), window.faults.begin(), window.faults.end());
+        result.errors.insert(result.errors.end(), window.errors.begin(), window.errors.end());
     };
     if (!parallel_for(static_cast<int>(blocks.size()), read_one,
                       {.threads = options.threads,
@@ -128,7 +128,7 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int redu
                        .progress = options.raster.progress})) {
         return Error{fmt::format("{}: reading was stopped", tiles.name())};
     }
-    keep_each_once(result.faults);
+    keep_each_once(result.errors);
     auto& mask = result.samples.void_mask;
     result.samples.void_count = static_cast<std::size_t>(
         std::count(mask.samples().begin(), mask.samples().end(), std::uint8_t{1}));
@@ -155,11 +155,11 @@ void note_grid(const TileSet& tiles, const TileGrid& grid, int reduction, glm::d
                                                              reduction)));
 }
 
-void note_faults(const TileSet& tiles, std::span<const TileFault> faults,
+void note_errors(const TileSet& tiles, std::span<const FileError> errors,
                  terrain::Terrain& terrain) {
-    for (const auto& some : {tiles.faults(), faults}) {
-        for (const TileFault& fault : some) {
-            terrain.faults.push_back(fault.message);
+    for (const auto& some : {tiles.errors(), errors}) {
+        for (const FileError& fault : some) {
+            terrain.errors.push_back(fault.message);
         }
     }
 }
@@ -204,7 +204,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     if (!read) {
         return read.error();
     }
-    note_faults(*this, read->faults, result);
+    note_errors(*this, read->errors, result);
     for (std::string& note : take_new_notes()) {
         result.notes.push_back(std::move(note));
     }
@@ -213,12 +213,12 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
                                  "expected{}{}",
                                  name(), samples_grid.cols, samples_grid.rows,
                                  is_web_tiles(name()) ? "; no tile was found at its level" : "",
-                                 result.faults.empty() ? "" : "; " + result.faults.front())};
+                                 result.errors.empty() ? "" : "; " + result.errors.front())};
     }
     note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     if (!options.raster.imagery.empty()) {
-        auto color = read_imagery(*frame, *place, options.raster, result.notes, result.faults);
+        auto color = read_imagery(*frame, *place, options.raster, result.notes, result.errors);
         if (!color) {
             return color.error();
         }

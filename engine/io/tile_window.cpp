@@ -166,7 +166,7 @@ void fill_from(const TileLayer& layer, const LayerPoints& points, const TileCont
     if (window.cols == 0) {
         return;
     }
-    const Grid<double> cells = read_cells(layer, window, reading, result.faults);
+    const Grid<double> cells = read_cells(layer, window, reading, result.errors);
     for (int row = 0; row < grid.rows; ++row) {
         for (int col = 0; col < grid.cols; ++col) {
             const glm::dvec2 cell =
@@ -282,7 +282,7 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
     if (gaps == Gaps::sea && has_gaps(result.heights)) {
         fill_sea(state_->layers, points, grid, result.heights);
     }
-    keep_each_once(result.faults);
+    keep_each_once(result.errors);
     result.bytes_read = bytes_read;
     state_->bytes_read += result.bytes_read;
     return result;

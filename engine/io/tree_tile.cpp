@@ -48,7 +48,7 @@ void close_east(const TileSet& tiles, const ClosedGrid& ground, const TileGrid& 
         window.heights(last, row) = again.heights(1, row);
         window.heights(last + 1, row) = again.heights(2, row);
     }
-    window.faults.insert(window.faults.end(), again.faults.begin(), again.faults.end());
+    window.errors.insert(window.errors.end(), again.errors.begin(), again.errors.end());
     window.bytes_read += again.bytes_read;
 }
 
@@ -82,8 +82,8 @@ void close_pole(const PolarCap& cap, const FromPole& from_pole, TileWindow& wind
             window.heights(col, row) = cap.at(col, share);
         }
     }
-    window.faults.insert(window.faults.end(), cap.outermost().faults.begin(),
-                         cap.outermost().faults.end());
+    window.errors.insert(window.errors.end(), cap.outermost().errors.begin(),
+                         cap.outermost().errors.end());
     window.bytes_read += cap.outermost().bytes_read;
 }
 

@@ -80,26 +80,26 @@ void apply_links(const Links& links, const Grid<double>& heights, Grid<double>& 
     }
 }
 
-void settle(const Links& links, const Grid<double>& wanted, Grid<double>& heights, int col,
+void settle(const Links& links, const Grid<double>& desired, Grid<double>& heights, int col,
             int row) {
     const Pull pull = pull_at(links, heights, col, row);
     if (pull.weight > 0.0) {
-        heights(col, row) = (wanted(col, row) + pull.height) / pull.weight;
+        heights(col, row) = (desired(col, row) + pull.height) / pull.weight;
     }
 }
 
 // Gauss-Seidel, forwards and then backwards: one is the other's transpose.
-void sweep_forwards(const Links& links, const Grid<double>& wanted, Grid<double>& heights) {
+void sweep_forwards(const Links& links, const Grid<double>& desired, Grid<double>& heights) {
     for (int row = 0; row < links.rows(); ++row) {
         for (int col = 0; col < links.cols(); ++col) {
-            settle(links, wanted, heights, col, row);
+            settle(links, desired, heights, col, row);
         }
     }
 }
-void sweep_backwards(const Links& links, const Grid<double>& wanted, Grid<double>& heights) {
+void sweep_backwards(const Links& links, const Grid<double>& desired, Grid<double>& heights) {
     for (int row = links.rows() - 1; row >= 0; --row) {
         for (int col = links.cols() - 1; col >= 0; --col) {
-            settle(links, wanted, heights, col, row);
+            settle(links, desired, heights, col, row);
         }
     }
 }
@@ -120,19 +120,19 @@ public:
 
     [[nodiscard]] const Links& links() const { return levels_.front(); }
 
-    [[nodiscard]] Grid<double> about(const Grid<double>& wanted, std::size_t level = 0) const {
+    [[nodiscard]] Grid<double> about(const Grid<double>& desired, std::size_t level = 0) const {
         const Links& links = levels_[level];
         Grid<double> heights(links.cols(), links.rows());
         if (level + 1 == levels_.size()) {
             return heights; // one block is as good at any height
         }
-        sweep_forwards(links, wanted, heights);
+        sweep_forwards(links, desired, heights);
         Grid<double> missing(links.cols(), links.rows());
         apply_links(links, heights, missing);
         Grid<double> sums((links.cols() + 1) / 2, (links.rows() + 1) / 2);
         for (int row = 0; row < links.rows(); ++row) {
             for (int col = 0; col < links.cols(); ++col) {
-                sums(col / 2, row / 2) += wanted(col, row) - missing(col, row);
+                sums(col / 2, row / 2) += desired(col, row) - missing(col, row);
             }
         }
         const Grid<double> blocks = about(sums, level + 1);
@@ -141,7 +141,7 @@ public:
                 heights(col, row) += answer_scale * blocks(col / 2, row / 2);
             }
         }
-        sweep_backwards(links, wanted, heights);
+        sweep_backwards(links, desired, heights);
         return heights;
     }
 
@@ -177,13 +177,13 @@ double rise_along(glm::vec3 normal, glm::dvec2 spacing, bool south) {
 // The gradient of half the sum of (difference − asked)² where all heights are 0, turned round.
 Grid<double> wanted_gradient(GridView<const glm::vec3> normals, const Links& links,
                              glm::dvec2 spacing) {
-    Grid<double> wanted(links.cols(), links.rows());
+    Grid<double> desired(links.cols(), links.rows());
     const auto ask = [&](int col, int row, int next_col, int next_row, double weight, bool south) {
         const double rise = 0.5 * weight *
                             (rise_along(normals(col, row), spacing, south) +
                              rise_along(normals(next_col, next_row), spacing, south));
-        wanted(next_col, next_row) += rise;
-        wanted(col, row) -= rise;
+        desired(next_col, next_row) += rise;
+        desired(col, row) -= rise;
     };
     for (int row = 0; row < links.rows(); ++row) {
         for (int col = 0; col < links.cols(); ++col) {
@@ -191,7 +191,7 @@ Grid<double> wanted_gradient(GridView<const glm::vec3> normals, const Links& lin
             ask(col, row, col, links.next_row(row), links.south(col, row), true);
         }
     }
-    return wanted;
+    return desired;
 }
 
 Grid<float> floats_of(const Grid<double>& values) {

@@ -19,7 +19,7 @@ namespace {
 constexpr float middle_height = 0.5F;
 
 // What is wrong with the four heights of one place.
-std::optional<std::string> fault_of(const glm::vec4& heights) {
+std::optional<std::string> error_of(const glm::vec4& heights) {
     for (int i = 0; i < 4; ++i) {
         if (!(heights[i] >= 0.0F && heights[i] <= 1.0F)) {
             return fmt::format("a height of {} found in layer {}, heights in [0, 1] were expected",
@@ -235,7 +235,7 @@ Result<LayerMap> LayerMap::create(Grid<glm::vec4> heights) {
     }
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 0; col < heights.cols(); ++col) {
-            if (const auto fault = fault_of(heights(col, row))) {
+            if (const auto fault = error_of(heights(col, row))) {
                 return Error{fmt::format("layer map: at column {}, row {} {}", col, row, *fault)};
             }
         }

@@ -198,9 +198,9 @@ bool TileStream::is_busy() const {
     return !is_settled();
 }
 
-std::vector<std::string> TileStream::take_faults() {
+std::vector<std::string> TileStream::take_errors() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(new_faults_, {});
+    return std::exchange(new_errors_, {});
 }
 
 std::vector<std::string> TileStream::take_notes() {
@@ -208,9 +208,9 @@ std::vector<std::string> TileStream::take_notes() {
     return std::exchange(new_notes_, {});
 }
 
-std::size_t TileStream::faulty_files() const {
+std::size_t TileStream::failed_files() const {
     const std::lock_guard lock(mutex_);
-    return faults_.size();
+    return errors_.size();
 }
 
 TileStreamStats TileStream::stats() const {
@@ -264,7 +264,7 @@ void TileStream::work(const std::stop_token& stop) {
         TileContent reading = read_(*tile, cancelled);
         const bool stopped = cancelled.stop_requested();
         Made made;
-        if (!stopped && reading.faults.empty()) {
+        if (!stopped && reading.errors.empty()) {
             made = make(*tile, reading, before);
         }
         lock.lock();
@@ -284,7 +284,7 @@ TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& reading,
              texels_shown(reading.picture.texels)};
     return before.tile == nullptr
                ? now
-               : better_of(before, std::move(now), reading.picture_faults.empty());
+               : better_of(before, std::move(now), reading.picture_errors.empty());
 }
 
 // Of one that was there before heights stay, but for the overview's: its neighbours' borders lie on
@@ -309,18 +309,18 @@ void TileStream::finish(terrain::TreeTile tile, const TileContent& reading, Made
     new_notes_.insert(new_notes_.end(), reading.notes.begin(), reading.notes.end());
     if (stopped) {
         ++stats_.cancelled;
-        tell(reading.picture_faults);
+        record_errors(reading.picture_errors);
         return;
     }
     if (made.tile == nullptr) {
-        note_failure(tile, reading.faults);
+        note_failure(tile, reading.errors);
         return;
     }
-    if (reading.picture_faults.empty()) {
+    if (reading.picture_errors.empty()) {
         forget_failure(tile);
         std::erase(wanted_, tile);
     } else {
-        note_failure(tile, reading.picture_faults);
+        note_failure(tile, reading.picture_errors);
     }
     const auto before = tiles_.find(tile);
     if (before == tiles_.end() || before->second.made.tile != made.tile) {
@@ -342,20 +342,21 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
 
 // What is wrong with a file is wrong for each of its tiles: they wait together, so that a flight is
 // held up once by a file and not by every tile that comes into view.
-void TileStream::note_failure(terrain::TreeTile tile, std::span<const TileContent::Fault> faults) {
+void TileStream::note_failure(terrain::TreeTile tile,
+                              std::span<const TileContent::FileError> errors) {
     ++stats_.failed;
     const auto now = Clock::now();
     TileFailure failure;
-    for (const TileContent::Fault& fault : faults) {
-        const BackOff& file = file_failure(fault.file, now);
+    for (const TileContent::FileError& error : errors) {
+        const BackOff& file = file_failure(error.file, now);
         if (failure.files.empty() || failure.latest.again() < file.again()) {
             failure.latest = file;
         }
-        failure.files.push_back(fault.file);
+        failure.files.push_back(error.file);
     }
     revision_ += failure.latest.has_failed_for_good() ? 1U : 0U; // has_given_up() changes
     failures_[tile] = std::move(failure);
-    tell(faults);
+    record_errors(errors);
 }
 
 const BackOff& TileStream::file_failure(const std::string& file, Clock::time_point now) {
@@ -375,10 +376,10 @@ void TileStream::forget_failure(terrain::TreeTile tile) {
     }
 }
 
-void TileStream::tell(std::span<const TileContent::Fault> faults) {
-    for (const TileContent::Fault& fault : faults) {
-        if (faults_.emplace(fault.file, fault.message).second) {
-            new_faults_.push_back(fault.message);
+void TileStream::record_errors(std::span<const TileContent::FileError> errors) {
+    for (const TileContent::FileError& error : errors) {
+        if (errors_.emplace(error.file, error.message).second) {
+            new_errors_.push_back(error.message);
         }
     }
 }

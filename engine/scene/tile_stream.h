@@ -28,15 +28,15 @@ namespace reljef::scene {
 struct TileContent {
     Grid<float> heights;
     TilePicture picture;
-    struct Fault {
+    struct FileError {
         std::string file;
         std::string message;
     };
-    std::vector<Fault> faults;
-    std::vector<Fault> picture_faults; ///< and of heights that the overview stands in for
-    bool of_overview = false;          ///< the heights are TileBuilder::overview_heights
-    std::size_t bytes_read = 0;        ///< that it took from its files
-    std::vector<std::string> notes;    ///< that came up, each once in the stream's life
+    std::vector<FileError> errors;
+    std::vector<FileError> picture_errors; ///< and of heights that the overview stands in for
+    bool of_overview = false;              ///< the heights are TileBuilder::overview_heights
+    std::size_t bytes_read = 0;            ///< that it took from its files
+    std::vector<std::string> notes;        ///< that came up, each once in the stream's life
 };
 
 /// Reads a tile; called from several threads at a time. May give up where a stop is asked for.
@@ -117,11 +117,11 @@ public:
     /// Whether something is being read or about to be.
     [[nodiscard]] bool is_busy() const;
     /// Faults since the last call, of each file once in the stream's life.
-    std::vector<std::string> take_faults();
+    std::vector<std::string> take_errors();
     /// Notes of its readings since the last call.
     std::vector<std::string> take_notes();
     /// Files that had faults, all in all.
-    [[nodiscard]] std::size_t faulty_files() const;
+    [[nodiscard]] std::size_t failed_files() const;
     [[nodiscard]] TileStreamStats stats() const;
 
 private:
@@ -144,10 +144,10 @@ private:
     [[nodiscard]] Made make(terrain::TreeTile tile, TileContent& reading, const Made& before) const;
     static Made better_of(const Made& before, Made now, bool has_whole_picture);
     void finish(terrain::TreeTile tile, const TileContent& reading, Made made, bool stopped);
-    void note_failure(terrain::TreeTile tile, std::span<const TileContent::Fault> faults);
+    void note_failure(terrain::TreeTile tile, std::span<const TileContent::FileError> errors);
     void forget_failure(terrain::TreeTile tile);
     const BackOff& file_failure(const std::string& file, Clock::time_point now);
-    void tell(std::span<const TileContent::Fault> faults);
+    void record_errors(std::span<const TileContent::FileError> errors);
     void keep(terrain::TreeTile tile, Made made);
     [[nodiscard]] std::vector<terrain::TreeTile>
     asked_for(std::span<const terrain::TreeTile> tiles) const;
@@ -169,8 +169,8 @@ private:
     std::map<terrain::TreeTile, std::stop_source> in_flight_;
     std::map<terrain::TreeTile, TileFailure> failures_;
     std::map<std::string, BackOff> file_failures_; // they fail for all their tiles alike
-    std::map<std::string, std::string> faults_;    // by file
-    std::vector<std::string> new_faults_;
+    std::map<std::string, std::string> errors_;    // by file
+    std::vector<std::string> new_errors_;
     std::vector<std::string> new_notes_;
     std::uint64_t view_ = 0;
     std::uint64_t revision_ = 0;

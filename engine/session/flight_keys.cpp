@@ -140,7 +140,7 @@ glm::dvec3 look_of_key(const terrain::Placement& placement, const io::GeodeticKe
     if (key.heading) {
         const auto camera = scene::camera_from_angles(eye, *key.heading, key.pitch.value_or(0.0),
                                                       {placement.up(eye), placement.north(eye)});
-        return look_ahead * glm::normalize(camera.look - camera.eye);
+        return look_ahead * glm::normalize(camera.target - camera.eye);
     }
     const std::size_t from =
         index + 1 < places.size() ? index : index - std::min<std::size_t>(index, 1);
@@ -175,12 +175,12 @@ std::vector<scene::Keyframe> with_looks(const terrain::Placement& placement,
     }
     std::vector<scene::Keyframe> keyframes;
     for (const Waypoint& place : places) {
-        glm::dvec3 look = looks[place.key].look;
+        glm::dvec3 look = looks[place.key].target;
         if (place.share > 0.0) {
             const glm::dvec3 up = placement.up(place.eye);
             const KeyLook& next = looks[place.key + 1];
-            look = glm::mix(carried(look, looks[place.key].up, up), carried(next.look, next.up, up),
-                            place.share);
+            look = glm::mix(carried(look, looks[place.key].up, up),
+                            carried(next.target, next.up, up), place.share);
         }
         keyframes.push_back({place.time, place.eye, place.eye + look});
     }

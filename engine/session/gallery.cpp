@@ -8,14 +8,14 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/session/material_source.h"
 #include "engine/session/prepared_maps.h"
-#include "engine/session/texture_sets.h"
 #include "terrains/gallery/gallery.h"
 
 namespace reljef::session {
 namespace {
 
-using Set = std::shared_ptr<const material::TextureSet>;
+using Set = std::shared_ptr<const material::ReliefMaterial>;
 
 // As the models show it: more of a tile than a fine material needs.
 constexpr double file_tile_width = 1.5; // metres
@@ -63,7 +63,7 @@ public:
         if (const auto found = sets_.find(name); found != sets_.end()) {
             return found->second;
         }
-        auto set = open_textures(
+        auto set = open_material(
             {name, terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder,
              terrain_.textures ? "--textures" : terrain_.terrain, description_.seed,
              file_tile_width, std::nullopt, "mixed, "},
@@ -76,8 +76,9 @@ public:
                 return made.error();
             }
         }
-        log_texture_notes(*set, log_);
-        return sets_.emplace(name, std::make_shared<const material::TextureSet>(std::move(*set)))
+        log_material_notes(*set, log_);
+        return sets_
+            .emplace(name, std::make_shared<const material::ReliefMaterial>(std::move(*set)))
             .first->second;
     }
 

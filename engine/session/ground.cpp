@@ -195,7 +195,7 @@ double keep_above_ground(TerrainScene& scene) {
     }
     const glm::dvec3 rise = way_up(placement, *sample, least);
     camera.eye += rise;
-    camera.look += rise;
+    camera.target += rise;
     return glm::length(rise);
 }
 
@@ -228,7 +228,7 @@ Lift lift_camera(TerrainScene& scene) {
     const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     const Lift lift = lift_of(terrain, camera.eye, min_clearance(scene));
     camera.eye += lift.way;
-    camera.look += lift.way;
+    camera.target += lift.way;
     return lift;
 }
 

@@ -21,7 +21,7 @@ scene::Technique technique_of(const SceneOptions& options) {
 }
 
 Result<void> check(const SceneOptions& options) {
-    if (options.eye && options.look && *options.eye == *options.look) {
+    if (options.eye && options.target && *options.eye == *options.target) {
         return usage_error("--look: the point of --eye found, another point was expected");
     }
     if (!options.technique) {

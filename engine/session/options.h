@@ -75,8 +75,8 @@ struct SceneOptions {
     bool wireframe = false;
     double vertical_fov = 57.3; ///< degrees
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;
-    std::optional<glm::dvec3> eye;  ///< scene metres; with `look`
-    std::optional<glm::dvec3> look; ///< what the camera looks at, scene metres
+    std::optional<glm::dvec3> eye;    ///< scene metres; with `look`
+    std::optional<glm::dvec3> target; ///< what the camera looks at, scene metres
     std::optional<GeodeticView> geodetic;
     std::optional<scene::Pose> pose;
     std::optional<glm::dvec2> sun; ///< azimuth, altitude, degrees; absent: the scene file's

@@ -23,7 +23,7 @@ std::vector<material::KnownCones> sides_of(const scene::Technique& technique) {
     return sides;
 }
 
-std::vector<material::KnownCones> missing_sides(const material::TextureSet& set,
+std::vector<material::KnownCones> missing_sides(const material::ReliefMaterial& set,
                                                 const scene::Technique& technique) {
     std::vector<material::KnownCones> sides = sides_of(technique);
     std::erase_if(sides, [&](const material::KnownCones& side) {
@@ -62,8 +62,8 @@ Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& 
     return std::move(cached->cones);
 }
 
-Result<void> add_side(material::TextureSet& set, material::KnownCones side, int threads, Log& log,
-                      const std::stop_token& stop) {
+Result<void> add_side(material::ReliefMaterial& set, material::KnownCones side, int threads,
+                      Log& log, const std::stop_token& stop) {
     const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
     auto cones =
         cones_over(material::cone_field(heights.view(), side.border), set.name, threads, log, stop);
@@ -167,13 +167,14 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
         made.bisection = std::move(*bisection);
     }
     for (const auto& [set, sides] : missing.set_cones) {
-        material::TextureSet with_cones = *set;
+        material::ReliefMaterial with_cones = *set;
         for (const material::KnownCones& side : sides) {
             if (auto added = add_side(with_cones, side, threads, log, stop); !added) {
                 return added.error();
             }
         }
-        made.sets.emplace(set, std::make_shared<const material::TextureSet>(std::move(with_cones)));
+        made.sets.emplace(set,
+                          std::make_shared<const material::ReliefMaterial>(std::move(with_cones)));
     }
     if (missing.light) {
         const auto task = log.start("lighting " + missing.light->surface->terrain().name);
@@ -198,8 +199,8 @@ void apply_maps(TerrainScene& scene, const PreparedMaps& maps) {
     }
 }
 
-Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique, int threads,
-                       Log& log, const std::stop_token& stop) {
+Result<void> add_cones(material::ReliefMaterial& set, const scene::Technique& technique,
+                       int threads, Log& log, const std::stop_token& stop) {
     if (technique.id() != scene::TechniqueId::cone) {
         return {};
     }

@@ -8,7 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "engine/render/residency/terrain_maps.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
@@ -20,7 +20,7 @@ namespace reljef::session {
 /// The maps that a technique lacks in a scene and that take long to make. Shares what they are made
 /// of, so that making them needs no scene.
 struct MissingMaps {
-    using Set = std::shared_ptr<const material::TextureSet>;
+    using Set = std::shared_ptr<const material::ReliefMaterial>;
 
     std::shared_ptr<const scene::TerrainSurface> surface; ///< whose maps are missing; null: none
     bool bisection = false;                               ///< for polygons with an error bound
@@ -62,7 +62,7 @@ void apply_maps(TerrainScene& scene, const PreparedMaps& maps);
 
 /// Puts the cones over the sides of a detail texture that the technique sees, with its border, into
 /// the set; nothing where the technique needs none. Fails when it was stopped.
-Result<void> add_cones(material::TextureSet& set, const scene::Technique& technique, int threads,
-                       Log& log, const std::stop_token& stop);
+Result<void> add_cones(material::ReliefMaterial& set, const scene::Technique& technique,
+                       int threads, Log& log, const std::stop_token& stop);
 
 } // namespace reljef::session

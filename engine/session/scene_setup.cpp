@@ -11,9 +11,9 @@
 #include "engine/scene/motion/animators.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
-#include "engine/session/ground_detail.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/streaming.h"
+#include "engine/session/terrain_detail.h"
 
 namespace reljef::session {
 namespace {
@@ -61,13 +61,13 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
     }
     if (view.eye) {
         camera.eye = *view.eye;
-        camera.look = *view.look;
+        camera.target = *view.target;
         return camera;
     }
     const bool is_map = view.projection == scene::ProjectionKind::orthographic;
-    if (!view.pose && !is_map && description.eye && description.look) {
+    if (!view.pose && !is_map && description.eye && description.target) {
         camera.eye = *description.eye;
-        camera.look = *description.look;
+        camera.target = *description.target;
         return camera;
     }
     const auto ground = [&](double x, double y) { return scene.ground(x, y); };
@@ -82,7 +82,7 @@ keyframes_of(const TerrainScene& scene, const io::Flight& flight, const std::str
     }
     std::vector<scene::Keyframe> keyframes;
     for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight.keys)) {
-        keyframes.push_back({key.time, key.eye, key.look});
+        keyframes.push_back({key.time, key.eye, key.target});
     }
     return keyframes;
 }
@@ -97,7 +97,7 @@ void set_projection(scene::Camera& camera, const Box& bounds, const SceneOptions
     if (view.projection == scene::ProjectionKind::orthographic &&
         camera.projection == scene::ProjectionKind::perspective) {
         camera.projection = scene::ProjectionKind::orthographic;
-        camera.view_height = 2.0 * glm::distance(camera.eye, camera.look) *
+        camera.view_height = 2.0 * glm::distance(camera.eye, camera.target) *
                              std::tan(0.5 * glm::radians(view.vertical_fov));
     }
 }
@@ -157,7 +157,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
                                 const SceneOptions& view, Log& log, const std::stop_token& stop) {
     TerrainScene result;
     result.is_gallery = source.description.generator == "gallery";
-    result.faulty_files = source.terrain.faults.size();
+    result.failed_files = source.terrain.errors.size();
     const auto options = terrain_options(terrain, view, source.description);
     auto node = result.scene.add_terrain(std::move(source.terrain), options);
     if (!node) {

@@ -22,7 +22,7 @@ struct TerrainScene {
     std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
     Box bounds;                       ///< of the terrain, scene metres
     bool is_gallery = false;
-    std::size_t faulty_files = 0; ///< that were left out when the terrain was opened
+    std::size_t failed_files = 0; ///< that were left out when the terrain was opened
 
     /// z of the ground at x, y; the lowest of the terrain where there is none.
     [[nodiscard]] double ground(double x, double y) const;

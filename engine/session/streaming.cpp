@@ -50,8 +50,8 @@ scene::TileContent reading_of(const io::TileWindow& window) {
     for (std::size_t i = 0; i < window.heights.size(); ++i) {
         reading.heights.samples()[i] = static_cast<float>(window.heights.samples()[i]);
     }
-    for (const io::TileFault& fault : window.faults) {
-        reading.faults.push_back({fault.file.string(), fault.message});
+    for (const io::FileError& error : window.errors) {
+        reading.errors.push_back({error.file.string(), error.message});
     }
     return reading;
 }
@@ -68,13 +68,13 @@ scene::TileContent overview_reading(const scene::TileBuilder& maker, terrain::Tr
 // are of tiles that are drawn as they are.
 scene::TileContent reading_or_overview(const scene::TileBuilder& maker, int reduction,
                                        terrain::TreeTile tile, scene::TileContent reading) {
-    if (reading.faults.empty() || maker.step(tile) < reduction) {
+    if (reading.errors.empty() || maker.step(tile) < reduction) {
         return reading;
     }
     scene::TileContent coarse = overview_reading(maker, tile);
     coarse.bytes_read = reading.bytes_read;
     coarse.notes = std::move(reading.notes);
-    coarse.picture_faults = std::move(reading.faults);
+    coarse.picture_errors = std::move(reading.errors);
     return coarse;
 }
 
@@ -88,14 +88,14 @@ void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
                     maker.texel(tile.level), stop);
     io::close_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
     reading.picture = {std::move(window.texels), window.whole, window.has_more};
-    for (const io::TileFault& fault : window.faults) {
-        reading.picture_faults.push_back({fault.file.string(), fault.message});
+    for (const io::FileError& error : window.errors) {
+        reading.picture_errors.push_back({error.file.string(), error.message});
     }
 }
 
-void log_faults(scene::TileStream& stream, Log& log) {
-    for (const std::string& fault : stream.take_faults()) {
-        log.message(MessageKind::shown_coarser, fault);
+void log_errors(scene::TileStream& stream, Log& log) {
+    for (const std::string& error : stream.take_errors()) {
+        log.message(MessageKind::shown_coarser, error);
     }
     for (const std::string& note : stream.take_notes()) {
         log.note(note);
@@ -107,7 +107,7 @@ void wait_and_log(scene::TileStream& stream, Log& log, const std::stop_token& st
     bool is_there = false;
     while (!is_there && !stop.stop_requested()) {
         is_there = stream.wait_for(stop, between_logs);
-        log_faults(stream, log);
+        log_errors(stream, log);
     }
 }
 
@@ -175,7 +175,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
             return reading;
         }
         reading = reading_or_overview(maker, reduction, tile, std::move(reading));
-        if (images && reading.faults.empty()) {
+        if (images && reading.errors.empty()) {
             add_picture(*images, ground.grid, maker, tile, stop, reading);
         }
         return reading;
@@ -231,7 +231,7 @@ scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now
     if (seconds > 0.0) {
         const glm::dvec3 way = (now.eye - before.eye) * (ahead / seconds);
         later.eye += way;
-        later.look += way;
+        later.target += way;
     }
     return later;
 }
@@ -250,13 +250,13 @@ bool awaits_tiles(const scene::Scene& scene) {
     return busy;
 }
 
-void log_stream_faults(const scene::Scene& scene, Log& log) {
-    for_each_stream(scene, [&](scene::TileStream& stream) { log_faults(stream, log); });
+void log_stream_errors(const scene::Scene& scene, Log& log) {
+    for_each_stream(scene, [&](scene::TileStream& stream) { log_errors(stream, log); });
 }
 
-std::size_t faulty_files(const scene::Scene& scene) {
+std::size_t failed_files(const scene::Scene& scene) {
     std::size_t count = 0;
-    for_each_stream(scene, [&](scene::TileStream& stream) { count += stream.faulty_files(); });
+    for_each_stream(scene, [&](scene::TileStream& stream) { count += stream.failed_files(); });
     return count;
 }
 

@@ -38,9 +38,9 @@ bool take_arrivals(const scene::Scene& scene);
 bool awaits_tiles(const scene::Scene& scene);
 
 /// Logs the faults of streams, once per file, and their notes.
-void log_stream_faults(const scene::Scene& scene, Log& log);
+void log_stream_errors(const scene::Scene& scene, Log& log);
 /// Files that had faults.
-std::size_t faulty_files(const scene::Scene& scene);
+std::size_t failed_files(const scene::Scene& scene);
 
 /// Counts of each stream: tiles read, evicted and kept. Empty if nothing is streamed.
 std::vector<scene::TileStreamStats> stream_stats(const scene::Scene& scene);

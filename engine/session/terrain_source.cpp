@@ -298,7 +298,7 @@ void log_notes(const TerrainSource& source, Log& log) {
     for (const std::string& note : source.terrain.notes) {
         log.note(note);
     }
-    for (const std::string& fault : source.terrain.faults) {
+    for (const std::string& fault : source.terrain.errors) {
         log.message(MessageKind::left_out, fault);
     }
 }
@@ -392,11 +392,11 @@ Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_t
     return HeightSource{std::move(*tiles), choice.area ? choice.area : description->area};
 }
 
-Result<void> report_faults(const std::string& terrain, std::size_t faults) {
-    return faults == 0 ? Result<void>()
+Result<void> report_errors(const std::string& terrain, std::size_t errors) {
+    return errors == 0 ? Result<void>()
                        : Error{fmt::format("{}: {} of the files asked for could not be read and {} "
                                            "left out",
-                                           terrain, faults, faults == 1 ? "is" : "are")};
+                                           terrain, errors, errors == 1 ? "is" : "are")};
 }
 
 } // namespace reljef::session

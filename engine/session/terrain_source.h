@@ -67,6 +67,6 @@ struct HeightSource {
 Result<HeightSource> open_heights(const SourceOptions& options, const std::stop_token& stop);
 
 /// The error at the end (exit status 1) if files of the terrain could not be read.
-Result<void> report_faults(const std::string& terrain, std::size_t faults);
+Result<void> report_errors(const std::string& terrain, std::size_t errors);
 
 } // namespace reljef::session

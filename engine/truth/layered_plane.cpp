@@ -22,7 +22,7 @@ bool is_usable(const glm::vec4& heights) {
     return usable;
 }
 
-std::optional<Error> fault_of(GridView<const glm::vec4> layers) {
+std::optional<Error> error_of(GridView<const glm::vec4> layers) {
     if (layers.empty()) {
         return Error{"layers: there are no texels, at least one was expected"};
     }
@@ -182,7 +182,7 @@ bool is_finite_ray(const Ray& ray) {
 
 Result<LayeredPlane> LayeredPlane::create(GridView<const glm::vec4> layers,
                                           const ReliefOptions& options) {
-    if (auto fault = fault_of(layers)) {
+    if (auto fault = error_of(layers)) {
         return *fault;
     }
     const Grid<float> any(1, 1, 0.0F); // the options' rules are those of a relief

@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // A ray along the plane stays in the slab without end: past the tile nothing changes any more.
 constexpr double farthest = 1e300;
 
-std::optional<Error> fault_of(const ReliefOptions& options) {
+std::optional<Error> error_of(const ReliefOptions& options) {
     if (!(std::isfinite(options.width) && options.width > 0.0)) {
         return Error{
             fmt::format("relief width {}: a finite number above 0 was expected", options.width)};
@@ -33,7 +33,7 @@ std::optional<Error> fault_of(const ReliefOptions& options) {
     return std::nullopt;
 }
 
-std::optional<Error> fault_of(GridView<const float> tile) {
+std::optional<Error> error_of(GridView<const float> tile) {
     if (tile.empty()) {
         return Error{"relief tile: it has no texels, at least one was expected"};
     }
@@ -165,10 +165,10 @@ private:
 } // namespace
 
 Result<ReliefPlane> ReliefPlane::create(GridView<const float> tile, const ReliefOptions& options) {
-    if (auto fault = fault_of(options)) {
+    if (auto fault = error_of(options)) {
         return *fault;
     }
-    if (auto fault = fault_of(tile)) {
+    if (auto fault = error_of(tile)) {
         return *fault;
     }
     ReliefPlane plane;

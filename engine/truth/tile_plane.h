@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "engine/core/result.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
@@ -16,7 +16,7 @@ namespace reljef::truth {
 
 /// A tile of detail, its copies side by side over a level square around the origin, lit by a sun.
 struct TileSquare {
-    std::shared_ptr<const material::TextureSet> set; ///< as completed() gave it
+    std::shared_ptr<const material::ReliefMaterial> set; ///< as completed() gave it
     /// Which solids its maps say; absent: all below its heights.
     std::optional<material::LayerKind> layers;
     double side = 1.0;  ///< of the square, metres; > 0

@@ -24,7 +24,7 @@ DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& 
         terrain.material.technique.id() != scene::TechniqueId::polygons) {
         return DetailLevel::none;
     }
-    const scene::GroundDetail& detail = *terrain.detail;
+    const scene::TerrainDetail& detail = *terrain.detail;
     const glm::dvec2 metres(metres_a_pixel(camera, size));
     const double pixel = metres.x + metres.y * distance;
     const auto is_seen = [&](double size_on_ground, float min_pixels) {

@@ -147,7 +147,7 @@ private:
             scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
         TileSelection choice = select_tiles(terrain, list_.camera, list_.size, world_from_local,
                                             {.keeps_hidden = !options_.occlusion});
-        requests_.push_back({terrain.stream, std::move(choice.wanted), std::move(choice.used)});
+        requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
         const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
             list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
                                             drawn.distance, detail_of(terrain, drawn.distance),
@@ -264,7 +264,8 @@ std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::
         const auto* terrain = node.get<scene::TerrainNode>();
         if (terrain != nullptr && has_streamed_tiles(*terrain)) {
             TileSelection choice = select_tiles(*terrain, camera, size, transform);
-            requests.push_back({terrain->stream, std::move(choice.wanted), std::move(choice.used)});
+            requests.push_back(
+                {terrain->stream, std::move(choice.requested), std::move(choice.used)});
         }
     });
     return requests;

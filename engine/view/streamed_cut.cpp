@@ -12,7 +12,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/terrain/mesh/bisection.h"
-#include "engine/terrain/tree/shared_splits.h"
+#include "engine/terrain/tree/stitching.h"
 #include "engine/view/error_view.h"
 
 namespace reljef::view {
@@ -114,7 +114,7 @@ namespace {
 // Cuts all tiles of a cover, where one is not as it must be.
 class TogetherCutter {
 public:
-    TogetherCutter(const DrawList& list, const terrain::TileCover& cover,
+    TogetherCutter(const DrawList& list, const terrain::DrawnTiles& cover,
                    std::span<TileToCut> tiles)
         : list_(list), cover_(cover), tiles_(tiles), views_(tiles.size()) {
         for (const TileToCut& tile : tiles_) {
@@ -156,7 +156,7 @@ private:
 
     void find_triangles() {
         const terrain::TileTree& tree = tiles_.front().draw->terrain->stream->tree();
-        terrain::SharedSplits splits = terrain::shared_splits(tree, cover_, wanted());
+        terrain::SharedSplits splits = terrain::shared_splits(tree, cover_, required());
         for_each_tile([&](std::size_t i) {
             TileToCut& tile = tiles_[i];
             Grid<std::uint8_t>& needed = splits.at(tile.draw->tile->id);
@@ -169,15 +169,15 @@ private:
         });
     }
 
-    [[nodiscard]] terrain::BorderSplits wanted() const {
+    [[nodiscard]] terrain::BorderSplits required() const {
         std::vector<std::vector<glm::ivec2>> found(tiles_.size());
         for_each_tile(
             [&](std::size_t i) { found[i] = tiles_[i].cut->shape->border_splits(views_[i]); });
-        terrain::BorderSplits wanted;
+        terrain::BorderSplits required;
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            wanted.emplace(tiles_[i].draw->tile->id, std::move(found[i]));
+            required.emplace(tiles_[i].draw->tile->id, std::move(found[i]));
         }
-        return wanted;
+        return required;
     }
 
     [[nodiscard]] terrain::ErrorView view_of(const StreamedDraw& draw,
@@ -199,7 +199,7 @@ private:
     }
 
     const DrawList& list_;
-    const terrain::TileCover& cover_;
+    const terrain::DrawnTiles& cover_;
     std::span<TileToCut> tiles_;
     std::vector<terrain::ErrorView> views_;
     std::map<terrain::TreeTile, const StreamedDraw*> draws_;
@@ -212,7 +212,7 @@ bool is_cut(const StreamedDraw& draw) {
            scene::error_bound(draw.terrain->material.technique) > 0.0;
 }
 
-void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,
+void cut_together(const DrawList& list, const terrain::DrawnTiles& cover, bool is_new_cover,
                   std::span<TileToCut> tiles) {
     TogetherCutter(list, cover, tiles).cut(is_new_cover);
 }

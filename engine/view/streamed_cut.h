@@ -10,7 +10,7 @@
 
 #include "engine/scene/streamed_tile.h"
 #include "engine/terrain/mesh/bisection_mesh.h"
-#include "engine/terrain/tree/tile_cover.h"
+#include "engine/terrain/tree/stitching.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::view {
@@ -69,7 +69,7 @@ struct TileToCut {
 /// where neither the cover is new nor a tile's view; else the view of a cut whose triangles are new
 /// is for the caller to set, once they are drawn. Precondition: a tile for each of the cover, or
 /// none.
-void cut_together(const DrawList& list, const terrain::TileCover& cover, bool is_new_cover,
+void cut_together(const DrawList& list, const terrain::DrawnTiles& cover, bool is_new_cover,
                   std::span<TileToCut> tiles);
 
 } // namespace reljef::view

@@ -125,7 +125,7 @@ public:
     }
 
     /// Its error as it is seen, or what its picture lacks, over what may be.
-    [[nodiscard]] double excess_of(const scene::TileSummary& tile) const {
+    [[nodiscard]] double screen_space_error_of(const scene::TileSummary& tile) const {
         if (tile.id.level == 0) {
             return 0.0;
         }
@@ -164,14 +164,14 @@ private:
 
 // What keeps a walk from the tiles that the view should have.
 struct WalkLimits {
-    double max_excess = 1.0;           // tiles of no more do not give way
-    std::set<terrain::TreeTile> whole; // nor do these: what is below them is not there
+    double max_screen_space_error = 1.0; // tiles of no more do not give way
+    std::set<terrain::TreeTile> whole;   // nor do these: what is below them is not there
     // Nearer ground hides what is behind it. Only where nothing else keeps tiles from giving way:
     // a border goes to the vertices of the coarsest tile beside it, however far that is off.
     bool hides = true;
 
-    void raise(double excess) {
-        max_excess = excess;
+    void raise(double screen_space_error) {
+        max_screen_space_error = screen_space_error;
         hides = false;
     }
     void keep_whole(terrain::TreeTile tile) {
@@ -254,8 +254,9 @@ private:
 
     void add(const Candidate& candidate, KnownTile known, bool is_above_hidden) {
         const scene::TileSummary& summary = known.summary;
-        const double excess = view_.excess_of(summary);
-        const bool gives_way = excess > limits_.max_excess && !limits_.whole.contains(summary.id);
+        const double screen_space_error = view_.screen_space_error_of(summary);
+        const bool gives_way = screen_space_error > limits_.max_screen_space_error &&
+                               !limits_.whole.contains(summary.id);
         const Box box =
             gives_way
                 ? view_.stream().maker().bounds(summary.id, range_below(summary, errors_hidden))
@@ -271,7 +272,8 @@ private:
             seen_.push_back(summary.id);
         }
         if (gives_way) {
-            push_below(candidate, known, std::min(candidate.urgency, excess), is_hidden);
+            push_below(candidate, known, std::min(candidate.urgency, screen_space_error),
+                       is_hidden);
         } else {
             add_leaf(candidate, std::move(known.tile), is_hidden);
         }
@@ -323,18 +325,20 @@ private:
 // largest excesses first, as far as tiles are known. The same whatever else is known.
 double excess_within_memory(const StreamView& view, const scene::StreamedTile& root) {
     struct Open {
-        double excess;
+        double screen_space_error;
         scene::TileSummary tile;
 
         bool operator<(const Open& other) const {
-            return excess != other.excess ? excess < other.excess : other.tile.id < tile.id;
+            return screen_space_error != other.screen_space_error
+                       ? screen_space_error < other.screen_space_error
+                       : other.tile.id < tile.id;
         }
     };
     const std::size_t most = view.stream().max_drawn();
     std::size_t leaves = 1;
     std::priority_queue<Open> open;
-    open.push({view.excess_of(root), root});
-    while (!open.empty() && open.top().excess > 1.0) {
+    open.push({view.screen_space_error_of(root), root});
+    while (!open.empty() && open.top().screen_space_error > 1.0) {
         const Open next = open.top();
         open.pop();
         std::size_t seen = 0;
@@ -344,13 +348,13 @@ double excess_within_memory(const StreamView& view, const scene::StreamedTile& r
             }
             ++seen;
             if (const auto known = view.known(below)) {
-                const double excess = view.excess_of(known->summary);
-                open.push({std::min(next.excess, excess), known->summary});
+                const double screen_space_error = view.screen_space_error_of(known->summary);
+                open.push({std::min(next.screen_space_error, screen_space_error), known->summary});
             }
         }
         leaves += std::max<std::size_t>(seen, 1) - 1; // never fewer: the limit is safe
         if (leaves > most) {
-            return next.excess;
+            return next.screen_space_error;
         }
     }
     return 1.0;
@@ -361,12 +365,12 @@ std::vector<terrain::TreeTile> max_urgent(std::vector<Candidate> missing) {
         return a.urgency != b.urgency ? a.urgency > b.urgency : a.id < b.id;
     });
     missing.resize(std::min(missing.size(), max_wanted));
-    std::vector<terrain::TreeTile> wanted;
-    wanted.reserve(missing.size());
+    std::vector<terrain::TreeTile> requested;
+    requested.reserve(missing.size());
     for (const Candidate& candidate : missing) {
-        wanted.push_back(candidate.id);
+        requested.push_back(candidate.id);
     }
-    return wanted;
+    return requested;
 }
 
 bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>& missing) {
@@ -382,7 +386,7 @@ TileSelection chosen(const StreamView& view, const scene::StreamedTile& root,
                      const TileSelectionOptions& options) {
     const scene::TileStream& stream = view.stream();
     WalkLimits limits;
-    std::optional<std::vector<terrain::TreeTile>> wanted;
+    std::optional<std::vector<terrain::TreeTile>> requested;
     std::set<terrain::TreeTile> used; // by any walk: the next view may be like the first one's
     while (true) {
         TreeWalk walk(view, limits, options);
@@ -395,12 +399,12 @@ TileSelection chosen(const StreamView& view, const scene::StreamedTile& root,
             limits.hides = false; // for long: what is drawn meanwhile is wanted, too
             continue;
         }
-        if (!wanted) {
-            wanted = max_urgent(walk.missing());
+        if (!requested) {
+            requested = max_urgent(walk.missing());
         }
         if (walk.missing().empty()) {
             TileSelection choice = walk.take();
-            choice.wanted = std::move(*wanted);
+            choice.requested = std::move(*requested);
             choice.used.assign(used.begin(), used.end());
             return choice;
         }
@@ -421,7 +425,7 @@ TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camer
     if (root == nullptr) {
         TileSelection choice;
         choice.has_root = false;
-        choice.wanted.push_back(stream.tree().root());
+        choice.requested.push_back(stream.tree().root());
         return choice;
     }
     return chosen(StreamView(terrain, camera, size, world_from_local), *root, options);

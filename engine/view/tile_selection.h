@@ -18,9 +18,9 @@ struct TileSelection {
         double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
         double error = 0.0;    ///< of its vertices as it is seen, an estimate, pixels
     };
-    std::vector<Drawn> drawn;              ///< from the eye outwards
-    std::vector<Drawn> hidden;             ///< behind what is drawn, of what is there
-    std::vector<terrain::TreeTile> wanted; ///< and not there, the most urgent first
+    std::vector<Drawn> drawn;                 ///< from the eye outwards
+    std::vector<Drawn> hidden;                ///< behind what is drawn, of what is there
+    std::vector<terrain::TreeTile> requested; ///< and not there, the most urgent first
     /// In memory, and drawn, above a drawn one, or needed to find out what is hidden: to keep.
     std::vector<terrain::TreeTile> used;
     bool has_root = true; ///< false: nothing is in memory yet, and the root is wanted

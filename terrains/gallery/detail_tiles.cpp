@@ -190,13 +190,13 @@ Stuff brass(glm::vec2 place, std::uint32_t seed) {
 
 constexpr int ring_rows = 3;
 
-void hang_rings(material::TextureSet& set) {
+void hang_rings(material::ReliefMaterial& set) {
     set.layers = ring_layers(ring_rows, set.heights.cols());
     set.heights = material::top_heights(*set.layers);
 }
 
 // Ribs behind the dents.
-void add_ribs(material::TextureSet& set) {
+void add_ribs(material::ReliefMaterial& set) {
     constexpr float ribs = 12.0F;
     const float turn = 2.0F * std::acos(-1.0F);
     set.back_heights = Grid<float>(set.heights.cols(), set.heights.rows());
@@ -209,7 +209,7 @@ void add_ribs(material::TextureSet& set) {
     }
 }
 
-void add_nothing(material::TextureSet& /*set*/) {}
+void add_nothing(material::ReliefMaterial& /*set*/) {}
 
 void spread_over_unit(Grid<float>& heights) {
     const auto [low, high] =
@@ -244,10 +244,10 @@ float open_to_sky(const Grid<float>& heights, glm::ivec2 texel) {
     return glm::clamp(1.0F - hidden, 0.25F, 1.0F);
 }
 
-material::TextureSet made(const Make& make, const DetailOptions& options) {
+material::ReliefMaterial made(const Make& make, const DetailOptions& options) {
     const int size = options.size;
     Grid<glm::vec3> albedo(size, size);
-    material::TextureSet set;
+    material::ReliefMaterial set;
     set.heights = Grid<float>(size, size);
     set.color = Image(size, size);
     const ParallelOptions parallel{options.threads, {}, {}};
@@ -281,7 +281,7 @@ struct Kind {
     float scale;
     float specular;
     float shininess;
-    void (*add_sides)(material::TextureSet& set) = &add_nothing; // beside its heights
+    void (*add_sides)(material::ReliefMaterial& set) = &add_nothing; // beside its heights
 };
 
 constexpr std::array<Kind, 6> kinds{{{"brick", &brick_wall, 0.05F, 0.04F, 12.0F},
@@ -303,7 +303,8 @@ std::span<const std::string_view> detail_names() {
     return names;
 }
 
-Result<material::TextureSet> generate_detail(std::string_view name, const DetailOptions& options) {
+Result<material::ReliefMaterial> generate_detail(std::string_view name,
+                                                 const DetailOptions& options) {
     const auto* const kind = std::find_if(kinds.begin(), kinds.end(),
                                           [&](const Kind& entry) { return entry.name == name; });
     if (kind == kinds.end()) {
@@ -314,7 +315,7 @@ Result<material::TextureSet> generate_detail(std::string_view name, const Detail
         return Error{fmt::format("texture set {}: a size of {} found, {} to {} was expected", name,
                                  options.size, min_side, max_side)};
     }
-    material::TextureSet set = made(kind->make, options);
+    material::ReliefMaterial set = made(kind->make, options);
     set.name = std::string(name);
     set.scale = kind->scale > 0.0F ? kind->scale : ring_scale(ring_rows);
     set.specular = kind->specular;

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "engine/core/result.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 
 namespace reljef::terrains {
 
@@ -22,7 +22,7 @@ std::span<const std::string_view> detail_names();
 /// bricks, cracked rock, cobbles in sand; a fence of wires with holes, a curtain of rings in
 /// layers, hammered copper with ribs on its back. The same seed gives the same bits. Fails on an
 /// unknown name, with the known ones, and on a size out of range.
-Result<material::TextureSet> generate_detail(std::string_view name,
-                                             const DetailOptions& options = {});
+Result<material::ReliefMaterial> generate_detail(std::string_view name,
+                                                 const DetailOptions& options = {});
 
 } // namespace reljef::terrains

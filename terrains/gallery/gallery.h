@@ -25,7 +25,7 @@ struct GalleryModel {
                     ///< torus ring and tube radius; cylinder radius, height
     glm::vec2 repeats;          ///< tiles along texture coordinates 0 … 1
     std::string_view technique; ///< that shows what it is
-    float offset = -1.0F;       ///< of the heights against the shape, as of a TextureDetail
+    float offset = -1.0F;       ///< of the heights against the shape, as of a SurfaceDetail
 };
 
 std::span<const GalleryModel> gallery_models();

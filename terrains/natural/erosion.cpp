@@ -15,15 +15,15 @@ constexpr float diagonal = 1.41421356F;
 /// How far a cell stands higher over its lowest neighbour than is stable, `stable` over straight
 /// ones.
 float excess_over(const Grid<float>& heights, int col, int row, float stable) {
-    float excess = 0.0F;
+    float screen_space_error = 0.0F;
     for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
             const float reach = stable * (x != 0 && y != 0 ? diagonal : 1.0F);
             const float drop = heights(col, row) - heights.clamped(col + x, row + y);
-            excess = std::max(excess, drop - reach);
+            screen_space_error = std::max(screen_space_error, drop - reach);
         }
     }
-    return excess;
+    return screen_space_error;
 }
 
 } // namespace

@@ -85,10 +85,10 @@ std::vector<Reach> lake_reaches(const Land& land, const std::vector<std::int32_t
     }
     std::sort(candidates.begin(), candidates.end());
     const float kilometres = static_cast<float>(land.heights.cols()) * design_spacing * 0.001F;
-    const auto wanted = static_cast<std::size_t>(1.0F + kilometres * kilometres / 250.0F);
+    const auto requested = static_cast<std::size_t>(1.0F + kilometres * kilometres / 250.0F);
     std::vector<Reach> reaches;
     for (const auto& [rise, cell] : candidates) {
-        if (rise < max_rise && reaches.size() < wanted &&
+        if (rise < max_rise && reaches.size() < requested &&
             far_from(reaches, cell, land.heights.cols())) {
             reaches.push_back(reach_from(cell, length, land, donors));
         }
@@ -106,9 +106,9 @@ void lower_to_lakes(Land& land, const std::vector<Reach>& reaches) {
         const float level = heights[cell_index(reach.cells.front())];
         for (std::size_t i = 0; i < reach.cells.size(); ++i) {
             const float part = reach.distance[i] / reach.distance.back();
-            const float wanted = level + reach.rise * std::max(0.0F, 2.0F * part - 1.0F);
+            const float requested = level + reach.rise * std::max(0.0F, 2.0F * part - 1.0F);
             lowering[cell_index(reach.cells[i])] =
-                std::max(1.0e-3F, heights[cell_index(reach.cells[i])] - wanted);
+                std::max(1.0e-3F, heights[cell_index(reach.cells[i])] - requested);
         }
     }
     for (const std::int32_t cell : land.drainage.order) {

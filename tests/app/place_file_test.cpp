@@ -83,17 +83,17 @@ TEST_F(PlaceFileTest, BlankLinesAndCommentsStandAnywhere) {
 
 TEST_F(PlaceFileTest, PiecesCutNoLine) {
     std::string text = "latitude,longitude\n";
-    std::string wanted;
+    std::string requested;
     for (int i = 0; i < 500; ++i) {
         const std::string place = fmt::format("{},{}", i % 90, i);
         text += place + (i % 3 == 0 ? ",name\n" : "\n");
-        wanted += place + "\n";
+        requested += place + "\n";
     }
     for (const std::size_t piece : {20U, 21U, 64U, 1000U, 100'000U}) {
         for (const std::string& whole : {text, text.substr(0, text.size() - 1)}) {
             const auto places = read(whole, piece);
             ASSERT_TRUE(places) << places.error().message;
-            EXPECT_EQ(places->texts, wanted) << piece;
+            EXPECT_EQ(places->texts, requested) << piece;
             EXPECT_EQ(places->places.back(), glm::dvec2(499 % 90, 499));
             EXPECT_EQ(places->pieces > 1, piece < text.size());
         }

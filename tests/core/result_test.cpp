@@ -9,8 +9,8 @@
 namespace reljef {
 namespace {
 
-Result<std::string> word_if(bool wanted) {
-    if (!wanted) {
+Result<std::string> word_if(bool requested) {
+    if (!requested) {
         return Error{"no word"};
     }
     return std::string("word");

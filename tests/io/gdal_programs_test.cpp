@@ -50,7 +50,7 @@ public:
 
     /// `wanted` numbers of each line; 17 digits of what is asked.
     [[nodiscard]] std::vector<double> ask(std::vector<std::string> arguments,
-                                          std::span<const glm::dvec2> points, int wanted) const {
+                                          std::span<const glm::dvec2> points, int requested) const {
         std::string text;
         for (const glm::dvec2 point : points) {
             text += fmt::format("{:.17g} {:.17g}\n", point.x, point.y);
@@ -60,16 +60,16 @@ public:
             .environment = {}, .folder = {}, .input = folder.write("points", text)};
         const auto result = test::run_program(program_, arguments, options);
         EXPECT_EQ(result.exit_code, 0) << result.err;
-        return numbers_of(result.out, wanted);
+        return numbers_of(result.out, requested);
     }
 
 private:
-    static std::vector<double> numbers_of(std::string_view text, int wanted) {
+    static std::vector<double> numbers_of(std::string_view text, int requested) {
         std::vector<double> numbers;
         while (!text.empty()) {
             std::string_view line = text.substr(0, text.find('\n'));
             text.remove_prefix(std::min(text.size(), line.size() + 1));
-            for (int i = 0; i < wanted; ++i) {
+            for (int i = 0; i < requested; ++i) {
                 double number = std::nan("");
                 const auto parsed = std::from_chars(line.data(), line.data() + line.size(), number);
                 line.remove_prefix(static_cast<std::size_t>(parsed.ptr - line.data()));

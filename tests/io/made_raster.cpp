@@ -94,14 +94,14 @@ QuietGdal::~QuietGdal() {
 
 bool write(const MadeRaster& raster, const std::filesystem::path& path) {
     const QuietGdal quiet;
-    GDALDriver* wanted = driver(raster.format);
-    if (wanted == nullptr) {
+    GDALDriver* requested = driver(raster.format);
+    if (requested == nullptr) {
         return false;
     }
     const bool direct = raster.format == "GTiff";
     CPLStringList options = list_of(raster.options);
     CPLStringList none;
-    const Dataset dataset((direct ? wanted : driver("MEM"))
+    const Dataset dataset((direct ? requested : driver("MEM"))
                               ->Create(path.c_str(), raster.cols, raster.rows, raster.bands,
                                        raster.type, (direct ? options : none).List()));
     if (dataset == nullptr || !fill(*dataset, raster)) {
@@ -110,8 +110,8 @@ bool write(const MadeRaster& raster, const std::filesystem::path& path) {
     if (direct) {
         return true;
     }
-    const Dataset copy(
-        wanted->CreateCopy(path.c_str(), dataset.get(), FALSE, options.List(), nullptr, nullptr));
+    const Dataset copy(requested->CreateCopy(path.c_str(), dataset.get(), FALSE, options.List(),
+                                             nullptr, nullptr));
     return copy != nullptr;
 }
 

@@ -53,13 +53,13 @@ protected:
     }
     void expect_good(const TileSet& tiles) const {
         const auto window = read(tiles, {0, 5, 5});
-        ASSERT_TRUE(window.faults.empty()) << window.faults.front().message;
+        ASSERT_TRUE(window.errors.empty()) << window.errors.front().message;
         EXPECT_EQ(window.heights(1, 1), 5 * 128 + 2 * 5 * 128);
     }
     void expect_fault(const TileSet& tiles, const std::string& name) const {
         const auto window = read(tiles, {0, 5, 5});
-        ASSERT_EQ(window.faults.size(), 1U);
-        EXPECT_THAT(window.faults.front().message, HasSubstr(name));
+        ASSERT_EQ(window.errors.size(), 1U);
+        EXPECT_THAT(window.errors.front().message, HasSubstr(name));
     }
 
     static constexpr int side = 1000;
@@ -74,7 +74,7 @@ TEST_F(RemoteTiles, AreThoseOfTheLocalFileToTheBitAndOnlyTheirPartsAreFetched) {
     for (const terrain::TreeTile tile : {terrain::TreeTile{0, 6, 6}, {1, 2, 3}, {2, 0, 0}}) {
         const auto there = read(local, tile);
         const auto come = read(remote, tile);
-        ASSERT_TRUE(come.faults.empty()) << come.faults.front().message;
+        ASSERT_TRUE(come.errors.empty()) << come.errors.front().message;
         EXPECT_TRUE(std::ranges::equal(come.heights.samples(), there.heights.samples()));
     }
     EXPECT_GT(server_->bytes_sent(), 128U * 128U * 4U);
@@ -126,8 +126,8 @@ TEST_F(RemoteTiles, AreThereAtOnceAfterAShortOutageThatManyThreadsMet) {
     parallel_for(16,
                  [&](int i) {
                      const TileWindow window = read(tiles, {0, i % 4, i / 4});
-                     failed += window.faults.empty() ? 0 : 1;
-                     if (window.faults.empty()) { // all that is needed has come before
+                     failed += window.errors.empty() ? 0 : 1;
+                     if (window.errors.empty()) { // all that is needed has come before
                          EXPECT_EQ(window.heights(1, 1), (i % 4) * 128 + 2 * (i / 4) * 128);
                          EXPECT_EQ(window.heights(128, 128),
                                    (i % 4) * 128 + 127 + 2 * ((i / 4) * 128 + 127));

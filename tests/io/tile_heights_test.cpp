@@ -130,7 +130,7 @@ TEST(TileHeights, ManyPlacesOfTheAlpineBlockReadEachSampleOnce) {
     for (glm::dvec2& place : places) {
         place = {45.0 + part(random), 6.0 + part(random)};
     }
-    EXPECT_TRUE(tiles->heights(places).faults.empty());
+    EXPECT_TRUE(tiles->heights(places).errors.empty());
     constexpr std::size_t bytes = std::size_t{2} * 1201 * 1201;
     EXPECT_GT(tiles->bytes_read(), bytes / 2);
     EXPECT_LE(tiles->bytes_read(), bytes + bytes / 50); // and those where two blocks meet

@@ -251,8 +251,8 @@ TEST_F(TileSets, WhatCannotBeUsedIsToldOnceAndTheRestIsThere) {
     folder_.write("readme.txt", "no raster");
     const auto terrain = drawn();
     EXPECT_EQ(terrain.heightfield.heights(3, 3), static_cast<float>(plane(500035.0, 4999965.0)));
-    const std::string told = test::joined(terrain.faults);
-    ASSERT_EQ(terrain.faults.size(), 4U) << told;
+    const std::string told = test::joined(terrain.errors);
+    ASSERT_EQ(terrain.errors.size(), 4U) << told;
     for (const char* name : {"cut.tif: cannot be ", "nowhere.tif: names no place",
                              "empty.tif: is empty", "noise.hgt: cannot be opened"}) {
         EXPECT_THAT(told, HasSubstr(name));
@@ -264,8 +264,8 @@ TEST_F(TileSets, ATileInASystemWithoutDefinitionIsAFault) {
     tile("local.tif", "LOCAL_CS[\"somewhere\",UNIT[\"metre\",1]]", 20, 20,
          {500200.0, 5000000.0, 10.0}, plane);
     const TileSet tiles = open();
-    ASSERT_EQ(tiles.faults().size(), 1U);
-    EXPECT_THAT(tiles.faults()[0].message, HasSubstr("local.tif: names no place"));
+    ASSERT_EQ(tiles.errors().size(), 1U);
+    EXPECT_THAT(tiles.errors()[0].message, HasSubstr("local.tif: names no place"));
 }
 
 TEST_F(TileSets, AFileOfMoreSamplesThanATreeReachesIsAFault) {
@@ -280,8 +280,8 @@ TEST_F(TileSets, AFileOfMoreSamplesThanATreeReachesIsAFault) {
     }
     const TileSet tiles = open();
     EXPECT_EQ(tiles.files().size(), 1U);
-    ASSERT_EQ(tiles.faults().size(), 2U);
-    EXPECT_THAT(tiles.faults()[1].message,
+    ASSERT_EQ(tiles.errors().size(), 2U);
+    EXPECT_THAT(tiles.errors()[1].message,
                 HasSubstr("550000.vrt: has 2000000000×4 samples, at most 1073741824 a side"));
 }
 
@@ -293,7 +293,7 @@ TEST_F(TileSets, TilesMayLieFartherApartThanATreeReaches) {
     }
     const TileSet tiles = open(); // 3,000,000,000 samples apart
     EXPECT_EQ(tiles.files().size(), 4U);
-    EXPECT_TRUE(tiles.faults().empty());
+    EXPECT_TRUE(tiles.errors().empty());
     ASSERT_EQ(tiles.notes().size(), 1U);
     EXPECT_THAT(tiles.notes()[0], HasSubstr("it is seen in steps of 3"));
     EXPECT_NEAR(tiles.grid().cols, 1e9, 3.0);
@@ -316,7 +316,7 @@ TEST_F(TileSets, PicturesBesideTilesAreNoHeights) {
     ASSERT_TRUE(test::write(picture, folder_.path() / "picture.tif"));
     const TileSet tiles = open();
     EXPECT_EQ(tiles.files().size(), 1U);
-    EXPECT_TRUE(tiles.faults().empty());
+    EXPECT_TRUE(tiles.errors().empty());
     ASSERT_EQ(tiles.notes().size(), 1U);
     EXPECT_THAT(tiles.notes()[0], HasSubstr("1 picture in colour"));
 }
@@ -407,7 +407,7 @@ TEST_F(TileCache, OpensNoneOfManyFilesThatAreTheSame) {
     }
     const TileSet again = open(options_);
     EXPECT_EQ(again.files().size(), 201U);
-    EXPECT_TRUE(again.faults().empty());
+    EXPECT_TRUE(again.errors().empty());
     EXPECT_FALSE(TileSet::open(folder_.path())) << "without the cache they are opened";
 }
 

@@ -113,7 +113,7 @@ TEST(TreeTiles, LeaveNoFileOpenAndSpareTheRestOfAHugeRaster) {
         for (int level = tree.root().level; level >= 0; --level) {
             const TreeTile tile{level, (1 << (tree.root().level - level)) / 3, 0};
             const auto window = read_tree_tile(tiles, tiles.grid(), tree, tile, Gaps::holes);
-            ASSERT_TRUE(window.faults.empty());
+            ASSERT_TRUE(window.errors.empty());
             ASSERT_FALSE(std::isnan(window.heights(60, 60)));
         }
         EXPECT_LT(tiles.bytes_read(), std::size_t{64} << 20);
@@ -155,8 +155,8 @@ TEST(TreeTiles, AFileReplacedWhileItIsOpenIsReadAnew) {
     std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) +
                                                std::chrono::seconds(4));
     const auto cut = read_tree_tile(tiles, tiles.grid(), tree, {0, 0, 0}, Gaps::holes);
-    ASSERT_EQ(cut.faults.size(), 1U);
-    EXPECT_THAT(cut.faults.front().message, ::testing::HasSubstr("a.tif"));
+    ASSERT_EQ(cut.errors.size(), 1U);
+    EXPECT_THAT(cut.errors.front().message, ::testing::HasSubstr("a.tif"));
 }
 
 /// A plane over the same square kilometre, in samples of 10 m where it is first read.
@@ -192,7 +192,7 @@ protected:
     /// Without those along the border, where samples beyond are missing.
     void expect_plane(double most) const {
         const TileWindow window = read();
-        ASSERT_TRUE(window.faults.empty()) << window.faults.front().message;
+        ASSERT_TRUE(window.errors.empty()) << window.errors.front().message;
         EXPECT_FALSE(std::ranges::any_of(window.heights.samples(),
                                          [](double height) { return std::isnan(height); }));
         for (int row = 6; row < 94; ++row) {
@@ -205,8 +205,8 @@ protected:
     }
     void expect_fault(const std::string& words) const {
         const auto window = read();
-        ASSERT_EQ(window.faults.size(), 1U);
-        EXPECT_THAT(window.faults.front().message,
+        ASSERT_EQ(window.errors.size(), 1U);
+        EXPECT_THAT(window.errors.front().message,
                     ::testing::AllOf(::testing::HasSubstr("a.tif: was replaced while it was open"),
                                      ::testing::HasSubstr(words)));
     }
@@ -260,7 +260,7 @@ TEST_F(ReplacedTile, KeepsVoidsApartFromHeights) {
         raster.nodata = nodata;
         write(raster);
         const auto window = read();
-        ASSERT_TRUE(window.faults.empty()) << window.faults.front().message;
+        ASSERT_TRUE(window.errors.empty()) << window.errors.front().message;
         int voids = 0;
         for (const double height : window.heights.samples()) {
             voids += std::isnan(height) ? 1 : 0;
@@ -295,13 +295,13 @@ TEST(TreeTiles, AFileThatIsGoneIsAFaultAndBackAgainWhenItIs) {
     const auto read = [&] {
         return read_tree_tile(tiles, tiles.grid(), TileTree(100, 100), {0, 0, 0}, Gaps::holes);
     };
-    ASSERT_TRUE(read().faults.empty());
+    ASSERT_TRUE(read().errors.empty());
     std::filesystem::rename(file, folder.path() / "b.tif");
     const auto gone = read();
-    ASSERT_EQ(gone.faults.size(), 1U);
-    EXPECT_THAT(gone.faults.front().message, ::testing::HasSubstr("a.tif: does not exist"));
+    ASSERT_EQ(gone.errors.size(), 1U);
+    EXPECT_THAT(gone.errors.front().message, ::testing::HasSubstr("a.tif: does not exist"));
     std::filesystem::rename(folder.path() / "b.tif", file);
-    EXPECT_TRUE(read().faults.empty());
+    EXPECT_TRUE(read().errors.empty());
 }
 
 } // namespace

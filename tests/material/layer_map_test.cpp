@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::terrain {
@@ -209,7 +209,7 @@ TEST(LayersOfMesh, ASphereIsAsThickAsItIsAndALowOneIsRefused) {
 
 TEST(LayersOfASet, FallBackToWhatItsHeightsSay) {
     test::Chance chance(2);
-    material::TextureSet set;
+    material::ReliefMaterial set;
     set.color = Image(4, 4);
     set.heights = any_heights(4, 4, chance);
     set = material::completed(set, material::WrapMode::wrap).value();

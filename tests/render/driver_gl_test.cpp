@@ -90,7 +90,7 @@ TEST_F(DriverGlTest, AScaledTerrainIsLitAsAnyOther) {
     const Image before = draw(world.scene);
     Camera camera = world.scene.camera();
     camera.eye *= 2.0;
-    camera.look *= 2.0;
+    camera.target *= 2.0;
     world.look(camera);
     world.terrain->set_parent_from_local(glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
     const Image after = draw(world.scene);
@@ -272,7 +272,7 @@ TEST_F(DriverGlTest, TenThousandKilometresAwayThePictureIsTheSame) {
         world.terrain->set_position(offset);
         Camera moved = camera;
         moved.eye += offset;
-        moved.look += offset;
+        moved.target += offset;
         world.look(moved);
         EXPECT_LE(different_pixels(here, draw(world.scene), 1), size.x * size.y / 10000);
     }
@@ -314,7 +314,7 @@ TEST_F(DriverGlTest, AnOrthographicCameraSeesWhatIsBehindItsEye) {
     world.scene.add_mesh(scene::box_mesh(glm::vec3(20.0F))).set_position({0.0, 0.0, 40.0});
     Camera map = pose(scene::Pose::map, *world.terrain);
     map.eye.z = -200.0;
-    map.look.z = -201.0;
+    map.target.z = -201.0;
     world.look(map);
     const HitBuffer hits = test::must(driver().draw_hits(world.scene));
     const Hit& box = hits(size.x / 2, size.y / 2);

@@ -44,7 +44,7 @@ struct Ground {
         const glm::dvec3 look = eye + glm::dvec3(std::sin(heading), std::cos(heading), -1.0);
         Camera view;
         view.eye = glm::dvec3(frame * glm::dvec4(eye, 1.0));
-        view.look = glm::dvec3(frame * glm::dvec4(look, 1.0));
+        view.target = glm::dvec3(frame * glm::dvec4(look, 1.0));
         view.up = glm::dvec3(frame[2]);
         *camera->get<Camera>() = view;
     }
@@ -128,7 +128,7 @@ TEST_F(EarthGlTest, OfTwoPlanesAFiveMillionthOfTheirDepthApartTheNearerShows) {
     Scene scene;
     Camera down;
     down.eye = {0.0, 0.0, 0.0};
-    down.look = {0.0, 0.0, -1.0};
+    down.target = {0.0, 0.0, -1.0};
     down.up = {0.0, 1.0, 0.0};
     down.near = 0.1;
     scene.add_camera(down);

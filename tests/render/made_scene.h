@@ -33,7 +33,7 @@ inline const scene::TerrainSurface& surface_of(const scene::Node& node) {
 inline scene::Camera camera_at(glm::dvec3 eye, glm::dvec3 look) {
     scene::Camera camera;
     camera.eye = eye;
-    camera.look = look;
+    camera.target = look;
     return camera;
 }
 

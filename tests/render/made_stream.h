@@ -10,8 +10,8 @@ namespace reljef::render {
 inline void bring_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera) {
     while (true) {
         const auto choice = view::select_tiles(terrain, camera, size, glm::dmat4(1.0));
-        terrain.stream->request(choice.wanted, choice.used);
-        if (choice.wanted.empty()) {
+        terrain.stream->request(choice.requested, choice.used);
+        if (choice.requested.empty()) {
             return;
         }
         terrain.stream->wait({});

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "engine/render/passes/sample_target.h"
 #include "engine/scene/technique/technique.h"
 #include "tests/render/driver_fixture.h"
@@ -246,9 +246,9 @@ TEST_F(SamplesGlTest, OutlinesOfATerrainAreSmoothWithEveryTechnique) {
 }
 
 // Waves that reach from the highest to the lowest heights; half of them of another colour.
-std::shared_ptr<const material::TextureSet> waves(Rgba8 front = {230, 230, 230, 255}) {
+std::shared_ptr<const material::ReliefMaterial> waves(Rgba8 front = {230, 230, 230, 255}) {
     constexpr int side = 32;
-    material::TextureSet set;
+    material::ReliefMaterial set;
     set.name = "made";
     set.heights = Grid<float>(side, side);
     const double step = 2.0 * std::acos(-1.0) / side;
@@ -263,7 +263,7 @@ std::shared_ptr<const material::TextureSet> waves(Rgba8 front = {230, 230, 230, 
         set.color(col, 0) = set.color(col, 1) = front;
     }
     set.scale = 0.2F;
-    return std::make_shared<const material::TextureSet>(
+    return std::make_shared<const material::ReliefMaterial>(
         material::completed(std::move(set), material::WrapMode::wrap).value());
 }
 

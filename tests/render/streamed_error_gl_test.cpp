@@ -146,7 +146,7 @@ TEST_F(StreamedError, OfTheVerticesBesideATileIsNotLeftToItsTriangles) {
         ids.insert(draw.tile->id);
     }
     const auto& stream = *terrain_->get<scene::TerrainNode>()->stream;
-    const terrain::TileCover cover(stream.tree(), ids);
+    const terrain::DrawnTiles cover(stream.tree(), ids);
     const TreeTile beside = cover.touching(list.streamed_tiles.front().tile->id).front();
     const auto left_to_first = [&] {
         std::vector<view::StreamedCut> cuts(list.streamed_tiles.size());

@@ -69,7 +69,7 @@ struct Ridges {
 scene::TileContent read_ridges(const Ridges& ridges, TreeTile tile) {
     scene::TileContent reading;
     if (ridges.fails(tile)) {
-        reading.faults.push_back({"ridges.tif", "ridges.tif cannot be read"});
+        reading.errors.push_back({"ridges.tif", "ridges.tif cannot be read"});
         return reading;
     }
     const terrain::TileTree tree(ridge_samples, ridge_samples);
@@ -128,8 +128,8 @@ struct RidgeWorld {
         const auto is_given_up = [&](TreeTile tile) { return terrain->stream->has_given_up(tile); };
         while (true) {
             const view::TileSelection now = choice(options);
-            terrain->stream->request(now.wanted, now.used);
-            if (std::all_of(now.wanted.begin(), now.wanted.end(), is_given_up)) {
+            terrain->stream->request(now.requested, now.used);
+            if (std::all_of(now.requested.begin(), now.requested.end(), is_given_up)) {
                 return;
             }
             terrain->stream->wait({});
@@ -264,7 +264,7 @@ TEST(StreamedOcclusionChoice, WhereATileFailsNothingIsHidden) {
     world.look(camera);
     world.bring();
     const view::TileSelection choice = world.choice();
-    EXPECT_EQ(choice.wanted, std::vector{farthest});
+    EXPECT_EQ(choice.requested, std::vector{farthest});
     EXPECT_EQ(hidden_tiles(choice), 0);
     world.bring({.keeps_hidden = true});
     EXPECT_EQ(drawn_tiles(world.choice()), drawn_tiles(choice)); // nothing more was needed
@@ -289,7 +289,7 @@ TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShor
                 ASSERT_TRUE(hidden_tiles(choice) == 0 || worst <= 0.125) << worst;
                 hiding += hidden_tiles(choice) > 0 ? 1 : 0;
                 coarse += worst > 0.125 ? 1 : 0;
-                world.terrain->stream->request(choice.wanted, choice.used);
+                world.terrain->stream->request(choice.requested, choice.used);
                 world.terrain->stream->wait({});
             }
         }
@@ -305,12 +305,13 @@ TEST(StreamedOcclusionChoice, TilesThatWaitForOthersStayInMemory) {
     world.look(camera_at({-600.0, -600.0, 900.0}, {-600.0, -590.0, 0.0}));
     world.bring();
     const scene::TileStream& stream = *world.terrain->stream;
-    ASSERT_EQ(world.choice().wanted, std::vector{failing});
+    ASSERT_EQ(world.choice().requested, std::vector{failing});
     for (int round = 0; round < 30; ++round) {
         const view::TileSelection choice = world.choice();
-        std::vector<TreeTile> wanted = choice.wanted;
-        wanted.insert(wanted.end(), {{0, round % 24, 0}, {0, round % 24, 23}}); // of views ahead
-        world.terrain->stream->request(wanted, choice.used);
+        std::vector<TreeTile> requested = choice.requested;
+        requested.insert(requested.end(),
+                         {{0, round % 24, 0}, {0, round % 24, 23}}); // of views ahead
+        world.terrain->stream->request(requested, choice.used);
         world.terrain->stream->wait({});
     }
     EXPECT_GT(stream.stats().evicted, 0);

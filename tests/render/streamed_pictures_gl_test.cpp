@@ -134,8 +134,8 @@ TEST_F(StreamedPicturesGlTest, EveryPixelHasTheColourOfItsPlace) {
 }
 
 // Level and of two colours, one beside the other from west to east, six metres wide.
-std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
-    material::TextureSet set;
+std::shared_ptr<const scene::TerrainDetail> two_colours(Rgba8 west, Rgba8 east) {
+    material::ReliefMaterial set;
     set.name = "two colours";
     set.heights = Grid<float>(16, 16, 1.0F);
     set.color = Image(16, 16, west);
@@ -145,12 +145,12 @@ std::shared_ptr<const scene::GroundDetail> two_colours(Rgba8 west, Rgba8 east) {
             set.color(col, row) = east;
         }
     }
-    scene::GroundDetail detail;
-    detail.set = std::make_shared<const material::TextureSet>(
+    scene::TerrainDetail detail;
+    detail.set = std::make_shared<const material::ReliefMaterial>(
         material::completed(std::move(set), material::WrapMode::wrap).value());
     detail.width = 6.0;
     detail.technique = scene::parse_technique("exact:shadow=hard").value();
-    return std::make_shared<const scene::GroundDetail>(std::move(detail));
+    return std::make_shared<const scene::TerrainDetail>(std::move(detail));
 }
 
 // The light of a pixel with it over that of the same one without is that of its place on the tile
@@ -161,7 +161,7 @@ TEST_F(StreamedPicturesGlTest, ATileOfDetailKeepsInSunlightWhatImagesShow) {
     world.scene.add_light();
     world.look_down({-70.0, -30.0, 25.0});
     session::SceneRenderer made = driver();
-    const auto picture = [&](std::shared_ptr<const scene::GroundDetail> detail) {
+    const auto picture = [&](std::shared_ptr<const scene::TerrainDetail> detail) {
         world.terrain->get<scene::TerrainNode>()->detail = std::move(detail);
         test::must(made.draw(world.scene));
         return made.read_color();

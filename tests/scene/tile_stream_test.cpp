@@ -153,7 +153,7 @@ TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
                       [&](TreeTile tile, const std::stop_token& stop) {
                           TileContent reading = read_plane(tile, stop);
                           if (++readings < 3) {
-                              reading.faults = {{"a.tif", "a.tif: is cut"}};
+                              reading.errors = {{"a.tif", "a.tif: is cut"}};
                           }
                           return reading;
                       },
@@ -163,9 +163,9 @@ TEST(TileStreams, TryAFaultyTileAgainAndTellItsFileOnce) {
     EXPECT_EQ(readings, 3);
     EXPECT_NE(stream.find({0, 0, 0}), nullptr);
     EXPECT_EQ(stream.stats().failed, 2);
-    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
-    EXPECT_TRUE(stream.take_faults().empty());
-    EXPECT_EQ(stream.faulty_files(), 1U);
+    EXPECT_THAT(stream.take_errors(), ::testing::ElementsAre("a.tif: is cut"));
+    EXPECT_TRUE(stream.take_errors().empty());
+    EXPECT_EQ(stream.failed_files(), 1U);
 }
 
 TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
@@ -175,7 +175,7 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
                       [&](TreeTile tile, const std::stop_token& stop) {
                           TileContent reading = read_plane(tile, stop);
                           if (++readings < 3) {
-                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                              reading.picture_errors = {{"a.tif", "a.tif: is cut"}};
                               return reading;
                           }
                           while (!recovers && !stop.stop_requested()) {
@@ -196,8 +196,8 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
     EXPECT_EQ(stream.find({0, 0, 0})->albedo(5, 5), (Rgba8{9, 8, 7, 255}));
     EXPECT_EQ(readings, 3);
     EXPECT_EQ(stream.stats().read, 1);
-    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre("a.tif: is cut"));
-    EXPECT_EQ(stream.faulty_files(), 1U);
+    EXPECT_THAT(stream.take_errors(), ::testing::ElementsAre("a.tif: is cut"));
+    EXPECT_EQ(stream.failed_files(), 1U);
 }
 
 // A view that moves asks anew with each frame, while the picture is read again.
@@ -207,7 +207,7 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
                       [&](TreeTile tile, const std::stop_token& stop) {
                           TileContent reading = read_plane(tile, stop);
                           if (++readings == 1) {
-                              reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+                              reading.picture_errors = {{"a.tif", "a.tif: is cut"}};
                               return reading;
                           }
                           for (int i = 0; i < 30 && !stop.stop_requested(); ++i) {
@@ -248,12 +248,12 @@ protected:
         may_begin_ = 1;
         stream_ = std::make_unique<TileStream>(
             maker(),
-            [this](TreeTile wanted, const std::stop_token& stop) {
+            [this](TreeTile requested, const std::stop_token& stop) {
                 const int number = readings_++;
                 while (number >= may_begin_ && !stop.stop_requested()) {
                     std::this_thread::sleep_for(1ms);
                 }
-                return read(attempts_.at(static_cast<std::size_t>(number)), wanted, stop);
+                return read(attempts_.at(static_cast<std::size_t>(number)), requested, stop);
             },
             TileStreamOptions{.threads = 1, .first_pause = 1ms});
         stream_->request(std::array{tile});
@@ -277,8 +277,9 @@ protected:
     }
 
 private:
-    static TileContent read(const Attempt& attempt, TreeTile wanted, const std::stop_token& stop) {
-        TileContent reading = read_plane(wanted, stop);
+    static TileContent read(const Attempt& attempt, TreeTile requested,
+                            const std::stop_token& stop) {
+        TileContent reading = read_plane(requested, stop);
         reading.of_overview = attempt.of_overview;
         for (float& height : reading.heights.samples()) {
             height += attempt.heights_above;
@@ -288,7 +289,7 @@ private:
             reading.picture.texels(col, 0) = shown;
         }
         if (attempt.fails) {
-            reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+            reading.picture_errors = {{"a.tif", "a.tif: is cut"}};
         }
         return reading;
     }
@@ -333,7 +334,7 @@ TEST(TileStreams, LeaveATileThatFailsForGoodAndDrawTheOthers) {
                           TileContent reading = read_plane(tile, stop);
                           if (tile.col == 3) { // each tile has a file of its own
                               const std::string file = std::to_string(tile.row) + ".tif";
-                              reading.faults = {{file, file + ": is cut"}};
+                              reading.errors = {{file, file + ": is cut"}};
                           }
                           return reading;
                       },
@@ -352,7 +353,7 @@ TEST(TileStreams, HaveAnotherRevisionOnceATileIsGivenUp) {
     TileStream stream(maker(),
                       [](TreeTile tile, const std::stop_token& stop) {
                           TileContent reading = read_plane(tile, stop);
-                          reading.faults = {{"b.tif", "b.tif: is gone"}};
+                          reading.errors = {{"b.tif", "b.tif: is gone"}};
                           return reading;
                       },
                       {.threads = 1, .first_pause = 1ms});
@@ -370,7 +371,7 @@ TEST(TileStreams, WaitOnceForAFileThatFailsForGood) {
                       [&](TreeTile tile, const std::stop_token& stop) {
                           TileContent reading = read_plane(tile, stop);
                           if (!is_back) {
-                              reading.faults = {{"b.tif", "b.tif: is gone"}};
+                              reading.errors = {{"b.tif", "b.tif: is gone"}};
                           }
                           return reading;
                       },

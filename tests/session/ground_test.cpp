@@ -102,7 +102,7 @@ TEST_F(StreamedCanyon, ACameraInTheFineCanyonStaysWhereTheOverviewHasRock) {
         session::TerrainScene scene = scene_of(placement);
         auto& camera = *scene.camera->get<scene::Camera>();
         camera.eye = {0.0, -300.0, 5.0};
-        camera.look = {0.0, 0.0, 5.0};
+        camera.target = {0.0, 0.0, 5.0};
         const scene::Camera before = camera;
         TilesOnly maker;
         EXPECT_FALSE(session::stand_above_ground(scene, maker, {}));
@@ -114,7 +114,7 @@ TEST_F(StreamedCanyon, ACameraUnderThePlateauIsLiftedUnlessItMayBeThere) {
     session::TerrainScene scene = scene_of();
     auto& camera = *scene.camera->get<scene::Camera>();
     camera.eye = {500.0, -300.0, 200.0};
-    camera.look = {500.0, 0.0, 100.0};
+    camera.target = {500.0, 0.0, 100.0};
     const scene::Camera before = camera;
     TilesOnly maker;
     EXPECT_FALSE(session::stand_above_ground(scene, maker, {}, session::Underground::allowed));
@@ -123,7 +123,7 @@ TEST_F(StreamedCanyon, ACameraUnderThePlateauIsLiftedUnlessItMayBeThere) {
     EXPECT_NEAR(lift.depth, 800.0, 1e-9);
     EXPECT_NEAR(lift.metres, 800.0 + session::min_clearance(scene), 1e-9);
     EXPECT_EQ(camera.eye, before.eye + lift.way);
-    EXPECT_EQ(camera.look.z, before.look.z + lift.way.z);
+    EXPECT_EQ(camera.target.z, before.target.z + lift.way.z);
     const scene::CameraPath path = northward_path(before.eye);
     EXPECT_FALSE(
         session::fly_above_ground(scene, path, 0, 2, maker, {}, session::Underground::allowed));
@@ -145,12 +145,12 @@ TEST_F(StreamedCanyon, TheScaleIsKnownFromBesideTheTerrain) {
         overview.stream = nullptr;
         for (const double times : {1.0, 3.0, 100.0}) {
             scene::Camera away = camera;
-            away.eye = camera.look + times * (camera.eye - camera.look);
-            const auto wanted = session::metres_per_pixel(overview, away, 120);
+            away.eye = camera.target + times * (camera.eye - camera.target);
+            const auto requested = session::metres_per_pixel(overview, away, 120);
             const auto found = session::metres_per_pixel(terrain, away, 120);
-            ASSERT_TRUE(wanted && found) << times;
-            EXPECT_NEAR(*found, *wanted, 1e-3 * *wanted) << times;
-            away.look = away.eye + (away.eye - camera.look);
+            ASSERT_TRUE(requested && found) << times;
+            EXPECT_NEAR(*found, *requested, 1e-3 * *requested) << times;
+            away.target = away.eye + (away.eye - camera.target);
             EXPECT_FALSE(session::metres_per_pixel(terrain, away, 120)) << "nothing but sky";
         }
     }

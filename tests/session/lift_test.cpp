@@ -67,7 +67,7 @@ void stand(TerrainScene& scene, glm::dvec2 sample, double above) {
     const double ground = terrain::bilinear_height(heightfield.heights.view(), sample);
     scene::Camera& camera = camera_of(scene);
     camera.eye = placement_of(scene).world_from_sample({sample, ground + above});
-    camera.look = camera.eye + glm::dvec3(3.0, 4.0, -2.0);
+    camera.target = camera.eye + glm::dvec3(3.0, 4.0, -2.0);
 }
 
 constexpr double rounding = 1e-6; // metres, of places on the Earth
@@ -78,7 +78,7 @@ void expect_right(TerrainScene& scene, double above, glm::dvec2 sample) {
     const Lift lift = lift_camera(scene);
     const scene::Camera& after = camera_of(scene);
     ASSERT_EQ(after.eye, before.eye + lift.way);
-    ASSERT_LT(glm::distance(after.look - after.eye, before.look - before.eye), 1e-8)
+    ASSERT_LT(glm::distance(after.target - after.eye, before.target - before.eye), 1e-8)
         << "it looks where it did";
     if (above >= 0.0) {
         ASSERT_FALSE(lift);

@@ -73,9 +73,9 @@ TEST_F(GeodeticCamera, LooksAlongTheHeadingAndThePitchOfItsOwnPlace) {
                     const auto& camera = *scene.camera->get<scene::Camera>();
                     const glm::dvec3 target =
                         *placement_of(scene).world_from_geodetic(ahead_of(view, 10000.0));
-                    const glm::dvec3 wanted = glm::normalize(target - camera.eye);
+                    const glm::dvec3 requested = glm::normalize(target - camera.eye);
                     const scene::ViewAxes axes = scene::view_axes(camera);
-                    EXPECT_LT(glm::distance(axes.forward, wanted), right_angle)
+                    EXPECT_LT(glm::distance(axes.forward, requested), right_angle)
                         << latitude << "," << longitude << " " << heading << " " << pitch;
                     EXPECT_LT(std::abs(glm::dot(axes.right, placement_of(scene).up(camera.eye))),
                               right_angle);
@@ -176,8 +176,8 @@ TEST_F(Flight, GoesAlongTheGeodesicBetweenKeysAtTheirHeights) {
              98, 100, 100)) {
         EXPECT_NEAR(eye.height, 1500.0, 1.0) << eye.longitude;
         const geo::Geodesic done = geo::geodesic_between(west, eye);
-        const geo::Geodetic wanted = geo::geodesic_end(west, whole.azimuth_start, done.distance);
-        EXPECT_LT(geo::geodesic_between(wanted, eye).distance, 1.0) << eye.longitude;
+        const geo::Geodetic requested = geo::geodesic_end(west, whole.azimuth_start, done.distance);
+        EXPECT_LT(geo::geodesic_between(requested, eye).distance, 1.0) << eye.longitude;
     }
     EXPECT_EQ(std::count(raised_.begin(), raised_.end(), 0.0), 98);
 }

@@ -133,7 +133,7 @@ TEST_F(Streaming, a_file_that_goes_away_takes_no_tile_of_another) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_EQ(level_there(), 0);
-    EXPECT_THAT(terrain.stream->take_faults(), ::testing::Contains(HasSubstr("N45E006.hgt")));
+    EXPECT_THAT(terrain.stream->take_errors(), ::testing::Contains(HasSubstr("N45E006.hgt")));
 }
 
 // What the overview stood in for is read once the file is back.
@@ -185,7 +185,7 @@ TEST_F(Streaming, a_file_that_is_replaced_by_one_of_another_size_is_shown_and_to
     ASSERT_TRUE(stream.wait({}));
     ASSERT_NE(stream.find(stream.tree().root()), nullptr);
     EXPECT_FALSE(stream.find(stream.tree().root())->of_overview);
-    EXPECT_THAT(stream.take_faults(), ::testing::IsEmpty());
+    EXPECT_THAT(stream.take_errors(), ::testing::IsEmpty());
     EXPECT_THAT(stream.take_notes(), ::testing::ElementsAre(HasSubstr("61×61")));
 }
 
@@ -463,7 +463,7 @@ TEST_F(BadServer, that_hangs_holds_up_no_picture_and_finer_tiles_come_once_it_ha
     EXPECT_EQ(ask_for(finest, std::chrono::milliseconds(100)), nullptr);
     server.serve_by("");
     EXPECT_NE(ask_for(finest, long_enough), nullptr);
-    EXPECT_THAT(stream.take_faults(), ::testing::ElementsAre(HasSubstr("dem.tif")));
+    EXPECT_THAT(stream.take_errors(), ::testing::ElementsAre(HasSubstr("dem.tif")));
 }
 
 // All at the same time: they wait more than they work.

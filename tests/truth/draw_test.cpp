@@ -216,7 +216,7 @@ TEST(Draw, ManyRaysShowTheLinearMeanAndLeaveTheHit) {
     const auto picture = draw(scene, {1, 1}, {.rays_per_side = 4, .parallel = {}});
     EXPECT_EQ(picture->image(0, 0), rgba8_from_linear(glm::vec3(0.5F)));
     EXPECT_FALSE(picture->hits(0, 0).is_sky()) << "the centre's ray, on the border itself";
-    camera.eye.x = camera.look.x = 4.25;
+    camera.eye.x = camera.target.x = 4.25;
     scene.set_active_camera(scene.add_camera(camera));
     const auto moved = draw(scene, {1, 1}, {.rays_per_side = 4, .parallel = {}});
     EXPECT_EQ(moved->image(0, 0), rgba8_from_linear(glm::vec3(0.25F)));

@@ -68,7 +68,7 @@ Setting seen_from_above(double pixels, int rows) {
     Setting setting(test::plane_heightfield(Grid<float>(257, 257, 40.0F), {2.0, 2.0}));
     setting.camera.projection = scene::ProjectionKind::orthographic;
     setting.camera.eye = {0.0, 0.0, 500.0};
-    setting.camera.look = {0.0, 0.0, 0.0};
+    setting.camera.target = {0.0, 0.0, 0.0};
     setting.camera.up = {0.0, 1.0, 0.0};
     setting.camera.view_height = rows * 2.0 / pixels;
     return setting;
@@ -98,7 +98,7 @@ Setting hills(unsigned seed) {
                                                                }),
                                             {10.0, 12.0}));
     setting.camera.eye = {100.0 * std::sin(a), -1000.0, 500.0 + 40.0 * b};
-    setting.camera.look = {50.0 * std::sin(b), 100.0, 0.0};
+    setting.camera.target = {50.0 * std::sin(b), 100.0, 0.0};
     return setting;
 }
 
@@ -178,7 +178,7 @@ TEST(ReprojectionError, OfExactHitsIsSmallOnTheEllipsoidToo) {
             121, 121, [](int col, int row) { return 300.0 * std::sin(0.1 * col + 0.07 * row); }),
         46.5, 7.5, 1.0 / 1200.0));
     setting.camera.eye = {0.0, -6000.0, 4000.0};
-    setting.camera.look = {0.0, 0.0, 0.0};
+    setting.camera.target = {0.0, 0.0, 0.0};
     const glm::ivec2 size(80, 60);
     const HitBuffer truth = picked(setting, size);
     const auto errors = geometric_errors(setting.view(), truth, truth);
@@ -203,7 +203,7 @@ TEST(ReprojectionError, StaysWhenTheWholeWorldMoves) {
             3.0 * any(random), glm::normalize(glm::dvec3(any(random), any(random), 1.1)));
         setting.world_from_local = motion;
         setting.camera.eye = glm::dvec3(motion * glm::dvec4(setting.camera.eye, 1.0));
-        setting.camera.look = glm::dvec3(motion * glm::dvec4(setting.camera.look, 1.0));
+        setting.camera.target = glm::dvec3(motion * glm::dvec4(setting.camera.target, 1.0));
         setting.camera.up = glm::dmat3(motion) * setting.camera.up;
         const auto after = geometric_errors(setting.view(), shown, truth);
         ASSERT_TRUE(before && after);
@@ -221,7 +221,7 @@ TEST(ReprojectionError, OfAFlatPictureIsTheParallax) {
     Setting setting(test::plane_heightfield(Grid<float>(65, 65, 10.0F)));
     setting.camera.projection = scene::ProjectionKind::orthographic;
     setting.camera.eye = {0.0, -100.0, 100.0}; // 45° down
-    setting.camera.look = glm::dvec3(0.0);
+    setting.camera.target = glm::dvec3(0.0);
     setting.camera.view_height = 32.0;
     const glm::ivec2 size(32, 32); // one pixel a metre
     Setting flat(test::plane_heightfield(Grid<float>(65, 65, 0.0F)));
@@ -250,7 +250,7 @@ TEST(ReprojectionError, BehindTheEyeOrNotFiniteHasNoBoundAndIsCounted) {
     const glm::ivec2 size(80, 60);
     Setting setting = hills(1);
     setting.camera.eye = {0.0, 0.0, 200.0};
-    setting.camera.look = {0.0, 500.0, 0.0};
+    setting.camera.target = {0.0, 500.0, 0.0};
     HitBuffer shown = picked(setting, size);
     const HitBuffer truth = shown;
     shown(40, 50) = hit_at(100.0, 179.0); // south of the eye
@@ -276,7 +276,7 @@ TEST(ReprojectionError, BehindAnOrthographicEyeIsAsGoodAsBefore) {
     const glm::ivec2 size(16, 16);
     Setting setting = seen_from_above(1.0, size.y);
     setting.camera.eye.z = -100.0;
-    setting.camera.look.z = -200.0;
+    setting.camera.target.z = -200.0;
     EXPECT_NEAR(reprojection_error(setting.view(), size, {8, 8}, hit_at(128.5, 128.5)), 0.0, 1e-9);
 }
 

@@ -23,7 +23,7 @@ public:
     scene::Camera camera(double reach) {
         scene::Camera camera;
         camera.eye = {between(-reach, reach), between(-reach, reach), between(-0.1, 0.6) * reach};
-        camera.look =
+        camera.target =
             camera.eye + glm::dvec3(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 0.3));
         camera.vertical_fov = between(0.0, 1.0) < 0.2 ? between(0.01, 2.0) : between(10.0, 120.0);
         if (between(0.0, 1.0) < 0.3) {

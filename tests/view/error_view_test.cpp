@@ -20,7 +20,7 @@ glm::dvec3 chance_point(test::Chance& chance, double reach) {
 scene::Camera chance_camera(test::Chance& chance) {
     scene::Camera camera;
     camera.eye = chance_point(chance, 100.0);
-    camera.look = chance_point(chance, 100.0);
+    camera.target = chance_point(chance, 100.0);
     camera.vertical_fov = chance.between(1.0, 160.0);
     camera.projection =
         chance.one_in(3) ? scene::ProjectionKind::orthographic : scene::ProjectionKind::perspective;
@@ -91,7 +91,7 @@ TEST(ErrorView, WhatIsLeftUnsplitIsSeenWithinTheErrorEverywhereOnThePicture) {
 TEST(ErrorView, IsTightInTheMiddleOfALevelView) {
     scene::Camera camera;
     camera.eye = {0.0, 0.0, 0.0};
-    camera.look = {0.0, 1.0, 0.0};
+    camera.target = {0.0, 1.0, 0.0};
     const auto view =
         view::error_view(camera, picture, glm::dmat4(1.0), terrain::PlacementKind::plane, 1.0);
     const glm::dvec3 place(0.0, 1000.0, 0.0);
@@ -104,7 +104,7 @@ TEST(ErrorView, IsTightInTheMiddleOfALevelView) {
 TEST(ErrorView, AVerticalErrorSeenFromStraightAboveIsNone) {
     scene::Camera camera;
     camera.eye = {0.0, 0.0, 100.0};
-    camera.look = {0.0, 0.0, 0.0};
+    camera.target = {0.0, 0.0, 0.0};
     camera.projection = scene::ProjectionKind::orthographic;
     camera.view_height = 100.0;
     const auto view =

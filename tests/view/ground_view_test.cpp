@@ -24,11 +24,11 @@ struct Field {
     explicit Field(const std::string& technique = "relief", double error = 0.0) {
         terrain = test::add_terrain(scene, test::plane_heightfield(Grid<float>(3, 3, 0.0F)))
                       .get<scene::TerrainNode>();
-        scene::GroundDetail detail;
-        detail.set = std::make_shared<const material::TextureSet>();
+        scene::TerrainDetail detail;
+        detail.set = std::make_shared<const material::ReliefMaterial>();
         detail.scale = 0.1F;
         detail.technique = scene::parse_technique(technique).value();
-        terrain->detail = std::make_shared<const scene::GroundDetail>(detail);
+        terrain->detail = std::make_shared<const scene::TerrainDetail>(detail);
         terrain->material.technique = {scene::Polygons{.error = error}, {}};
     }
     [[nodiscard]] view::DetailLevel at(double distance) const {

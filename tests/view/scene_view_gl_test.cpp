@@ -79,7 +79,7 @@ std::vector<SceneChange> scene_changes() {
          }},
         {"detail",
          [](ViewedWorld& world) {
-             world.ground().detail = std::make_shared<const scene::GroundDetail>();
+             world.ground().detail = std::make_shared<const scene::TerrainDetail>();
          }},
         {"mesh",
          [](ViewedWorld& world) {
@@ -120,8 +120,8 @@ TEST(SceneViews, TilesThatComeAreSeen) {
         scene::TileBuilder(world.ground().surface, tree, 1), read);
     view::SceneView view(world.scene, size);
     EXPECT_FALSE(view.look(world.scene, size));
-    const std::array wanted{tree.root()};
-    world.ground().stream->request(wanted);
+    const std::array requested{tree.root()};
+    world.ground().stream->request(requested);
     world.ground().stream->wait({});
     EXPECT_TRUE(view.look(world.scene, size));
     EXPECT_FALSE(view.look(world.scene, size));

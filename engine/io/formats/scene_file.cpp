@@ -8,7 +8,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/io/formats/toml_reader.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "engine/terrain/field/placement.h"
 
 namespace reljef::io {
@@ -35,8 +35,8 @@ constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
 constexpr std::array<std::string_view, 2> placements{"plane", "ellipsoid"};
 
 /// Keys that only one of the two sources of heights has a use for.
-void refuse(TomlTable& table, std::initializer_list<std::string_view> keys,
-            std::string_view owner) {
+void fail_usage(TomlTable& table, std::initializer_list<std::string_view> keys,
+                std::string_view owner) {
     for (const std::string_view key : keys) {
         if (table.has(key)) {
             table.fail(key,
@@ -52,9 +52,10 @@ void check_source(TomlTable& table) {
         table.fail("heights", fmt::format("and generator are {} given, exactly one was expected",
                                           file ? "both" : "neither"));
     } else if (file) {
-        refuse(table, {"size", "seed", "tileable"}, "a generator");
+        fail_usage(table, {"size", "seed", "tileable"}, "a generator");
     } else {
-        refuse(table, {"imagery", "height_scale", "height_offset", "gaps"}, "a file of heights");
+        fail_usage(table, {"imagery", "height_scale", "height_offset", "gaps"},
+                   "a file of heights");
     }
 }
 
@@ -108,11 +109,11 @@ void read_area_keys(TomlTable& table, SceneDescription& scene) {
 
 void read_camera_keys(TomlTable& table, SceneDescription& scene) {
     table.read("eye", scene.eye);
-    table.read("look", scene.look);
+    table.read("look", scene.target);
     if (table.has("eye") != table.has("look")) {
         table.fail(table.has("eye") ? "eye" : "look",
                    "stands alone, both eye and look were expected");
-    } else if (scene.eye && scene.look && *scene.eye == *scene.look) {
+    } else if (scene.eye && scene.target && *scene.eye == *scene.target) {
         table.fail("look", "is where eye is, another point was expected");
     }
 }
@@ -132,7 +133,7 @@ std::filesystem::path read_textures(TomlTable& table, const std::filesystem::pat
 void read_gallery_keys(TomlTable& table, const std::filesystem::path& folder,
                        SceneDescription& scene) {
     if (scene.generator != "gallery") {
-        refuse(table, {"textures", "technique"}, "the generator gallery");
+        fail_usage(table, {"textures", "technique"}, "the generator gallery");
     }
     scene.gallery_folder = read_textures(table, folder, scene.gallery_textures);
     table.read("technique", scene.gallery_technique);

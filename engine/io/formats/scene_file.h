@@ -68,7 +68,7 @@ struct SceneDescription {
 
     // [camera]: scene metres; absent: the overview pose
     std::optional<glm::dvec3> eye;
-    std::optional<glm::dvec3> look;
+    std::optional<glm::dvec3> target;
 };
 
 /// Errors name the file, the key (with its line where TOML itself is broken), what was found and
@@ -83,7 +83,7 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
 struct PathKey {
     double time = 0.0;
     glm::dvec3 eye{0.0};
-    glm::dvec3 look{0.0};
+    glm::dvec3 target{0.0};
 };
 
 /// A path file (TOML): `[[key]]` tables with time, eye = [x,y,z], look = [x,y,z]; at least one key,

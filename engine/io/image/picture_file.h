@@ -19,9 +19,9 @@ Result<T> read_picture(const std::filesystem::path& path, const Read& read) {
         return file.error();
     }
     try {
-        OIIO::ImageSpec wanted;
-        wanted.attribute("oiio:UnassociatedAlpha", 1);
-        const auto input = OIIO::ImageInput::open(path.string(), &wanted);
+        OIIO::ImageSpec desired;
+        desired.attribute("oiio:UnassociatedAlpha", 1);
+        const auto input = OIIO::ImageInput::open(path.string(), &desired);
         if (input == nullptr) {
             return Error{fmt::format("{}: cannot be read ({}), a picture was expected",
                                      path.string(), OIIO::geterror())};

@@ -9,7 +9,7 @@
 #include "engine/core/result.h"
 #include "engine/io/image/channels.h"
 #include "engine/material/color_relief.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 
 namespace reljef::io {
 

@@ -33,7 +33,7 @@ Result<Grid<float>> heights_in(const Channels& channels, int channel, const fs::
 
 // Once a set.
 void note_quantum(const Channels& channels, const TextureOptions& options,
-                  material::TextureSet& set) {
+                  material::ReliefMaterial& set) {
     if (channels.bits == 8 && set.notes.empty()) {
         const double range = static_cast<double>(options.scale) * options.width;
         set.notes.push_back(
@@ -44,7 +44,7 @@ void note_quantum(const Channels& channels, const TextureOptions& options,
 }
 
 Result<void> take_heights(const Channels& channels, int channel, const fs::path& path,
-                          const TextureOptions& options, material::TextureSet& set) {
+                          const TextureOptions& options, material::ReliefMaterial& set) {
     auto heights = heights_in(channels, channel, path);
     if (!heights) {
         return heights.error();
@@ -61,7 +61,7 @@ glm::vec3 decoded_normal(const Channels& channels, int col, int row) {
 }
 
 // The two conventions differ in the sign of y, and files do not say which is theirs.
-bool is_against_rows(const Grid<glm::vec3>& normals, const material::TextureSet& set,
+bool is_against_rows(const Grid<glm::vec3>& normals, const material::ReliefMaterial& set,
                      material::WrapMode border) {
     const auto from_heights = material::tile_normals(set.heights.view(), set.scale, border);
     if (normals.cols() != from_heights.cols() || normals.rows() != from_heights.rows()) {
@@ -75,7 +75,7 @@ bool is_against_rows(const Grid<glm::vec3>& normals, const material::TextureSet&
 }
 
 void take_normals(const Channels& channels, const TextureOptions& options,
-                  material::TextureSet& set) {
+                  material::ReliefMaterial& set) {
     set.normals = Grid<glm::vec3>(channels.cols, channels.rows);
     for (int row = 0; row < channels.rows; ++row) {
         for (int col = 0; col < channels.cols; ++col) {
@@ -102,13 +102,13 @@ Result<Channels> read_normal_file(const TextureFiles& files) {
 }
 
 Result<void> read_height_file(const TextureFiles& files, const TextureOptions& options,
-                              material::TextureSet& set) {
+                              material::ReliefMaterial& set) {
     const auto heights = read_channels(files.heights);
     return heights ? take_heights(*heights, 0, files.heights, options, set) : heights.error();
 }
 
 Result<void> read_heights_and_normals(const TextureFiles& files, const TextureOptions& options,
-                                      material::TextureSet& set) {
+                                      material::ReliefMaterial& set) {
     if (files.normals.empty()) {
         return files.heights.empty() ? Result<void>() : read_height_file(files, options, set);
     }
@@ -124,7 +124,7 @@ Result<void> read_heights_and_normals(const TextureFiles& files, const TextureOp
     return taken;
 }
 
-Result<void> read_layers(const fs::path& path, material::TextureSet& set) {
+Result<void> read_layers(const fs::path& path, material::ReliefMaterial& set) {
     const auto channels = read_channels(path);
     if (!channels) {
         return channels.error();
@@ -150,7 +150,7 @@ Result<void> read_layers(const fs::path& path, material::TextureSet& set) {
     return {};
 }
 
-Result<void> punch_holes(const fs::path& path, material::TextureSet& set) {
+Result<void> punch_holes(const fs::path& path, material::ReliefMaterial& set) {
     const auto mask = read_channels(path);
     if (!mask) {
         return mask.error();
@@ -174,7 +174,7 @@ Result<void> punch_holes(const fs::path& path, material::TextureSet& set) {
 
 // What sheets and layers have besides.
 Result<void> read_sides(const TextureFiles& files, const TextureOptions& options,
-                        material::TextureSet& set) {
+                        material::ReliefMaterial& set) {
     if (!files.layers.empty()) {
         if (auto read = read_layers(files.layers, set); !read) {
             return read;
@@ -300,9 +300,9 @@ Result<TextureFiles> find_texture_files(const fs::path& folder) {
     return files;
 }
 
-Result<material::TextureSet> read_texture_set(const TextureFiles& files,
-                                              const TextureOptions& options) {
-    material::TextureSet set;
+Result<material::ReliefMaterial> read_texture_set(const TextureFiles& files,
+                                                  const TextureOptions& options) {
+    material::ReliefMaterial set;
     set.name = files.color.parent_path().filename().string();
     set.scale = options.scale;
     auto color = read_color(files.color);

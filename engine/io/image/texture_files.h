@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "engine/core/result.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 
 namespace reljef::io {
 
@@ -37,7 +37,7 @@ Result<TextureFiles> find_texture_files(const std::filesystem::path& folder);
 /// so. Layers without heights are seen from above. Fails as terrain::completed and
 /// terrain::LayerMap::create, and where a file cannot be read, lacks a channel, or holds a height
 /// outside [0,1] or a colour or mask that is not finite, with the first such place.
-Result<material::TextureSet> read_texture_set(const TextureFiles& files,
-                                              const TextureOptions& options = {});
+Result<material::ReliefMaterial> read_texture_set(const TextureFiles& files,
+                                                  const TextureOptions& options = {});
 
 } // namespace reljef::io

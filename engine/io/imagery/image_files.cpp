@@ -14,23 +14,23 @@ namespace {
 namespace fs = std::filesystem;
 
 void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
-                std::vector<std::string>& faults) {
+                std::vector<std::string>& errors) {
     std::vector<std::string> ignored;
     const auto index = index_tiles(folder, {}, ignored);
     if (!index) {
-        faults.push_back(index.error().message);
+        errors.push_back(index.error().message);
         return;
     }
     const std::size_t before = paths.size();
     for (const IndexedFile& file : index->files) {
         if (file.use == TileUse::fault) {
-            faults.push_back(file.fault);
+            errors.push_back(file.fault);
         } else if (file.use == TileUse::picture || file.type == "Byte" || file.type == "UInt16") {
             paths.push_back(folder / file.path);
         }
     }
     if (paths.size() == before) {
-        faults.push_back(
+        errors.push_back(
             fmt::format("{}: holds no image, at least one was expected", folder.string()));
     }
 }
@@ -56,14 +56,14 @@ fs::file_time_type changed_at(const fs::path& path) {
 
 } // namespace
 
-ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& faults,
+ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>& errors,
                        const std::stop_token& stop, std::optional<double> white) {
     register_drivers();
     std::vector<fs::path> paths;
     for (const fs::path& name : names) {
         std::error_code ignored;
         if (fs::is_directory(name, ignored)) {
-            add_folder(name, paths, faults);
+            add_folder(name, paths, errors);
         } else {
             paths.push_back(name);
         }
@@ -77,9 +77,9 @@ ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>
         const GdalMessages messages;
         const auto image = open_raster(path, messages);
         if (!image) {
-            faults.push_back(image.error().message);
+            errors.push_back(image.error().message);
         } else if (!is_image(**image)) {
-            faults.push_back(no_image(path, **image).message);
+            errors.push_back(no_image(path, **image).message);
         } else {
             if (!white) {
                 files.white = std::max(files.white, white_of(**image, stop));

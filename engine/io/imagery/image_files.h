@@ -20,7 +20,7 @@ struct ImageFiles {
 /// `faults`, one sentence each, and left out. `white`, where given, is not looked for anew. Once a
 /// stop is asked for no more are looked at.
 ImageFiles image_files(std::span<const std::filesystem::path> names,
-                       std::vector<std::string>& faults, const std::stop_token& stop = {},
+                       std::vector<std::string>& errors, const std::stop_token& stop = {},
                        std::optional<double> white = {});
 
 } // namespace reljef::io

@@ -145,10 +145,10 @@ Result<Dataset> open_colors(const std::filesystem::path& path, double white, GDA
     if (!image) {
         return image.error();
     }
-    const int thinning = thinning_of(**image);
+    const int subsampling = subsampling_of(**image);
     Dataset colors = as_rgb(std::move(*image), white);
-    if (colors != nullptr && thinning > 1) {
-        colors = thinned(std::move(colors), thinning);
+    if (colors != nullptr && subsampling > 1) {
+        colors = subsampled(std::move(colors), subsampling);
     }
     if (colors == nullptr) {
         return unreadable(name, messages);
@@ -171,13 +171,13 @@ Size target_size(const SampleGrid& grid, const Meeting& meeting, glm::dvec2 pixe
     const glm::dvec2 sample(std::hypot(affine.x_col, affine.y_col) * std::abs(grid.step.x),
                             std::hypot(affine.x_row, affine.y_row) * std::abs(grid.step.y));
     const glm::dvec2 intervals = glm::dvec2(grid.cols - 1, grid.rows - 1) * sample / pixel;
-    const glm::dvec2 wanted = glm::clamp(glm::round(intervals) + 1.0, 2.0, 1e6);
+    const glm::dvec2 desired = glm::clamp(glm::round(intervals) + 1.0, 2.0, 1e6);
     const double used = static_cast<double>(grid.cols) * grid.rows * bytes_per_sample;
     const double whole = static_cast<double>(budget);
     const double pixels = std::max(whole - used, whole * min_budget_share) / bytes_per_pixel;
-    const double shrink = std::min({1.0, longest_image_side / std::max(wanted.x, wanted.y),
-                                    std::sqrt(pixels / (wanted.x * wanted.y))});
-    const glm::dvec2 size = glm::max(glm::floor(wanted * shrink + 1e-6), 2.0);
+    const double shrink = std::min({1.0, longest_image_side / std::max(desired.x, desired.y),
+                                    std::sqrt(pixels / (desired.x * desired.y))});
+    const glm::dvec2 size = glm::max(glm::floor(desired * shrink + 1e-6), 2.0);
     return {static_cast<int>(size.x), static_cast<int>(size.y)};
 }
 
@@ -279,9 +279,9 @@ private:
 };
 
 void note_thinning(GDALDataset& image, std::vector<std::string>& notes) {
-    if (const int thinning = thinning_of(image); thinning > 1) {
+    if (const int subsampling = subsampling_of(image); subsampling > 1) {
         notes.push_back(fmt::format("imagery: one of {} pixels a side is read of its {}×{}",
-                                    thinning, image.GetRasterXSize(), image.GetRasterYSize()));
+                                    subsampling, image.GetRasterXSize(), image.GetRasterYSize()));
     }
 }
 
@@ -358,22 +358,22 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
 /// How fine it is over the heights: see fineness().
 double fineness_over_heights(const KnownPicture& picture) {
     const geo::PixelAffine& from = picture.meeting.from_heights;
-    return fineness(picture.pixel /
-                    std::sqrt(std::abs(from.x_col * from.y_row - from.x_row * from.y_col)));
+    return resolution(picture.pixel /
+                      std::sqrt(std::abs(from.x_col * from.y_row - from.x_row * from.y_col)));
 }
 
 /// Those that can be read, finest first, of equally fine ones the newer; what is wrong with the
 /// others is told in `faults`.
 std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& heights,
                                          const SampleGrid& grid, std::vector<std::string>& notes,
-                                         std::vector<std::string>& faults) {
+                                         std::vector<std::string>& errors) {
     std::vector<KnownPicture> pictures;
     for (const std::filesystem::path& path : files.paths) {
         auto picture = known_picture(path, files.white, heights, grid, notes);
         if (picture) {
             pictures.push_back(std::move(*picture));
         } else {
-            faults.push_back(picture.error().message);
+            errors.push_back(picture.error().message);
         }
     }
     std::stable_sort(pictures.begin(), pictures.end(),
@@ -430,7 +430,7 @@ void note_stretching(std::span<const KnownPicture> pictures, GDALDataset& height
 } // namespace
 
 Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
-                           std::vector<std::string>& notes, std::vector<std::string>& faults) {
+                           std::vector<std::string>& notes, std::vector<std::string>& errors) {
     const SampleGrid grid = closed(place.grid, place.closing);
     std::vector<std::string> wrong;
     const ImageFiles files =
@@ -474,7 +474,7 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
         return shows_nothing(options);
     }
     note_share(share, notes);
-    faults.insert(faults.end(), wrong.begin(), wrong.end());
+    errors.insert(errors.end(), wrong.begin(), wrong.end());
     return result;
 }
 

@@ -16,6 +16,6 @@ namespace reljef::io {
 /// close it, edge sample to edge sample; see read_terrain. Images that cannot be read are told in
 /// `faults`; fails where that is so of all.
 Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
-                           std::vector<std::string>& notes, std::vector<std::string>& faults);
+                           std::vector<std::string>& notes, std::vector<std::string>& errors);
 
 } // namespace reljef::io

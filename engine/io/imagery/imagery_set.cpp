@@ -112,12 +112,12 @@ struct Choice {
 };
 
 Choice choice_for(const KnownImage& image, double spacing, double texels) {
-    const double wanted = spacing / std::max(image.pixel.x, image.pixel.y);
+    const double desired = spacing / std::max(image.pixel.x, image.pixel.y);
     Choice choice;
     double factor = 1.0;
     constexpr double near = 1.0 + 1e-6; // sizes are rounded
     for (const KnownImage::Overview& overview : image.overviews) {
-        if (overview.factor <= wanted * near && overview.factor > factor) {
+        if (overview.factor <= desired * near && overview.factor > factor) {
             choice.overview = overview.index;
             factor = overview.factor;
         }
@@ -224,7 +224,7 @@ struct ImagerySet::State {
                 window.whole = false;
                 if (!stop.stop_requested()) {
                     failing.note(image.path, done.error().message);
-                    window.faults.push_back({image.path, done.error().message});
+                    window.errors.push_back({image.path, done.error().message});
                 }
                 return true;
             }
@@ -241,8 +241,8 @@ struct ImagerySet::State {
 
 Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names,
                                     const std::string& crs, const ImagerySetOptions& options) {
-    std::vector<std::string> faults;
-    const ImageFiles files = image_files(names, faults, options.stop);
+    std::vector<std::string> errors;
+    const ImageFiles files = image_files(names, errors, options.stop);
     auto state = std::make_shared<State>(crs, files.white, options);
     std::vector<std::optional<KnownImage>> found(files.paths.size());
     const auto look = [&](int i) {
@@ -262,14 +262,14 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
         }
     }
     if (state->images.empty()) {
-        return Error{faults.empty() ? "the images name no place on Earth, at least one was "
+        return Error{errors.empty() ? "the images name no place on Earth, at least one was "
                                       "expected to"
-                                    : faults.front()};
+                                    : errors.front()};
     }
     state->complete = state->images.size() == found.size();
     std::stable_sort(state->images.begin(), state->images.end(),
                      [](const KnownImage& a, const KnownImage& b) {
-                         return fineness(a.pixel) < fineness(b.pixel);
+                         return resolution(a.pixel) < resolution(b.pixel);
                      });
     return ImagerySet(std::move(state));
 }

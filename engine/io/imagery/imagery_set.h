@@ -21,7 +21,7 @@ struct ImageryWindow {
     Image texels;          ///< alpha 0 where they show nothing
     bool whole = true;     ///< false: one that may show more was left out
     bool has_more = false; ///< one that is shown, or may be, has pixels finer than the texels
-    std::vector<TileFault> faults;
+    std::vector<FileError> errors;
 };
 
 struct ImagerySetOptions {

@@ -19,9 +19,9 @@
 namespace reljef::io {
 namespace {
 
-std::optional<int> band_of(GDALDataset& image, GDALColorInterp wanted) {
+std::optional<int> band_of(GDALDataset& image, GDALColorInterp desired) {
     for (int i = 1; i <= image.GetRasterCount(); ++i) {
-        if (image.GetRasterBand(i)->GetColorInterpretation() == wanted) {
+        if (image.GetRasterBand(i)->GetColorInterpretation() == desired) {
             return i;
         }
     }
@@ -208,16 +208,16 @@ Dataset as_rgb(Dataset image, double white) {
     return keeping_open(std::move(made), std::move(image));
 }
 
-int thinning_of(GDALDataset& image) {
+int subsampling_of(GDALDataset& image) {
     constexpr double max_pixels_read = 1U << 29U;
     const double pixels = static_cast<double>(image.GetRasterXSize()) * image.GetRasterYSize();
     return static_cast<int>(std::ceil(std::sqrt(pixels / max_pixels_read)));
 }
 
-Dataset thinned(Dataset rgb, int thinning) {
+Dataset subsampled(Dataset rgb, int subsampling) {
     CPLStringList words;
-    add(words, {"-of", "VRT", "-outsize", std::to_string(rgb->GetRasterXSize() / thinning),
-                std::to_string(rgb->GetRasterYSize() / thinning)});
+    add(words, {"-of", "VRT", "-outsize", std::to_string(rgb->GetRasterXSize() / subsampling),
+                std::to_string(rgb->GetRasterYSize() / subsampling)});
     Dataset made = translated(*rgb, std::move(words));
     return keeping_open(std::move(made), std::move(rgb));
 }

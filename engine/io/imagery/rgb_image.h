@@ -21,9 +21,9 @@ double white_of(GDALDataset& image, const std::stop_token& stop = {});
 Dataset as_rgb(Dataset image, double white);
 
 /// Of an image so large that reading all of it would take minutes every how-manieth pixel a side.
-int thinning_of(GDALDataset& image);
+int subsampling_of(GDALDataset& image);
 /// The same with only these pixels.
-Dataset thinned(Dataset rgb, int thinning);
+Dataset subsampled(Dataset rgb, int subsampling);
 
 /// A GDAL raster of four bands whose pixels are those of `image`, which outlives it.
 Dataset raster_over(Image& image);

@@ -22,8 +22,8 @@ std::vector<PixelWindow> sampled_windows(glm::ivec2 size, glm::ivec2 block) {
     const glm::ivec2 window = window_for(block, size);
     const std::int64_t across = (size.x - 1) / window.x + 1;
     const std::int64_t count = across * ((size.y - 1) / window.y + 1);
-    const std::int64_t wanted = max_sampled_pixels / (window.x * window.y) + 1;
-    std::int64_t step = std::max<std::int64_t>(1, (count + wanted - 1) / wanted);
+    const std::int64_t desired = max_sampled_pixels / (window.x * window.y) + 1;
+    std::int64_t step = std::max<std::int64_t>(1, (count + desired - 1) / desired);
     step += step > 1 && step % across == 0 ? 1 : 0; // not always the same column
     std::vector<PixelWindow> windows;
     for (std::int64_t i = 0; i < count; i += step) {

@@ -71,11 +71,11 @@ double largest_error(const geo::GeodeticMap& map, const Exact& exact) {
     double largest = 0.0;
     for (int row = 0; row < exact.centers.rows(); ++row) {
         for (int col = 0; col < exact.centers.cols(); ++col) {
-            const glm::dvec2 wanted = exact.centers(col, row);
+            const glm::dvec2 desired = exact.centers(col, row);
             const glm::dvec2 found =
                 map.latitude_longitude(exact.step * (glm::dvec2(col, row) + 0.5));
             const double error =
-                earth_radius * glm::distance(geo::normal_from_geodetic(wanted.x, wanted.y),
+                earth_radius * glm::distance(geo::normal_from_geodetic(desired.x, desired.y),
                                              geo::normal_from_geodetic(found.x, found.y));
             largest = std::isfinite(error) ? std::max(largest, error)
                                            : std::numeric_limits<double>::infinity();

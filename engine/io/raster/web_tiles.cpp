@@ -200,7 +200,7 @@ bool may_be_heights(std::span<const double> red, std::span<const double> green,
     return true;
 }
 
-TileFault web_tiles_fault(const fs::path& path, glm::ivec2 tile, int level) {
+FileError web_tiles_error(const fs::path& path, glm::ivec2 tile, int level) {
     const std::string name = fmt::format("{}/{}/{}", level, tile.x, tile.y);
     return {path / name, fmt::format("{}: its tile {} cannot be read, a whole picture of heights "
                                      "in red, green and blue was expected",

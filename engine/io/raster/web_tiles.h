@@ -14,10 +14,10 @@
 namespace reljef::io {
 
 /// A file that could not be read, and why: one sentence that names it.
-struct TileFault {
+struct FileError {
     std::filesystem::path file;
     std::string message;
-    friend bool operator==(const TileFault&, const TileFault&) = default;
+    friend bool operator==(const FileError&, const FileError&) = default;
 };
 
 // Heights as pictures: square tiles z/x/y.png of 256 pixels in web mercator (EPSG:3857), a level z
@@ -40,7 +40,7 @@ bool may_be_heights(std::span<const double> red, std::span<const double> green,
 inline constexpr int web_tiles_side = 256;
 
 /// Of one tile (x, y) of a level that cannot be read.
-TileFault web_tiles_fault(const std::filesystem::path& path, glm::ivec2 tile, int level);
+FileError web_tiles_error(const std::filesystem::path& path, glm::ivec2 tile, int level);
 
 /// By how the name begins; none: it names no such tiles.
 HeightEncoding height_encoding_of(std::string_view name);

@@ -28,7 +28,7 @@ glm::vec3 divisible(glm::vec3 mean_color) {
 
 } // namespace
 
-ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLevel level,
+ShaderVariant ground_variant(const scene::TerrainDetail& detail, view::DetailLevel level,
                              std::uint32_t features) {
     if (level == view::DetailLevel::relief) {
         return {ShaderKind::relief_terrain, features | technique_features(detail.technique)};
@@ -41,7 +41,7 @@ ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLeve
 
 Result<void> set_ground(gl::Program& program, const FrameContext& frame_context,
                         const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-    const scene::GroundDetail& detail = *terrain.detail;
+    const scene::TerrainDetail& detail = *terrain.detail;
     const TileResidency& tiles = frame_context.residency.ground().tiles();
     const ResidentTile& tile = tiles.tile(detail.set, ground_side());
     const ResidentSurface& surface = tiles.surface(detail.set, ground_side());

@@ -11,7 +11,7 @@ namespace reljef::render {
 
 /// The variant that draws a terrain with its tile of detail. `features` are the scene's.
 /// Precondition: something is seen of it.
-ShaderVariant ground_variant(const scene::GroundDetail& detail, view::DetailLevel level,
+ShaderVariant ground_variant(const scene::TerrainDetail& detail, view::DetailLevel level,
                              std::uint32_t features);
 
 /// What these programs ask for beside the terrain's maps and its place. Fails where the driver has

@@ -43,7 +43,7 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
 }
 
 DetailBlock mesh_detail(const view::MeshDraw& draw, const MeshResidency& residency) {
-    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
     const double lift = scene::relief_height(*draw.mesh->mesh, detail);
     DetailBlock block = detail_block(*detail.set, residency.surface(draw), static_cast<float>(lift),
                                      mesh_height(draw));

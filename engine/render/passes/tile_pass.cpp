@@ -29,7 +29,7 @@ void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSur
     program.set(uniforms.last_cell, surface.cells - 1);
 }
 
-DetailBlock detail_block(const material::TextureSet& set, const ResidentSurface& surface,
+DetailBlock detail_block(const material::ReliefMaterial& set, const ResidentSurface& surface,
                          float lift, float mesh_height) {
     DetailBlock block{};
     block.detail_heights = {std::max(lift, std::numeric_limits<float>::min()), mesh_height,

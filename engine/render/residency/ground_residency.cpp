@@ -70,7 +70,7 @@ Result<void> GroundResidency::prepare(const view::DrawList& list, view::FrameSta
     return {};
 }
 
-Result<void> GroundResidency::prepare_tile(const scene::GroundDetail& detail,
+Result<void> GroundResidency::prepare_tile(const scene::TerrainDetail& detail,
                                            view::FrameStats& stats) {
     return tiles_.prepare(detail.set, ground_side(), detail.technique.id(), stats);
 }

@@ -43,7 +43,7 @@ private:
         std::optional<scene::TerrainLight> light;
         ResidentGround resident;
     };
-    Result<void> prepare_tile(const scene::GroundDetail& detail, view::FrameStats& stats);
+    Result<void> prepare_tile(const scene::TerrainDetail& detail, view::FrameStats& stats);
     Result<void> prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
                                 view::FrameStats& stats);
 

@@ -155,7 +155,7 @@ void add_part(std::array<HullCorner, 4> part, const std::set<Edge>& parted,
 
 } // namespace
 
-std::vector<HullPart> hull_parts(const scene::Mesh& mesh, const scene::TextureDetail& detail) {
+std::vector<HullPart> hull_parts(const scene::Mesh& mesh, const scene::SurfaceDetail& detail) {
     const HullHeights heights{scene::relief_height(mesh, detail),
                               static_cast<double>(detail.offset)};
     const bool ends = detail.border == material::WrapMode::discard;

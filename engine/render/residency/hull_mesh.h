@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/scene/graph/texture_detail.h"
+#include "engine/scene/graph/surface_detail.h"
 
 namespace reljef::render {
 
@@ -27,6 +27,6 @@ static_assert(sizeof(HullPart) == 160);
 /// as far along each of them (scene::SharedPlace), and the texture goes on beyond the triangle in
 /// its plane; not so where nothing is beyond the tile (discard). Parts without a volume are left
 /// out.
-std::vector<HullPart> hull_parts(const scene::Mesh& mesh, const scene::TextureDetail& detail);
+std::vector<HullPart> hull_parts(const scene::Mesh& mesh, const scene::SurfaceDetail& detail);
 
 } // namespace reljef::render

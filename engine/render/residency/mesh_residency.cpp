@@ -206,7 +206,7 @@ Result<void> MeshResidency::prepare_hull(const view::MeshDraw& draw, view::Frame
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
     auto hull = resident_hull(hull_parts(*draw.mesh->mesh, detail), stats);
     if (!hull) {
         return hull.error();
@@ -240,7 +240,7 @@ Result<void> MeshResidency::prepare_displaced(const view::MeshDraw& draw, view::
     }
     const scene::Material& material = draw.mesh->material;
     const double texels = displacement_of(draw)->max_texels;
-    const scene::TextureDetail detail = scene::shown_detail(material);
+    const scene::SurfaceDetail detail = scene::shown_detail(material);
     const scene::Mesh fine =
         scene::tessellated(*draw.mesh->mesh, scene::cuts_for(*draw.mesh->mesh, detail, texels));
     auto made = filled(textured_vertices(fine, scene::displaced_positions(fine, detail)),
@@ -262,7 +262,7 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
         }
         const auto plane = scene::texture_plane(*draw.mesh->mesh);
         check(plane.has_value(), "a warp of a mesh that is not flat");
-        const scene::TextureDetail detail = scene::shown_detail(material);
+        const scene::SurfaceDetail detail = scene::shown_detail(material);
         const Grid<glm::vec4> shown =
             warped_tile(*plane, detail, scene::relief_height(*draw.mesh->mesh, detail),
                         warp_eye(camera, draw.world_from_local));
@@ -279,7 +279,7 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
 
 const MeshResidency::Displaced* MeshResidency::displaced(const view::MeshDraw& draw) const {
     const scene::Material& material = draw.mesh->material;
-    const scene::TextureDetail detail = scene::shown_detail(material);
+    const scene::SurfaceDetail detail = scene::shown_detail(material);
     const double texels = displacement_of(draw)->max_texels;
     const auto found =
         std::find_if(displaced_.begin(), displaced_.end(), [&](const Displaced& entry) {
@@ -290,7 +290,7 @@ const MeshResidency::Displaced* MeshResidency::displaced(const view::MeshDraw& d
 }
 
 const MeshResidency::Hull* MeshResidency::find_hull(const view::MeshDraw& draw) const {
-    const scene::TextureDetail detail = scene::shown_detail(draw.mesh->material);
+    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
     const auto found = std::find_if(hulls_.begin(), hulls_.end(), [&](const Hull& entry) {
         return entry.owner.lock() == draw.mesh->mesh && entry.detail == detail;
     });

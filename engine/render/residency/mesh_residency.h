@@ -51,7 +51,7 @@ private:
     };
     struct Displaced {
         std::weak_ptr<const scene::Mesh> owner;
-        scene::TextureDetail detail;
+        scene::SurfaceDetail detail;
         double texels = 0.0;
         ResidentMesh resident;
         bool drawn = false;
@@ -59,7 +59,7 @@ private:
 
     struct Hull {
         std::weak_ptr<const scene::Mesh> owner;
-        scene::TextureDetail detail;
+        scene::SurfaceDetail detail;
         ResidentHull resident;
         bool drawn = false;
     };

@@ -27,7 +27,7 @@ struct WarpGrid {
     }
 };
 
-WarpGrid warp_grid(const scene::TexturePlane& plane, const scene::TextureDetail& detail) {
+WarpGrid warp_grid(const scene::TexturePlane& plane, const scene::SurfaceDetail& detail) {
     const Grid<float>& heights = detail.set->heights;
     const glm::dvec2 size = plane.high - plane.low;
     const glm::dvec2 texels =
@@ -38,7 +38,7 @@ WarpGrid warp_grid(const scene::TexturePlane& plane, const scene::TextureDetail&
 }
 
 // The heights above the mesh.
-Grid<float> heights_above(const WarpGrid& grid, const scene::TextureDetail& detail) {
+Grid<float> heights_above(const WarpGrid& grid, const scene::SurfaceDetail& detail) {
     Grid<float> above(grid.count.x, grid.count.y);
     parallel_for(grid.count.y, [&](int row) {
         for (int col = 0; col < above.cols(); ++col) {
@@ -66,7 +66,7 @@ glm::dvec4 eye_on_grid(const WarpGrid& grid, const scene::TexturePlane& plane, d
 
 } // namespace
 
-Grid<glm::vec4> warped_tile(const scene::TexturePlane& plane, const scene::TextureDetail& detail,
+Grid<glm::vec4> warped_tile(const scene::TexturePlane& plane, const scene::SurfaceDetail& detail,
                             double lift, glm::dvec4 local_eye) {
     const WarpGrid grid = warp_grid(plane, detail);
     const Grid<float> above = heights_above(grid, detail);

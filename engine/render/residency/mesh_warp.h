@@ -3,7 +3,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/core/grid.h"
-#include "engine/scene/graph/texture_detail.h"
+#include "engine/scene/graph/surface_detail.h"
 #include "engine/scene/graph/texture_plane.h"
 
 namespace reljef::render {
@@ -16,7 +16,7 @@ inline constexpr int max_warp_samples = 1 << 20;
 /// coordinates from the lowest to the highest. Coordinate of the tile, its height there, and 1; all
 /// 0 where nothing is seen. As many samples as texels, or as max_warp_samples. `lift`: metres that
 /// a height of 1 lifts a point.
-Grid<glm::vec4> warped_tile(const scene::TexturePlane& plane, const scene::TextureDetail& detail,
+Grid<glm::vec4> warped_tile(const scene::TexturePlane& plane, const scene::SurfaceDetail& detail,
                             double lift, glm::dvec4 local_eye);
 
 } // namespace reljef::render

@@ -86,7 +86,7 @@ glm::vec2 rms_rise(const Grid<float>& heights, bool wraps) {
 }
 
 // Null where they were not made beforehand.
-std::shared_ptr<const material::ConeMaps> known_cones(const material::TextureSet& set,
+std::shared_ptr<const material::ConeMaps> known_cones(const material::ReliefMaterial& set,
                                                       const TileSide& side) {
     const auto found =
         std::find_if(set.cones.begin(), set.cones.end(), [&](const material::KnownCones& known) {
@@ -113,7 +113,7 @@ Result<gl::Texture2D> layer_normal_texture(const Grid<glm::vec4>& component, boo
                      bytes_of(packed_layers(component)), stats, wrap_of(wraps));
 }
 
-Result<ResidentSurface> resident_layers(const material::TextureSet& set, const TileSide& side,
+Result<ResidentSurface> resident_layers(const material::ReliefMaterial& set, const TileSide& side,
                                         view::FrameStats& stats) {
     material::LayerMap layers = material::layers_of(set, *side.layers);
     if (side.from_behind) {
@@ -141,7 +141,7 @@ Result<ResidentSurface> resident_layers(const material::TextureSet& set, const T
 
 } // namespace
 
-Result<ResidentTile> resident_tile(const material::TextureSet& set, bool wraps,
+Result<ResidentTile> resident_tile(const material::ReliefMaterial& set, bool wraps,
                                    view::FrameStats& stats) {
     auto color = mipmapped({set.color.cols(), set.color.rows()}, gl::Format::rgba8_srgb,
                            std::as_bytes(set.color.samples()), stats, wrap_of(wraps));
@@ -156,7 +156,7 @@ Result<ResidentTile> resident_tile(const material::TextureSet& set, bool wraps,
     return ResidentTile{std::move(*color), std::move(*normals), mean_of(set.color)};
 }
 
-Result<ResidentSurface> resident_surface(const material::TextureSet& set, const TileSide& side,
+Result<ResidentSurface> resident_surface(const material::ReliefMaterial& set, const TileSide& side,
                                          view::FrameStats& stats) {
     if (side.layers) {
         return resident_layers(set, side, stats);
@@ -174,14 +174,14 @@ Result<ResidentSurface> resident_surface(const material::TextureSet& set, const 
                            std::nullopt};
 }
 
-Result<gl::Texture2D> greatest_texture(const material::TextureSet& set, const TileSide& side,
+Result<gl::Texture2D> greatest_texture(const material::ReliefMaterial& set, const TileSide& side,
                                        view::FrameStats& stats) {
     const Grid<float> heights =
         with_next_copies(material::seen_heights(set.heights, side.from_behind), side.wraps);
     return pyramid_texture(max_mipmap(heights.view()), stats);
 }
 
-Result<gl::Texture2D> tile_cone_texture(const material::TextureSet& set, const TileSide& side,
+Result<gl::Texture2D> tile_cone_texture(const material::ReliefMaterial& set, const TileSide& side,
                                         view::FrameStats& stats) {
     const material::WrapMode border = border_as(side.wraps);
     const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);

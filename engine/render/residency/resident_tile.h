@@ -8,7 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gl/texture.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "engine/view/frame_stats.h"
 
 namespace reljef::render {
@@ -20,7 +20,7 @@ struct ResidentTile {
     glm::vec3 mean_color{1.0F}; ///< linear
 };
 /// Fails when the driver has no memory left.
-Result<ResidentTile> resident_tile(const material::TextureSet& set, bool wraps,
+Result<ResidentTile> resident_tile(const material::ReliefMaterial& set, bool wraps,
                                    view::FrameStats& stats);
 
 /// Which surface of a tile is looked for.
@@ -56,12 +56,12 @@ struct ResidentSurface {
     std::optional<gl::Texture2D> cones;
 };
 /// Fails when the driver has no memory left.
-Result<ResidentSurface> resident_surface(const material::TextureSet& set, const TileSide& side,
+Result<ResidentSurface> resident_surface(const material::ReliefMaterial& set, const TileSide& side,
                                          view::FrameStats& stats);
 /// What the techniques ask for besides. Precondition: a surface without layers.
-Result<gl::Texture2D> greatest_texture(const material::TextureSet& set, const TileSide& side,
+Result<gl::Texture2D> greatest_texture(const material::ReliefMaterial& set, const TileSide& side,
                                        view::FrameStats& stats);
-Result<gl::Texture2D> tile_cone_texture(const material::TextureSet& set, const TileSide& side,
+Result<gl::Texture2D> tile_cone_texture(const material::ReliefMaterial& set, const TileSide& side,
                                         view::FrameStats& stats);
 
 } // namespace reljef::render

@@ -164,11 +164,11 @@ StreamedTiles::Cover& StreamedTiles::cover_of(const StreamedByTile& drawn) {
     if (found != covers_.end() && found->second.tiles.tiles() == ids) {
         return found->second;
     }
-    Cover made{stream, terrain::TileCover(stream->tree(), std::move(ids))};
+    Cover made{stream, terrain::DrawnTiles(stream->tree(), std::move(ids))};
     return covers_.insert_or_assign(stream.get(), std::move(made)).first->second;
 }
 
-Result<void> StreamedTiles::prepare_meshes(const terrain::TileCover& cover,
+Result<void> StreamedTiles::prepare_meshes(const terrain::DrawnTiles& cover,
                                            const StreamedByTile& drawn, view::FrameStats& stats) {
     static const std::vector<terrain::EdgeMove> none;
     std::vector<ChangedMesh> changed;

@@ -13,7 +13,7 @@
 #include "engine/gl/texture.h"
 #include "engine/render/residency/ground_residency.h"
 #include "engine/render/residency/resident_mesh.h"
-#include "engine/terrain/tree/tile_cover.h"
+#include "engine/terrain/tree/stitching.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/grid_mesh.h"
 #include "engine/view/streamed_cut.h"
@@ -66,7 +66,7 @@ private:
     // The tiles of a stream that were drawn last.
     struct Cover {
         std::weak_ptr<const scene::TileStream> owner;
-        terrain::TileCover tiles;
+        terrain::DrawnTiles tiles;
         bool is_new = true; // its tiles' triangles are those of another
     };
     struct SharedLight {
@@ -81,7 +81,7 @@ private:
     };
 
     void forget_unused(const view::DrawList& list);
-    Result<void> prepare_meshes(const terrain::TileCover& cover, const StreamedByTile& drawn,
+    Result<void> prepare_meshes(const terrain::DrawnTiles& cover, const StreamedByTile& drawn,
                                 view::FrameStats& stats);
     Result<void> prepare_cuts(const view::DrawList& list, Cover& cover, const StreamedByTile& drawn,
                               view::FrameStats& stats);

@@ -16,7 +16,7 @@ namespace reljef::render {
 namespace {
 
 // Every k-th sample, the last ones kept, so that no side is longer than `largest`.
-template <class T> Grid<T> thinned(Grid<T> grid, int largest) {
+template <class T> Grid<T> subsampled(Grid<T> grid, int largest) {
     const int cols = std::min(grid.cols(), largest);
     const int rows = std::min(grid.rows(), largest);
     if (cols == grid.cols() && rows == grid.rows()) {
@@ -69,7 +69,7 @@ glm::ivec2 map_size(const scene::TerrainSurface& surface, const Image& albedo, i
 
 Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::TerrainLight>& light,
               int largest_side) {
-    Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     if (!light) {
         return albedo;
     }
@@ -85,7 +85,7 @@ Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::T
 
 LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
                        int largest_side) {
-    const Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    const Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     const scene::TerrainIrradiance irradiance(surface, light);
     const glm::ivec2 size = map_size(surface, albedo, largest_side);
     LightParts parts{Image(size.x, size.y), Image(size.x, size.y)};
@@ -116,7 +116,7 @@ PreparedLight prepare_light(LightRequest request) {
 
 GroundMap ground_map(const scene::TerrainSurface& surface,
                      const std::optional<scene::TerrainLight>& light, int largest_side) {
-    const Image albedo = thinned(scene::albedo_map(surface), largest_side);
+    const Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     const Grid<glm::vec2> gradients =
         terrain::scene_gradients(surface.heightfield(), surface.placement());
     std::optional<scene::TerrainIrradiance> irradiance;

@@ -18,7 +18,7 @@ std::optional<material::LayerKind> layers_for(scene::TechniqueId id);
 /// current context; destroy while it is current.
 class TileResidency {
 public:
-    using Set = std::shared_ptr<const material::TextureSet>;
+    using Set = std::shared_ptr<const material::ReliefMaterial>;
 
     /// Puts the maps of a tile and that side of it into the driver's memory, with what the
     /// technique needs besides. Fails when the driver has no memory left.
@@ -32,15 +32,15 @@ public:
 
 private:
     struct Tile {
-        std::weak_ptr<const material::TextureSet> owner;
+        std::weak_ptr<const material::ReliefMaterial> owner;
         ResidentTile resident;
     };
     struct Surface {
-        std::weak_ptr<const material::TextureSet> owner;
+        std::weak_ptr<const material::ReliefMaterial> owner;
         ResidentSurface resident;
     };
-    using TileKey = std::pair<const material::TextureSet*, bool>; // whether it wraps
-    using SurfaceKey = std::pair<const material::TextureSet*, TileSide>;
+    using TileKey = std::pair<const material::ReliefMaterial*, bool>; // whether it wraps
+    using SurfaceKey = std::pair<const material::ReliefMaterial*, TileSide>;
 
     Result<void> prepare_tile(const Set& set, bool wraps, view::FrameStats& stats);
     Result<void> prepare_surface(const Set& set, const TileSide& side, scene::TechniqueId technique,

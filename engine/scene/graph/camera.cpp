@@ -26,7 +26,7 @@ glm::dvec2 clip_shift(const Camera& camera, glm::ivec2 size) {
 } // namespace
 
 ViewAxes view_axes(const Camera& camera) {
-    const glm::dvec3 forward = direction_or(camera.look - camera.eye, {0.0, 1.0, 0.0});
+    const glm::dvec3 forward = direction_or(camera.target - camera.eye, {0.0, 1.0, 0.0});
     const glm::dvec3 upward = direction_or(camera.up, {0.0, 0.0, 1.0});
     glm::dvec3 right = glm::cross(forward, upward);
     if (glm::length(right) < parallel_sine) {
@@ -126,7 +126,7 @@ Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Co
     const glm::dvec3 ahead = std::sin(h) * east + std::cos(h) * north;
     Camera camera;
     camera.eye = eye;
-    camera.look = eye + std::cos(p) * ahead + std::sin(p) * upward;
+    camera.target = eye + std::cos(p) * ahead + std::sin(p) * upward;
     // Straight up or down, the heading still says what is up in the picture.
     camera.up = std::cos(p) * upward - std::sin(p) * ahead;
     return camera;

@@ -13,7 +13,7 @@ enum class ProjectionKind { perspective, orthographic };
 /// Where the viewer stands and how the view is laid on the picture. World metres.
 struct Camera {
     glm::dvec3 eye{0.0, -1.0, 0.0};
-    glm::dvec3 look{0.0}; ///< a point straight ahead
+    glm::dvec3 target{0.0}; ///< a point straight ahead
     glm::dvec3 up{0.0, 0.0, 1.0};
     ProjectionKind projection = ProjectionKind::perspective;
     double vertical_fov = 57.3; ///< degrees, perspective, (0, 180)

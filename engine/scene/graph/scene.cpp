@@ -222,7 +222,7 @@ Camera Scene::camera() const {
     };
     camera.up = glm::dvec3(world_from_local * glm::dvec4(camera.up, 0.0));
     camera.eye = place(camera.eye);
-    camera.look = place(camera.look);
+    camera.target = place(camera.target);
     return camera;
 }
 

@@ -17,8 +17,8 @@ Error for_meshes_only(TechniqueId id) {
 
 } // namespace
 
-TextureDetail shown_detail(const Material& material) {
-    TextureDetail detail = material.detail;
+SurfaceDetail shown_detail(const Material& material) {
+    SurfaceDetail detail = material.detail;
     detail.border = material.technique.options.border.value_or(detail.border);
     return detail;
 }

@@ -7,9 +7,9 @@
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
-#include "engine/scene/graph/texture_detail.h"
-#include "engine/scene/technique/ground_detail.h"
+#include "engine/scene/graph/surface_detail.h"
 #include "engine/scene/technique/technique.h"
+#include "engine/scene/technique/terrain_detail.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/placement.h"
@@ -24,13 +24,13 @@ struct Material {
     Technique technique{Polygons{}};
     bool wireframe = false;
     glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain brings its own
-    TextureDetail detail;  ///< meshes only; without a set the mesh is of one colour
+    SurfaceDetail detail;  ///< meshes only; without a set the mesh is of one colour
 
     friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// The tile of detail as it is drawn: what the technique says of its border comes first.
-TextureDetail shown_detail(const Material& material);
+SurfaceDetail shown_detail(const Material& material);
 
 /// Whether a mesh is drawn with its inner side.
 bool is_seen_from_behind(const Material& material);
@@ -91,7 +91,7 @@ struct TerrainNode {
     /// Finer tiles of the same terrain, which is an overview then; null: it is all there is.
     std::shared_ptr<TileStream> stream = {};
     /// Shown where the technique is polygons; null: none.
-    std::shared_ptr<const GroundDetail> detail = {};
+    std::shared_ptr<const TerrainDetail> detail = {};
     /// Of the surface, where they were made or read before; null: made when they are first needed.
     std::shared_ptr<const terrain::Bisection> bisection = {};
     std::shared_ptr<const material::ConeMaps> cones = {}; ///< over its heights, from 0 to 1

@@ -10,7 +10,7 @@ namespace reljef::scene {
 
 Camera at_key(Camera camera, const Keyframe& key) {
     camera.eye = key.eye;
-    camera.look = key.look;
+    camera.target = key.target;
     camera.up = {0.0, 0.0, 1.0};
     return camera;
 }

@@ -51,7 +51,7 @@ Result<CameraPath> CameraPath::create(std::vector<Keyframe> keys) {
         return Error{"fly path: no key found, at least one was expected"};
     }
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (!std::isfinite(keys[i].time) || !is_finite(keys[i].eye) || !is_finite(keys[i].look)) {
+        if (!std::isfinite(keys[i].time) || !is_finite(keys[i].eye) || !is_finite(keys[i].target)) {
             return Error{fmt::format("fly path: key {} is not finite", i + 1)};
         }
     }
@@ -88,7 +88,7 @@ Keyframe CameraPath::at(double time) const {
             return hermite(knot(a), knot(b), knot(c), knot(d), time);
         };
         key.eye[axis] = along(&Keyframe::eye);
-        key.look[axis] = along(&Keyframe::look);
+        key.target[axis] = along(&Keyframe::target);
     }
     return key;
 }

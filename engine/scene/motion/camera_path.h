@@ -14,7 +14,7 @@ namespace reljef::scene {
 struct Keyframe {
     double time = 0.0;
     glm::dvec3 eye{0.0};
-    glm::dvec3 look{0.0};
+    glm::dvec3 target{0.0};
 };
 
 /// A camera flight through keys: cubic Hermite pieces with tangents limited per coordinate so that

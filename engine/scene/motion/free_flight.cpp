@@ -71,14 +71,14 @@ void SteeringKeys::release_all() {
 }
 
 glm::dvec3 SteeringKeys::direction() const {
-    glm::dvec3 wanted{0.0};
+    glm::dvec3 desired{0.0};
     for (const Steering& steering : steerings) {
         if (is_down(steering.key)) {
-            wanted += steering.direction;
+            desired += steering.direction;
         }
     }
-    const double length = glm::length(wanted);
-    return length > 0.0 ? wanted / length : wanted;
+    const double length = glm::length(desired);
+    return length > 0.0 ? desired / length : desired;
 }
 
 FreeFlight::FreeFlight(const Camera& start, FreeFlightOptions options)
@@ -124,7 +124,7 @@ void FreeFlight::set_camera(const Camera& camera) {
 Camera FreeFlight::camera() const {
     const Camera turned = camera_from_angles(camera_.eye, heading_, pitch_, compass());
     Camera camera = camera_;
-    camera.look = turned.look;
+    camera.target = turned.target;
     camera.up = turned.up;
     return camera;
 }
@@ -196,16 +196,16 @@ bool FreeFlight::receive_move(const MouseMoveEvent& event) {
 bool FreeFlight::advance(double seconds) {
     const double step = seconds > 0.0 ? std::min(seconds, longest_step) : 0.0;
     const double way = step * speed_ * (keys_.is_fast() ? shift_factor : 1.0);
-    const glm::dvec3 wanted = way * keys_.direction();
+    const glm::dvec3 desired = way * keys_.direction();
     const glm::dvec3 from = camera_.eye;
-    if (wanted != glm::dvec3(0.0)) {
+    if (desired != glm::dvec3(0.0)) {
         const double pitch = follows_ground_ ? 0.0 : pitch_;
         const ViewAxes axes = view_axes(camera_from_angles(from, heading_, pitch, compass()));
         const glm::dvec3 ahead =
             view_axes(camera_from_angles(from, heading_, 0.0, compass())).forward;
-        camera_.eye += wanted.x * axes.right + wanted.y * axes.forward + wanted.z * up();
+        camera_.eye += desired.x * axes.right + desired.y * axes.forward + desired.z * up();
         if (height_) {
-            *height_ = std::max(*height_ + wanted.z, options_.clearance);
+            *height_ = std::max(*height_ + desired.z, options_.clearance);
         }
         keep_above_ground();
         if (options_.north && camera_.eye != from) {

@@ -16,8 +16,8 @@ constexpr std::array<std::pair<Pose, std::string_view>, 5> names{{{Pose::overvie
 Camera map_camera(const Box& bounds) {
     Camera camera;
     camera.projection = ProjectionKind::orthographic;
-    camera.look = bounds.center();
-    camera.eye = {camera.look.x, camera.look.y, bounds.high.z + 1.0};
+    camera.target = bounds.center();
+    camera.eye = {camera.target.x, camera.target.y, bounds.high.z + 1.0};
     camera.up = {0.0, 1.0, 0.0};
     camera.view_height = 1.02 * std::max(bounds.size().y, 0.75 * bounds.size().x);
     return camera;
@@ -47,20 +47,20 @@ Camera pose_camera(Pose pose, const Box& bounds,
     switch (pose) {
     case Pose::overview:
         camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
-        camera.look = middle + glm::dvec3(0.0, -0.05 * w, h0);
+        camera.target = middle + glm::dvec3(0.0, -0.05 * w, h0);
         return camera;
     case Pose::oblique:
         camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
-        camera.look = middle + glm::dvec3(0.0, -0.05 * w, h1);
+        camera.target = middle + glm::dvec3(0.0, -0.05 * w, h1);
         return camera;
     case Pose::low:
         camera.eye = middle + glm::dvec3(0.0, -0.3 * w, 0.0);
         camera.eye.z = ground(camera.eye.x, camera.eye.y) + 0.15 * (h1 - h0);
-        camera.look = middle + glm::dvec3(0.05 * w, 0.4 * w, h0);
+        camera.target = middle + glm::dvec3(0.05 * w, 0.4 * w, h0);
         return camera;
     case Pose::grazing:
         camera.eye = middle + glm::dvec3(0.0, -0.6 * w, h1 + 0.03 * w);
-        camera.look = middle + glm::dvec3(0.0, 0.0, h1);
+        camera.target = middle + glm::dvec3(0.0, 0.0, h1);
         return camera;
     case Pose::map:
         return map_camera(bounds);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "engine/scene/technique/number_info.h"
 #include "engine/scene/technique/technique_parameters.h"
 

@@ -44,7 +44,7 @@ struct Terrain {
     Heightfield heightfield;
     Image color; ///< covers the heightfield edge sample to edge sample; may be empty
     std::vector<std::string> notes; ///< for the user: undeclared voids, a reduced read
-    std::vector<std::string> faults =
+    std::vector<std::string> errors =
         {}; ///< files that were to be read and failed, a sentence each; the rest is there
 };
 

@@ -70,10 +70,10 @@ public:
     void advance(int previous) {
         for (int i = 0; i < sweep_.line_length; ++i) {
             const double last = sweep_.line_length - 1;
-            const double wanted = on_line(i + sweep_.shift);
-            const double place = std::clamp(wanted, 0.0, last);
+            const double desired = on_line(i + sweep_.shift);
+            const double place = std::clamp(desired, 0.0, last);
             Edge& edge = next_[static_cast<std::size_t>(i)];
-            if (std::abs(wanted - place) > border_slack) {
+            if (std::abs(desired - place) > border_slack) {
                 edge = {}; // nothing is known beyond the border
                 continue;
             }

@@ -160,8 +160,8 @@ struct Misuse {
     std::string part;
 };
 
-void PrintTo(const Misuse& misuse, std::ostream* stream) {
-    *stream << misuse.part;
+void PrintTo(const Misuse& usage_error, std::ostream* stream) {
+    *stream << usage_error.part;
 }
 
 class Misused : public testing::TestWithParam<Misuse> {};

@@ -57,7 +57,7 @@ public:
     HitBuffer look(glm::dvec3 eye, glm::dvec3 at, glm::dvec3 up) {
         auto& camera = *scene_->camera->get<scene::Camera>();
         camera.eye = eye;
-        camera.look = at;
+        camera.target = at;
         camera.up = up;
         auto hits = frames_->draw_hits(scene_->scene, {});
         EXPECT_TRUE(hits);
@@ -114,7 +114,7 @@ protected:
             session::fly_to(place.scene(), *flight, i, frames);
             session::keep_above_ground(place.scene());
             const glm::dvec3 eye = camera.eye;
-            const glm::dvec3 forward = glm::normalize(camera.look - eye);
+            const glm::dvec3 forward = glm::normalize(camera.target - eye);
             const glm::dvec3 up = place.placement().up(eye);
             ASSERT_TRUE(i == 0 || glm::dot(forward, ahead) > 0.99) << "a flip at frame " << i;
             ahead = forward;

@@ -24,7 +24,7 @@ constexpr double frame = 1.0 / 60.0;
 session::SceneOptions from(glm::dvec3 eye) {
     session::SceneOptions view;
     view.eye = eye;
-    view.look = glm::dvec3(0.0);
+    view.target = glm::dvec3(0.0);
     return view;
 }
 
@@ -243,7 +243,7 @@ TEST_F(ViewerTest, TimeThatIsNoTimeChangesNothing) {
     for (const double seconds : {0.0, -5.0, 1e9, std::nan(""), HUGE_VAL, -HUGE_VAL}) {
         viewer.advance(seconds);
         EXPECT_TRUE(std::isfinite(glm::length(camera().eye)));
-        EXPECT_TRUE(std::isfinite(glm::length(camera().look)));
+        EXPECT_TRUE(std::isfinite(glm::length(camera().target)));
     }
 }
 
@@ -314,13 +314,13 @@ TEST_F(ViewerTest, ClosingTheWindowEndsIt) {
 }
 
 TEST_F(ViewerTest, MouseLookTurnsWithoutAButton) {
-    const glm::dvec3 before = camera().look;
+    const glm::dvec3 before = camera().target;
     viewer.receive(MouseMoveEvent{{10.0, 10.0}});
     press(Key::m);
     viewer.receive(MouseMoveEvent{{10.0, 10.0}});
     viewer.receive(MouseMoveEvent{{60.0, 10.0}});
     viewer.advance(frame);
-    EXPECT_GT(camera().look.x, before.x);
+    EXPECT_GT(camera().target.x, before.x);
 }
 
 TEST_F(ViewerTest, ResizeIsDrawnAnew) {
@@ -394,7 +394,7 @@ TEST_F(ViewerTest, MapIsNeverLost) {
         viewer.receive(ScrollEvent{{0.0, 5.0 * any(random)}});
         drag({0.0, 0.0}, {1e4 * any(random), 1e4 * any(random)});
         viewer.advance(any(random));
-        ASSERT_LE(glm::length(camera().look - scene.bounds.center()), 2.0 * 320.0);
+        ASSERT_LE(glm::length(camera().target - scene.bounds.center()), 2.0 * 320.0);
         ASSERT_TRUE(camera().view_height <= 4.0 * height + 1e-6 &&
                     camera().view_height >= 0.9e-4 * height);
     }
@@ -402,7 +402,7 @@ TEST_F(ViewerTest, MapIsNeverLost) {
         viewer.receive(ScrollEvent{{0.0, odd}});
         drag({0.0, 0.0}, {odd, 1.0});
         viewer.advance(odd);
-        EXPECT_TRUE(std::isfinite(glm::length(camera().look)));
+        EXPECT_TRUE(std::isfinite(glm::length(camera().target)));
         EXPECT_TRUE(std::isfinite(camera().view_height));
     }
 }

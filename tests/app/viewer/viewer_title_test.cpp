@@ -62,7 +62,7 @@ TEST(ViewerOnEarth, TitleSaysThatTheEyeIsBesideAMapOfTheWholeEarth) {
     auto& camera = *globe.camera->get<scene::Camera>();
     const auto& placement = globe.terrain->get<scene::TerrainNode>()->surface->placement();
     camera.eye = *placement.world_from_geodetic({89.9999, 0.0, 5000.0});
-    camera.look = camera.eye + glm::dvec3(0.0, 1.0, 0.0);
+    camera.target = camera.eye + glm::dvec3(0.0, 1.0, 0.0);
     EXPECT_THAT(viewer.title({}, {}), HasSubstr("89.99990, 0.00000"));
     EXPECT_THAT(viewer.title({}, {}), Not(HasSubstr("heading")));
 }
@@ -70,7 +70,7 @@ TEST(ViewerOnEarth, TitleSaysThatTheEyeIsBesideAMapOfTheWholeEarth) {
 TEST(Viewer, TitleTellsTheScaleAtTheMiddleOfThePicture) {
     session::SceneOptions down;
     down.eye = glm::dvec3(0.0, -80.0, 160.0);
-    down.look = glm::dvec3(0.0, -79.999, 10.0);
+    down.target = glm::dvec3(0.0, -79.999, 10.0);
     down.vertical_fov = 90.0;
     session::TerrainScene over = hill_scene(down);
     // 150 m over the ground a picture of 90 degrees is 300 m high.
@@ -79,7 +79,7 @@ TEST(Viewer, TitleTellsTheScaleAtTheMiddleOfThePicture) {
     EXPECT_THAT(Viewer(over, scene::orbit_path(over.bounds), {400, 600}).title({}, {}),
                 HasSubstr("0.50 m a pixel"));
     session::SceneOptions up = down;
-    up.look = glm::dvec3(0.0, 0.0, 1000.0);
+    up.target = glm::dvec3(0.0, 0.0, 1000.0);
     session::TerrainScene sky = hill_scene(up);
     EXPECT_THAT(Viewer(sky, scene::orbit_path(sky.bounds), {400, 300}).title({}, {}),
                 Not(HasSubstr("a pixel")));

@@ -25,7 +25,7 @@ TEST(PathFile, KeysAreReadInOrder) {
     EXPECT_EQ((*keys)[0].time, 0.0);
     EXPECT_EQ((*keys)[1].time, 2.5);
     EXPECT_EQ((*keys)[1].eye, glm::dvec3(4.5, 5.0, 6.0));
-    EXPECT_EQ((*keys)[1].look, glm::dvec3(7.0, 8.0, -9.0));
+    EXPECT_EQ((*keys)[1].target, glm::dvec3(7.0, 8.0, -9.0));
 }
 
 TEST(PathFile, WhatIsWrongIsNamedWithItsLine) {

@@ -53,7 +53,7 @@ look = [0, 0, 0]
     EXPECT_EQ(scene->sun_altitude, 12.5);
     EXPECT_EQ(scene->visibility, 50000.0);
     EXPECT_EQ(scene->eye, glm::dvec3(1.0, 2.5, 3.0));
-    EXPECT_EQ(scene->look, glm::dvec3(0.0));
+    EXPECT_EQ(scene->target, glm::dvec3(0.0));
 }
 
 TEST(SceneFile, AGeneratorNeedsNothingElse) {

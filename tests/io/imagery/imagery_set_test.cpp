@@ -99,7 +99,7 @@ TEST_F(ImagerySets, ShowEachPlaceInItsColourToHalfAPixelAndTheWarpsError) {
     const double step = 20.0 / 111200.0;
     const TileGrid grid{{2.79, 45.15}, {step, -step}, 257, 257};
     const ImageryWindow window = set.read(grid, 20.0);
-    EXPECT_TRUE(window.faults.empty());
+    EXPECT_TRUE(window.errors.empty());
     EXPECT_TRUE(window.whole);
     EXPECT_FALSE(window.has_more);
     // Bilinear over 20 m: an eighth of its square times the second derivative; the warp's error in
@@ -232,8 +232,8 @@ TEST_F(ImagerySets, AFileThatIsGoneIsAFaultAndTheNextOneShows) {
     const ImagerySet set = open({"coarse.tif", "fine.tif"}, utm_31);
     std::filesystem::remove(folder_.path() / "fine.tif");
     const ImageryWindow window = set.read({{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9}, 20.0);
-    ASSERT_EQ(window.faults.size(), 1U);
-    EXPECT_THAT(window.faults.front().message, HasSubstr("fine.tif: does not exist"));
+    ASSERT_EQ(window.errors.size(), 1U);
+    EXPECT_THAT(window.errors.front().message, HasSubstr("fine.tif: does not exist"));
     EXPECT_FALSE(window.whole);
     EXPECT_EQ(window.texels(4, 4).r, 50);
 }
@@ -247,10 +247,10 @@ TEST_F(ImagerySets, AFileThatFailsAgainAndAgainIsPassedOverWithoutAFault) {
     std::filesystem::remove(folder_.path() / "fine.tif");
     const TileGrid grid{{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9};
     for (int i = 0; i < ImagerySet::max_failures; ++i) {
-        ASSERT_EQ(set.read(grid, 20.0).faults.size(), 1U);
+        ASSERT_EQ(set.read(grid, 20.0).errors.size(), 1U);
     }
     const ImageryWindow window = set.read(grid, 20.0);
-    EXPECT_TRUE(window.faults.empty());
+    EXPECT_TRUE(window.errors.empty());
     EXPECT_FALSE(window.whole);
     EXPECT_EQ(window.texels(4, 4).r, 50);
 }

@@ -416,7 +416,7 @@ TEST_F(Imagery, ThereMayBeMoreImagesThanTheSystemOpens) {
     const FewFiles few(24);
     const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
     ASSERT_TRUE(terrain) << terrain.error().message;
-    EXPECT_EQ(joined(terrain->faults), "");
+    EXPECT_EQ(joined(terrain->errors), "");
     EXPECT_EQ(terrain->color(3, 2).r, 6);
     EXPECT_EQ(terrain->color(60, 2).r, 120);
 }

@@ -73,10 +73,10 @@ TEST(ImageFiles, LeaveOutAnImageOfHugeBlocksWithoutReadingThem) {
     Dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 30000, 30000, 3,
                                                                      GDT_UInt16, options.List()));
     ASSERT_LT(std::filesystem::file_size(path), 10000U);
-    std::vector<std::string> faults;
-    EXPECT_TRUE(image_files(std::vector{path}, faults).paths.empty());
-    ASSERT_EQ(faults.size(), 1U);
-    EXPECT_THAT(faults.front(), HasSubstr("blocks of 30000×30000"));
+    std::vector<std::string> errors;
+    EXPECT_TRUE(image_files(std::vector{path}, errors).paths.empty());
+    ASSERT_EQ(errors.size(), 1U);
+    EXPECT_THAT(errors.front(), HasSubstr("blocks of 30000×30000"));
 }
 
 } // namespace

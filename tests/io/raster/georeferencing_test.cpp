@@ -113,9 +113,9 @@ TEST_F(Georeferencing, PositionsAreWithinATenthOfAMillimetreBetweenControlPoints
         for (int i = 0; i < 500; ++i) {
             const glm::dvec2 sample(cols(random), rows(random));
             const glm::dvec2 found = place.geodetic.latitude_longitude(sample);
-            const glm::dvec2 wanted =
+            const glm::dvec2 requested =
                 exact.latitude_longitude(place.crs_from_pixel.crs_from_pixel(sample));
-            ASSERT_LT(distance(found, wanted), 1e-4) << c.crs;
+            ASSERT_LT(distance(found, requested), 1e-4) << c.crs;
             const auto again = place.geodetic.sample(found.x, found.y);
             ASSERT_TRUE(again) << c.crs;
             ASSERT_LT(glm::distance(*again, sample), 1e-6) << c.crs;

@@ -93,7 +93,7 @@ protected:
             heights.push_back(height_at_pixel(x, y));
         }
         const auto found = tiles.heights(places);
-        ASSERT_TRUE(found.faults.empty()) << found.faults.front().message;
+        ASSERT_TRUE(found.errors.empty()) << found.errors.front().message;
         for (std::size_t i = 0; i < places.size(); ++i) {
             ASSERT_EQ(found.answers[i].kind, HeightAnswer::Kind::height) << i;
             ASSERT_NEAR(found.answers[i].height, heights[i], 1e-9) << i;
@@ -134,8 +134,8 @@ TEST_P(TilePyramids, OneThatAServerFailsToGiveTakesNoOtherWithIt) {
     const auto terrain = tiles->terrain(options);
     ASSERT_TRUE(terrain) << terrain.error().message;
     EXPECT_EQ(terrain->heightfield.void_count, 3U * 256U * 256U);
-    ASSERT_EQ(terrain->faults.size(), 1U);
-    EXPECT_THAT(terrain->faults.front(), HasSubstr("its tile 6/34/22 cannot be read"));
+    ASSERT_EQ(terrain->errors.size(), 1U);
+    EXPECT_THAT(terrain->errors.front(), HasSubstr("its tile 6/34/22 cannot be read"));
     server.serve_by("");
     expect_heights(*tiles);
 }
@@ -171,8 +171,8 @@ TEST_P(TilePyramids, OneThatIsDamagedTakesNoOtherWithIt) {
     const auto terrain = tiles->terrain(options);
     ASSERT_TRUE(terrain) << terrain.error().message;
     EXPECT_EQ(terrain->heightfield.void_count, 2U * 256U * 256U);
-    ASSERT_EQ(terrain->faults.size(), 1U);
-    EXPECT_EQ(terrain->faults.front(),
+    ASSERT_EQ(terrain->errors.size(), 1U);
+    EXPECT_EQ(terrain->errors.front(),
               name().string() + ": its tile 6/34/22 cannot be read, a whole picture of heights in "
                                 "red, green and blue was expected");
 }
@@ -190,8 +190,8 @@ TEST_P(TilePyramids, OneInGreyIsNoHeights) {
     const auto terrain = tiles->terrain(options);
     ASSERT_TRUE(terrain) << terrain.error().message;
     EXPECT_EQ(terrain->heightfield.void_count, 2U * 256U * 256U);
-    ASSERT_EQ(terrain->faults.size(), 1U);
-    EXPECT_THAT(terrain->faults.front(), HasSubstr("its tile 6/33/23 "));
+    ASSERT_EQ(terrain->errors.size(), 1U);
+    EXPECT_THAT(terrain->errors.front(), HasSubstr("its tile 6/33/23 "));
 }
 
 TEST_P(TilePyramids, TakeNoNameOfAFolderForATileThatCannotBe) {

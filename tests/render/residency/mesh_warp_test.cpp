@@ -12,9 +12,9 @@ namespace reljef::render {
 namespace {
 
 // Smooth, and it fits together at its borders.
-scene::TextureDetail waves(float offset) {
+scene::SurfaceDetail waves(float offset) {
     constexpr int side = 48;
-    material::TextureSet set;
+    material::ReliefMaterial set;
     set.heights = Grid<float>(side, side);
     const double step = 2.0 * std::acos(-1.0) / side;
     for (int row = 0; row < side; ++row) {
@@ -23,15 +23,15 @@ scene::TextureDetail waves(float offset) {
                 static_cast<float>(0.5 + 0.3 * std::sin(step * col) + 0.2 * std::cos(step * row));
         }
     }
-    scene::TextureDetail detail;
-    detail.set = std::make_shared<const material::TextureSet>(std::move(set));
+    scene::SurfaceDetail detail;
+    detail.set = std::make_shared<const material::ReliefMaterial>(std::move(set));
     detail.repeats = {2.0F, 3.0F};
     detail.offset = offset;
     return detail;
 }
 
 // Local metres of what a sample shows.
-glm::dvec3 shown_point(const scene::TexturePlane& plane, const scene::TextureDetail& detail,
+glm::dvec3 shown_point(const scene::TexturePlane& plane, const scene::SurfaceDetail& detail,
                        double lift, const glm::vec4& shown) {
     const glm::dvec2 coordinate = glm::dvec2(shown) / glm::dvec2(detail.repeats);
     return plane.origin + coordinate.x * plane.along_u + coordinate.y * plane.along_v +
@@ -46,7 +46,7 @@ TEST(MeshWarp, IsTheForwardProjectionOfTheDisplacedTexels) {
     ASSERT_TRUE(plane);
     test::Chance chance(51);
     for (int i = 0; i < 12; ++i) {
-        const scene::TextureDetail detail = waves(static_cast<float>(chance.between(-1.0, 0.0)));
+        const scene::SurfaceDetail detail = waves(static_cast<float>(chance.between(-1.0, 0.0)));
         constexpr double lift = 0.15;
         const bool is_near = chance.one_in(2);
         const glm::dvec4 eye(chance.between(-4.0, 4.0), chance.between(-4.0, 4.0),
@@ -73,10 +73,10 @@ TEST(MeshWarp, IsTheForwardProjectionOfTheDisplacedTexels) {
 }
 
 TEST(MeshWarp, OfALevelTileAtTheMeshIsTheTileItself) {
-    scene::TextureDetail detail = waves(-1.0F);
-    material::TextureSet level = *detail.set;
+    scene::SurfaceDetail detail = waves(-1.0F);
+    material::ReliefMaterial level = *detail.set;
     level.heights = Grid<float>(16, 16, 1.0F);
-    detail.set = std::make_shared<const material::TextureSet>(std::move(level));
+    detail.set = std::make_shared<const material::ReliefMaterial>(std::move(level));
     const auto plane = scene::texture_plane(scene::plane_mesh({4.0F, 6.0F}));
     const Grid<glm::vec4> shown = warped_tile(*plane, detail, 0.2, {1.0, 2.0, 3.0, 1.0});
     ASSERT_EQ(shown.cols(), 32);

@@ -72,7 +72,7 @@ struct StreamedWorld {
     // Requests what the view needs, and does not wait.
     view::TileSelection request() const {
         view::TileSelection chosen = choice();
-        stream->request(chosen.wanted, chosen.used);
+        stream->request(chosen.requested, chosen.used);
         return chosen;
     }
     void bring() const { bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera()); }
@@ -82,12 +82,12 @@ struct StreamedWorld {
 TEST(TileChoices, DrawTheRootUntilFinerTilesAreThere) {
     const StreamedWorld world;
     EXPECT_TRUE(world.choice().drawn.empty());
-    EXPECT_EQ(world.choice().wanted, std::vector{world.stream->tree().root()});
+    EXPECT_EQ(world.choice().requested, std::vector{world.stream->tree().root()});
     world.request();
     world.stream->wait({});
     ASSERT_EQ(world.choice().drawn.size(), 1U);
     EXPECT_EQ(world.choice().drawn.front().tile->id, world.stream->tree().root());
-    EXPECT_FALSE(world.choice().wanted.empty());
+    EXPECT_FALSE(world.choice().requested.empty());
 }
 
 TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
@@ -144,7 +144,7 @@ TEST(TileChoices, WhereMemoryLimitsAStillViewReadsNothingMore) {
         };
         const int read = look_on(30);
         EXPECT_EQ(look_on(10), read) << tiles;
-        EXPECT_TRUE(world.choice().wanted.empty()) << tiles;
+        EXPECT_TRUE(world.choice().requested.empty()) << tiles;
         EXPECT_LE(read, 100) << tiles;
     }
 }
@@ -319,7 +319,7 @@ TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem
                 height += 25.0F;
             }
             reading.of_overview = true;
-            reading.picture_faults = {{"a.tif", "a.tif: is cut"}};
+            reading.picture_errors = {{"a.tif", "a.tif: is cut"}};
         }
         while (tile == failing && readings > 1 && !recovers && !stop.stop_requested()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -333,7 +333,7 @@ TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem
                                  .first_pause = std::chrono::milliseconds(1)});
     world.terrain->get<scene::TerrainNode>()->stream = world.stream;
     look(world);
-    while (!world.request().wanted.empty()) {
+    while (!world.request().requested.empty()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     ASSERT_TRUE(world.stream->find(failing)->of_overview);
@@ -354,8 +354,8 @@ TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem
 }
 
 // A tile of detail, as wide as some of its samples.
-std::shared_ptr<const scene::GroundDetail> striped_detail() {
-    material::TextureSet set;
+std::shared_ptr<const scene::TerrainDetail> striped_detail() {
+    material::ReliefMaterial set;
     set.name = "stripes";
     set.heights =
         test::made_heights(16, 16, [](int col, int row) { return (col / 4 + row / 8) % 2; });
@@ -365,13 +365,13 @@ std::shared_ptr<const scene::GroundDetail> striped_detail() {
             set.color(col, row) = col < 8 ? Rgba8{220, 200, 160, 255} : Rgba8{90, 100, 140, 255};
         }
     }
-    scene::GroundDetail detail;
-    detail.set = std::make_shared<const material::TextureSet>(
+    scene::TerrainDetail detail;
+    detail.set = std::make_shared<const material::ReliefMaterial>(
         material::completed(std::move(set), material::WrapMode::wrap).value());
     detail.width = 6.0;
     detail.scale = 0.1F;
     detail.technique = scene::parse_technique("exact:shadow=hard").value();
-    return std::make_shared<const scene::GroundDetail>(std::move(detail));
+    return std::make_shared<const scene::TerrainDetail>(std::move(detail));
 }
 
 // Pixels that differ by more than `limit` of 255 in green.

@@ -42,7 +42,7 @@ public:
         Camera camera;
         camera.projection = kind;
         camera.eye = point(1000.0);
-        camera.look = camera.eye + point(10.0);
+        camera.target = camera.eye + point(10.0);
         camera.up = between(0.0, 1.0) < 0.5 ? glm::dvec3(0.0, 0.0, 1.0) : point(1.0);
         camera.vertical_fov = between(1.0, 150.0);
         camera.view_height = between(0.1, 1000.0);
@@ -70,7 +70,7 @@ TEST(Camera, TheFrameIsOrthonormalAndRightHandedWhereverItLooks) {
 TEST(Camera, LooksAlongTheAxesAsTheSceneFrameSays) {
     Camera camera;
     camera.eye = {0.0, 0.0, 0.0};
-    camera.look = {0.0, 5.0, 0.0}; // north
+    camera.target = {0.0, 5.0, 0.0}; // north
     EXPECT_EQ(view_axes(camera).right, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(view_axes(camera).up, glm::dvec3(0.0, 0.0, 1.0));
     const Projected east = project(camera, {200, 100}, {1.0, 10.0, 0.0});
@@ -106,7 +106,7 @@ TEST(Camera, StraightDownAndUpHaveNorthAtTheTop) {
     Camera camera;
     for (const double z : {-1.0, 1.0}) {
         camera.eye = {3.0, 4.0, 5.0};
-        camera.look = camera.eye + glm::dvec3(0.0, 0.0, z);
+        camera.target = camera.eye + glm::dvec3(0.0, 0.0, z);
         const ViewAxes axes = view_axes(camera);
         expect_right_frame(axes);
         EXPECT_EQ(axes.up, glm::dvec3(0.0, 1.0, 0.0));
@@ -125,12 +125,12 @@ TEST(Camera, AnyDegenerateViewStillHasARightFrame) {
              {glm::dvec3(0.0), glm::dvec3(nan), glm::dvec3(0.0, 0.0, 1.0),
               glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1e-9, -1.0)}) {
             camera.eye = glm::dvec3(0.0);
-            camera.look = look;
+            camera.target = look;
             camera.up = up;
             expect_right_frame(view_axes(camera));
         }
     }
-    camera.eye = camera.look = {1e7, -2e7, 3e7};
+    camera.eye = camera.target = {1e7, -2e7, 3e7};
     expect_right_frame(view_axes(camera));
 }
 
@@ -139,7 +139,7 @@ TEST(Camera, AnyDegenerateViewStillHasARightFrame) {
 TEST(Camera, KeepsItsHeadingAlmostStraightDown) {
     Camera camera;
     camera.eye = glm::dvec3(0.0);
-    camera.look = {1e-6, 0.0, -1.0};
+    camera.target = {1e-6, 0.0, -1.0};
     EXPECT_NEAR(view_axes(camera).up.x, 1.0, 1e-9) << "east is ahead, so east is up";
 }
 
@@ -189,7 +189,7 @@ TEST(Camera, ViewRayIsTheInverseOfProject) {
 TEST(Camera, DepthFallsFromOneAtTheNearPlaneToZeroAtInfinity) {
     Camera camera;
     camera.eye = glm::dvec3(0.0);
-    camera.look = {0.0, 1.0, 0.0};
+    camera.target = {0.0, 1.0, 0.0};
     camera.near = 0.25;
     const auto depth_at = [&](double y) {
         const glm::dvec4 clip = clip_from_world(camera, {4, 3}) * glm::dvec4(0.0, y, 0.0, 1.0);
@@ -210,7 +210,7 @@ TEST(Camera, OrthographicDepthFallsFromOneToZeroEvenly) {
     Camera camera;
     camera.projection = ProjectionKind::orthographic;
     camera.eye = glm::dvec3(0.0);
-    camera.look = {0.0, 1.0, 0.0};
+    camera.target = {0.0, 1.0, 0.0};
     camera.orthographic_near = -10.0;
     camera.orthographic_far = 30.0;
     const auto depth_at = [&](double y) {
@@ -224,7 +224,7 @@ TEST(Camera, OrthographicDepthFallsFromOneToZeroEvenly) {
 TEST(Camera, TheVerticalFieldOfViewIsFromBottomToTop) {
     Camera camera;
     camera.eye = glm::dvec3(0.0);
-    camera.look = {0.0, 1.0, 0.0};
+    camera.target = {0.0, 1.0, 0.0};
     for (const double fov : {1e-3, 1.0, 57.3, 90.0, 179.0}) {
         camera.vertical_fov = fov;
         const double edge = std::tan(0.5 * glm::radians(fov));
@@ -242,7 +242,7 @@ TEST(Camera, IsFiniteAtTheEndsOfTheFieldOfViewAndFarAway) {
             Camera camera = chance.camera(ProjectionKind::perspective);
             camera.vertical_fov = fov;
             camera.eye *= 1e4;
-            camera.look = camera.eye + chance.point(1.0);
+            camera.target = camera.eye + chance.point(1.0);
             ASSERT_TRUE(is_finite(clip_from_world(camera, {1024, 768})));
             const Ray ray = view_ray(camera, {1024, 768}, {0.5, 767.5});
             const Projected back = project(camera, {1024, 768}, ray.at(100.0));

@@ -152,12 +152,12 @@ TEST(Scene, TheCameraMovesWithItsNode) {
     Scene scene;
     Camera camera;
     camera.eye = {1.0, 0.0, 0.0};
-    camera.look = {2.0, 0.0, 0.0};
+    camera.target = {2.0, 0.0, 0.0};
     Node& node = scene.add_camera(camera);
     node.set_parent_from_local(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 7.0}) *
                                rotation(glm::radians(90.0), {0.0, 0.0, 1.0}));
     EXPECT_LE(glm::distance(scene.camera().eye, {0.0, 1.0, 7.0}), 1e-12);
-    EXPECT_LE(glm::distance(scene.camera().look, {0.0, 2.0, 7.0}), 1e-12);
+    EXPECT_LE(glm::distance(scene.camera().target, {0.0, 2.0, 7.0}), 1e-12);
     EXPECT_LE(glm::distance(scene.camera().up, {0.0, 0.0, 1.0}), 1e-12);
 }
 

@@ -21,7 +21,8 @@ CameraPath path_of(std::vector<Keyframe> keys) {
 }
 
 bool is_finite(const Keyframe& key) {
-    return std::isfinite(glm::dot(key.eye, key.eye)) && std::isfinite(glm::dot(key.look, key.look));
+    return std::isfinite(glm::dot(key.eye, key.eye)) &&
+           std::isfinite(glm::dot(key.target, key.target));
 }
 
 std::vector<Keyframe> random_keys(std::mt19937& random, int count) {
@@ -45,7 +46,7 @@ TEST(CameraPath, PassesThroughItsKeys) {
         const CameraPath path = path_of(keys);
         for (const Keyframe& key : keys) {
             ASSERT_LE(glm::distance(path.at(key.time).eye, key.eye), 1e-9);
-            ASSERT_LE(glm::distance(path.at(key.time).look, key.look), 1e-9);
+            ASSERT_LE(glm::distance(path.at(key.time).target, key.target), 1e-9);
         }
         EXPECT_EQ(path.begin(), keys.front().time);
         EXPECT_EQ(path.duration(), keys.back().time - keys.front().time);
@@ -69,7 +70,7 @@ TEST(CameraPath, NeverLeavesTheRangeOfTheTwoKeysAround) {
                 const double time = std::lerp(keys[i].time, keys[i + 1].time, step / 50.0);
                 const Keyframe at = path.at(time);
                 expect_between(at.eye, keys[i].eye, keys[i + 1].eye);
-                expect_between(at.look, keys[i].look, keys[i + 1].look);
+                expect_between(at.target, keys[i].target, keys[i + 1].target);
                 if (HasFatalFailure()) {
                     return;
                 }
@@ -165,7 +166,7 @@ TEST(CameraPath, StandsStillBeforeAndAfterAndAtTimesThatAreNone) {
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double time : {-infinity, -1e308, 0.0, 1.0, std::nan("")}) {
         EXPECT_EQ(path.at(time).eye, glm::dvec3(1.0, 2.0, 3.0)) << time;
-        EXPECT_EQ(path.at(time).look, glm::dvec3(4.0, 5.0, 6.0)) << time;
+        EXPECT_EQ(path.at(time).target, glm::dvec3(4.0, 5.0, 6.0)) << time;
     }
     for (const double time : {2.0, 1e6, 1e308, infinity}) {
         EXPECT_EQ(path.at(time).eye, glm::dvec3(7.0, 8.0, 9.0)) << time;
@@ -210,7 +211,7 @@ TEST(OrbitPath, GoesOnceAroundAndKeepsItsDistance) {
         const Keyframe at = path.at(0.12 * i);
         EXPECT_NEAR(glm::distance(glm::dvec2(at.eye), glm::dvec2(middle)), radius, 0.01 * radius);
         EXPECT_GT(at.eye.z, bounds.high.z);
-        EXPECT_EQ(glm::dvec2(at.look), glm::dvec2(middle));
+        EXPECT_EQ(glm::dvec2(at.target), glm::dvec2(middle));
         sum += glm::dvec2(at.eye) - glm::dvec2(middle);
     }
     EXPECT_LE(glm::length(sum) / 100.0, 0.05 * radius);

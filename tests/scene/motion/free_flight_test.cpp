@@ -48,7 +48,7 @@ KeyEvent release(Key key) {
 }
 
 double pitch_of(const Camera& camera) {
-    return glm::degrees(std::asin(glm::normalize(camera.look - camera.eye).z));
+    return glm::degrees(std::asin(glm::normalize(camera.target - camera.eye).z));
 }
 
 bool is_finite(glm::dvec3 v) {
@@ -93,7 +93,7 @@ TEST(FreeFlight, RandomWalksStayAboveWhatIsDrawn) {
             const double floor = hills(camera.eye.x, camera.eye.y)->highest + clearance;
             ASSERT_GE(camera.eye.z, floor - 1e-9) << "walk " << walk << ", step " << step;
             ASSERT_LE(std::abs(pitch_of(camera)), 89.9 + 1e-6);
-            ASSERT_TRUE(is_finite(camera.eye) && is_finite(camera.look) && is_finite(camera.up));
+            ASSERT_TRUE(is_finite(camera.eye) && is_finite(camera.target) && is_finite(camera.up));
         }
     }
 }
@@ -213,7 +213,7 @@ TEST(FreeFlight, DragTurnsRightAndUp) {
     flight.receive(MouseMoveEvent{{0.0, 0.0}});
     flight.receive(MouseMoveEvent{{40.0, -20.0}});
     const Camera camera = flight.camera();
-    EXPECT_GT(camera.look.x, camera.eye.x);
+    EXPECT_GT(camera.target.x, camera.eye.x);
     EXPECT_NEAR(pitch_of(camera), 3.0, 1e-9);
 }
 
@@ -290,7 +290,7 @@ TEST(FreeFlight, CameraItIsGivenIsTheOneItShows) {
         const Camera given =
             camera_from_angles({1.0, 2.0, 300.0}, angle(random), 0.49 * angle(random), {.up = up});
         const Camera shown = FreeFlight(given, options).camera();
-        ASSERT_LT(glm::distance(shown.look - shown.eye, given.look - given.eye), 1e-6);
+        ASSERT_LT(glm::distance(shown.target - shown.eye, given.target - given.eye), 1e-6);
         ASSERT_LT(glm::distance(view_axes(shown).up, view_axes(given).up), 1e-6);
     }
 }
@@ -298,7 +298,7 @@ TEST(FreeFlight, CameraItIsGivenIsTheOneItShows) {
 TEST(FreeFlight, StraightDownTheTopOfThePictureIsTheHeading) {
     Camera map;
     map.eye = {0.0, 0.0, 500.0};
-    map.look = {0.0, 0.0, 0.0};
+    map.target = {0.0, 0.0, 0.0};
     map.up = {1.0, 0.0, 0.0};
     FreeFlight flight(map, over(plain));
     flight.receive(press(Key::w));

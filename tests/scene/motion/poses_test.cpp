@@ -17,16 +17,16 @@ double ground(double x, double y) {
 TEST(Poses, AreTheFormulasOfTheBenchmarks) {
     const Camera overview = pose_camera(Pose::overview, bounds, ground);
     EXPECT_EQ(overview.eye, glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w));
-    EXPECT_EQ(overview.look, glm::dvec3(0.0, -0.05 * w, h0));
+    EXPECT_EQ(overview.target, glm::dvec3(0.0, -0.05 * w, h0));
     const Camera oblique = pose_camera(Pose::oblique, bounds, ground);
     EXPECT_EQ(oblique.eye, overview.eye);
-    EXPECT_EQ(oblique.look, glm::dvec3(0.0, -0.05 * w, h1));
+    EXPECT_EQ(oblique.target, glm::dvec3(0.0, -0.05 * w, h1));
     const Camera low = pose_camera(Pose::low, bounds, ground);
     EXPECT_EQ(low.eye, glm::dvec3(0.0, -0.3 * w, ground(0.0, -0.3 * w) + 0.15 * (h1 - h0)));
-    EXPECT_EQ(low.look, glm::dvec3(0.05 * w, 0.4 * w, h0));
+    EXPECT_EQ(low.target, glm::dvec3(0.05 * w, 0.4 * w, h0));
     const Camera grazing = pose_camera(Pose::grazing, bounds, ground);
     EXPECT_EQ(grazing.eye, glm::dvec3(0.0, -0.6 * w, h1 + 0.03 * w));
-    EXPECT_EQ(grazing.look, glm::dvec3(0.0, 0.0, h1));
+    EXPECT_EQ(grazing.target, glm::dvec3(0.0, 0.0, h1));
     for (const Pose pose : {Pose::overview, Pose::oblique, Pose::low, Pose::grazing}) {
         const Camera camera = pose_camera(pose, bounds, ground);
         EXPECT_EQ(camera.vertical_fov, 57.3);

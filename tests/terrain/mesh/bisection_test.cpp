@@ -71,7 +71,7 @@ std::vector<MadeTerrain> hard_terrains() {
 }
 
 // A view from anywhere around, or one of a uniform error.
-ErrorView chance_view(test::Chance& chance, const Heightfield& heightfield) {
+ErrorView random_view(test::Chance& chance, const Heightfield& heightfield) {
     ErrorView view;
     view.max_error = std::exp(chance.between(0.0, 4.0));
     view.perspective = !chance.one_in(4);
@@ -104,7 +104,7 @@ TEST(Bisection, CoversTheHeightfieldOnceWithTrianglesThatMeetEdgeToEdge) {
     for (MadeTerrain& made : hard_terrains()) {
         const PlacedTerrain terrain(std::move(made));
         for (int i = 0; i < 10; ++i) {
-            const auto triangles = all_triangles(terrain, chance_view(chance, terrain.heightfield));
+            const auto triangles = all_triangles(terrain, random_view(chance, terrain.heightfield));
             std::int64_t area = 0;
             for (const Triangle& triangle : triangles) {
                 ASSERT_GT(doubled_area(triangle), 0) << terrain.name;
@@ -187,7 +187,7 @@ TEST(Bisection, NoVisiblePointIsSeenFartherOffThanTheViewAllows) {
     for (MadeTerrain& made : hard_terrains()) {
         const PlacedTerrain terrain(std::move(made));
         for (int i = 0; i < 20; ++i) {
-            const ErrorView view = chance_view(chance, terrain.heightfield);
+            const ErrorView view = random_view(chance, terrain.heightfield);
             const auto triangles = all_triangles(terrain, view);
             for (int k = 0; view.perspective && k < 500; ++k) {
                 const auto index = static_cast<std::size_t>(

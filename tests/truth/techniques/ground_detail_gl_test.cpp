@@ -27,8 +27,8 @@ constexpr float tile_scale = 0.1F;
 constexpr Rgba8 bright{200, 160, 90, 255};
 constexpr Rgba8 dark{90, 120, 160, 255};
 
-std::shared_ptr<const material::TextureSet> checkered_set() {
-    material::TextureSet set;
+std::shared_ptr<const material::ReliefMaterial> checkered_set() {
+    material::ReliefMaterial set;
     set.name = "checkered";
     set.heights = wave_tile(32);
     set.color = Image(64, 64);
@@ -39,7 +39,7 @@ std::shared_ptr<const material::TextureSet> checkered_set() {
     }
     set.scale = tile_scale;
     set.specular = 0.3F;
-    return std::make_shared<const material::TextureSet>(
+    return std::make_shared<const material::ReliefMaterial>(
         material::completed(std::move(set), WrapMode::wrap).value());
 }
 
@@ -54,15 +54,15 @@ template <class Height> terrain::Heightfield ground_of(const Height& height) {
                                    glm::dvec2(ground_side / (ground_samples - 1)));
 }
 
-std::shared_ptr<const scene::GroundDetail>
-detail_of(const std::string& technique, std::shared_ptr<const material::TextureSet> set,
+std::shared_ptr<const scene::TerrainDetail>
+detail_of(const std::string& technique, std::shared_ptr<const material::ReliefMaterial> set,
           double width = tile_side) {
-    scene::GroundDetail detail;
+    scene::TerrainDetail detail;
     detail.set = std::move(set);
     detail.width = width;
     detail.scale = tile_scale;
     detail.technique = scene::parse_technique(technique).value();
-    return std::make_shared<const scene::GroundDetail>(std::move(detail));
+    return std::make_shared<const scene::TerrainDetail>(std::move(detail));
 }
 
 // Grounds that share one compile each program once.
@@ -219,8 +219,8 @@ TEST_F(GroundDetailGlTest, HeightsFadeInWithoutAStep) {
 }
 
 // Blocks that stand far apart, a pixel or less of them.
-std::shared_ptr<const material::TextureSet> blocky_set() {
-    material::TextureSet set;
+std::shared_ptr<const material::ReliefMaterial> blocky_set() {
+    material::ReliefMaterial set;
     set.name = "blocky";
     set.heights = Grid<float>(128, 128, 0.0F);
     for (int row = 0; row < 128; ++row) {
@@ -230,7 +230,7 @@ std::shared_ptr<const material::TextureSet> blocky_set() {
     }
     set.color = Image(2, 2, bright);
     set.scale = tile_scale;
-    return std::make_shared<const material::TextureSet>(
+    return std::make_shared<const material::ReliefMaterial>(
         material::completed(std::move(set), WrapMode::wrap).value());
 }
 

@@ -16,10 +16,10 @@ namespace {
 
 class LayerTechniquesGlTest : public test::GlTest {};
 
-std::shared_ptr<const material::TextureSet> layered_set(Grid<glm::vec4> layers) {
-    material::TextureSet set = *made_set(Grid<float>(layers.cols(), layers.rows(), 0.5F));
+std::shared_ptr<const material::ReliefMaterial> layered_set(Grid<glm::vec4> layers) {
+    material::ReliefMaterial set = *made_set(Grid<float>(layers.cols(), layers.rows(), 0.5F));
     set.layers = material::LayerMap::create(std::move(layers)).value();
-    return std::make_shared<const material::TextureSet>(std::move(set));
+    return std::make_shared<const material::ReliefMaterial>(std::move(set));
 }
 
 // Thick and smooth: steps miss nothing of it.
@@ -34,7 +34,7 @@ Grid<glm::vec4> layered_waves(int side) {
 }
 
 LayeredPlane layers_of(const Panel& panel, material::LayerKind kind) {
-    const scene::TextureDetail& detail = panel.detail();
+    const scene::SurfaceDetail& detail = panel.detail();
     const material::LayerMap layers = material::layers_of(*detail.set, kind);
     return LayeredPlane::create(
                layers.heights().view(),
@@ -139,17 +139,17 @@ TEST_F(LayerTechniquesGlTest, ALatticesHolesAreHolesAndItsWiresAreNot) {
 
 // Seen from beneath the back is what the front would be if the two changed places.
 TEST_F(LayerTechniquesGlTest, DualLayersBackFaceIsTheOtherMap) {
-    material::TextureSet set = *made_set(wave_tile(32));
+    material::ReliefMaterial set = *made_set(wave_tile(32));
     set.back_heights = noise_tile(32, 32, 33);
-    material::TextureSet turned = *made_set(noise_tile(32, 32, 33));
+    material::ReliefMaterial turned = *made_set(noise_tile(32, 32, 33));
     turned.back_heights = wave_tile(32);
     Panel panel(wave_tile(32));
     panel.detail().offset = -0.5F;
-    panel.detail().set = std::make_shared<const material::TextureSet>(set);
+    panel.detail().set = std::make_shared<const material::ReliefMaterial>(set);
     panel.look({0.2, -3.0, -4.0}, {0.1, 0.2, 0.0});
     const HitBuffer back = panel.hits("dual-layer:n=64,k=8");
     EXPECT_LE(layer_errors(panel, material::LayerKind::dual, back).wrong_percent(), 0.5);
-    panel.detail().set = std::make_shared<const material::TextureSet>(turned);
+    panel.detail().set = std::make_shared<const material::ReliefMaterial>(turned);
     panel.look({0.2, -3.0, 4.0}, {0.1, 0.2, 0.0});
     const HitBuffer front = panel.hits("dual-layer:n=64,k=8");
     int different = 0;

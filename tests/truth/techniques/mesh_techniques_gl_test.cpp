@@ -346,7 +346,7 @@ std::optional<bool> truly_lit(const Panel& panel, const ReliefPlane& relief, glm
     if (!hit) {
         return std::nullopt;
     }
-    const scene::TextureDetail& detail = panel.detail();
+    const scene::SurfaceDetail& detail = panel.detail();
     const auto height = [&](glm::dvec2 off) {
         return scene::tile_height(*detail.set, hit->texture_coordinate + off, detail.border);
     };

@@ -78,8 +78,8 @@ scene::Camera chance_camera(test::Chance& chance, const scene::TerrainSurface& s
     const double y = chance.between(bounds.low.y - 0.2 * size.y, bounds.high.y + 0.2 * size.y);
     const double above = 0.02 * size.x * std::exp(chance.between(-1.0, 3.0));
     camera.eye = {x, y, surface.height_at(x, y).value_or(bounds.high.z) + above};
-    camera.look = {chance.between(bounds.low.x, bounds.high.x),
-                   chance.between(bounds.low.y, bounds.high.y), bounds.center().z};
+    camera.target = {chance.between(bounds.low.x, bounds.high.x),
+                     chance.between(bounds.low.y, bounds.high.y), bounds.center().z};
     camera.vertical_fov = chance.one_in(3) ? chance.between(10.0, 120.0) : 57.3;
     camera.near = 1e-5 * size.x;
     return camera;

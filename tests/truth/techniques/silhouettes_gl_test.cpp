@@ -196,7 +196,7 @@ private:
                                                                             : std::nullopt;
     }
 
-    const scene::TextureDetail& detail_;
+    const scene::SurfaceDetail& detail_;
     double side_;
     std::vector<PlacedRelief> faces_;
 };
@@ -324,7 +324,7 @@ TEST_F(SilhouettesGlTest, ShadowsAreThoseOfTheRelief) {
 TEST_F(SilhouettesGlTest, ColoursAreAsSharpAsOnTheMesh) {
     RELJEF_RELEASE_ONLY("it is what a shader says");
     Panel panel(Grid<float>(8, 8, 0.0F), 4.0F);
-    material::TextureSet set;
+    material::ReliefMaterial set;
     set.name = "striped";
     set.heights = Grid<float>(8, 8, 0.0F);
     set.color = Image(32, 32);
@@ -332,7 +332,7 @@ TEST_F(SilhouettesGlTest, ColoursAreAsSharpAsOnTheMesh) {
         set.color.samples()[i] =
             i / 8 % 2 == 0 ? Rgba8{230, 230, 230, 255} : Rgba8{20, 20, 20, 255};
     }
-    panel.detail().set = std::make_shared<const material::TextureSet>(
+    panel.detail().set = std::make_shared<const material::ReliefMaterial>(
         material::completed(std::move(set), WrapMode::wrap).value());
     panel.detail().offset = 0.0F;
     panel.node->get<scene::MeshNode>()->mesh =
@@ -377,7 +377,7 @@ TEST_F(SilhouettesGlTest, NothingIsSeenThroughABowlsBack) {
 }
 
 TEST(HullMesh, NeighboursShareTheirSidesAndPartsWithoutVolumeAreLeftOut) {
-    scene::TextureDetail detail;
+    scene::SurfaceDetail detail;
     detail.scale = 0.1F;
     const scene::Mesh plane = scene::plane_mesh(glm::vec2(2.0F));
     EXPECT_EQ(render::hull_parts(plane, detail).size(), 6U);
@@ -400,7 +400,7 @@ TEST(HullMesh, NeighboursShareTheirSidesAndPartsWithoutVolumeAreLeftOut) {
 
 // Over a cube they fill the shell, and know which of their sides another face's parts lie beyond.
 TEST(HullMesh, FillsTheEdgesOfABox) {
-    scene::TextureDetail detail;
+    scene::SurfaceDetail detail;
     detail.scale = 0.1F;
     detail.offset = 0.0F;
     const scene::Mesh box = scene::box_mesh(glm::vec3(2.0F));

@@ -79,15 +79,15 @@ inline std::vector<MadeTile> hard_tiles() {
     return tiles;
 }
 
-inline std::shared_ptr<const material::TextureSet> made_set(Grid<float> heights, float scale = 0.1F,
-                                                            float specular = 0.0F) {
-    material::TextureSet set;
+inline std::shared_ptr<const material::ReliefMaterial>
+made_set(Grid<float> heights, float scale = 0.1F, float specular = 0.0F) {
+    material::ReliefMaterial set;
     set.name = "made";
     set.heights = std::move(heights);
     set.color = Image(4, 4, Rgba8{128, 128, 128, 255});
     set.scale = scale;
     set.specular = specular;
-    return std::make_shared<const material::TextureSet>(
+    return std::make_shared<const material::ReliefMaterial>(
         material::completed(std::move(set), WrapMode::wrap).value());
 }
 
@@ -151,7 +151,7 @@ struct Panel {
         *camera->get<scene::Camera>() = test::camera_at(eye, at);
     }
     scene::Material& material() const { return node->get<scene::MeshNode>()->material; }
-    scene::TextureDetail& detail() const { return material().detail; }
+    scene::SurfaceDetail& detail() const { return material().detail; }
 
     HitBuffer hits(const std::string& technique) const {
         material().technique = scene::parse_technique(technique).value();
@@ -194,11 +194,11 @@ struct PanelTruth {
         const double width = width_of(panel.detail());
         middle = {0.5 * (width - plane_side), 0.5 * (plane_side - width), 0.0};
     }
-    static double width_of(const scene::TextureDetail& detail) {
+    static double width_of(const scene::SurfaceDetail& detail) {
         return static_cast<double>(plane_side) / detail.repeats.x;
     }
     static ReliefPlane relief_of(const Panel& panel) {
-        const scene::TextureDetail& detail = panel.detail();
+        const scene::SurfaceDetail& detail = panel.detail();
         return ReliefPlane::create(detail.set->heights.view(),
                                    {width_of(detail), detail.scale, detail.offset, detail.border})
             .value();

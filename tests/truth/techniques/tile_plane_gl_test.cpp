@@ -19,7 +19,7 @@ constexpr int panel_repeats = 3;
 
 TilePlane plane_of(const Panel& panel, const scene::Light& light,
                    std::optional<material::LayerKind> layers = std::nullopt) {
-    const scene::TextureDetail& detail = panel.detail();
+    const scene::SurfaceDetail& detail = panel.detail();
     return TilePlane::create({.set = detail.set,
                               .layers = layers,
                               .side = static_cast<double>(plane_side),
@@ -44,10 +44,10 @@ Image colored(int side) {
 
 Panel colored_panel(Grid<float> heights, float specular) {
     Panel panel(std::move(heights));
-    material::TextureSet set = *panel.detail().set;
+    material::ReliefMaterial set = *panel.detail().set;
     set.color = colored(8);
     set.specular = specular;
-    panel.detail().set = std::make_shared<const material::TextureSet>(std::move(set));
+    panel.detail().set = std::make_shared<const material::ReliefMaterial>(std::move(set));
     return panel;
 }
 
@@ -139,9 +139,9 @@ TEST_F(TilePlaneGlTest, WrittenDepthLetsAMeshCutTheReliefOfAnother) {
 TEST_F(TilePlaneGlTest, SmoothEdgesOfAMeshBlendInWhatIsMissedByTheLeast) {
     const test::TwoRidges ridges(0.7F, 0.35F);
     Panel panel(ridges.heights, 1.0F);
-    material::TextureSet set = *panel.detail().set;
+    material::ReliefMaterial set = *panel.detail().set;
     set.color = ridges.colors;
-    panel.detail().set = std::make_shared<const material::TextureSet>(std::move(set));
+    panel.detail().set = std::make_shared<const material::ReliefMaterial>(std::move(set));
     panel.detail().offset = 0.0F;
     panel.look({0.0, -6.0, 1.405}, {0.0, 0.0, 0.413});
     panel.camera->get<scene::Camera>()->projection = scene::ProjectionKind::orthographic;

@@ -1,4 +1,4 @@
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ template <class T> std::string size_text(const Grid<T>& grid) {
     return fmt::format("{} x {}", grid.cols(), grid.rows());
 }
 
-std::optional<Error> fault_of(const TextureSet& set) {
+std::optional<Error> error_of(const ReliefMaterial& set) {
     const auto fault = [&](const std::string& found, const char* expected) {
         return Error{
             fmt::format("texture set {}: {} found, {} expected", set.name, found, expected)};
@@ -46,7 +46,7 @@ std::optional<Error> fault_of(const TextureSet& set) {
     return std::nullopt;
 }
 
-void note_sizes(TextureSet& set) {
+void note_sizes(ReliefMaterial& set) {
     const auto note = [&](const char* what, const auto& map) {
         if (map.cols() != set.heights.cols() || map.rows() != set.heights.rows()) {
             set.notes.push_back(fmt::format("{}: {} of {} and heights of {} texels; each is used "
@@ -66,7 +66,7 @@ bool is_normal(glm::vec3 normal) {
     return length >= min_length && std::isfinite(length) && normal.z > 0.0F;
 }
 
-void mend_normals(TextureSet& set) {
+void mend_normals(ReliefMaterial& set) {
     std::size_t mended = 0;
     std::size_t first = 0;
     for (std::size_t i = 0; i < set.normals.size(); ++i) {
@@ -133,8 +133,8 @@ bool has_seam(GridView<const float> heights) {
                           [&](int line, int i) { return heights(i, line); });
 }
 
-Result<TextureSet> completed(TextureSet set, WrapMode border) {
-    if (auto fault = fault_of(set)) {
+Result<ReliefMaterial> completed(ReliefMaterial set, WrapMode border) {
+    if (auto fault = error_of(set)) {
         return *fault;
     }
     if (set.normals.empty()) {
@@ -150,7 +150,7 @@ Result<TextureSet> completed(TextureSet set, WrapMode border) {
     return set;
 }
 
-LayerMap layers_of(const TextureSet& set, LayerKind kind) {
+LayerMap layers_of(const ReliefMaterial& set, LayerKind kind) {
     switch (kind) {
     case LayerKind::symmetric:
         return symmetric_layers(set.heights.view());

@@ -1,4 +1,4 @@
-#include "engine/session/texture_sets.h"
+#include "engine/session/material_source.h"
 
 #include <algorithm>
 
@@ -10,8 +10,8 @@
 
 namespace reljef::session {
 
-Result<material::TextureSet> open_textures(const TextureRequest& request,
-                                           const SourceOptions& choice) {
+Result<material::ReliefMaterial> open_material(const MaterialRequest& request,
+                                               const SourceOptions& choice) {
     const std::string& name = request.name;
     const auto names = terrains::detail_names();
     if (std::find(names.begin(), names.end(), name) != names.end()) {
@@ -34,7 +34,7 @@ Result<material::TextureSet> open_textures(const TextureRequest& request,
     return io::read_texture_set(*files, options);
 }
 
-void log_texture_notes(const material::TextureSet& set, Log& log) {
+void log_material_notes(const material::ReliefMaterial& set, Log& log) {
     for (const std::string& note : set.notes) {
         log.note(note);
     }

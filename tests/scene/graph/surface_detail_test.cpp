@@ -1,4 +1,4 @@
-#include "engine/scene/graph/texture_detail.h"
+#include "engine/scene/graph/surface_detail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,26 +14,26 @@
 namespace reljef::scene {
 namespace {
 
-TEST(TextureDetail, ATileIsAsWideAsThePlaneOverItsRepeats) {
+TEST(SurfaceDetail, ATileIsAsWideAsThePlaneOverItsRepeats) {
     EXPECT_NEAR(tile_width(plane_mesh({6.0F, 6.0F}), {3.0F, 3.0F}), 2.0, 1e-6);
     // Not square: as wide as the square of its area.
     EXPECT_NEAR(tile_width(plane_mesh({8.0F, 2.0F}), {1.0F, 1.0F}), 4.0, 1e-6);
     EXPECT_NEAR(tile_width(plane_mesh({8.0F, 2.0F}), {4.0F, 1.0F}), 2.0, 1e-6);
 }
 
-TEST(TextureDetail, OfASphereIsItsAreaOverItsTiles) {
+TEST(SurfaceDetail, OfASphereIsItsAreaOverItsTiles) {
     // 4 pi r^2 of a finely cut sphere.
     EXPECT_NEAR(tile_width(sphere_mesh(2.0F, 200), {4.0F, 2.0F}), 2.5066, 1e-2);
 }
 
-TEST(TextureDetail, LiftsByItsScaleOfATile) {
-    TextureDetail detail;
+TEST(SurfaceDetail, LiftsByItsScaleOfATile) {
+    SurfaceDetail detail;
     detail.repeats = {3.0F, 3.0F};
     detail.scale = 0.1F;
     EXPECT_NEAR(relief_height(plane_mesh({6.0F, 6.0F}), detail), 0.2, 1e-6);
 }
 
-TEST(TextureDetail, WithoutTextureCoordinatesLiftsNothing) {
+TEST(SurfaceDetail, WithoutTextureCoordinatesLiftsNothing) {
     Mesh mesh = plane_mesh({6.0F, 6.0F});
     for (glm::vec2& coordinate : mesh.texture_coordinates) {
         coordinate = glm::vec2(0.5F);
@@ -42,16 +42,16 @@ TEST(TextureDetail, WithoutTextureCoordinatesLiftsNothing) {
     EXPECT_EQ(tile_width({}, {1.0F, 1.0F}), 0.0);
 }
 
-TextureDetail noise_detail(float offset) {
+SurfaceDetail noise_detail(float offset) {
     test::Chance chance(41);
-    material::TextureSet set;
+    material::ReliefMaterial set;
     set.color = Image(4, 4);
     set.heights = Grid<float>(13, 11);
     for (float& height : set.heights.samples()) {
         height = static_cast<float>(chance.between(0.0, 1.0));
     }
-    TextureDetail detail;
-    detail.set = std::make_shared<const material::TextureSet>(std::move(set));
+    SurfaceDetail detail;
+    detail.set = std::make_shared<const material::ReliefMaterial>(std::move(set));
     detail.repeats = {2.3F, 1.7F}; // neither whole: no two faces agree at their edge
     detail.scale = 0.3F;
     detail.offset = offset;
@@ -81,7 +81,7 @@ bool is_closed(const Mesh& mesh) {
 
 TEST(Displacement, HasNoCracksWhereNormalsOrCoordinatesPart) {
     for (const float offset : {-1.0F, -0.4F, 0.0F}) {
-        const TextureDetail detail = noise_detail(offset);
+        const SurfaceDetail detail = noise_detail(offset);
         for (const Mesh& shape : {box_mesh({1.0F, 2.0F, 1.5F}), cylinder_mesh(1.0F, 2.0F, 12),
                                   sphere_mesh(1.0F, 12), torus_mesh(1.0F, 0.3F, 12)}) {
             Mesh fine = tessellated(shape, 5);
@@ -94,10 +94,10 @@ TEST(Displacement, HasNoCracksWhereNormalsOrCoordinatesPart) {
 
 // A level lift moves a box's faces outwards as they are: its edges stay edges.
 TEST(Displacement, LiftsABoxIntoALargerBox) {
-    TextureDetail detail = noise_detail(0.0F);
-    material::TextureSet level = *detail.set;
+    SurfaceDetail detail = noise_detail(0.0F);
+    material::ReliefMaterial level = *detail.set;
     level.heights = Grid<float>(4, 4, 0.5F);
-    detail.set = std::make_shared<const material::TextureSet>(std::move(level));
+    detail.set = std::make_shared<const material::ReliefMaterial>(std::move(level));
     Mesh fine = tessellated(box_mesh({2.0F, 2.0F, 2.0F}), 4);
     const auto lift = static_cast<float>(0.5 * relief_height(fine, detail));
     fine.positions = displaced_positions(fine, detail);
@@ -109,7 +109,7 @@ TEST(Displacement, LiftsABoxIntoALargerBox) {
 }
 
 TEST(Displacement, OfASmoothMeshIsAlongItsNormals) {
-    const TextureDetail detail = noise_detail(-0.5F);
+    const SurfaceDetail detail = noise_detail(-0.5F);
     const Mesh plane = tessellated(plane_mesh({3.0F, 3.0F}), 7);
     const auto positions = displaced_positions(plane, detail);
     const double lift = relief_height(plane, detail);

@@ -1,4 +1,4 @@
-#include "engine/scene/technique/ground_detail.h"
+#include "engine/scene/technique/terrain_detail.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(GroundDetail, WhatMovesVerticesWarpsOrLooksForLayersShowsNoTileOnATerrain) {
+TEST(TerrainDetail, WhatMovesVerticesWarpsOrLooksForLayersShowsNoTileOnATerrain) {
     for (const TechniqueInfo& info : technique_catalogue()) {
         const bool shows = info.id != TechniqueId::polygons &&
                            info.id != TechniqueId::displacement &&
                            info.id != TechniqueId::prewarp && !looks_for_layers(info.id);
-        const auto checked = check_ground_technique(make_technique(info.id));
+        const auto checked = check_terrain_detail_technique(make_technique(info.id));
         EXPECT_EQ(static_cast<bool>(checked), shows) << info.name;
         if (!checked) {
             EXPECT_THAT(checked.error().message, HasSubstr("normal, relief and exact"));
@@ -21,9 +21,9 @@ TEST(GroundDetail, WhatMovesVerticesWarpsOrLooksForLayersShowsNoTileOnATerrain) 
     }
 }
 
-TEST(GroundDetail, StepsAndShadowAreItsOnlyOptions) {
+TEST(TerrainDetail, StepsAndShadowAreItsOnlyOptions) {
     const auto check = [](const std::string& text) {
-        return check_ground_technique(parse_technique(text).value());
+        return check_terrain_detail_technique(parse_technique(text).value());
     };
     EXPECT_TRUE(check("relief:n=11,k=8,steps=8..32,shadow=soft,0.3"));
     EXPECT_TRUE(check("exact:shadow=hard"));

@@ -1,9 +1,9 @@
-#include "engine/session/ground_detail.h"
+#include "engine/session/terrain_detail.h"
 
 #include <fmt/format.h>
 
+#include "engine/session/material_source.h"
 #include "engine/session/prepared_maps.h"
-#include "engine/session/texture_sets.h"
 
 namespace reljef::session {
 namespace {
@@ -28,18 +28,18 @@ Result<scene::Technique> technique_for(const io::DetailDescription& detail,
         return *view.detail_technique;
     }
     auto technique = scene::parse_technique(detail.technique);
-    const auto good =
-        technique ? scene::check_ground_technique(*technique) : Result<void>(technique.error());
+    const auto good = technique ? scene::check_terrain_detail_technique(*technique)
+                                : Result<void>(technique.error());
     return good ? technique
                 : Error{fmt::format("{}: [detail] {}", scene_name, good.error().message)};
 }
 
 } // namespace
 
-Result<std::shared_ptr<const scene::GroundDetail>>
+Result<std::shared_ptr<const scene::TerrainDetail>>
 open_detail(const io::SceneDescription& description, const SourceOptions& terrain,
             const SceneOptions& view, Log& log, const std::stop_token& stop) {
-    using Detail = std::shared_ptr<const scene::GroundDetail>;
+    using Detail = std::shared_ptr<const scene::TerrainDetail>;
     const auto asked = asked_for(description, view);
     if (!asked) {
         if (view.detail_technique) {
@@ -52,7 +52,7 @@ open_detail(const io::SceneDescription& description, const SourceOptions& terrai
         return technique.error();
     }
     auto set =
-        open_textures({asked->textures, asked->folder, view.detail ? "--detail" : terrain.terrain,
+        open_material({asked->textures, asked->folder, view.detail ? "--detail" : terrain.terrain,
                        description.seed, asked->width, asked->scale},
                       terrain);
     if (!set) {
@@ -61,13 +61,13 @@ open_detail(const io::SceneDescription& description, const SourceOptions& terrai
     if (auto made = add_cones(*set, *technique, terrain.threads, log, stop); !made) {
         return made.error();
     }
-    log_texture_notes(*set, log);
-    scene::GroundDetail detail;
+    log_material_notes(*set, log);
+    scene::TerrainDetail detail;
     detail.width = asked->width;
     detail.scale = asked->scale ? static_cast<float>(*asked->scale) : set->scale;
     detail.technique = *technique;
-    detail.set = std::make_shared<const material::TextureSet>(std::move(*set));
-    return Detail(std::make_shared<const scene::GroundDetail>(std::move(detail)));
+    detail.set = std::make_shared<const material::ReliefMaterial>(std::move(*set));
+    return Detail(std::make_shared<const scene::TerrainDetail>(std::move(detail)));
 }
 
 } // namespace reljef::session

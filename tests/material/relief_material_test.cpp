@@ -1,4 +1,4 @@
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 
 #include <cmath>
 #include <limits>
@@ -17,15 +17,15 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-material::TextureSet level_set(int cols = 8, int rows = 8) {
-    material::TextureSet set;
+material::ReliefMaterial level_set(int cols = 8, int rows = 8) {
+    material::ReliefMaterial set;
     set.name = "made";
     set.color = Image(cols, rows);
     set.heights = Grid<float>(cols, rows, 0.5F);
     return set;
 }
 
-std::string error_of(material::TextureSet set) {
+std::string error_of(material::ReliefMaterial set) {
     const auto done = material::completed(std::move(set), material::WrapMode::wrap);
     EXPECT_FALSE(done);
     return done ? "" : done.error().message;
@@ -65,15 +65,15 @@ TEST(TileNormals, AreTheMeanOfTheSlopesOnBothSidesOverTheBorderToo) {
     }
 }
 
-TEST(TextureSet, MakesNormalsWhereThereAreNone) {
+TEST(ReliefMaterial, MakesNormalsWhereThereAreNone) {
     const auto set = material::completed(level_set(), material::WrapMode::wrap);
     ASSERT_TRUE(set);
     EXPECT_EQ(set->normals(3, 3), glm::vec3(0.0F, 0.0F, 1.0F));
     EXPECT_THAT(set->notes, IsEmpty());
 }
 
-TEST(TextureSet, NormalsThatAreNoneStandUprightAndAreTold) {
-    material::TextureSet set = level_set();
+TEST(ReliefMaterial, NormalsThatAreNoneStandUprightAndAreTold) {
+    material::ReliefMaterial set = level_set();
     set.normals = Grid<glm::vec3>(8, 8, glm::vec3(0.0F, 0.6F, 0.8F));
     set.normals(1, 2) = glm::vec3(0.0F);
     set.normals(3, 4) = glm::vec3(0.0F, 0.0F, -1.0F);
@@ -87,8 +87,8 @@ TEST(TextureSet, NormalsThatAreNoneStandUprightAndAreTold) {
     EXPECT_THAT(done->notes, ElementsAre(HasSubstr("3 of 64 normals")));
 }
 
-TEST(TextureSet, MapsOfDifferentSizesAreTold) {
-    material::TextureSet set = level_set(8, 4);
+TEST(ReliefMaterial, MapsOfDifferentSizesAreTold) {
+    material::ReliefMaterial set = level_set(8, 4);
     set.color = Image(16, 4);
     const auto done = material::completed(std::move(set), material::WrapMode::wrap);
     ASSERT_TRUE(done);
@@ -96,9 +96,9 @@ TEST(TextureSet, MapsOfDifferentSizesAreTold) {
                 ElementsAre(AllOf(HasSubstr("colours of 16 x 4"), HasSubstr("heights of 8 x 4"))));
 }
 
-TEST(TextureSet, ASeamIsToldOnlyWhereTheTileIsToRepeat) {
+TEST(ReliefMaterial, ASeamIsToldOnlyWhereTheTileIsToRepeat) {
     for (const bool along_rows : {false, true}) {
-        material::TextureSet set = level_set(32, 32);
+        material::ReliefMaterial set = level_set(32, 32);
         for (int row = 0; row < 32; ++row) {
             for (int col = 0; col < 32; ++col) {
                 set.heights(col, row) = static_cast<float>(along_rows ? row : col) / 31.0F;
@@ -118,8 +118,8 @@ TEST(TextureSet, ASeamIsToldOnlyWhereTheTileIsToRepeat) {
     EXPECT_FALSE(material::has_seam(waves.view()));
 }
 
-TEST(TextureSet, WhatIsMissingOrOutOfRangeIsOneSentence) {
-    material::TextureSet set = level_set();
+TEST(ReliefMaterial, WhatIsMissingOrOutOfRangeIsOneSentence) {
+    material::ReliefMaterial set = level_set();
     set.color = {};
     EXPECT_THAT(error_of(set), AllOf(HasSubstr("texture set made"), HasSubstr("no colours")));
     set = level_set();

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/core/result.h"
-#include "engine/material/texture_set.h"
+#include "engine/material/relief_material.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
 #include "engine/session/options.h"
@@ -14,7 +14,7 @@
 namespace reljef::session {
 
 /// Which maps of a tile of detail.
-struct TextureRequest {
+struct MaterialRequest {
     std::string name;                 ///< as the user said it: a built-in one, or a folder
     std::filesystem::path folder;     ///< of pictures, where it is none that is built in
     std::string asked_by;             ///< the option or the scene file
@@ -26,10 +26,10 @@ struct TextureRequest {
 
 /// Makes or reads them. Fails on a name that is neither built in nor a folder (a usage error where
 /// an option asked), and where pictures cannot be read.
-Result<material::TextureSet> open_textures(const TextureRequest& request,
-                                           const SourceOptions& options);
+Result<material::ReliefMaterial> open_material(const MaterialRequest& request,
+                                               const SourceOptions& options);
 
 /// Reports what is odd about the maps.
-void log_texture_notes(const material::TextureSet& set, Log& log);
+void log_material_notes(const material::ReliefMaterial& set, Log& log);
 
 } // namespace reljef::session

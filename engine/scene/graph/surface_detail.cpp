@@ -1,4 +1,4 @@
-#include "engine/scene/graph/texture_detail.h"
+#include "engine/scene/graph/surface_detail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,15 +136,15 @@ double tile_width(const Mesh& mesh, glm::vec2 repeats) {
     return tiles > 0.0 ? std::sqrt(areas.surface / tiles) : 0.0;
 }
 
-double relief_height(const Mesh& mesh, const TextureDetail& detail) {
+double relief_height(const Mesh& mesh, const SurfaceDetail& detail) {
     return static_cast<double>(detail.scale) * tile_width(mesh, detail.repeats);
 }
 
-double raised_above(const Mesh& mesh, const TextureDetail& detail) {
+double raised_above(const Mesh& mesh, const SurfaceDetail& detail) {
     return max_lift * (1.0 + detail.offset) * relief_height(mesh, detail);
 }
 
-double hull_reach(const Mesh& mesh, const TextureDetail& detail) {
+double hull_reach(const Mesh& mesh, const SurfaceDetail& detail) {
     const auto offset = static_cast<double>(detail.offset);
     return max_lift * (std::max(1.0 + offset, -offset) + hull_margin) * relief_height(mesh, detail);
 }
@@ -158,7 +158,7 @@ Mesh tessellated(const Mesh& mesh, int n) {
     return fine;
 }
 
-int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels) {
+int cuts_for(const Mesh& mesh, const SurfaceDetail& detail, double texels) {
     const Grid<float>& heights = detail.set->heights;
     const glm::dvec2 texels_per_coordinate =
         glm::dvec2(detail.repeats) * glm::dvec2(heights.cols(), heights.rows());
@@ -172,7 +172,7 @@ int cuts_for(const Mesh& mesh, const TextureDetail& detail, double texels) {
     return static_cast<int>(std::clamp(std::ceil(longest / texels), 1.0, std::max(most, 1.0)));
 }
 
-std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const TextureDetail& detail) {
+std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const SurfaceDetail& detail) {
     const double lift = relief_height(mesh, detail);
     const auto height_of = [&](std::size_t vertex) {
         const glm::dvec2 coordinate =
@@ -207,7 +207,7 @@ std::vector<SharedPlace> shared_places(const Mesh& mesh) {
     return places;
 }
 
-double tile_height(const material::TextureSet& set, glm::dvec2 coordinate,
+double tile_height(const material::ReliefMaterial& set, glm::dvec2 coordinate,
                    material::WrapMode border) {
     const Grid<float>& heights = set.heights;
     const glm::ivec2 size(heights.cols(), heights.rows());

@@ -1,10 +1,10 @@
-#include "app/cli/misuse.h"
+#include "app/cli/usage_error.h"
 
 #include <CLI/CLI.hpp>
 
 namespace reljef::cli {
 
-void refuse(const std::string& message) {
+void fail_usage(const std::string& message) {
     throw CLI::ValidationError(message);
 }
 

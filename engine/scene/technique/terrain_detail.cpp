@@ -1,4 +1,4 @@
-#include "engine/scene/technique/ground_detail.h"
+#include "engine/scene/technique/terrain_detail.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ bool has_foreign_options(const TechniqueOptions& options) {
 
 } // namespace
 
-Result<void> check_ground_technique(const Technique& technique) {
+Result<void> check_terrain_detail_technique(const Technique& technique) {
     if (!shows_ground(technique.id())) {
         return Error{fmt::format("technique {}: a tile of detail on a terrain found, a mesh was "
                                  "expected; normal, relief and exact show both",

@@ -26,7 +26,7 @@ struct KnownCones {
 /// The maps of one tile of surface detail. Texture coordinates (u, v) in [0,1] cover the tile: u
 /// grows along the columns, v along the rows, texel (i, j) of an n × m map has its centre at
 /// ((i + ½)/n, (j + ½)/m). Maps may differ in size.
-struct TextureSet {
+struct ReliefMaterial {
     std::string name;
     Image color;
     Grid<float> heights;            ///< in [0,1], 1 is the highest
@@ -62,7 +62,7 @@ inline constexpr double seam_limit = 4.0;
 /// or not off the surface) becomes (0, 0, 1), with a note; maps of different sizes and borders that
 /// do not fit together where the tile is to be repeated get a note. Fails where colours or heights
 /// are missing, a height is outside [0,1], or the scale is no number above 0.
-Result<TextureSet> completed(TextureSet set, WrapMode border);
+Result<ReliefMaterial> completed(ReliefMaterial set, WrapMode border);
 
 /// Which solids a tile's maps say.
 enum class LayerKind {
@@ -71,6 +71,6 @@ enum class LayerKind {
     multi      ///< the set's layers; all below its heights where it has none
 };
 /// Precondition: as completed() gave it.
-LayerMap layers_of(const TextureSet& set, LayerKind kind);
+LayerMap layers_of(const ReliefMaterial& set, LayerKind kind);
 
 } // namespace reljef::material
