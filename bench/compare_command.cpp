@@ -1,4 +1,4 @@
-#include "bench/compare_command.h"
+#include "bench/commands.h"
 
 #include <charconv>
 #include <cmath>

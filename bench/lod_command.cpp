@@ -1,23 +1,19 @@
-#include "bench/lod_command.h"
-
 #include <array>
 #include <charconv>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/baselines/methods_suite.h"
+#include "app/cli/usage_error.h"
+#include "bench/commands.h"
 #include "bench/output_options.h"
+#include "bench/runner/suite.h"
 #include "bench/suite_arguments.h"
-#include "bench/suites/growth.h"
-#include "bench/suites/growth_report.h"
-#include "bench/suites/lod_suite.h"
-#include "bench/suites/promise.h"
-#include "bench/suites/promise_report.h"
+#include "bench/suites/error_bound.h"
+#include "bench/suites/scaling.h"
 #include "bench/suites/selection_suite.h"
 #include "engine/view/error_view.h"
 
@@ -25,6 +21,8 @@ namespace reljef::bench {
 namespace {
 
 constexpr glm::ivec2 lod_quick_size{512, 384};
+constexpr std::array lod_poses{scene::Pose::overview, scene::Pose::oblique, scene::Pose::low,
+                               scene::Pose::grazing};
 
 struct LodChoice {
     SuiteOptions suite;
@@ -32,162 +30,155 @@ struct LodChoice {
     OutputChoice outputs;
     std::optional<int> poses;
     double error = 1.0;
-    bool methods = false;
     bool growth = false;
     bool selection = false;
     int memory_megabytes = 512;
 };
 
-Result<void> run_poses(const LodChoice& choice, const cli::Interrupt& interrupt) {
-    PromiseOptions options;
+std::vector<std::string> terrains_of(const LodChoice& choice) {
+    return choice.terrains.empty() ? std::vector<std::string>{"natural", "urban"} : choice.terrains;
+}
+
+Result<void> judge_poses(const LodChoice& choice, const std::stop_token& stop) {
+    ErrorBoundOptions options;
     options.suite = choice.suite;
-    options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
+    options.terrains = terrains_of(choice);
     options.poses = *choice.poses;
     options.error = choice.error;
     options.flight_errors = {0.25, 0.5, 1.0, 2.0, 4.0};
-    return report(run_promise(options, interrupt.token()), choice.outputs.json);
+    const ErrorBoundResults results = run_error_bound(options, stop);
+    auto reported = report(figure_table(results), choice.outputs.json);
+    return reported && !results.kept()
+               ? Error{"pixels over the bound, or holes, found; none were expected"}
+               : reported;
 }
 
-Result<void> run_triangle_methods(const LodChoice& choice, const cli::Interrupt& interrupt) {
-    MethodsOptions options;
-    options.suite = choice.suite;
-    options.terrains = choice.terrains.empty() ? LodOptions{}.terrains : choice.terrains;
-    return report(run_methods(options, interrupt.token()), choice.outputs.json);
-}
-
-Result<void> run_selection_command(const LodChoice& choice, const cli::Interrupt& interrupt) {
+Result<void> measure_selection(const LodChoice& choice, const std::stop_token& stop) {
     SelectionOptions options;
     options.suite = choice.suite;
     options.rounds = choice.suite.quick ? 100 : options.rounds;
-    return report(run_selection(options, interrupt.token()), choice.outputs.json);
+    return report(figure_table(run_selection(options, stop)), choice.outputs.json);
 }
 
-Result<void> run_growth_command(const LodChoice& choice, const CLI::App& command,
-                                const cli::Interrupt& interrupt) {
-    GrowthOptions options;
-    options.suite = with_quick_size(choice.suite, command, lod_quick_size);
+Result<void> measure_scaling(const LodChoice& choice, const std::stop_token& stop) {
+    ScalingOptions options;
+    options.suite = choice.suite;
     options.error = choice.error;
     options.memory_megabytes = choice.memory_megabytes;
     if (choice.suite.quick) {
         options.sides = {512, 1024, 4096};
     }
-    return report(run_growth(options, interrupt.token()), choice.outputs.json,
+    return report(figure_table(run_scaling(options, stop)), choice.outputs.json,
                   choice.outputs.markdown);
 }
 
-Result<void> run_lod_command(const LodChoice& choice, const CLI::App& command,
+// With a still camera: tiles are cut and uploaded before they are timed.
+Result<void> measure_tables(const LodChoice& choice, const std::stop_token& stop) {
+    std::vector<scene::Technique> techniques;
+    for (const int levels : {1, 3, 5}) {
+        techniques.push_back(scene::Technique{scene::Polygons{.max_levels = levels}});
+    }
+    for (const double error : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        techniques.push_back(scene::Technique{scene::Polygons{.error = error}});
+    }
+    Suite suite{"lod", {}};
+    for (const std::string& terrain : terrains_of(choice)) {
+        for (const scene::Pose pose : lod_poses) {
+            suite.groups.push_back({"", {terrain}, pose, candidates_of(techniques)});
+        }
+    }
+    SuiteOptions options = choice.suite;
+    options.keep_views = !choice.outputs.html.empty();
+    return report(run_suite(suite, options, stop), choice.outputs);
+}
+
+Result<void> run_lod_command(LodChoice choice, const CLI::App& command,
                              const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.terrains);
-    if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
+    if (auto good = check_outputs(choice.outputs, inputs); !good) { // before measuring
         return good;
     }
     if (choice.poses) {
-        return run_poses(choice, interrupt);
-    }
-    if (choice.methods) {
-        return run_triangle_methods(choice, interrupt);
+        return judge_poses(choice, interrupt.token());
     }
     if (choice.selection) {
-        return run_selection_command(choice, interrupt);
+        return measure_selection(choice, interrupt.token());
     }
-    if (choice.growth) {
-        return run_growth_command(choice, command, interrupt);
-    }
-    LodOptions options;
-    options.suite = with_quick_size(choice.suite, command, lod_quick_size);
-    options.suite.keep_views = !choice.outputs.html.empty();
-    if (!choice.terrains.empty()) {
-        options.terrains = choice.terrains;
-    }
-    return report(run_lod(options, interrupt.token()), choice.outputs);
+    choice.suite = with_quick_size(choice.suite, command, lod_quick_size);
+    return choice.growth ? measure_scaling(choice, interrupt.token())
+                         : measure_tables(choice, interrupt.token());
 }
 
-void add_poses_options(CLI::App& command, LodChoice& choice) {
+CLI::Validator error_in_range() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            double error = 0.0;
+            const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), error);
+            const bool fits = code == std::errc{} && end == text.data() + text.size() &&
+                              error >= view::min_error && error <= view::max_error;
+            return fits ? std::string()
+                        : fmt::format("'{}' found, a number from {} to {} was expected", text,
+                                      view::min_error, view::max_error);
+        },
+        "");
+}
+
+void add_lod_options(CLI::App& command, LodChoice& choice) {
     command
         .add_option("--poses", choice.poses,
-                    "instead of the tables: so many random poses, shared among the terrains, and "
-                    "two flights over each, all held against --max-error pixel by pixel, the "
-                    "flights against 0.25, 0.5, 1, 2 and 4 pixels")
+                    "instead of the tables: check --max-error pixel by pixel in N random views, "
+                    "shared among the terrains, and check 0.25, 0.5, 1, 2 and 4 pixels on two "
+                    "flights over each terrain")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000));
     command.add_flag("--growth", choice.growth,
-                     "instead of the tables: the same ground by 1024, 4096 and 16384 samples a "
-                     "side, written to temporary files, looked at within --memory");
-    command.add_option("--memory", choice.memory_megabytes, "of --growth, megabytes (512)")
+                     "instead of the tables: the same terrain with 1024, 4096 and 16384 samples a "
+                     "side, as temporary files, viewed within --memory");
+    command.add_flag("--selection", choice.selection,
+                     "instead of the tables: time to select what is drawn of 10,000 tiles");
+    command.add_option("--memory", choice.memory_megabytes, "budget of --growth, MB (512)")
         ->type_name("MB")
         ->check(CLI::Range(1, 1'000'000));
     command.add_option("--max-error", choice.error, "of --poses and --growth, pixels (1)")
         ->type_name("PX")
-        ->check(CLI::Validator(
-            [](const std::string& text) {
-                double error = 0.0;
-                const auto [end, code] =
-                    std::from_chars(text.data(), text.data() + text.size(), error);
-                const bool fits = code == std::errc{} && end == text.data() + text.size() &&
-                                  error >= view::min_error && error <= view::max_error;
-                return fits ? std::string()
-                            : fmt::format("'{}' found, a number from {} to {} was expected", text,
-                                          view::min_error, view::max_error);
-            },
-            ""));
+        ->check(error_in_range());
 }
 
-void add_methods_option(CLI::App& command, LodChoice& choice) {
-    command.add_flag("--methods", choice.methods,
-                     "instead of the tables: triangles and the worst error of several ways to "
-                     "triangulate, for errors of 0.3, 1 and 3 % of the height range");
-    command.add_flag("--selection", choice.selection,
-                     "instead of the tables: how long it takes to choose among 10,000 tiles what "
-                     "is drawn");
-}
-
-[[noreturn]] void fail_usage(const std::string& message) {
-    throw CLI::ValidationError(message);
-}
-
-// What is asked for instead of the tables; empty: the tables.
-std::string table_instead(const LodChoice& choice) {
-    const std::array asked{
-        std::pair{choice.poses.has_value(), "--poses"}, std::pair{choice.methods, "--methods"},
-        std::pair{choice.growth, "--growth"}, std::pair{choice.selection, "--selection"}};
-    std::string instead;
-    for (const auto& [is_asked, name] : asked) {
-        if (is_asked && !instead.empty()) {
-            fail_usage("--poses, --methods, --growth, --selection: more than one found, one was "
-                       "expected");
-        }
-        instead = is_asked ? name : instead;
+// The option that replaces the tables; empty: the tables.
+std::string replacement(const LodChoice& choice) {
+    if (choice.poses.has_value() + choice.growth + choice.selection > 1) {
+        cli::fail_usage("--poses, --growth, --selection: more than one found, one was expected");
     }
-    return instead;
+    return choice.poses       ? "--poses"
+           : choice.growth    ? "--growth"
+           : choice.selection ? "--selection"
+                              : "";
 }
 
-void check_outputs_of(const std::string& instead, const OutputChoice& outputs) {
-    const bool has_markdown = instead == "--growth";
-    if (!outputs.csv.empty() || !outputs.html.empty() ||
-        (!has_markdown && !outputs.markdown.empty())) {
-        fail_usage(
-            has_markdown
-                ? "--growth: --csv or --html found, only --json and --markdown were expected "
-                  "with it"
-                : fmt::format("{}: --csv, --markdown or --html found, only --json was expected "
-                              "with it",
-                              instead));
+void check_outputs_of(const std::string& option, const OutputChoice& outputs) {
+    if (outputs.csv.empty() && outputs.html.empty() &&
+        (option == "--growth" || outputs.markdown.empty())) {
+        return;
     }
+    cli::fail_usage(option == "--growth" ? "--growth: --csv or --html found, only --json and "
+                                           "--markdown were expected with it"
+                                         : option + ": --csv, --markdown or --html found, only "
+                                                    "--json was expected with it");
 }
 
 void check_lod_options(const LodChoice& choice, const CLI::App& command) {
-    const std::string instead = table_instead(choice);
-    if (!instead.empty()) {
-        check_outputs_of(instead, choice.outputs);
+    const std::string option = replacement(choice);
+    if (!option.empty()) {
+        check_outputs_of(option, choice.outputs);
     }
     if ((choice.growth || choice.selection) && !choice.terrains.empty()) {
-        fail_usage(instead + ": --terrain found, none was expected with it");
+        cli::fail_usage(option + ": --terrain found, none was expected with it");
     }
     if (!choice.poses && !choice.growth && command.count("--max-error") > 0) {
-        fail_usage("--max-error: no --poses and no --growth found, one was expected with it");
+        cli::fail_usage("--max-error: no --poses and no --growth found, one was expected with it");
     }
     if (!choice.growth && command.count("--memory") > 0) {
-        fail_usage("--memory: no --growth found, one was expected with it");
+        cli::fail_usage("--memory: no --growth found, one was expected with it");
     }
 }
 
@@ -200,18 +191,16 @@ cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_terrains_option(*arguments, choice->terrains, "natural and urban");
     add_suite_options(*arguments, choice->suite);
     add_output_options(*arguments, choice->outputs);
-    add_poses_options(*arguments, *choice);
-    add_methods_option(*arguments, *choice);
+    add_lod_options(*arguments, *choice);
     arguments->callback([arguments, choice] { check_lod_options(*choice, *arguments); });
     arguments->footer(
-        "Each terrain is seen from the poses overview, oblique, low and grazing, with a still "
+        "Each terrain is viewed from the poses overview, oblique, low and grazing, with a still "
         "camera. With --quick pictures are 512x384 unless --size says otherwise.\n"
-        "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
+        "Ctrl-C ends after the current frame; the rows so far are printed and written.\n"
         "Examples:\n"
         "  reljef-bench lod --quick\n"
         "  reljef-bench lod --terrain N45E006.hgt --json lod.json\n"
         "  reljef-bench lod --terrain N45E006.hgt --poses 10000 --max-error 1\n"
-        "  reljef-bench lod --terrain N45E006.hgt --terrain urban --methods\n"
         "  reljef-bench lod --growth --json growth.json\n"
         "  reljef-bench lod --selection");
     return {arguments, [arguments, choice, &interrupt] {

@@ -10,10 +10,8 @@
 
 #include "app/cli/usage_error.h"
 #include "bench/page/page.h"
-#include "bench/report/report_csv.h"
 #include "bench/report/report_json.h"
-#include "bench/report/report_markdown.h"
-#include "bench/report/report_terminal.h"
+#include "bench/report/report_text.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {

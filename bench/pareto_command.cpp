@@ -1,4 +1,4 @@
-#include "bench/pareto_command.h"
+#include "bench/commands.h"
 
 #include <memory>
 

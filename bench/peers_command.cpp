@@ -1,11 +1,10 @@
-#include "bench/peers_command.h"
+#include "bench/commands.h"
 
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
-#include "bench/baselines/peers.h"
-#include "bench/baselines/peers_report.h"
+#include "bench/baselines/baseline_suite.h"
 #include "bench/output_options.h"
 #include "bench/suite_arguments.h"
 
@@ -15,7 +14,7 @@ namespace {
 constexpr glm::ivec2 peers_quick_size{512, 384};
 
 struct PeersChoice {
-    PeersOptions options;
+    BaselineOptions options;
     OutputChoice outputs; // the JSON only
 };
 
@@ -25,9 +24,9 @@ Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& comman
     if (auto good = check_outputs(choice.outputs, terrain_files(terrains)); !good) {
         return good;
     }
-    PeersOptions options = choice.options;
+    BaselineOptions options = choice.options;
     options.suite = with_quick_size(options.suite, command, peers_quick_size);
-    return report(run_peers(options, interrupt.token()), choice.outputs.json);
+    return report(figure_table(run_baselines(options, interrupt.token())), choice.outputs.json);
 }
 
 } // namespace

@@ -1,11 +1,6 @@
 #include "bench/reljef_bench_program.h"
 
-#include "bench/compare_command.h"
-#include "bench/flight_command.h"
-#include "bench/lod_command.h"
-#include "bench/pareto_command.h"
-#include "bench/peers_command.h"
-#include "bench/tables_command.h"
+#include "bench/commands.h"
 
 namespace reljef::bench {
 

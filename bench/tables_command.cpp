@@ -1,4 +1,4 @@
-#include "bench/tables_command.h"
+#include "bench/commands.h"
 
 #include <memory>
 

@@ -12,7 +12,6 @@
 #include "bench/page/page_data_uri.h"
 #include "bench/page/page_parts.h"
 #include "bench/report/page_heat_map.h"
-#include "bench/report/report_schema.h"
 
 namespace reljef::bench {
 namespace fs = std::filesystem;

@@ -5,7 +5,6 @@
 
 #include "bench/report/json_object.h"
 #include "bench/report/report_json.h"
-#include "bench/report/report_schema.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {

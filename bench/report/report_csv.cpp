@@ -1,4 +1,4 @@
-#include "bench/report/report_csv.h"
+#include "bench/report/report_text.h"
 
 #include <algorithm>
 

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/report/environment_json.h"
-#include "bench/report/report_schema.h"
+#include "bench/report/figure_table.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {
@@ -160,7 +159,7 @@ std::string json_report(const Results& results) {
                 {"stopped", results.stopped ? Json(results.stopped->message) : Json()},
                 {"notes", results.notes},
                 {"left_out", array_of(results.left_out)},
-                {"environment", environment_json(results.environment)},
+                {"environment", json_of(results.environment)},
                 {"rows", array_of(results.rows)}};
     if (!results.fronts.empty()) {
         report["fronts"] = array_of(results.fronts);

@@ -1,4 +1,4 @@
-#include "bench/report/report_markdown.h"
+#include "bench/report/report_text.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "bench/report/report_terminal.h"
+#include "bench/report/report_text.h"
 
 #include <algorithm>
 

@@ -56,17 +56,17 @@ Result<truth::TileSquare> tile_square(std::string_view name, unsigned threads) {
     return square;
 }
 
-std::vector<StageChoice> gallery_stages() {
-    std::vector<StageChoice> stages(measured_tiles.size());
-    std::transform(measured_tiles.begin(), measured_tiles.end(), stages.begin(),
+std::vector<SceneChoice> gallery_scenes() {
+    std::vector<SceneChoice> scenes(measured_tiles.size());
+    std::transform(measured_tiles.begin(), measured_tiles.end(), scenes.begin(),
                    [](const MeasuredTile& tile) {
-                       return StageChoice{.terrain = "gallery", .tile = std::string(tile.name)};
+                       return SceneChoice{.terrain = "gallery", .tile = std::string(tile.name)};
                    });
-    return stages;
+    return scenes;
 }
 
-bool suits(scene::TechniqueId id, const StageChoice& stage) {
-    const MeasuredTile* const tile = measured_tile(stage.tile);
+bool suits(scene::TechniqueId id, const SceneChoice& scene) {
+    const MeasuredTile* const tile = measured_tile(scene.tile);
     if (tile == nullptr) {
         return scene::draws_terrain(id);
     }
@@ -77,25 +77,25 @@ bool suits(scene::TechniqueId id, const StageChoice& stage) {
                         : id != scene::TechniqueId::polygons && !scene::looks_for_layers(id);
 }
 
-std::vector<scene::TechniqueInfo> techniques_of(const StageChoice& stage) {
+std::vector<scene::TechniqueInfo> techniques_of(const SceneChoice& scene) {
     std::vector<scene::TechniqueInfo> infos;
     const auto catalogue = scene::technique_catalogue();
     std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(infos),
-                 [&](const scene::TechniqueInfo& info) { return suits(info.id, stage); });
+                 [&](const scene::TechniqueInfo& info) { return suits(info.id, scene); });
     return infos;
 }
 
 void expect_suited(const std::vector<scene::Technique>& techniques,
                    const std::vector<std::string>& terrains) {
-    std::vector<StageChoice> stages;
+    std::vector<SceneChoice> scenes;
     for (const std::string& terrain : terrains) {
         const auto more =
-            terrain == "gallery" ? gallery_stages() : std::vector{StageChoice{.terrain = terrain}};
-        stages.insert(stages.end(), more.begin(), more.end());
+            terrain == "gallery" ? gallery_scenes() : std::vector{SceneChoice{.terrain = terrain}};
+        scenes.insert(scenes.end(), more.begin(), more.end());
     }
     const auto is_drawn = [&](const scene::Technique& technique) {
-        return std::any_of(stages.begin(), stages.end(),
-                           [&](const StageChoice& stage) { return suits(technique.id(), stage); });
+        return std::any_of(scenes.begin(), scenes.end(),
+                           [&](const SceneChoice& scene) { return suits(technique.id(), scene); });
     };
     if (!techniques.empty() && std::none_of(techniques.begin(), techniques.end(), is_drawn)) {
         cli::fail_usage(fmt::format("--technique: {} found, which shows nothing of {}; the gallery "

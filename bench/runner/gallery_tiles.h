@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/runner/stage.h"
+#include "bench/runner/benchmark_scene.h"
 #include "engine/core/result.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/truth/tile_plane.h"
@@ -18,12 +18,12 @@ Result<truth::TileSquare> tile_square(std::string_view name, unsigned threads);
 
 /// What `--terrain gallery` measures: brick, and fence, copper and rings, one for each kind of
 /// layers.
-std::vector<StageChoice> gallery_stages();
+std::vector<SceneChoice> gallery_scenes();
 
 /// Whether a technique draws there what its tile is: layers the one technique that looks for them,
 /// heights all others but polygons, which shows a mesh as texture does; and texture any. Of
 /// terrains those that draw any.
-bool suits(scene::TechniqueId id, const StageChoice& stage);
+bool suits(scene::TechniqueId id, const SceneChoice& scene);
 
 /// Refuses (app/misuse.h) techniques of which none suits any of the terrains; where none are chosen
 /// there is nothing to refuse.
@@ -31,6 +31,6 @@ void expect_suited(const std::vector<scene::Technique>& techniques,
                    const std::vector<std::string>& terrains);
 
 /// The techniques of the catalogue that suit a stage.
-std::vector<scene::TechniqueInfo> techniques_of(const StageChoice& stage);
+std::vector<scene::TechniqueInfo> techniques_of(const SceneChoice& scene);
 
 } // namespace reljef::bench

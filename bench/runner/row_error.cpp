@@ -53,23 +53,23 @@ RowError row_error_of(const truth::GeometricErrors& geometric, const truth::Imag
 
 } // namespace
 
-Result<Judgement> judge(Stage& stage, const scene::Technique& technique,
+Result<Judgement> judge(BenchmarkScene& scene, const scene::Technique& technique,
                         session::SceneRenderer& driver, const JudgeOptions& options) {
-    stage.set_technique(technique);
-    auto shown = draw_shown(stage.scene(), driver);
+    scene.set_technique(technique);
+    auto shown = draw_shown(scene.scene(), driver);
     if (!shown) {
         return shown.error();
     }
-    const auto truth = stage.truth(options.stop);
+    const auto truth = scene.truth(options.stop);
     if (!truth) {
         return truth.error();
     }
     if (!has_terrain(shown->hits) && !has_terrain(truth->get().hits)) {
         return Error{fmt::format("{}, {}: no pixel of terrain found in the picture, some were "
                                  "expected",
-                                 stage.name(), scene::to_string(truth->get().pose))};
+                                 scene.name(), scene::to_string(truth->get().pose))};
     }
-    auto geometric = stage.errors(shown->hits, truth->get().hits, options.threads);
+    auto geometric = scene.errors(shown->hits, truth->get().hits, options.threads);
     if (!geometric) {
         return geometric.error();
     }

@@ -4,7 +4,7 @@
 #include <stop_token>
 
 #include "bench/report/results.h"
-#include "bench/runner/stage.h"
+#include "bench/runner/benchmark_scene.h"
 #include "engine/session/scene_renderer.h"
 
 namespace reljef::bench {
@@ -26,7 +26,7 @@ struct JudgeOptions {
 /// is some, as the flat surface from below, has holes and no reprojection error. Fails where the
 /// driver or the truth does, and where there is not a single pixel of terrain in either picture:
 /// that is no error of 0.
-Result<Judgement> judge(Stage& stage, const scene::Technique& technique,
+Result<Judgement> judge(BenchmarkScene& scene, const scene::Technique& technique,
                         session::SceneRenderer& driver, const JudgeOptions& options = {});
 
 } // namespace reljef::bench

@@ -11,7 +11,6 @@
 #include "app/cli/progress_line.h"
 #include "bench/runner/measure.h"
 #include "bench/runner/row_error.h"
-#include "bench/runner/suite_device.h"
 #include "bench/runner/time_table.h"
 #include "engine/core/stopwatch.h"
 
@@ -94,10 +93,10 @@ std::vector<Entry> ended_by_null_row(std::vector<Entry> entries) {
     return entries;
 }
 
-DrawFrame frame_of(Entry& entry, Stage& stage, session::SceneRenderer& driver) {
+DrawFrame frame_of(Entry& entry, BenchmarkScene& scene, session::SceneRenderer& driver) {
     return [&]() -> Result<void> {
-        stage.set_technique(*entry.technique);
-        auto stats = driver.draw(stage.scene(), true);
+        scene.set_technique(*entry.technique);
+        auto stats = driver.draw(scene.scene(), true);
         if (!stats) {
             return stats.error();
         }
@@ -148,8 +147,8 @@ bool has_row_of(const Candidate& candidate, std::span<const Row> rows) {
 }
 
 // The candidates that are none of the rows.
-LeftOut left_out_of(const Group& group, const std::string& stage, std::span<const Row> rows) {
-    LeftOut left_out{stage, group.pose, 0, {}};
+LeftOut left_out_of(const Group& group, const std::string& scene, std::span<const Row> rows) {
+    LeftOut left_out{scene, group.pose, 0, {}};
     std::set<std::string> begun; // techniques
     for (const Candidate& candidate : group.candidates) {
         const bool is_first = begun.insert(candidate.setting.technique).second;
@@ -176,7 +175,7 @@ class SuiteRun {
 public:
     SuiteRun(const Suite& suite, const SuiteOptions& options, std::stop_token stop)
         : suite_(suite), options_(options), stop_(std::move(stop)),
-          stages_({options.size, options.threads, options.quiet}, stop_, suite.keep_stages),
+          scenes_({options.size, options.threads, options.quiet}, stop_, suite.keep_scenes),
           views_(suite.max_view_cols) {}
 
     Result<void> run() {
@@ -208,21 +207,22 @@ public:
 
 private:
     // That of its scene; where several have it, the path.
-    [[nodiscard]] const std::string& name_of(const Group& group, const Stage& stage) const {
-        return shared_names_.contains(stage.name()) ? group.stage.terrain : stage.name();
+    [[nodiscard]] const std::string& name_of(const Group& group,
+                                             const BenchmarkScene& scene) const {
+        return shared_names_.contains(scene.name()) ? group.scene.terrain : scene.name();
     }
 
     // All of them, so that a mistake in the last does not cost the time of measuring the others.
     Result<void> open_stages() {
         for (const Group& group : suite_.groups) {
-            if (suite_.keep_stages) {
-                const auto stage = stages_.get(group.stage);
-                if (!stage) {
-                    return stage.error();
+            if (suite_.keep_scenes) {
+                const auto scene = scenes_.get(group.scene);
+                if (!scene) {
+                    return scene.error();
                 }
-                const std::string& name = (*stage)->name();
-                const auto first = owners_.emplace(name, group.stage).first;
-                if (first->second != group.stage) {
+                const std::string& name = (*scene)->name();
+                const auto first = owners_.emplace(name, group.scene).first;
+                if (first->second != group.scene) {
                     shared_names_.insert(name);
                 }
             }
@@ -237,14 +237,14 @@ private:
         const double seconds = group_seconds(options_, since_begin_.seconds(), left);
         since_group_ = Stopwatch();
         driver.forget_scene();
-        const auto stage = stages_.get(group.stage);
-        if (!stage) {
-            return stage.error();
+        const auto scene = scenes_.get(group.scene);
+        if (!scene) {
+            return scene.error();
         }
-        (*stage)->set_pose(group.pose);
-        const std::string& name = name_of(group, **stage);
+        (*scene)->set_pose(group.pose);
+        const std::string& name = name_of(group, **scene);
         auto entries = judge_all(entries_of(group, suite_.name, name, options_.size), seconds,
-                                 **stage, driver, progress);
+                                 **scene, driver, progress);
         if (!entries || entries->empty()) {
             return entries ? Result<void>() : entries.error();
         }
@@ -253,7 +253,7 @@ private:
         timing.stop = stop_;
         timing.progress = [&](double fraction) { progress.report_timed(fraction); };
         const std::size_t first_row = results_.rows.size();
-        if (auto timed = time_all(std::move(*entries), **stage, driver, timing); !timed) {
+        if (auto timed = time_all(std::move(*entries), **scene, driver, timing); !timed) {
             return timed;
         }
         note_left_out(group, name, std::span(results_.rows).subspan(first_row));
@@ -262,8 +262,9 @@ private:
 
     // Those there is time for in `seconds`, where any may be left out, but texture at any rate, and
     // its null row; where the run is stopped, those that are judged by then.
-    Result<std::vector<Entry>> judge_all(std::vector<Entry> entries, double seconds, Stage& stage,
-                                         session::SceneRenderer& driver, SuiteProgress& progress) {
+    Result<std::vector<Entry>> judge_all(std::vector<Entry> entries, double seconds,
+                                         BenchmarkScene& scene, session::SceneRenderer& driver,
+                                         SuiteProgress& progress) {
         std::vector<Entry> kept;
         GroupCost cost;
         const std::size_t count = entries.size();
@@ -273,7 +274,7 @@ private:
             if (may_leave_out && !fits(with_another(cost, frame_seconds(entries[i])), seconds)) {
                 continue;
             }
-            auto after = judge_one(entries[i], cost, stage, driver);
+            auto after = judge_one(entries[i], cost, scene, driver);
             if (!after && stop_.stop_requested()) {
                 break;
             }
@@ -291,7 +292,7 @@ private:
     }
 
     // What the group has cost then. Missing techniques cost nothing.
-    Result<GroupCost> judge_one(Entry& entry, const GroupCost& cost, Stage& stage,
+    Result<GroupCost> judge_one(Entry& entry, const GroupCost& cost, BenchmarkScene& scene,
                                 session::SceneRenderer& driver) {
         if (!entry.technique) {
             return cost;
@@ -299,7 +300,7 @@ private:
         const bool is_texture = cost.frames == 0;
         const Stopwatch since_begin;
         auto judgement =
-            judge(stage, *entry.technique, driver,
+            judge(scene, *entry.technique, driver,
                   {static_cast<unsigned>(options_.threads), options_.keep_views, stop_});
         if (!judgement) {
             return judgement.error();
@@ -309,7 +310,7 @@ private:
             return kept.error();
         }
         const Stopwatch since_judged;
-        if (auto drawn = frame_of(entry, stage, driver)(); !drawn) {
+        if (auto drawn = frame_of(entry, scene, driver)(); !drawn) {
             return drawn.error();
         }
         const double frame = since_judged.seconds();
@@ -337,14 +338,14 @@ private:
         return {};
     }
 
-    Result<void> time_all(std::vector<Entry> entries, Stage& stage, session::SceneRenderer& driver,
-                          MeasureOptions timing) {
+    Result<void> time_all(std::vector<Entry> entries, BenchmarkScene& scene,
+                          session::SceneRenderer& driver, MeasureOptions timing) {
         std::vector<DrawFrame> frames;
         std::size_t twice = 0; // of the frames
         for (std::size_t i = 0; i < entries.size(); ++i) {
             twice = i == drawn_twice(entries) ? frames.size() : twice;
             if (entries[i].technique) {
-                frames.push_back(frame_of(entries[i], stage, driver));
+                frames.push_back(frame_of(entries[i], scene, driver));
             }
         }
         timing.null_pair = {twice, frames.size() - 1};
@@ -381,8 +382,8 @@ private:
         }
     }
 
-    void note_left_out(const Group& group, const std::string& stage, std::span<const Row> rows) {
-        LeftOut left_out = left_out_of(group, stage, rows);
+    void note_left_out(const Group& group, const std::string& scene, std::span<const Row> rows) {
+        LeftOut left_out = left_out_of(group, scene, rows);
         if (left_out.settings > 0) {
             results_.notes.push_back(
                 left_out_note(left_out, group.candidates.size(), stop_.stop_requested()));
@@ -395,16 +396,31 @@ private:
     std::stop_token stop_;
     Stopwatch since_begin_;
     Stopwatch since_group_;
-    Stages stages_;
+    BenchmarkScenes scenes_;
     RowViews views_;
     bool is_software_ = true;
     std::map<std::string, double> frame_seconds_; // by label
-    std::map<std::string, StageChoice> owners_;   // by name, the first that has it
+    std::map<std::string, SceneChoice> owners_;   // by name, the first that has it
     std::set<std::string> shared_names_;
     Results results_;
 };
 
 } // namespace
+
+Candidate candidate_of(const scene::Technique& technique) {
+    return {setting_of(technique), technique, std::nullopt};
+}
+
+std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& techniques) {
+    const scene::Technique texture{scene::Texture{}};
+    std::vector<Candidate> candidates{candidate_of(texture)};
+    for (const scene::Technique& technique : techniques) {
+        if (technique != texture) {
+            candidates.push_back(candidate_of(technique));
+        }
+    }
+    return candidates;
+}
 
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop) {
     SuiteRun run(suite, options, stop);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "app/cli/console_log.h"
+#include "app/cli/message.h"
 #include "app/cli/progress_line.h"
 #include "engine/core/process_memory.h"
 #include "engine/core/stopwatch.h"
@@ -12,6 +15,8 @@
 
 namespace reljef::bench {
 namespace {
+
+using FlightJson = nlohmann::ordered_json;
 
 Result<session::DeviceFrames> flight_device(const FlightOptions& options, session::Log& log) {
     auto device = session::Device::create({.context = options.view.context,
@@ -56,10 +61,45 @@ Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
         }
         line.update(static_cast<double>(index + 1) / count);
     }
-    if (stop.stop_requested()) {
-        results.stopped = Error{"interrupted"};
-    }
     return {};
+}
+
+FlightJson stream_json(const scene::TileStreamStats& stats) {
+    return {{"read", stats.read},
+            {"failed", stats.failed},
+            {"cancelled", stats.cancelled},
+            {"evicted", stats.evicted},
+            {"bytes_read", stats.bytes_read},
+            {"most_bytes", stats.max_bytes}};
+}
+
+double megabytes(std::size_t bytes) {
+    return static_cast<double>(bytes) * 1e-6;
+}
+
+std::string times_line(std::string_view what, const std::vector<double>& ms) {
+    const Summary summary = summarize(ms);
+    return fmt::format("{}: median {:.2f} ms, p95 {:.2f}, p99 {:.2f}\n", what, summary.median,
+                       summary.p95, summary.p99);
+}
+
+std::string heading(const FlightResults& results) {
+    const FlightOptions& options = results.options;
+    std::string text = fmt::format(
+        "{}, {}x{}, {}, {} threads\nframes: {} in {:.1f} s, the first after {:.2f} s\n",
+        cli::printable(options.terrain.terrain), options.view.size.x, options.view.size.y,
+        cli::printable(results.environment.renderer), results.environment.threads,
+        results.times.drawing_ms.size(), results.seconds, results.seconds_to_first_frame);
+    text += times_line("drawing", results.times.drawing_ms);
+    text += times_line("waiting for tiles", results.times.waiting_ms);
+    if (const auto& stream = results.stream) {
+        text += fmt::format("tiles: {} read ({:.1f} MB of files), {} failed, {} cancelled, {} "
+                            "evicted, at most {:.1f} MB\n",
+                            stream->read, megabytes(stream->bytes_read), stream->failed,
+                            stream->cancelled, stream->evicted, megabytes(stream->max_bytes));
+    }
+    text.pop_back();
+    return text;
 }
 
 } // namespace
@@ -90,6 +130,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
         log.note(good.error().message); // the times hold for the flight as it was flown
     }
     results.times = frames->times();
+    results.end = run_end({}, stop, !results.times.drawing_ms.empty());
     results.failed_files = session::failed_files(scene->scene);
     results.max_memory =
         std::max({results.max_memory, process_memory().most, results.times.memory_before});
@@ -100,12 +141,38 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     return results;
 }
 
-double memory_share(const FlightResults& results) {
-    const auto allowed =
-        static_cast<double>(results.options.terrain.memory_megabytes) * (1U << 20U);
-    return (static_cast<double>(results.max_memory) -
-            static_cast<double>(results.times.memory_before)) /
-           allowed;
+FigureTable figure_table(const FlightResults& results) {
+    const FlightOptions& options = results.options;
+    const std::size_t budget = static_cast<std::size_t>(options.terrain.memory_megabytes) << 20U;
+    const double share = (static_cast<double>(results.max_memory) -
+                          static_cast<double>(results.times.memory_before)) /
+                         static_cast<double>(budget);
+    FigureTable table{
+        .schema = "reljef-bench-flight/1",
+        .heading = heading(results),
+        .settings = {{"environment", json_of(results.environment)},
+                     {"terrain", options.terrain.terrain},
+                     {"path", options.view.path},
+                     {"size", fmt::format("{}x{}", options.view.size.x, options.view.size.y)},
+                     {"frames", results.times.drawing_ms.size()},
+                     {"seconds", results.seconds},
+                     {"seconds_to_first_frame", results.seconds_to_first_frame},
+                     {"drawing_ms", json_of(summarize(results.times.drawing_ms))},
+                     {"waiting_ms", json_of(summarize(results.times.waiting_ms))},
+                     {"tiles", results.stream ? stream_json(*results.stream) : FlightJson()},
+                     {"faulty_files", results.failed_files},
+                     {"memory",
+                      {{"allowed", budget},
+                       {"before", results.times.memory_before},
+                       {"most", results.max_memory},
+                       {"share_of_allowed", share}}}},
+        .end = results.end};
+    table.summary = fmt::format(
+        "memory: {:.1f} MB at most, {:.1f} MB before the terrain was read: {:.0f} % of the {} MiB "
+        "allowed\n",
+        megabytes(results.max_memory), megabytes(results.times.memory_before), 100.0 * share,
+        options.terrain.memory_megabytes);
+    return table;
 }
 
 } // namespace reljef::bench

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <stop_token>
-#include <string>
 
 #include "app/cli/options.h"
 #include "app/cli/raised_frames.h"
-#include "bench/report/environment.h"
+#include "bench/report/figure_table.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/frame_maker.h"
 
@@ -29,21 +27,13 @@ struct FlightResults {
     cli::RaisedFrames raised;
     std::optional<scene::TileStreamStats> stream; ///< absent where all fits the memory
     std::size_t failed_files = 0;
-    std::size_t max_memory = 0;   ///< of the process, bytes
-    std::optional<Error> stopped; ///< why there are fewer frames than asked for
+    std::size_t max_memory = 0; ///< of the process, bytes
+    RunEnd end;
 };
 
 /// Fails where there is no terrain, path or context.
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop);
 
-/// Memory beyond that of the process before the terrain was read, as a share of what was allowed.
-double memory_share(const FlightResults& results);
-
-/// As JSON of the schema "reljef-bench-flight/1": times milliseconds, memory bytes.
-std::string flight_json(const FlightResults& results);
-
-/// Writes the file (an empty path: none) and prints the figures. Fails with FlightResults::stopped
-/// too.
-Result<void> report(const FlightResults& results, const std::filesystem::path& json);
+FigureTable figure_table(const FlightResults& results);
 
 } // namespace reljef::bench

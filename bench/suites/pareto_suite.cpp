@@ -105,10 +105,10 @@ std::vector<std::size_t> choices_of(const scene::OptionInfo& option) {
 }
 
 // The cheap kinds first; the options of what is measured nowhere else.
-std::vector<scene::Technique> usual_settings(const StageChoice& stage) {
-    const std::vector<scene::TechniqueInfo> infos = techniques_of(stage);
+std::vector<scene::Technique> usual_settings(const SceneChoice& scene) {
+    const std::vector<scene::TechniqueInfo> infos = techniques_of(scene);
     std::vector<scene::Technique> settings = settings_over_range(infos);
-    if (suits(scene::TechniqueId::relief, stage) && !stage.tile.empty()) {
+    if (suits(scene::TechniqueId::relief, scene) && !scene.tile.empty()) {
         const auto options = settings_of_options();
         settings.insert(settings.begin() + static_cast<std::ptrdiff_t>(infos.size()),
                         options.begin(), options.end());
@@ -116,43 +116,32 @@ std::vector<scene::Technique> usual_settings(const StageChoice& stage) {
     return settings;
 }
 
-std::vector<Candidate> pareto_candidates(const std::vector<scene::Technique>& settings) {
-    const scene::Technique texture{scene::Texture{}};
-    std::vector<Candidate> candidates{candidate_of(texture)};
-    for (const scene::Technique& technique : settings) {
-        if (technique != texture) {
-            candidates.push_back(candidate_of(technique));
-        }
-    }
-    return candidates;
-}
-
-std::vector<StageChoice> pareto_stages(const ParetoOptions& options) {
+std::vector<SceneChoice> pareto_stages(const ParetoOptions& options) {
     const std::vector<std::string> built_in{"gallery", "natural", "urban"};
     const bool by_itself = options.terrains.empty();
-    std::vector<StageChoice> stages;
+    std::vector<SceneChoice> scenes;
     for (const std::string& terrain : by_itself ? built_in : options.terrains) {
         if (terrain == "gallery") {
-            const auto tiles = gallery_stages();
-            stages.insert(stages.end(), tiles.begin(), tiles.end());
+            const auto tiles = gallery_scenes();
+            scenes.insert(scenes.end(), tiles.begin(), tiles.end());
         } else {
-            stages.push_back({terrain, by_itself && options.suite.quick ? quick_samples : 0});
+            scenes.push_back({terrain, by_itself && options.suite.quick ? quick_samples : 0});
         }
     }
-    return stages;
+    return scenes;
 }
 
 // Of those that were chosen; empty: all that suit it. A terrain that was named is to be drawn as
 // it was asked for, or the run says why not.
-std::vector<scene::Technique> settings_on(const StageChoice& stage, const ParetoOptions& options) {
+std::vector<scene::Technique> settings_on(const SceneChoice& scene, const ParetoOptions& options) {
     if (options.techniques.empty()) {
-        return usual_settings(stage);
+        return usual_settings(scene);
     }
-    const bool takes_any = stage.tile.empty() && !options.terrains.empty();
+    const bool takes_any = scene.tile.empty() && !options.terrains.empty();
     std::vector<scene::Technique> settings;
     std::copy_if(
         options.techniques.begin(), options.techniques.end(), std::back_inserter(settings),
-        [&](const scene::Technique& setting) { return takes_any || suits(setting.id(), stage); });
+        [&](const scene::Technique& setting) { return takes_any || suits(setting.id(), scene); });
     return settings;
 }
 
@@ -206,11 +195,11 @@ std::vector<scene::Technique> settings_of_options() {
 
 std::vector<Group> pareto_groups(const ParetoOptions& options) {
     std::vector<Group> groups;
-    for (const StageChoice& stage : pareto_stages(options)) {
-        const auto settings = settings_on(stage, options);
+    for (const SceneChoice& scene : pareto_stages(options)) {
+        const auto settings = settings_on(scene, options);
         for (const scene::Pose pose : poses) {
-            if (!settings.empty() && (stage.tile.empty() || pose == tile_pose)) {
-                groups.push_back({"", stage, pose, pareto_candidates(settings)});
+            if (!settings.empty() && (scene.tile.empty() || pose == tile_pose)) {
+                groups.push_back({"", scene, pose, candidates_of(settings)});
             }
         }
     }

@@ -2,21 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/cli/progress_line.h"
-#include "engine/core/atomic_file.h"
 #include "engine/core/stopwatch.h"
 #include "engine/view/select.h"
 #include "terrains/generators.h"
 
 namespace reljef::bench {
 namespace {
-
-using SelectionJson = nlohmann::ordered_json;
 
 constexpr int samples = 1601;  // 13 tiles a side
 constexpr double max_ms = 0.2; // for 10,000 tiles
@@ -73,80 +66,47 @@ SelectionRow measure(ManyTiles& made, const SelectionView& view, const Selection
         const Stopwatch watch;
         const view::DrawList list = view::select(seen, {.occlusion = false}).list;
         ms.push_back(watch.milliseconds());
-        row.seen = list.tiles.size();
-        row.tiles = row.seen + static_cast<std::size_t>(list.stats.skipped.tiles_outside_frustum);
+        row.selected = list.tiles.size();
+        row.tiles =
+            row.selected + static_cast<std::size_t>(list.stats.skipped.tiles_outside_frustum);
     }
     row.ms = summarize(ms);
     return row;
-}
-
-// 10,000 tiles' share of what a view took.
-double ms_of_many(const SelectionRow& row) {
-    return row.ms.median * 10'000.0 / static_cast<double>(row.tiles);
 }
 
 } // namespace
 
 SelectionResults run_selection(const SelectionOptions& options, const std::stop_token& stop) {
     SelectionResults results;
-    cli::ProgressLine line("choosing tiles", options.suite.quiet);
+    cli::ProgressLine line("selecting tiles", options.suite.quiet);
     ManyTiles made;
-    if (auto filled = fill(made, options.copies); !filled) {
-        results.stopped = filled.error();
-        return results;
-    }
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        if (stop.stop_requested()) {
-            results.stopped = Error{"interrupted, the table holds what was measured until then"};
-            return results;
-        }
+    const auto filled = fill(made, options.copies);
+    for (std::size_t i = 0; i < views.size() && filled && !stop.stop_requested(); ++i) {
         results.rows.push_back(measure(made, views[i], options));
         line.update(static_cast<double>(i + 1) / static_cast<double>(views.size()));
     }
+    results.end = run_end(filled, stop, !results.rows.empty());
     return results;
 }
 
-std::string selection_table(const SelectionResults& results) {
-    std::string text = fmt::format("{:<12} {:>7} {:>7} {:>8} {:>8} {:>13} {:>14}\n", "view",
-                                   "tiles", "seen", "ms", "p99 ms", "ms per 10,000", "mark 0.2 ms");
+FigureTable figure_table(const SelectionResults& results) {
+    FigureTable table{.schema = "reljef-bench-selection/1",
+                      .heading = "selecting the tiles of a view, without drawing them",
+                      .settings = nlohmann::ordered_json::object(),
+                      .columns = {{"/view", "view"},
+                                  {"/tiles", "tiles"},
+                                  {"/seen", "selected"},
+                                  {"/median_ms", "ms", 3},
+                                  {"/p99_ms", "p99 ms", 3},
+                                  {"/ms_per_10000_tiles", "ms per 10,000", 3},
+                                  {"", "target 0.2 ms"}},
+                      .end = results.end};
     for (const SelectionRow& row : results.rows) {
-        text += fmt::format("{:<12} {:>7} {:>7} {:>8.3f} {:>8.3f} {:>13.3f} {:>14}\n", row.view,
-                            row.tiles, row.seen, row.ms.median, row.ms.p99, ms_of_many(row),
-                            ms_of_many(row) <= max_ms ? "met" : "missed");
+        const double ms = row.ms.median * 10'000.0 / static_cast<double>(row.tiles);
+        table.rows.push_back({row.view, row.tiles, row.selected, row.ms.median, row.ms.p99, ms,
+                              ms <= max_ms ? "met" : "missed"});
     }
-    return text;
-}
-
-std::string selection_json(const SelectionResults& results) {
-    SelectionJson json{
-        {"schema", "reljef-bench-selection/1"},
-        {"complete", !results.stopped.has_value()},
-        {"stopped", results.stopped ? SelectionJson(results.stopped->message) : SelectionJson()},
-        {"rows", SelectionJson::array()}};
-    for (const SelectionRow& row : results.rows) {
-        json["rows"].push_back({{"view", row.view},
-                                {"tiles", row.tiles},
-                                {"seen", row.seen},
-                                {"median_ms", row.ms.median},
-                                {"p99_ms", row.ms.p99},
-                                {"ms_per_10000_tiles", ms_of_many(row)}});
-    }
-    return json.dump(2) + "\n";
-}
-
-Result<void> report(const SelectionResults& results, const std::filesystem::path& json) {
-    if (results.rows.empty()) {
-        return results.stopped.value_or(Error{"no rows found, some were expected"});
-    }
-    Result<void> written;
-    if (!json.empty()) {
-        written = write_text_file(json, selection_json(results));
-    }
-    fmt::print("{}", selection_table(results));
-    if (std::fflush(stdout) != 0 || !written) {
-        return written;
-    }
-    return results.stopped ? Result<void>(*results.stopped) : Result<void>();
+    return table;
 }
 
 } // namespace reljef::bench

@@ -1,15 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "bench/report/figure_table.h"
 #include "bench/runner/suite_options.h"
-#include "engine/core/result.h"
-#include "engine/core/statistics.h"
 
 namespace reljef::bench {
 
@@ -19,25 +16,21 @@ struct SelectionOptions {
     int rounds = 1000;
 };
 
-/// What choosing the tiles of a view takes, without drawing them.
+/// Time to select the tiles of a view, without drawing them.
 struct SelectionRow {
     std::string view;
-    std::size_t tiles = 0; ///< there are
-    std::size_t seen = 0;
+    std::size_t tiles = 0;    ///< of the scene
+    std::size_t selected = 0; ///< of these
     Summary ms;
 };
 
 struct SelectionResults {
     std::vector<SelectionRow> rows;
-    std::optional<Error> stopped; ///< why the run ended early
+    RunEnd end;
 };
 
+FigureTable figure_table(const SelectionResults& results);
+
 SelectionResults run_selection(const SelectionOptions& options, const std::stop_token& stop);
-
-std::string selection_table(const SelectionResults& results);
-std::string selection_json(const SelectionResults& results);
-
-/// Prints the table and writes the JSON, where one is wanted; fails as what stopped the run.
-Result<void> report(const SelectionResults& results, const std::filesystem::path& json);
 
 } // namespace reljef::bench

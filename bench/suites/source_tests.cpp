@@ -71,9 +71,9 @@ std::vector<SourceMeasurement> measurements_of(std::string_view test) {
     return found;
 }
 
-Group group_of(std::string_view test, const StageChoice& stage) {
+Group group_of(std::string_view test, const SceneChoice& scene) {
     const std::vector<SourceMeasurement> found = measurements_of(test);
-    Group group{std::string(test), stage, scene::Pose::overview, {}};
+    Group group{std::string(test), scene, scene::Pose::overview, {}};
     for (const SourceMeasurement& measurement : found) {
         Candidate candidate = candidate_of(technique_of(measurement.technique));
         candidate.source =
@@ -99,8 +99,8 @@ std::span<const SourceMeasurement> source_measurements() {
 }
 
 std::vector<Group> source_groups(bool quick) {
-    const StageChoice urban_tile{"urban", 512, true};
-    const StageChoice natural{"natural", 1025};
+    const SceneChoice urban_tile{"urban", 512, true};
+    const SceneChoice natural{"natural", 1025};
     return {
         group_of("parallax-1", urban_tile),
         group_of("relief-1", urban_tile),

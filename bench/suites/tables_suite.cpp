@@ -15,38 +15,27 @@ namespace {
 constexpr glm::ivec2 sources_size{1024, 768};
 
 // Of a tile those of the chosen ones that suit it.
-std::vector<scene::Technique> techniques_on(const StageChoice& stage,
+std::vector<scene::Technique> techniques_on(const SceneChoice& scene,
                                             const std::vector<scene::Technique>& chosen) {
     std::vector<scene::Technique> techniques;
     if (chosen.empty()) {
-        for (const scene::TechniqueInfo& info : techniques_of(stage)) {
+        for (const scene::TechniqueInfo& info : techniques_of(scene)) {
             techniques.push_back(scene::make_technique(info.id));
         }
         return techniques;
     }
     std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(techniques),
                  [&](const scene::Technique& technique) {
-                     return stage.tile.empty() || suits(technique.id(), stage);
+                     return scene.tile.empty() || suits(technique.id(), scene);
                  });
     return techniques;
 }
 
-std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& others) {
-    const scene::Technique texture{scene::Texture{}};
-    std::vector<Candidate> candidates{candidate_of(texture)};
-    for (const scene::Technique& technique : others) {
-        if (technique.id() != texture.id()) {
-            candidates.push_back(candidate_of(technique));
-        }
-    }
-    return candidates;
-}
-
-void add_group(std::vector<Group>& groups, const StageChoice& stage, scene::Pose usual_pose,
+void add_group(std::vector<Group>& groups, const SceneChoice& scene, scene::Pose usual_pose,
                const TablesOptions& options) {
-    const auto techniques = techniques_on(stage, options.techniques);
+    const auto techniques = techniques_on(scene, options.techniques);
     if (!techniques.empty()) {
-        groups.push_back({"", stage, options.pose.value_or(usual_pose), candidates_of(techniques)});
+        groups.push_back({"", scene, options.pose.value_or(usual_pose), candidates_of(techniques)});
     }
 }
 
@@ -58,7 +47,7 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
             add_group(groups, {terrain}, scene::Pose::overview, options);
             continue;
         }
-        for (const StageChoice& tile : gallery_stages()) {
+        for (const SceneChoice& tile : gallery_scenes()) {
             add_group(groups, tile, scene::Pose::oblique, options);
         }
     }
@@ -72,7 +61,7 @@ Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
     Suite suite{.name = "tables",
                 .groups =
                     as_sources ? source_groups(options.suite.quick) : terrain_groups(options)};
-    suite.keep_stages = !as_sources;
+    suite.keep_scenes = !as_sources;
     suite.may_leave_out = !as_sources;
     Results results = run_suite(suite, options.suite, stop);
     if (as_sources && options.suite.size != sources_size) {

@@ -175,12 +175,12 @@ std::vector<scene::Keyframe> with_looks(const terrain::Placement& placement,
     }
     std::vector<scene::Keyframe> keyframes;
     for (const Waypoint& place : places) {
-        glm::dvec3 look = looks[place.key].target;
+        glm::dvec3 look = looks[place.key].look;
         if (place.share > 0.0) {
             const glm::dvec3 up = placement.up(place.eye);
             const KeyLook& next = looks[place.key + 1];
             look = glm::mix(carried(look, looks[place.key].up, up),
-                            carried(next.target, next.up, up), place.share);
+                            carried(next.look, next.up, up), place.share);
         }
         keyframes.push_back({place.time, place.eye, place.eye + look});
     }

@@ -218,14 +218,14 @@ int main(int argc, char** argv) {
         std::cout << "failed eight arguments and the files they name were expected" << std::endl;
         return EXIT_FAILURE;
     }
-    Peer peer(std::move(*arguments));
-    if (!peer.is_there()) {
+    Peer baseline(std::move(*arguments));
+    if (!baseline.is_there()) {
         std::cout << "failed Irrlicht opens no window here" << std::endl;
         return EXIT_FAILURE;
     }
     std::cout << "ok" << std::endl;
     for (std::string line; std::getline(std::cin, line) && line != "quit";) {
-        std::cout << peer.answer(line) << std::endl;
+        std::cout << baseline.answer(line) << std::endl;
     }
     return EXIT_SUCCESS;
 }

@@ -15,8 +15,8 @@
 /// Its arguments: WIDTH HEIGHT FOV (degrees, vertical) SIDE (samples, 2^n+1) EASTWARD
 /// NORTHWARD (metres between samples) HEIGHTS (a file of floats, column by column from the west,
 /// each from the south) COLORS (a file of bytes r g b, row by row, SIDE × SIDE).
-namespace reljef::bench::peer {
+namespace reljef::bench::baseline {
 
 inline constexpr std::string_view program_name = "reljef-bench-irrlicht";
 
-} // namespace reljef::bench::peer
+} // namespace reljef::bench::baseline

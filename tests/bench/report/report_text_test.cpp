@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/report/report_csv.h"
-#include "bench/report/report_markdown.h"
+#include "bench/report/report_text.h"
 #include "tests/bench/report/made_results.h"
 
 namespace reljef::bench {

@@ -189,7 +189,7 @@ TEST_F(SuiteOnTinyTerrain, stop_while_judging_keeps_what_is_judged) {
 TEST_F(SuiteOnTinyTerrain, picture_without_a_pixel_of_terrain_is_an_error_and_keeps_earlier_rows) {
     const Group seen = group(std::string(test::small_dem), {"texture"});
     Group unseen = seen;
-    unseen.stage.terrain =
+    unseen.scene.terrain =
         folder_
             .write(
                 "thread.asc", "ncols 200001\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize "

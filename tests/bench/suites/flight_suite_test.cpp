@@ -45,7 +45,7 @@ TEST(Flight, counts_what_it_read_took_and_waited_for) {
     const test::TemporaryFolder folder;
     const auto results = run_flight(short_flight(folder), {});
     ASSERT_TRUE(results) << results.error().message;
-    EXPECT_FALSE(results->stopped);
+    EXPECT_FALSE(results->end.stopped);
     ASSERT_TRUE(results->stream);
     EXPECT_GT(results->stream->read, 1);
     // Each sample is two characters or more of text, but bytes are those of the values: four.
@@ -54,7 +54,7 @@ TEST(Flight, counts_what_it_read_took_and_waited_for) {
     EXPECT_EQ(results->times.waiting_ms.size(), 4U);
     EXPECT_GE(results->seconds, results->seconds_to_first_frame);
     EXPECT_GE(results->max_memory, results->times.memory_before);
-    const auto report = nlohmann::json::parse(flight_json(*results));
+    const auto report = nlohmann::json::parse(figure_json(figure_table(*results)));
     EXPECT_EQ(report.at("schema"), "reljef-bench-flight/1");
     EXPECT_EQ(report.at("frames"), 4);
     EXPECT_EQ(report.at("tiles").at("read"), results->stream->read);
@@ -66,7 +66,7 @@ TEST(Flight, that_is_stopped_says_so) {
     std::stop_source stop;
     stop.request_stop();
     const auto results = run_flight(short_flight(folder), stop.get_token());
-    EXPECT_TRUE(!results || results->stopped);
+    EXPECT_TRUE(!results || results->end.stopped);
 }
 
 } // namespace

@@ -89,9 +89,9 @@ std::vector<std::string> planned(const std::vector<std::string>& techniques,
     }
     std::vector<std::string> rows;
     for (const Group& group : pareto_groups(options)) {
-        const std::string stage = group.stage.tile.empty() ? group.stage.terrain : group.stage.tile;
+        const std::string scene = group.scene.tile.empty() ? group.scene.terrain : group.scene.tile;
         for (const Candidate& candidate : group.candidates) {
-            rows.push_back(stage + " " + std::string(scene::to_string(group.pose)) + " " +
+            rows.push_back(scene + " " + std::string(scene::to_string(group.pose)) + " " +
                            candidate.setting.label);
         }
     }

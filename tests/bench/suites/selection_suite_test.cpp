@@ -14,17 +14,17 @@ TEST(SelectionSuite, SeesAllHalfAndNoneOfItsTiles) {
     options.copies = 4;
     options.rounds = 2;
     const SelectionResults results = run_selection(options, {});
-    ASSERT_FALSE(results.stopped);
+    ASSERT_FALSE(results.end.stopped);
     ASSERT_EQ(results.rows.size(), 3U);
-    EXPECT_EQ(results.rows[0].seen, results.rows[0].tiles);
-    EXPECT_GT(results.rows[1].seen, 0U);
-    EXPECT_LT(results.rows[1].seen, results.rows[1].tiles / 2);
-    EXPECT_EQ(results.rows[2].seen, 0U);
+    EXPECT_EQ(results.rows[0].selected, results.rows[0].tiles);
+    EXPECT_GT(results.rows[1].selected, 0U);
+    EXPECT_LT(results.rows[1].selected, results.rows[1].tiles / 2);
+    EXPECT_EQ(results.rows[2].selected, 0U);
     for (const SelectionRow& row : results.rows) {
         EXPECT_EQ(row.tiles, 4U * 13U * 13U);
         EXPECT_GT(row.ms.median, 0.0);
     }
-    const auto json = nlohmann::json::parse(selection_json(results));
+    const auto json = nlohmann::json::parse(figure_json(figure_table(results)));
     EXPECT_TRUE(json["complete"].get<bool>());
     EXPECT_EQ(json["rows"].size(), 3U);
 }

@@ -75,19 +75,19 @@ TEST(SourceTests, quick_ones_differ_in_one_terrain_alone) {
     for (std::size_t i = 0; i < whole.size(); ++i) {
         EXPECT_EQ(quick[i].test, whole[i].test);
         EXPECT_EQ(quick[i].candidates.size(), whole[i].candidates.size());
-        EXPECT_EQ(quick[i].stage == whole[i].stage, whole[i].test != "parallax-2");
+        EXPECT_EQ(quick[i].scene == whole[i].scene, whole[i].test != "parallax-2");
     }
 }
 
 TEST(SourceTests, terrains_follow_each_other_so_that_each_is_opened_once) {
-    std::vector<StageChoice> stages;
+    std::vector<SceneChoice> scenes;
     for (const Group& group : source_groups()) {
-        if (stages.empty() || !(stages.back() == group.stage)) {
-            EXPECT_EQ(std::count(stages.begin(), stages.end(), group.stage), 0);
-            stages.push_back(group.stage);
+        if (scenes.empty() || !(scenes.back() == group.scene)) {
+            EXPECT_EQ(std::count(scenes.begin(), scenes.end(), group.scene), 0);
+            scenes.push_back(group.scene);
         }
     }
-    EXPECT_EQ(stages.size(), 5U);
+    EXPECT_EQ(scenes.size(), 5U);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "bench/runner/stage.h"
+#include "bench/runner/benchmark_scene.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace reljef::bench {
 namespace {
 
-Result<session::TerrainSource> open_source(const StageChoice& choice,
+Result<session::TerrainSource> open_source(const SceneChoice& choice,
                                            const session::SourceOptions& terrain, session::Log& log,
                                            const std::stop_token& stop) {
     if (choice.size == 0) {
@@ -48,7 +48,16 @@ scene::Material material_of(const truth::TileSquare& square) {
 
 } // namespace
 
-Result<Stage> Stage::open_tile(const StageChoice& choice, const StageOptions& options) {
+Result<session::Device> make_device(const SuiteOptions& options) {
+    return session::Device::create({.context = options.context,
+                                    .size = options.size,
+                                    .shader_dir = options.shader_dir,
+                                    .threads = options.threads,
+                                    .selects_always = true});
+}
+
+Result<BenchmarkScene> BenchmarkScene::open_tile(const SceneChoice& choice,
+                                                 const BenchmarkSceneOptions& options) {
     const auto square = tile_square(choice.tile, static_cast<unsigned>(options.threads));
     if (!square) {
         return square.error();
@@ -57,19 +66,20 @@ Result<Stage> Stage::open_tile(const StageChoice& choice, const StageOptions& op
     if (!tile) {
         return tile.error();
     }
-    session::TerrainScene scene;
+    session::TerrainScene square_scene;
     scene::Mesh mesh = scene::plane_mesh(glm::vec2(static_cast<float>(square->side)));
-    scene.bounds = scene::bounds_of(mesh);
-    scene.models = {&scene.scene.add_mesh(std::move(mesh), material_of(*square))};
-    scene.light = &scene.scene.add_light(square->light);
-    scene.camera = &scene.scene.add_camera({});
-    Stage stage("tile " + choice.tile, std::move(scene), options);
-    stage.tile_ = std::move(*tile);
-    return stage;
+    square_scene.bounds = scene::bounds_of(mesh);
+    square_scene.models = {&square_scene.scene.add_mesh(std::move(mesh), material_of(*square))};
+    square_scene.light = &square_scene.scene.add_light(square->light);
+    square_scene.camera = &square_scene.scene.add_camera({});
+    BenchmarkScene scene("tile " + choice.tile, std::move(square_scene), options);
+    scene.tile_ = std::move(*tile);
+    return scene;
 }
 
-Result<Stage> Stage::open(const StageChoice& choice, const StageOptions& options,
-                          const std::stop_token& stop) {
+Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice,
+                                            const BenchmarkSceneOptions& options,
+                                            const std::stop_token& stop) {
     if (!choice.tile.empty()) {
         return open_tile(choice, options);
     }
@@ -95,10 +105,10 @@ Result<Stage> Stage::open(const StageChoice& choice, const StageOptions& options
     if (!scene) {
         return scene.error();
     }
-    return Stage(std::move(name), std::move(*scene), options);
+    return BenchmarkScene(std::move(name), std::move(*scene), options);
 }
 
-void Stage::set_pose(scene::Pose pose) {
+void BenchmarkScene::set_pose(scene::Pose pose) {
     scene::Camera& camera = *scene_.camera->get<scene::Camera>();
     const double near = camera.near;
     camera = scene::pose_camera(pose, scene_.bounds,
@@ -107,17 +117,17 @@ void Stage::set_pose(scene::Pose pose) {
     pose_ = pose;
 }
 
-void Stage::set_camera(const scene::Camera& camera) {
+void BenchmarkScene::set_camera(const scene::Camera& camera) {
     *scene_.camera->get<scene::Camera>() = camera;
 }
 
-void Stage::set_technique(const scene::Technique& technique) {
+void BenchmarkScene::set_technique(const scene::Technique& technique) {
     for (scene::Material* const material : scene_.materials()) {
         material->technique = technique;
     }
 }
 
-Result<truth::Picture> Stage::true_picture(const ParallelOptions& parallel) {
+Result<truth::Picture> BenchmarkScene::true_picture(const ParallelOptions& parallel) {
     if (tile_) {
         return tile_->draw(scene().camera(), options_.size,
                            {.rays_per_side = tile_rays_per_side, .parallel = parallel});
@@ -134,7 +144,8 @@ Result<truth::Picture> Stage::true_picture(const ParallelOptions& parallel) {
                        {.parallel = parallel});
 }
 
-Result<std::reference_wrapper<const TruePicture>> Stage::truth(const std::stop_token& stop) {
+Result<std::reference_wrapper<const TruePicture>>
+BenchmarkScene::truth(const std::stop_token& stop) {
     if (truth_ && truth_->pose == pose_) {
         return std::cref(*truth_);
     }
@@ -147,8 +158,8 @@ Result<std::reference_wrapper<const TruePicture>> Stage::truth(const std::stop_t
     return std::cref(*truth_);
 }
 
-Result<truth::GeometricErrors> Stage::errors(const HitBuffer& shown, const HitBuffer& truth,
-                                             unsigned threads) const {
+Result<truth::GeometricErrors>
+BenchmarkScene::errors(const HitBuffer& shown, const HitBuffer& truth, unsigned threads) const {
     if (tile_) {
         return tile_->errors(scene().camera(), shown, truth, threads);
     }
@@ -158,7 +169,7 @@ Result<truth::GeometricErrors> Stage::errors(const HitBuffer& shown, const HitBu
     return truth::geometric_errors(view, shown, truth, threads);
 }
 
-Result<Stage*> Stages::get(const StageChoice& choice) {
+Result<BenchmarkScene*> BenchmarkScenes::get(const SceneChoice& choice) {
     const auto found = std::find_if(open_.begin(), open_.end(),
                                     [&](const auto& entry) { return entry.first == choice; });
     if (found != open_.end()) {
@@ -167,14 +178,14 @@ Result<Stage*> Stages::get(const StageChoice& choice) {
     if (!keep_) {
         open_.clear();
     }
-    auto stage = Stage::open(choice, options_, stop_);
-    if (!stage) {
-        return stage.error();
+    auto scene = BenchmarkScene::open(choice, options_, stop_);
+    if (!scene) {
+        return scene.error();
     }
     if (stop_.stop_requested()) {
         return Error{"stopped"};
     }
-    open_.emplace_back(choice, std::make_unique<Stage>(std::move(*stage)));
+    open_.emplace_back(choice, std::make_unique<BenchmarkScene>(std::move(*scene)));
     return open_.back().second.get();
 }
 

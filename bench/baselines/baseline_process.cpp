@@ -1,4 +1,4 @@
-#include "bench/baselines/peer_process.h"
+#include "bench/baselines/baseline_process.h"
 
 #include <array>
 #include <cerrno>
@@ -38,8 +38,8 @@ Result<pid_t> spawn_peer(const std::filesystem::path& program,
 
 } // namespace
 
-Result<PeerProcess> PeerProcess::start(const std::filesystem::path& program,
-                                       const std::vector<std::string>& arguments) {
+Result<BaselineProcess> BaselineProcess::start(const std::filesystem::path& program,
+                                               const std::vector<std::string>& arguments) {
     std::array<int, 2> ends{}; // of a socket: writing to a program that ended gives no signal
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         return Error{
@@ -51,22 +51,23 @@ Result<PeerProcess> PeerProcess::start(const std::filesystem::path& program,
         ::close(ends[0]);
         return process.error();
     }
-    PeerProcess peer(program.filename().string(), *process, ends[0], ::fdopen(::dup(ends[0]), "r"));
-    auto first = peer.answer();
+    BaselineProcess baseline(program.filename().string(), *process, ends[0],
+                             ::fdopen(::dup(ends[0]), "r"));
+    auto first = baseline.answer();
     if (!first) {
         return first.error();
     }
-    return peer;
+    return baseline;
 }
 
-PeerProcess::PeerProcess(std::string name, pid_t process, int input, std::FILE* output)
+BaselineProcess::BaselineProcess(std::string name, pid_t process, int input, std::FILE* output)
     : name_(std::move(name)), process_(process), input_(input), output_(output) {}
 
-PeerProcess::PeerProcess(PeerProcess&& other) noexcept
+BaselineProcess::BaselineProcess(BaselineProcess&& other) noexcept
     : name_(std::move(other.name_)), process_(std::exchange(other.process_, -1)),
       input_(std::exchange(other.input_, -1)), output_(std::exchange(other.output_, nullptr)) {}
 
-PeerProcess::~PeerProcess() {
+BaselineProcess::~BaselineProcess() {
     if (input_ >= 0) {
         ::shutdown(input_, SHUT_RDWR);
         ::close(input_);
@@ -79,7 +80,7 @@ PeerProcess::~PeerProcess() {
     }
 }
 
-Result<std::string> PeerProcess::ask(const std::string& line) {
+Result<std::string> BaselineProcess::ask(const std::string& line) {
     const std::string whole = line + "\n";
     const auto sent = ::send(input_, whole.data(), whole.size(), MSG_NOSIGNAL);
     if (sent != static_cast<ssize_t>(whole.size())) {
@@ -88,7 +89,7 @@ Result<std::string> PeerProcess::ask(const std::string& line) {
     return answer();
 }
 
-Result<std::string> PeerProcess::answer() {
+Result<std::string> BaselineProcess::answer() {
     std::string line;
     for (int c = std::fgetc(output_); c != EOF && c != '\n'; c = std::fgetc(output_)) {
         line.push_back(static_cast<char>(c));

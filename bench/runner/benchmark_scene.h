@@ -9,7 +9,9 @@
 
 #include <glm/vec2.hpp>
 
+#include "bench/runner/suite_options.h"
 #include "engine/core/result.h"
+#include "engine/session/device.h"
 #include "engine/session/scene_setup.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
@@ -17,8 +19,11 @@
 
 namespace reljef::bench {
 
+/// The device of a suite; it selects each frame anew. Fails as session::Device::create.
+Result<session::Device> make_device(const SuiteOptions& options);
+
 /// Which terrain to measure on.
-struct StageChoice {
+struct SceneChoice {
     /// A built-in name, a scene file or a DEM file; with a `size`, the generator "natural" or
     /// "urban".
     std::string terrain;
@@ -27,11 +32,11 @@ struct StageChoice {
     /// Of terrains::detail_names(): no terrain, but copies of this tile over a level square.
     std::string tile = {};
 
-    friend bool operator==(const StageChoice&, const StageChoice&) = default;
+    friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
 };
 
 /// How stages are opened.
-struct StageOptions {
+struct BenchmarkSceneOptions {
     glm::ivec2 size{1024, 768}; ///< of the picture, pixels
     int threads = 0;            ///< 0: as many as the machine has
     bool quiet = false;
@@ -46,11 +51,12 @@ struct TruePicture {
 
 /// A terrain under a sun and a sky, or a tile of detail on a square under a sun, and what is right
 /// there, found when first asked for.
-class Stage {
+class BenchmarkScene {
 public:
     /// Fails on the gallery, whose models have no truth: its tiles have stages of their own.
-    static Result<Stage> open(const StageChoice& choice, const StageOptions& options,
-                              const std::stop_token& stop);
+    static Result<BenchmarkScene> open(const SceneChoice& choice,
+                                       const BenchmarkSceneOptions& options,
+                                       const std::stop_token& stop);
 
     /// The title of its scene, "urban 512 tile" for a generated one of a size of its own.
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -71,14 +77,16 @@ public:
     errors(const HitBuffer& shown, const HitBuffer& truth, unsigned threads) const;
 
 private:
-    static Result<Stage> open_tile(const StageChoice& choice, const StageOptions& options);
-    Stage(std::string name, session::TerrainScene scene, const StageOptions& options)
+    static Result<BenchmarkScene> open_tile(const SceneChoice& choice,
+                                            const BenchmarkSceneOptions& options);
+    BenchmarkScene(std::string name, session::TerrainScene scene,
+                   const BenchmarkSceneOptions& options)
         : name_(std::move(name)), scene_(std::move(scene)), options_(options) {}
     Result<truth::Picture> true_picture(const ParallelOptions& parallel);
 
     std::string name_;
     session::TerrainScene scene_;
-    StageOptions options_;
+    BenchmarkSceneOptions options_;
     scene::Pose pose_ = scene::Pose::overview;
     std::optional<truth::SceneCaster> caster_;
     std::optional<truth::Shading> shading_;
@@ -87,20 +95,20 @@ private:
 };
 
 /// Opens stages as they are asked for, each once.
-class Stages {
+class BenchmarkScenes {
 public:
     /// `keep`: holds all of them; else only the one asked for last, for large ones.
-    Stages(const StageOptions& options, std::stop_token stop, bool keep)
+    BenchmarkScenes(const BenchmarkSceneOptions& options, std::stop_token stop, bool keep)
         : options_(options), stop_(std::move(stop)), keep_(keep) {}
 
     /// Valid until another one is asked for, or, kept, as long as this.
-    Result<Stage*> get(const StageChoice& choice);
+    Result<BenchmarkScene*> get(const SceneChoice& choice);
 
 private:
-    StageOptions options_;
+    BenchmarkSceneOptions options_;
     std::stop_token stop_;
     bool keep_;
-    std::vector<std::pair<StageChoice, std::unique_ptr<Stage>>> open_;
+    std::vector<std::pair<SceneChoice, std::unique_ptr<BenchmarkScene>>> open_;
 };
 
 } // namespace reljef::bench

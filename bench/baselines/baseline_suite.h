@@ -5,22 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "bench/report/environment.h"
+#include "bench/report/figure_table.h"
 #include "bench/runner/suite_options.h"
-#include "engine/core/statistics.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/truth/geometric_error.h"
 
 namespace reljef::bench {
 
-struct PeersOptions {
+struct BaselineOptions {
     SuiteOptions suite;
     std::string terrain = "natural"; ///< of which the middle 2^n+1 × 2^n+1 samples are drawn
 };
 
 /// One way to draw the terrain from one pose.
-struct PeerRow {
+struct BaselineRow {
     scene::Pose pose = scene::Pose::overview;
     std::string what;    ///< "irrlicht:lods=5", "polygons:error=1": to_string of a technique
     bool moving = false; ///< the camera, from frame to frame; triangles are those of the last one
@@ -33,14 +32,15 @@ struct PeerRow {
 /// The technique that the others are compared with.
 inline constexpr scene::Technique reference_technique{scene::Polygons{.error = 1.0}};
 
-struct PeersResults {
+struct BaselineResults {
     Environment environment;
-    PeersOptions options;
+    BaselineOptions options;
     int side = 0; ///< samples
-    std::vector<PeerRow> rows;
-    std::optional<Error> stopped; ///< why the run ended early
-    bool failed = false;          ///< so it did by an error, and not as it was asked to
+    std::vector<BaselineRow> rows;
+    RunEnd end;
 };
+
+FigureTable figure_table(const BaselineResults& results);
 
 /// Draws the terrain with Irrlicht's terrain node at 1, 3 and 5 levels and with polygons, frames in
 /// turns, each in a window of its own: with a still camera, whose triangles are chosen before
@@ -48,6 +48,6 @@ struct PeersResults {
 /// the terrain's width to its right each frame. Both show the same heights and colours, without
 /// light and sky. Irrlicht's error is that of the places its depth buffer names. Fails, saying how
 /// to get it, where the build found no Irrlicht.
-PeersResults run_peers(const PeersOptions& options, const std::stop_token& stop);
+BaselineResults run_baselines(const BaselineOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -1,4 +1,4 @@
-#include "bench/baselines/peer_scene.h"
+#include "bench/baselines/baseline_scene.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,8 @@
 
 namespace reljef::bench {
 
-Result<PeerScene> open_peer_scene(const PeerSceneOptions& options, const std::stop_token& stop) {
+Result<BaselineScene> open_baseline_scene(const BaselineSceneOptions& options,
+                                          const std::stop_token& stop) {
     session::SourceOptions choice;
     choice.terrain = options.terrain;
     choice.threads = options.threads;
@@ -39,7 +40,7 @@ Result<PeerScene> open_peer_scene(const PeerSceneOptions& options, const std::st
         std::copy(from.begin(), from.end(), middle.heightfield.heights.row(row).begin());
     }
     middle.heightfield.range = terrain::height_range(middle.heightfield.heights, {});
-    PeerScene made;
+    BaselineScene made;
     auto node =
         made.scene.add_terrain(std::move(middle), {.placement = terrain::PlacementKind::plane});
     if (!node) {

@@ -1,4 +1,4 @@
-#include "bench/baselines/peers.h"
+#include "bench/baselines/baseline_suite.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,10 +11,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/cli/message.h"
 #include "app/cli/progress_line.h"
+#include "bench/baselines/baseline_process.h"
+#include "bench/baselines/baseline_scene.h"
 #include "bench/baselines/irrlicht/protocol.h"
-#include "bench/baselines/peer_process.h"
-#include "bench/baselines/peer_scene.h"
 #include "engine/core/memory_file.h"
 #include "engine/render/residency/terrain_maps.h"
 #include "engine/scene/graph/scene.h"
@@ -24,13 +25,15 @@
 namespace reljef::bench {
 namespace {
 
+using FigureJson = nlohmann::ordered_json;
+
 constexpr int default_rounds = 30;
 constexpr int warm_up = 2; // rounds
 // Of a camera that moves: as fast as one that flies over the terrain in 20 s at 25 frames a second.
 constexpr double frames_across = 500.0;
 
 // What Irrlicht reads, in files that have no name.
-struct PeerFiles {
+struct BaselineFiles {
     MemoryFile heights;
     MemoryFile colors;
 };
@@ -46,7 +49,7 @@ Result<MemoryFile> file_of(std::span<const std::byte> bytes) {
     return out.flush() ? std::move(file) : Error{"no memory for what Irrlicht is to read"};
 }
 
-Result<PeerFiles> files_of(const scene::TerrainSurface& surface) {
+Result<BaselineFiles> files_of(const scene::TerrainSurface& surface) {
     const Grid<float>& heights = surface.heightfield().heights;
     const int side = heights.cols();
     std::vector<float> columns;
@@ -68,25 +71,25 @@ Result<PeerFiles> files_of(const scene::TerrainSurface& surface) {
     if (!heights_file || !colors_file) {
         return (heights_file ? colors_file : heights_file).error();
     }
-    return PeerFiles{std::move(*heights_file), std::move(*colors_file)};
+    return BaselineFiles{std::move(*heights_file), std::move(*colors_file)};
 }
 
 std::string path_of(const MemoryFile& file) {
     return fmt::format("/proc/{}/fd/{}", ::getpid(), file.descriptor());
 }
 
-Result<PeerProcess> start_irrlicht(const scene::TerrainSurface& surface, const PeerFiles& files,
-                                   glm::ivec2 size, double fov) {
+Result<BaselineProcess> start_irrlicht(const scene::TerrainSurface& surface,
+                                       const BaselineFiles& files, glm::ivec2 size, double fov) {
     std::error_code ignored;
-    const auto program =
-        std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / peer::program_name;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() /
+                         baseline::program_name;
     if (!std::filesystem::exists(program, ignored)) {
         return Error{fmt::format("{} was not built, as Irrlicht was not found: install it (apt-get "
                                  "install libirrlicht-dev), configure and build again",
-                                 peer::program_name)};
+                                 baseline::program_name)};
     }
     const terrain::Heightfield& heightfield = surface.heightfield();
-    return PeerProcess::start(
+    return BaselineProcess::start(
         program,
         {fmt::format("{}", size.x), fmt::format("{}", size.y), fmt::format("{}", fov),
          fmt::format("{}", heightfield.heights.cols()), fmt::format("{}", heightfield.spacing.x),
@@ -110,19 +113,19 @@ DepthRange depth_range_of(const HitBuffer& hits) {
     return {0.5 * range.near, 2.0 * range.far};
 }
 
-truth::SurfaceView surface_view(const PeerScene& scene) {
+truth::SurfaceView surface_view(const BaselineScene& scene) {
     return {scene.surface().heightfield().heights.view(), scene.surface().placement(),
             scene.terrain->world_from_local(), scene.view()};
 }
 
-std::optional<truth::Distribution> error_of(const PeerScene& scene, const HitBuffer& hits) {
+std::optional<truth::Distribution> error_of(const BaselineScene& scene, const HitBuffer& hits) {
     // Held against itself: what is right elsewhere does not matter for this measure.
     const auto errors = truth::geometric_errors(surface_view(scene), hits, hits);
     return errors ? errors->reprojection.distribution : std::nullopt;
 }
 
 // What a depth buffer shows: see protocol.h.
-HitBuffer hits_of(const PeerScene& scene, std::span<const float> depths, glm::ivec2 size,
+HitBuffer hits_of(const BaselineScene& scene, std::span<const float> depths, glm::ivec2 size,
                   const DepthRange& range) {
     HitBuffer hits(size.x, size.y);
     for (int y = 0; y < size.y; ++y) {
@@ -146,31 +149,31 @@ HitBuffer hits_of(const PeerScene& scene, std::span<const float> depths, glm::iv
 }
 
 // One way to draw.
-struct PeerEntry {
-    PeerRow row;
+struct BaselineEntry {
+    BaselineRow row;
     std::function<Result<void>()> set_up; // for where the camera is
     /// Milliseconds of a frame; fills in the row's triangles.
-    std::function<Result<double>(PeerRow&)> draw;
+    std::function<Result<double>(BaselineRow&)> draw;
     std::function<Result<HitBuffer>()> hits;
     std::vector<double> ms{};
 };
 
-class PeersRun {
+class BaselineRun {
 public:
-    PeersRun(const PeersOptions& options, std::stop_token stop)
+    BaselineRun(const BaselineOptions& options, std::stop_token stop)
         : options_(options), stop_(std::move(stop)) {
         results_.options = options;
     }
 
     Result<void> run() {
-        auto scene = open_peer_scene(
+        auto scene = open_baseline_scene(
             {options_.terrain, options_.suite.threads, options_.suite.quiet}, stop_);
         if (!scene) {
             return scene.error();
         }
         scene_.emplace(std::move(*scene));
         results_.side = scene_->surface().heightfield().heights.cols();
-        if (auto started = start_peers(); !started) {
+        if (auto started = start_baselines(); !started) {
             return started;
         }
         if (auto opened = open_device(); !opened) {
@@ -184,24 +187,24 @@ public:
         return {};
     }
 
-    PeersResults take() { return std::move(results_); }
+    BaselineResults take() { return std::move(results_); }
 
 private:
-    Result<void> start_peers() {
+    Result<void> start_baselines() {
         auto files = files_of(scene_->surface());
         if (!files) {
             return files.error();
         }
         for (const int levels : {1, 3, 5}) {
-            auto peer = start_irrlicht(scene_->surface(), *files, options_.suite.size,
-                                       scene_->view().vertical_fov);
-            if (!peer) {
-                return peer.error();
+            auto baseline = start_irrlicht(scene_->surface(), *files, options_.suite.size,
+                                           scene_->view().vertical_fov);
+            if (!baseline) {
+                return baseline.error();
             }
-            if (auto built = peer->ask(fmt::format("lods {}", levels)); !built) {
+            if (auto built = baseline->ask(fmt::format("lods {}", levels)); !built) {
                 return built.error();
             }
-            peers_.emplace_back(levels, std::move(*peer));
+            baselines_.emplace_back(levels, std::move(*baseline));
         }
         return {};
     }
@@ -238,7 +241,7 @@ private:
         camera.near = range_.near;
         still_ = camera;
         auto entries = entries_for(pose);
-        for (PeerEntry& entry : entries) {
+        for (BaselineEntry& entry : entries) {
             if (auto judged = judge(entry); !judged) {
                 return judged;
             }
@@ -248,7 +251,7 @@ private:
                 return timed;
             }
         }
-        for (PeerEntry& entry : entries) {
+        for (BaselineEntry& entry : entries) {
             if (!entry.ms.empty()) {
                 entry.row.frames = entry.ms.size();
                 entry.row.ms = summarize(entry.ms);
@@ -262,29 +265,30 @@ private:
         scene_->terrain->get<scene::TerrainNode>()->material.technique = technique;
     }
 
-    std::vector<PeerEntry> entries_for(scene::Pose pose) {
-        std::vector<PeerEntry> entries;
-        for (auto& [levels, peer] : peers_) {
-            entries.push_back(irrlicht_entry(pose, levels, peer));
+    std::vector<BaselineEntry> entries_for(scene::Pose pose) {
+        std::vector<BaselineEntry> entries;
+        for (auto& [levels, baseline] : baselines_) {
+            entries.push_back(irrlicht_entry(pose, levels, baseline));
         }
         const scene::Technique coarse{scene::Polygons{.error = 4.0}};
         const scene::Technique every_sample{scene::Polygons{}};
         for (const scene::Technique& technique : {reference_technique, coarse, every_sample}) {
             entries.push_back(own_entry(pose, technique));
         }
-        entries.push_back(moving(irrlicht_entry(pose, peers_.back().first, peers_.back().second)));
+        entries.push_back(
+            moving(irrlicht_entry(pose, baselines_.back().first, baselines_.back().second)));
         for (const scene::Technique& technique : {reference_technique, coarse}) {
             entries.push_back(moving(own_entry(pose, technique)));
         }
         return entries;
     }
 
-    PeerEntry own_entry(scene::Pose pose, const scene::Technique& technique) {
-        PeerEntry entry;
+    BaselineEntry own_entry(scene::Pose pose, const scene::Technique& technique) {
+        BaselineEntry entry;
         entry.row.pose = pose;
         entry.row.what = scene::to_string(technique);
         entry.set_up = [] { return Result<void>(); };
-        entry.draw = [this, technique](PeerRow& row) -> Result<double> {
+        entry.draw = [this, technique](BaselineRow& row) -> Result<double> {
             set_technique(technique);
             const auto stats = device_->renderer().draw(scene_->scene, true);
             if (!stats) {
@@ -300,20 +304,20 @@ private:
         return entry;
     }
 
-    PeerEntry irrlicht_entry(scene::Pose pose, int levels, PeerProcess& peer) {
-        PeerEntry entry;
+    BaselineEntry irrlicht_entry(scene::Pose pose, int levels, BaselineProcess& baseline) {
+        BaselineEntry entry;
         entry.row.pose = pose;
         entry.row.what = fmt::format("irrlicht:lods={}", levels);
-        entry.set_up = [this, &peer]() -> Result<void> {
+        entry.set_up = [this, &baseline]() -> Result<void> {
             const glm::dvec3 eye = scene_->view().eye;
             const glm::dvec3 look = scene_->view().target;
             const auto placed =
-                peer.ask(fmt::format("view {} {} {} {} {} {} {} {}", eye.x, eye.y, eye.z, look.x,
-                                     look.y, look.z, range_.near, range_.far));
+                baseline.ask(fmt::format("view {} {} {} {} {} {} {} {}", eye.x, eye.y, eye.z,
+                                         look.x, look.y, look.z, range_.near, range_.far));
             return placed ? Result<void>() : placed.error();
         };
-        entry.draw = [&peer](PeerRow& row) -> Result<double> {
-            const auto answer = peer.ask("draw");
+        entry.draw = [&baseline](BaselineRow& row) -> Result<double> {
+            const auto answer = baseline.ask("draw");
             if (!answer) {
                 return answer.error();
             }
@@ -322,11 +326,11 @@ private:
             row.triangles = std::stoul(answer->substr(end));
             return ms;
         };
-        entry.hits = [this, &peer] { return irrlicht_hits(peer); };
+        entry.hits = [this, &baseline] { return irrlicht_hits(baseline); };
         return entry;
     }
 
-    static PeerEntry moving(PeerEntry entry) {
+    static BaselineEntry moving(BaselineEntry entry) {
         entry.row.moving = true;
         return entry;
     }
@@ -342,7 +346,7 @@ private:
         camera.target += offset;
     }
 
-    Result<HitBuffer> irrlicht_hits(PeerProcess& peer) {
+    Result<HitBuffer> irrlicht_hits(BaselineProcess& baseline) {
         const glm::ivec2 size = options_.suite.size;
         std::vector<float> depths(static_cast<std::size_t>(size.x) *
                                   static_cast<std::size_t>(size.y));
@@ -350,7 +354,7 @@ private:
         if (!file) {
             return file.error();
         }
-        if (const auto written = peer.ask("depth " + path_of(*file)); !written) {
+        if (const auto written = baseline.ask("depth " + path_of(*file)); !written) {
             return written.error();
         }
         std::ifstream in(path_of(*file), std::ios::binary);
@@ -362,7 +366,7 @@ private:
         return hits_of(*scene_, depths, size, range_);
     }
 
-    Result<void> judge(PeerEntry& entry) {
+    Result<void> judge(BaselineEntry& entry) {
         if (entry.row.moving) {
             return {};
         }
@@ -377,14 +381,14 @@ private:
         return {};
     }
 
-    Result<void> time_all(std::vector<PeerEntry>& entries, bool moving) {
+    Result<void> time_all(std::vector<BaselineEntry>& entries, bool moving) {
         const int rounds = options_.suite.rounds > 0 ? options_.suite.rounds
                            : options_.suite.quick    ? 5
                                                      : default_rounds;
         cli::ProgressLine line("measuring peers", options_.suite.quiet);
         for (int round = -warm_up; round < rounds && !stop_.stop_requested(); ++round) {
             place_camera(moving, round);
-            for (PeerEntry& entry : entries) {
+            for (BaselineEntry& entry : entries) {
                 auto timed =
                     entry.row.moving == moving ? time_one(entry, round >= 0) : Result<void>();
                 if (!timed) {
@@ -396,7 +400,7 @@ private:
         return {};
     }
 
-    static Result<void> time_one(PeerEntry& entry, bool counts) {
+    static Result<void> time_one(BaselineEntry& entry, bool counts) {
         if (auto ready = entry.set_up(); !ready) {
             return ready;
         }
@@ -410,31 +414,87 @@ private:
         return {};
     }
 
-    const PeersOptions& options_;
+    const BaselineOptions& options_;
     std::stop_token stop_;
-    std::optional<PeerScene> scene_;
-    std::vector<std::pair<int, PeerProcess>> peers_; // by their levels
+    std::optional<BaselineScene> scene_;
+    std::vector<std::pair<int, BaselineProcess>> baselines_; // by their levels
     std::optional<session::Device> device_;
     DepthRange range_;
     scene::Camera still_; // of the pose
-    PeersResults results_;
+    BaselineResults results_;
 };
+
+// Of the row with an error bound of one pixel, with the same view.
+double reference_ms(const BaselineResults& results, const BaselineRow& view) {
+    const std::string reference = scene::to_string(reference_technique);
+    const auto found = std::find_if(results.rows.begin(), results.rows.end(), [&](const auto& row) {
+        return row.pose == view.pose && row.moving == view.moving && row.what == reference;
+    });
+    return found == results.rows.end() ? 0.0 : found->ms.median;
+}
+
+std::vector<FigureJson> error_values(const std::optional<truth::Distribution>& error) {
+    return error ? std::vector<FigureJson>{error->median, error->p95, error->p99,
+                                           error->max,    error->rms, error->count}
+                 : std::vector<FigureJson>(6);
+}
 
 } // namespace
 
-PeersResults run_peers(const PeersOptions& options, const std::stop_token& stop) {
-    PeersRun run(options, stop);
+BaselineResults run_baselines(const BaselineOptions& options, const std::stop_token& stop) {
+    BaselineRun run(options, stop);
     const auto done = run.run();
-    PeersResults results = run.take();
-    if (stop.stop_requested()) {
-        results.stopped = Error{results.rows.empty()
-                                    ? "interrupted before the first frame was timed"
-                                    : "interrupted, the table holds the frames drawn until then"};
-    } else if (!done) {
-        results.stopped = done.error();
-        results.failed = true;
-    }
+    BaselineResults results = run.take();
+    results.end = run_end(done, stop, !results.rows.empty());
     return results;
+}
+
+FigureTable figure_table(const BaselineResults& results) {
+    const glm::ivec2 size = results.options.suite.size;
+    FigureTable table{.schema = "reljef-bench-peers/1",
+                      .heading = fmt::format("{}, {} x {} samples, {}x{}, {}, {} threads",
+                                             cli::printable(results.options.terrain), results.side,
+                                             results.side, size.x, size.y,
+                                             cli::printable(results.environment.renderer),
+                                             results.environment.threads),
+                      .settings = {{"environment", json_of(results.environment)},
+                                   {"terrain", results.options.terrain},
+                                   {"side", results.side},
+                                   {"size", fmt::format("{}x{}", size.x, size.y)}},
+                      .columns = {{"/pose", "pose"},
+                                  {"/what", "what"},
+                                  {"/camera", "camera"},
+                                  {"/frames", "frames"},
+                                  {"/ms/median", "ms"},
+                                  {"/ms/p95", "p95"},
+                                  {"/ms/p99", ""},
+                                  {"/fps", ""},
+                                  {"", "x error=1"},
+                                  {"/triangles", "triangles"},
+                                  {"/reprojection_px/median", ""},
+                                  {"/reprojection_px/p95", ""},
+                                  {"/reprojection_px/p99", "p99 px", 3},
+                                  {"/reprojection_px/max", "max px", 3},
+                                  {"/reprojection_px/rms", "rms px", 3},
+                                  {"/reprojection_px/count", ""}},
+                      .end = results.end};
+    for (const BaselineRow& row : results.rows) {
+        FigureJson values{scene::to_string(row.pose),
+                          row.what,
+                          row.moving ? "moving" : "still",
+                          row.frames,
+                          row.ms.median,
+                          row.ms.p95,
+                          row.ms.p99,
+                          1000.0 / row.ms.median,
+                          row.ms.median / reference_ms(results, row),
+                          row.triangles};
+        for (FigureJson& figure : error_values(row.error)) {
+            values.push_back(std::move(figure));
+        }
+        table.rows.push_back(std::move(values));
+    }
+    return table;
 }
 
 } // namespace reljef::bench

@@ -1,4 +1,4 @@
-#include "bench/suites/growth_ground.h"
+#include "bench/suites/scaling_terrain.h"
 
 #include <unistd.h>
 
@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -101,7 +100,7 @@ private:
 
 } // namespace
 
-double growth_height(glm::ivec2 sample, int side) {
+double scaling_height(glm::ivec2 sample, int side) {
     const glm::dvec2 place(place_of_sample(sample.x, side), place_of_sample(sample.y, side));
     double height = mean_height;
     for (const Wave& wave : waves()) {
@@ -110,8 +109,8 @@ double growth_height(glm::ivec2 sample, int side) {
     return height;
 }
 
-Result<void> write_growth_ground(const fs::path& path, int side, const SuiteOptions& suite,
-                                 const std::stop_token& stop) {
+Result<void> write_scaling_terrain(const fs::path& path, int side, const SuiteOptions& suite,
+                                   const std::stop_token& stop) {
     cli::ProgressLine line(fmt::format("writing {0} x {0} samples", side), suite.quiet);
     const auto threads = static_cast<unsigned>(suite.threads);
     const GroundRows rows(side);
@@ -124,32 +123,25 @@ Result<void> write_growth_ground(const fs::path& path, int side, const SuiteOpti
     return io::write_heights(path, raster, fill, {threads, stop, line.callback()});
 }
 
-Result<GrowthFolder> GrowthFolder::create(const fs::path& parent, int most) {
+Result<std::shared_ptr<const fs::path>> make_scaling_folder(const fs::path& parent, int max_side) {
     std::error_code code;
-    const fs::path beside = parent.empty() ? fs::temp_directory_path(code) : parent;
-    const double needed = bytes_a_sample * most * most;
-    const auto room = static_cast<double>(fs::space(beside, code).available);
-    if (!code && room < needed) {
+    const fs::path folder = parent.empty() ? fs::temp_directory_path(code) : parent;
+    const double needed = bytes_a_sample * max_side * max_side;
+    const auto available = static_cast<double>(fs::space(folder, code).available);
+    if (!code && available < needed) {
         return Error{fmt::format("{}: {:.1f} GB free, {:.1f} GB were expected for a raster",
-                                 beside.string(), 1e-9 * room, 1e-9 * needed)};
+                                 folder.string(), 1e-9 * available, 1e-9 * needed)};
     }
-    GrowthFolder folder(beside / fmt::format("reljef-growth-{}", getpid()));
-    if (!fs::create_directory(folder.path_, code)) {
-        return Error{fmt::format("{}: cannot be made: {}", folder.path_.string(),
-                                 code ? code.message() : "it is there already")};
+    const fs::path path = folder / fmt::format("reljef-scaling-{}", getpid());
+    if (!fs::create_directory(path, code)) {
+        return Error{fmt::format("{}: cannot be created: {}", path.string(),
+                                 code ? code.message() : "it exists already")};
     }
-    folder.is_made_ = true;
-    return folder;
-}
-
-GrowthFolder::GrowthFolder(GrowthFolder&& other) noexcept
-    : path_(std::move(other.path_)), is_made_(std::exchange(other.is_made_, false)) {}
-
-GrowthFolder::~GrowthFolder() {
-    std::error_code ignored;
-    if (is_made_) {
-        fs::remove_all(path_, ignored);
-    }
+    return std::shared_ptr<const fs::path>(new fs::path(path), [](const fs::path* made) {
+        std::error_code ignored;
+        fs::remove_all(*made, ignored);
+        delete made;
+    });
 }
 
 } // namespace reljef::bench

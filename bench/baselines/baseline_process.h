@@ -13,23 +13,23 @@
 namespace reljef::bench {
 
 /// A program that is told lines on its stdin and answers each with one on its stdout.
-class PeerProcess {
+class BaselineProcess {
 public:
     /// Starts it and waits for its first line. Fails as ask() does, and where there is none.
-    static Result<PeerProcess> start(const std::filesystem::path& program,
-                                     const std::vector<std::string>& arguments);
+    static Result<BaselineProcess> start(const std::filesystem::path& program,
+                                         const std::vector<std::string>& arguments);
 
-    PeerProcess(PeerProcess&& other) noexcept;
-    PeerProcess& operator=(PeerProcess&& other) = delete;
+    BaselineProcess(BaselineProcess&& other) noexcept;
+    BaselineProcess& operator=(BaselineProcess&& other) = delete;
     /// Asks it to end, and waits until it has.
-    ~PeerProcess();
+    ~BaselineProcess();
 
     /// What follows "ok" in its answer. Fails with the sentence that follows "failed", and where it
     /// ended.
     Result<std::string> ask(const std::string& line);
 
 private:
-    PeerProcess(std::string name, pid_t process, int input, std::FILE* output);
+    BaselineProcess(std::string name, pid_t process, int input, std::FILE* output);
 
     Result<std::string> answer();
 

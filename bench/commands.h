@@ -1,0 +1,15 @@
+#pragma once
+
+#include "app/cli/command.h"
+
+namespace reljef::bench {
+
+/// The subcommands of reljef-bench.
+cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt);
+
+} // namespace reljef::bench

@@ -1,0 +1,356 @@
+#include "bench/suites/scaling.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/cli/console_log.h"
+#include "app/cli/message.h"
+#include "bench/runner/benchmark_scene.h"
+#include "bench/suites/scaling_terrain.h"
+#include "engine/core/process_memory.h"
+#include "engine/core/stopwatch.h"
+#include "engine/scene/tile_stream.h"
+#include "engine/session/device.h"
+#include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
+#include "engine/truth/geometric_error.h"
+
+namespace reljef::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array scaling_poses{scene::Pose::overview, scene::Pose::low};
+constexpr int judged_step = 4; // pixels
+constexpr int scaling_warm_up = 3;
+constexpr int scaling_frames = 20;
+constexpr double megabyte = 1024.0 * 1024.0;
+
+// Restarts the peak of process_memory() (proc(5), clear_refs).
+void reset_peak_memory() {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+struct ScalingView {
+    Stopwatch watch;
+    session::Device device;
+    session::TerrainScene scene;
+};
+
+Result<session::TerrainScene> open_ground(const fs::path& path, const ScalingOptions& options,
+                                          const std::stop_token& stop) {
+    session::SourceOptions terrain;
+    terrain.terrain = path.string();
+    terrain.threads = options.suite.threads;
+    terrain.memory_megabytes = options.memory_megabytes;
+    terrain.placement = terrain::PlacementKind::plane;
+    terrain.streamed = true;
+    session::Log silent;
+    auto source = session::open_terrain(terrain, silent, stop);
+    if (!source) {
+        return source.error();
+    }
+    session::SceneOptions view;
+    view.pose = scaling_poses.front();
+    view.max_error = options.error;
+    return session::make_scene(std::move(*source), terrain, view, silent, stop);
+}
+
+Result<ScalingView> open_view(const fs::path& path, const ScalingOptions& options,
+                              const std::stop_token& stop) {
+    const Stopwatch watch;
+    auto device = make_device(options.suite);
+    if (!device) {
+        return device.error();
+    }
+    auto scene = open_ground(path, options, stop);
+    if (!scene) {
+        return scene.error();
+    }
+    return ScalingView{watch, std::move(*device), std::move(*scene)};
+}
+
+void set_pose(session::TerrainScene& scene, scene::Pose pose) {
+    scene::Camera& camera = *scene.camera->get<scene::Camera>();
+    const double near = camera.near;
+    camera = scene::pose_camera(pose, scene.bounds,
+                                [&](double x, double y) { return scene.ground(x, y); });
+    camera.near = near;
+}
+
+// Knows the exact height at each sample of the raster.
+class ScalingJudge {
+public:
+    ScalingJudge(const ScalingView& scene, glm::ivec2 size, int side)
+        : node_(*scene.scene.terrain->get<scene::TerrainNode>()),
+          camera_(scene.scene.scene.camera()), size_(size), side_(side) {}
+
+    [[nodiscard]] std::vector<double> errors(const HitBuffer& hits) const {
+        std::vector<double> errors;
+        for (int y = 0; y < size_.y; y += judged_step) {
+            for (int x = 0; x < size_.x; x += judged_step) {
+                if (truth::shows_terrain(hits(x, y))) {
+                    errors.push_back(error({x, y}, hits(x, y)));
+                }
+            }
+        }
+        return errors;
+    }
+
+private:
+    [[nodiscard]] double error(glm::ivec2 pixel, const Hit& hit) const {
+        const glm::dvec2 sample(hit.col, hit.row);
+        const glm::dvec2 placed =
+            node_.stream != nullptr ? node_.stream->maker().on_overview(sample) : sample;
+        const scene::Projected shown = scene::project(
+            camera_, size_,
+            node_.surface->placement().world_from_sample({placed, height_at(sample)}));
+        return glm::distance(shown.pixel, glm::dvec2(pixel) + 0.5);
+    }
+
+    [[nodiscard]] double height_at(glm::dvec2 sample) const {
+        const glm::dvec2 inside = glm::clamp(sample, 0.0, side_ - 1.0);
+        const glm::ivec2 first = glm::min(glm::ivec2(inside), side_ - 2);
+        const glm::dvec2 part = inside - glm::dvec2(first);
+        const auto at = [&](int col, int row) {
+            return scaling_height(first + glm::ivec2(col, row), side_);
+        };
+        return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
+                        part.y);
+    }
+
+    const scene::TerrainNode& node_;
+    scene::Camera camera_;
+    glm::ivec2 size_;
+    int side_;
+};
+
+class ScalingRun {
+public:
+    ScalingRun(const ScalingOptions& options, std::stop_token stop)
+        : options_(options), stop_(std::move(stop)) {
+        results_.options = options;
+    }
+
+    Result<void> run() {
+        const std::vector<int>& sides = options_.sides;
+        const auto folder =
+            make_scaling_folder(options_.folder, *std::max_element(sides.begin(), sides.end()));
+        if (!folder) {
+            return folder.error();
+        }
+        for (const int side : sides) {
+            const fs::path path = **folder / fmt::format("ground-{}.tif", side);
+            if (auto done = run_side(path, side); !done) {
+                return done;
+            }
+            std::error_code ignored;
+            fs::remove(path, ignored);
+        }
+        return {};
+    }
+
+    ScalingResults take() { return std::move(results_); }
+
+private:
+    Result<void> run_side(const fs::path& path, int side) {
+        if (auto written = write_scaling_terrain(path, side, options_.suite, stop_); !written) {
+            return written;
+        }
+        reset_peak_memory();
+        auto view = open_view(path, options_, stop_);
+        if (!view) {
+            return view.error();
+        }
+        results_.environment = environment_of(view->device.context(), options_.suite.threads);
+        for (const scene::Pose pose : scaling_poses) {
+            if (stop_.stop_requested()) {
+                return {};
+            }
+            ScalingRow row;
+            row.side = side;
+            row.pose = pose;
+            if (auto done = draw(*view, row); !done) {
+                return done;
+            }
+            if (row.frames == 0) {
+                return {}; // stopped before
+            }
+            results_.rows.push_back(row);
+            if (options_.suite.progress) {
+                options_.suite.progress(static_cast<double>(results_.rows.size()) /
+                                        static_cast<double>(options_.sides.size() * 2));
+            }
+        }
+        return {};
+    }
+
+    // The first pose counts from opening the file, the others from moving the camera.
+    Result<void> draw(ScalingView& view, ScalingRow& row) const {
+        const Stopwatch since_pose;
+        const Stopwatch& watch = row.pose == scaling_poses.front() ? view.watch : since_pose;
+        set_pose(view.scene, row.pose);
+        const scene::Scene& scene = view.scene.scene;
+        session::SceneRenderer& renderer = view.device.renderer();
+        row.streamed = view.scene.terrain->get<scene::TerrainNode>()->stream != nullptr;
+        session::request_tiles(renderer.select(scene).requests);
+        if (auto drawn = renderer.draw_selected(true); !drawn) {
+            return drawn.error();
+        }
+        row.first_picture = watch.seconds();
+        cli::ConsoleLog log(options_.suite.quiet);
+        session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log, stop_);
+        if (auto drawn = renderer.draw_selected(true); !drawn) {
+            return drawn.error();
+        }
+        row.last_picture = watch.seconds();
+        return measure(view, row);
+    }
+
+    Result<void> measure(ScalingView& view, ScalingRow& row) const {
+        std::vector<double> ms;
+        for (int i = 0; i < scaling_warm_up + scaling_frames && !stop_.stop_requested(); ++i) {
+            const auto stats = view.device.renderer().draw(view.scene.scene, true);
+            if (!stats) {
+                return stats.error();
+            }
+            row.tiles = stats->tiles;
+            row.triangles = stats->triangles;
+            if (i >= scaling_warm_up) {
+                ms.push_back(stats->cpu_ms + stats->gpu_ms);
+            }
+        }
+        if (ms.empty()) {
+            return {};
+        }
+        row.frames = ms.size();
+        row.ms = summarize(ms);
+        row.memory_bytes = process_memory().most;
+        const auto hits = view.device.renderer().draw_hits(view.scene.scene);
+        if (!hits) {
+            return hits.error();
+        }
+        const ScalingJudge judge(view, options_.suite.size, row.side);
+        const std::vector<double> errors = judge.errors(*hits);
+        row.pixels = errors.size();
+        if (!errors.empty()) {
+            row.worst_px = *std::max_element(errors.begin(), errors.end());
+            row.p99_px = summarize(errors).p99;
+        }
+        return {};
+    }
+
+    const ScalingOptions& options_;
+    std::stop_token stop_;
+    ScalingResults results_;
+};
+
+// The lowest and the highest resolution from one pose; null where one is missing.
+std::array<const ScalingRow*, 2> extremes(const ScalingResults& results, scene::Pose pose) {
+    const auto [low, high] =
+        std::minmax_element(results.options.sides.begin(), results.options.sides.end());
+    std::array<const ScalingRow*, 2> found{};
+    for (const ScalingRow& row : results.rows) {
+        if (row.pose == pose) {
+            found[0] = row.side == *low ? &row : found[0];
+            found[1] = row.side == *high ? &row : found[1];
+        }
+    }
+    return found;
+}
+
+const char* verdict(bool is_met) {
+    return is_met ? "met" : "missed";
+}
+
+void add_targets(const ScalingResults& results, FigureTable& table) {
+    double frame_ratio = 0.0;
+    double first_picture = 0.0;
+    std::size_t memory = 0;
+    for (const scene::Pose pose : scaling_poses) {
+        const auto [low, high] = extremes(results, pose);
+        if (low == nullptr || high == nullptr) {
+            return;
+        }
+        frame_ratio = std::max(frame_ratio, high->ms.median / low->ms.median);
+        first_picture = std::max(first_picture, high->first_picture);
+        memory = std::max(memory, high->memory_bytes);
+    }
+    const int budget = results.options.memory_megabytes;
+    const bool fits = memory <= static_cast<std::size_t>(budget) << 20U;
+    table.summary = fmt::format(
+        "highest resolution over lowest: {:.2f} times the frame time (at most {}: {}); first "
+        "picture after {:.2f} s (at most {}: {}); {:.0f} MB (at most {}: {})\n",
+        frame_ratio, max_frame_ratio, verdict(frame_ratio <= max_frame_ratio), first_picture,
+        max_first_picture, verdict(first_picture <= max_first_picture),
+        static_cast<double>(memory) / megabyte, budget, verdict(fits));
+    table.settings["marks"] = {{"frame_ratio", frame_ratio},
+                               {"first_picture_s", first_picture},
+                               {"memory_bytes", memory},
+                               {"met",
+                                {{"frame_ratio", frame_ratio <= max_frame_ratio},
+                                 {"first_picture_s", first_picture <= max_first_picture},
+                                 {"memory_bytes", fits}}}};
+}
+
+} // namespace
+
+ScalingResults run_scaling(const ScalingOptions& options, const std::stop_token& stop) {
+    ScalingRun run(options, stop);
+    const auto done = run.run();
+    ScalingResults results = run.take();
+    results.end = run_end(done, stop, !results.rows.empty());
+    return results;
+}
+
+FigureTable figure_table(const ScalingResults& results) {
+    const ScalingOptions& options = results.options;
+    FigureTable table{.schema = "reljef-bench-growth/1",
+                      .columns = {{"/side", "side"},
+                                  {"/pose", "pose"},
+                                  {"/streamed", "streamed"},
+                                  {"/first_picture_s", "first s"},
+                                  {"/last_picture_s", "last s"},
+                                  {"/frames", ""},
+                                  {"/ms/median", "ms"},
+                                  {"/ms/p95", ""},
+                                  {"/ms/p99", "p99 ms"},
+                                  {"/tiles", "tiles"},
+                                  {"/triangles", "triangles"},
+                                  {"/memory_bytes", ""},
+                                  {"", "MB", 0},
+                                  {"/pixels", ""},
+                                  {"/worst_px", "worst px", 3},
+                                  {"/p99_px", "p99 px", 3}},
+                      .end = results.end};
+    table.heading =
+        fmt::format("--max-error {}, --memory {}, {}x{}, {}, {} threads", options.error,
+                    options.memory_megabytes, options.suite.size.x, options.suite.size.y,
+                    cli::printable(results.environment.renderer), results.environment.threads);
+    table.settings = {{"environment", json_of(results.environment)},
+                      {"size", fmt::format("{}x{}", options.suite.size.x, options.suite.size.y)},
+                      {"max_error", options.error},
+                      {"memory_mb", options.memory_megabytes},
+                      {"marks", nullptr}};
+    for (const ScalingRow& row : results.rows) {
+        table.rows.push_back({row.side, scene::to_string(row.pose), row.streamed, row.first_picture,
+                              row.last_picture, row.frames, row.ms.median, row.ms.p95, row.ms.p99,
+                              row.tiles, row.triangles, row.memory_bytes,
+                              static_cast<double>(row.memory_bytes) / megabyte, row.pixels,
+                              row.worst_px, row.p99_px});
+    }
+    add_targets(results, table);
+    return table;
+}
+
+} // namespace reljef::bench
