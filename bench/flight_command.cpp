@@ -7,7 +7,6 @@
 #include "bench/output_options.h"
 #include "bench/suite_arguments.h"
 #include "bench/suites/flight_suite.h"
-#include "engine/session/terrain_source.h"
 
 namespace reljef::bench {
 namespace {
@@ -24,15 +23,7 @@ Result<void> run_flight_command(const FlightChoice& choice, const cli::Interrupt
         return good;
     }
     const auto results = run_flight(choice.options, interrupt.token());
-    if (!results) {
-        return results.error();
-    }
-    if (results->times.drawing_ms.empty()) {
-        return results->end.stopped.value_or(Error{"no frames found, some were expected"});
-    }
-    auto reported = report(figure_table(*results), choice.outputs.json);
-    return reported ? session::report_errors(choice.options.terrain.terrain, results->failed_files)
-                    : reported;
+    return results ? report(*results, choice.outputs.json) : results.error();
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include "engine/scene/motion/animators.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
+#include "engine/session/terrain_source.h"
 
 namespace reljef::bench {
 namespace {
@@ -173,6 +174,15 @@ FigureTable figure_table(const FlightResults& results) {
         megabytes(results.max_memory), megabytes(results.times.memory_before), 100.0 * share,
         options.terrain.memory_megabytes);
     return table;
+}
+
+Result<void> report(const FlightResults& results, const std::filesystem::path& json) {
+    if (results.times.drawing_ms.empty()) {
+        return results.end.stopped.value_or(Error{"no frames found, some were expected"});
+    }
+    auto reported = report(figure_table(results), json);
+    return reported ? session::report_errors(results.options.terrain.terrain, results.failed_files)
+                    : reported;
 }
 
 } // namespace reljef::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <stop_token>
 
@@ -35,5 +36,8 @@ struct FlightResults {
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop);
 
 FigureTable figure_table(const FlightResults& results);
+
+/// As report() of a table. Fails too without a frame, and if files of the terrain were left out.
+Result<void> report(const FlightResults& results, const std::filesystem::path& json);
 
 } // namespace reljef::bench
