@@ -74,12 +74,6 @@ RunEnd run_end(const Result<void>& done, const std::stop_token& stop, bool has_r
     return done ? RunEnd{} : RunEnd{done.error(), true};
 }
 
-FigureJson json_of(const Environment& environment) {
-    return {{"renderer", environment.renderer}, {"gl", environment.gl},
-            {"context", environment.context},   {"threads", environment.threads},
-            {"cpu", environment.cpu},           {"commit", environment.commit}};
-}
-
 FigureJson json_of(const Summary& summary) {
     return {{"median", summary.median}, {"p95", summary.p95}, {"p99", summary.p99}};
 }

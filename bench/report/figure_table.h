@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/report/environment.h"
+#include "bench/report/report_json.h"
 #include "engine/core/result.h"
 #include "engine/core/statistics.h"
 
@@ -39,8 +39,6 @@ struct FigureTable {
     RunEnd end = {};
 };
 
-/// The JSON of an environment.
-nlohmann::ordered_json json_of(const Environment& environment);
 /// {"median", "p95", "p99"}.
 nlohmann::ordered_json json_of(const Summary& summary);
 

@@ -1,175 +1,274 @@
 #include "bench/report/report_json.h"
 
-#include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "bench/report/figure_table.h"
+#include "bench/report/json_fields.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
-constexpr double max_exact_whole = 9e15; // of the whole numbers a double tells apart
+constexpr std::size_t max_file_bytes = std::size_t{1} << 25;
+// Times in milliseconds, rates and ratios: a picosecond to eleven days, so that products and
+// quotients of three of them stay finite.
+constexpr JsonRange figure_range{.low = 1e-9, .high = 1e9};
+constexpr JsonRange share{.low = 0.0, .high = 1.0};
 
-Json to_json(const view::FrameStats::Skipped& skipped) {
-    return {{"invisible_nodes", skipped.invisible_nodes},
-            {"nodes_outside_frustum", skipped.nodes_outside_frustum},
-            {"tiles_outside_frustum", skipped.tiles_outside_frustum},
-            {"tiles_occluded", skipped.tiles_occluded},
-            {"triangles_outside_frustum", skipped.triangles_outside_frustum},
-            {"triangles_under_error", skipped.triangles_under_error},
-            {"selections_unchanged", skipped.selections_unchanged},
-            {"cuts_unchanged", skipped.cuts_unchanged},
-            {"uploads_unchanged", skipped.uploads_unchanged},
-            {"sky", skipped.sky}};
+} // namespace
+
+// Each describe() lists the fields of one struct, for a JsonWriter and a JsonReader, which find it
+// by its argument: so it is in no namespace of its own.
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<Environment>& environment) {
+    fields.field("renderer", environment.renderer);
+    fields.field("gl", environment.gl);
+    fields.field("context", environment.context);
+    fields.field("threads", environment.threads);
+    fields.field("cpu", environment.cpu);
+    fields.field("commit", environment.commit);
 }
 
-Json parameters_of(const Setting& setting) {
-    Json parameters = Json::object();
-    for (const Setting::Parameter& parameter : setting.parameters) {
-        const bool is_whole = parameter.value == std::trunc(parameter.value) &&
-                              std::abs(parameter.value) < max_exact_whole;
-        parameters[parameter.name] =
-            is_whole ? Json(static_cast<long long>(parameter.value)) : Json(parameter.value);
+template <class Fields>
+static void describe(Fields& fields,
+                     typename Fields::template Of<view::FrameStats::Skipped>& skipped) {
+    fields.field("invisible_nodes", skipped.invisible_nodes);
+    fields.field("nodes_outside_frustum", skipped.nodes_outside_frustum);
+    fields.field("tiles_outside_frustum", skipped.tiles_outside_frustum);
+    fields.later_field("tiles_occluded", skipped.tiles_occluded);
+    fields.field("triangles_outside_frustum", skipped.triangles_outside_frustum);
+    fields.later_field("triangles_under_error", skipped.triangles_under_error);
+    fields.later_field("selections_unchanged", skipped.selections_unchanged);
+    fields.later_field("cuts_unchanged", skipped.cuts_unchanged);
+    fields.field("uploads_unchanged", skipped.uploads_unchanged);
+    fields.field("sky", skipped.sky);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<Timing>& timing) {
+    fields.field("frames", timing.frames, std::size_t{1});
+    fields.object("ms", [&](auto& ms) {
+        ms.field("median", timing.ms.median, figure_range);
+        ms.field("p95", timing.ms.p95, figure_range);
+        ms.field("p99", timing.ms.p99, figure_range);
+        ms.field("interval", timing.interval, figure_range);
+    });
+    fields.derived("fps", 1000.0 / timing.ms.median);
+    fields.field("fps_1_percent_low", timing.fps_1_percent_low, figure_range);
+    fields.field("ratio_to_texture", timing.ratio_to_texture, figure_range);
+    fields.field("noise_floor", timing.noise_floor);
+    fields.later_field("gpu_ms", timing.gpu_ms);
+    fields.field("tiles", timing.stats.tiles);
+    fields.field("triangles", timing.stats.triangles);
+    fields.field("draws", timing.stats.draws);
+    fields.field("uploads", timing.stats.uploads);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<RowError::Geometric>& error) {
+    fields.field("median", error.distribution.median);
+    fields.field("p95", error.distribution.p95);
+    fields.field("p99", error.distribution.p99);
+    fields.field("max", error.distribution.max);
+    fields.field("rms", error.distribution.rms);
+    fields.field("count", error.distribution.count, std::size_t{1});
+    fields.field("unbounded", error.unbounded);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<RowError>& error) {
+    fields.object("reprojection_px", error.reprojection_px);
+    fields.object("hit_texels", error.hit_texels);
+    fields.field("wrong_percent", error.wrong_percent, JsonRange{0.0, 100.0});
+    fields.field("holes", error.holes);
+    fields.field("rmse", error.rmse, share);
+    fields.field("psnr", error.psnr);
+    fields.field("ssim", error.ssim, JsonRange{-1.0, 1.0});
+    fields.field("flip", error.flip, share);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<SourceFigure>& source) {
+    fields.field("fps", source.fps, figure_range);
+    fields.field("ratio", source.ratio, figure_range);
+    fields.field("where", source.where);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<Front::Dominated>& dominated) {
+    fields.field("label", dominated.label);
+    fields.field("by", dominated.by);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<Front>& front) {
+    fields.field("scene", front.scene);
+    fields.field("pose", front.pose);
+    fields.field("area", front.area, share);
+    fields.field("front", front.front);
+    fields.array("dominated", front.dominated);
+    fields.later_field("holed", front.holed);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<LeftOut>& left_out) {
+    fields.field("scene", left_out.scene);
+    fields.field("pose", left_out.pose);
+    fields.field("settings", left_out.settings, std::size_t{1});
+    fields.field("techniques", left_out.techniques);
+}
+
+template <class Fields>
+static void describe_setting(Fields& fields, typename Fields::template Of<Row>& row) {
+    fields.field("scene", row.scene);
+    fields.field("pose", row.pose);
+    fields.field("technique", row.setting.technique);
+    fields.field("params", row.setting.parameters);
+    fields.field("label", row.setting.label);
+    fields.field("null_row", row.null_row);
+}
+
+static void describe(JsonWriter& fields, const Row& row) {
+    fields.field("suite", row.suite);
+    fields.field("test", row.test);
+    if (row.test.empty()) {
+        fields.json["test"] = nullptr;
     }
-    return parameters;
-}
-
-Json or_null(const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-}
-
-Json to_json(const std::optional<RowError::Geometric>& error) {
-    if (!error) {
-        return {};
+    describe_setting(fields, row);
+    fields.field("missing", row.missing());
+    fields.field("noisy", row.noisy());
+    fields.field("size", row.size);
+    JsonWriter timing;
+    describe(timing, row.timing.value_or(Timing{}));
+    for (const auto& item : timing.json.items()) {
+        fields.json[item.key()] = row.timing ? item.value() : nlohmann::ordered_json();
     }
-    const truth::Distribution& distribution = error->distribution;
-    return {{"median", distribution.median}, {"p95", distribution.p95},
-            {"p99", distribution.p99},       {"max", distribution.max},
-            {"rms", distribution.rms},       {"count", distribution.count},
-            {"unbounded", error->unbounded}};
-}
-
-Json to_json(const RowError& error) {
-    return {{"reprojection_px", to_json(error.reprojection_px)},
-            {"hit_texels", to_json(error.hit_texels)},
-            {"wrong_percent", error.wrong_percent},
-            {"holes", error.holes},
-            {"rmse", error.rmse},
-            {"psnr", or_null(error.psnr)},
-            {"ssim", or_null(error.ssim)},
-            {"flip", error.flip}};
-}
-
-Json to_json(const std::optional<ConfidenceInterval>& interval) {
-    return interval ? Json{interval->low, interval->high} : Json();
-}
-
-Json to_json(const SourceFigure& source) {
-    return {{"fps", source.fps}, {"ratio", source.ratio}, {"where", source.where}};
-}
-
-Json to_json(const Timing& timing) {
-    return {{"frames", timing.frames},
-            {"ms",
-             {{"median", timing.ms.median},
-              {"p95", timing.ms.p95},
-              {"p99", timing.ms.p99},
-              {"interval", to_json(timing.interval)}}},
-            {"fps", 1000.0 / timing.ms.median},
-            {"fps_1_percent_low", timing.fps_1_percent_low},
-            {"ratio_to_texture", or_null(timing.ratio_to_texture)},
-            {"noise_floor", or_null(timing.noise_floor)},
-            {"gpu_ms", or_null(timing.gpu_ms)},
-            {"tiles", timing.stats.tiles},
-            {"triangles", timing.stats.triangles},
-            {"draws", timing.stats.draws},
-            {"uploads", timing.stats.uploads}};
-}
-
-// The same keys, for a row that is missing.
-Json without_figures(Json timing) {
-    for (Json& figure : timing) {
-        figure = nullptr;
+    fields.json["taps"] = nullptr; // not counted yet
+    fields.object("error", row.error);
+    fields.object("source", row.source);
+    fields.json["skipped"] = nullptr;
+    if (row.timing) {
+        fields.object("skipped", [&](auto& inner) { describe(inner, row.timing->stats.skipped); });
     }
-    return timing;
 }
 
-Json description_of(const Row& row) {
-    return {{"suite", row.suite},
-            {"test", row.test.empty() ? Json() : Json(row.test)},
-            {"scene", row.scene},
-            {"pose", scene::to_string(row.pose)},
-            {"technique", row.setting.technique},
-            {"params", parameters_of(row.setting)},
-            {"label", row.setting.label},
-            {"null_row", row.null_row},
-            {"missing", row.missing()},
-            {"noisy", row.noisy()},
-            {"size", fmt::format("{}x{}", row.size.x, row.size.y)}};
-}
-
-Json to_json(const Row& row) {
-    Json json = description_of(row);
-    json.update(row.timing ? to_json(*row.timing) : without_figures(to_json(Timing{})));
-    json["taps"] = nullptr; // not counted yet
-    json["error"] = row.error ? to_json(*row.error) : Json();
-    json["source"] = row.source ? to_json(*row.source) : Json();
-    json["skipped"] = row.timing ? to_json(row.timing->stats.skipped) : Json();
-    return json;
-}
-
-Json to_json(const Front& front) {
-    Json dominated = Json::array();
-    for (const Front::Dominated& setting : front.dominated) {
-        dominated.push_back({{"label", setting.label}, {"by", setting.by}});
+static void describe(JsonReader& fields, Row& row) {
+    fields.field("suite", row.suite);
+    fields.later_field("test", row.test);
+    describe_setting(fields, row);
+    fields.field("size", row.size);
+    bool is_missing = false;
+    fields.field("missing", is_missing);
+    if (!is_missing) {
+        describe(fields, row.timing.emplace());
+        fields.object("skipped", [&](auto& inner) { describe(inner, row.timing->stats.skipped); });
     }
-    return {{"scene", front.scene},
-            {"pose", scene::to_string(front.pose)},
-            {"area", or_null(front.area)},
-            {"front", front.front},
-            {"dominated", std::move(dominated)},
-            {"holed", front.holed}};
+    fields.object("error", row.error);
+    fields.object("source", row.source);
 }
 
-Json to_json(const LeftOut& left_out) {
-    return {{"scene", left_out.scene},
-            {"pose", scene::to_string(left_out.pose)},
-            {"settings", left_out.settings},
-            {"techniques", left_out.techniques}};
-}
+namespace {
 
-template <class Part> Json array_of(const std::vector<Part>& parts) {
-    Json array = Json::array();
-    for (const Part& part : parts) {
-        array.push_back(to_json(part));
+// Files of earlier versions lack some keys.
+Results read_results(JsonReader& fields, const std::string& file) {
+    std::string schema;
+    fields.field("schema", schema);
+    if (schema != schema_name) {
+        fields.fail("schema", fmt::format("\"{}\"", schema_name));
     }
-    return array;
+    Results results;
+    bool is_complete = false;
+    fields.field("complete", is_complete);
+    fields.object("environment", [&](auto& inner) { describe(inner, results.environment); });
+    fields.later_field("notes", results.notes);
+    if (fields.has("left_out")) {
+        fields.array("left_out", results.left_out);
+    }
+    if (fields.has("stopped")) {
+        fields.field("stopped", results.stopped.emplace().message);
+    } else if (!is_complete && results.left_out.empty()) {
+        results.stopped = Error{fmt::format("{}: the run ended early", file)};
+    }
+    fields.array("rows", results.rows);
+    if (fields.has("fronts")) {
+        fields.array("fronts", results.fronts);
+    }
+    return results;
+}
+
+Result<nlohmann::json> parse(const std::string& text, const std::string& file) {
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::parse_error& error) {
+        return Error{error.byte > text.size()
+                         ? fmt::format("{}: its end is missing after {} bytes, whole results of "
+                                       "reljef-bench were expected",
+                                       file, text.size())
+                         : fmt::format("{}: no JSON found at byte {}, results of reljef-bench were "
+                                       "expected",
+                                       file, error.byte)};
+    } catch (const nlohmann::json::out_of_range&) {
+        return Error{fmt::format("{}: a number beyond all range found, results of reljef-bench "
+                                 "were expected",
+                                 file)};
+    }
 }
 
 } // namespace
 
-std::string json_report(const Results& results) {
-    Json report{{"schema", schema_name},
-                {"complete", results.complete()},
-                {"stopped", results.stopped ? Json(results.stopped->message) : Json()},
-                {"notes", results.notes},
-                {"left_out", array_of(results.left_out)},
-                {"environment", json_of(results.environment)},
-                {"rows", array_of(results.rows)}};
-    if (!results.fronts.empty()) {
-        report["fronts"] = array_of(results.fronts);
-    }
-    // File names need not be UTF-8.
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+nlohmann::ordered_json json_of(const Environment& environment) {
+    JsonWriter fields;
+    describe(fields, environment);
+    return fields.json;
 }
 
-Result<void> write_json_report(const std::filesystem::path& file, const Results& results) {
+std::string json_report(const Results& results) {
+    JsonWriter fields;
+    fields.field("schema", schema_name);
+    fields.field("complete", results.complete());
+    fields.json["stopped"] = nullptr;
+    if (results.stopped) {
+        fields.field("stopped", results.stopped->message);
+    }
+    fields.field("notes", results.notes);
+    fields.array("left_out", results.left_out);
+    fields.json["environment"] = json_of(results.environment);
+    fields.array("rows", results.rows);
+    if (!results.fronts.empty()) {
+        fields.array("fronts", results.fronts);
+    }
+    // File names need not be UTF-8.
+    return fields.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+Result<void> write_json_report(const fs::path& file, const Results& results) {
     return write_text_file(file, json_report(results));
+}
+
+Result<Results> read_json_report(const fs::path& file) {
+    std::error_code ignored;
+    if (fs::exists(file, ignored) && !fs::is_directory(file, ignored) &&
+        !fs::is_regular_file(file, ignored)) { // a pipe may never end
+        return Error{fmt::format("{}: is a device, a file was expected", file.string())};
+    }
+    const auto text = read_text_file(file, max_file_bytes);
+    if (!text) {
+        return text.error();
+    }
+    const auto json = parse(*text, file.string());
+    if (!json) {
+        return json.error();
+    }
+    std::optional<Error> error;
+    JsonReader fields(*json, "", error);
+    Results results = read_results(fields, file.string());
+    if (error) {
+        return Error{fmt::format("{}: {}", file.string(), error->message)};
+    }
+    return results;
 }
 
 } // namespace reljef::bench

@@ -4,12 +4,16 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "bench/report/results.h"
 
 namespace reljef::bench {
 
 /// What a results file says it is, under "schema".
 inline constexpr std::string_view schema_name = "reljef-bench/1";
+
+nlohmann::ordered_json json_of(const Environment& environment);
 
 /// The results as JSON of the schema schema_name. Shares are fractions, times milliseconds. Every
 /// row has every key; what could not be or is not measured is null, "taps" everywhere. "complete"
