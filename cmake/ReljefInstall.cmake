@@ -3,6 +3,17 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Before anything is installed.
+install(CODE [[
+  set(reljef_prefix "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
+  execute_process(COMMAND ${CMAKE_COMMAND} -E make_directory "${reljef_prefix}"
+    RESULT_VARIABLE reljef_failed ERROR_QUIET)
+  execute_process(COMMAND test -w "${reljef_prefix}" RESULT_VARIABLE reljef_unwritable)
+  if(reljef_failed OR reljef_unwritable)
+    message(FATAL_ERROR "${reljef_prefix}: cannot be written, an install prefix that can be was expected")
+  endif()
+]] ALL_COMPONENTS)
+
 if(RELJEF_PROGRAMS)
   install(TARGETS reljef COMPONENT programs)
 endif()
@@ -43,8 +54,20 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libosmesa6, libegl1, libgl1-mesa-dri, ffmpeg")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME reljef)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
+  "libosmesa6, libegl1, libgl1-mesa-dri, ffmpeg, reljef-doc")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libreljef-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
+  "libglm-dev, libfmt-dev, libgdal-dev, libglfw3-dev, libtomlplusplus-dev, libopenimageio-dev, libgeographiclib-dev")
+set(CPACK_DEBIAN_DOCS_PACKAGE_NAME reljef-doc)
+set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
 include(CPack)
+cpack_add_component(programs DESCRIPTION "The programs reljef and reljef-bench")
+cpack_add_component(library DESCRIPTION "Headers, static libraries and the CMake package")
+cpack_add_component(docs DESCRIPTION "README, architecture and the pages of the techniques")
