@@ -76,3 +76,12 @@ if g++ -std=c++17 -I"$prefix/include/reljef" -fsyntax-only "$folder/consumer/mai
     fail "C++17 was taken"
 fi
 grep -q 'error: #error "reljef needs C++20' "$folder/log" || fail "C++17 is not named: $(head -n 3 "$folder/log")"
+
+# A prefix that cannot be written is one sentence, and nothing is installed.
+touch "$folder/file"
+if "$cmake" --install "$build" --prefix "$folder/file/prefix" 2>"$folder/log" >"$folder/out"; then
+    fail "a prefix below a file was taken"
+fi
+grep -q 'file/prefix: cannot be written, an install prefix that can be was expected' "$folder/log" ||
+    fail "the prefix is not named: $(cat "$folder/log")"
+! grep -q Installing "$folder/out" || fail "something was installed"
