@@ -6,6 +6,7 @@
 
 #include "tests/architecture/include_table.h"
 #include "tests/architecture/source_rules.h"
+#include "tests/architecture/word_rules.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::test {
@@ -96,8 +97,10 @@ TEST(Project, InstallsEveryHeaderThatAnInstalledOneIncludes) {
     EXPECT_THAT(private_headers_in_public_ones(files_below({"engine", "terrains"})), IsEmpty());
 }
 
-TEST(Project, NamesBoundsMaxAndMin) {
-    EXPECT_THAT(complaints_about(all_code(), bounds_of_dialect), IsEmpty());
+TEST(Project, UsesTheFieldsWords) {
+    const auto product = files_below({"engine", "app", "bench", "terrains"});
+    EXPECT_THAT(complaints_about(product, dialect_names), IsEmpty());
+    EXPECT_THAT(complaints_about(product, dialect_comments), IsEmpty());
 }
 
 TEST(Project, CrowdsNoFolder) {

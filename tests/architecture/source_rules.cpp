@@ -436,16 +436,6 @@ Complaints include_circles(std::span<const SourceFile> files) {
     return CircleSearch(files).run();
 }
 
-Complaints bounds_of_dialect(const SourceFile& file) {
-    static const std::regex bound("\\b(most|least)_\\w+");
-    const std::string code = code_of(file.text);
-    Complaints complaints;
-    for (std::sregex_iterator found(code.begin(), code.end(), bound), end; found != end; ++found) {
-        complaints.push_back(file.path + " names " + found->str() + ", max_ or min_ was expected");
-    }
-    return complaints;
-}
-
 Complaints private_headers_in_public_ones(std::span<const SourceFile> files) {
     static const std::regex separators("[\\s()]+");
     std::set<std::string> is_public;

@@ -69,9 +69,6 @@ Complaints unlisted_files(std::span<const SourceFile> files);
 /// the project's that is not.
 Complaints private_headers_in_public_ones(std::span<const SourceFile> files);
 
-/// Names that begin with most_ or least_: a bound is max_ or min_.
-Complaints bounds_of_dialect(const SourceFile& file);
-
 /// How many concepts a folder holds at most. A header, its source and its tests are one concept.
 inline constexpr std::size_t max_concepts = 16;
 Complaints crowded_folders(std::span<const SourceFile> files);

@@ -358,13 +358,6 @@ TEST(PrivateHeadersInPublicOnes, AreNamed) {
                             "not"));
 }
 
-TEST(BoundsOfDialect, AreNamesNotTexts) {
-    EXPECT_THAT(bounds_of_dialect({"engine/core/a.cpp", "int most_bytes = 1; // least_bytes\n"
-                                                        "auto key = \"most_bytes\";\n"}),
-                ElementsAre("engine/core/a.cpp names most_bytes, max_ or min_ was expected"));
-    EXPECT_THAT(bounds_of_dialect({"engine/core/a.cpp", "int utmost_1 = max_bytes;"}), IsEmpty());
-}
-
 TEST(CrowdedFolders, AreThoseOfTooManyConcepts) {
     std::vector<SourceFile> files;
     for (std::size_t i = 0; i < max_concepts; ++i) {

@@ -1,0 +1,90 @@
+#include "app/cli/standard_input.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include "app/cli/usage_error.h"
+
+namespace reljef::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int poll_ms = 100; // how late Ctrl-C may be noticed
+
+Result<std::shared_ptr<const fs::path>> temporary_folder() {
+    std::error_code code;
+    std::string name = (fs::temp_directory_path(code) / "reljef-XXXXXX").string();
+    if (code || mkdtemp(name.data()) == nullptr) {
+        return Error{"standard input: no folder for temporary files found, one was expected"};
+    }
+    return std::shared_ptr<const fs::path>(new fs::path(name), [](const fs::path* folder) {
+        std::error_code ignored;
+        fs::remove_all(*folder, ignored);
+        delete folder;
+    });
+}
+
+// The bytes that are there; none at the end.
+Result<std::size_t> read_some(std::vector<char>& buffer, const std::stop_token& stop) {
+    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    while (::poll(&input, 1, poll_ms) <= 0) {
+        if (stop.stop_requested()) {
+            return Error{"interrupted"};
+        }
+    }
+    const ssize_t count = ::read(STDIN_FILENO, buffer.data(), buffer.size());
+    return count < 0 ? Result<std::size_t>(Error{
+                           fmt::format("standard input: cannot be read: {}",
+                                       std::error_code(errno, std::generic_category()).message())})
+                     : static_cast<std::size_t>(count);
+}
+
+Result<void> copy_standard_input(const fs::path& path, const std::stop_token& stop) {
+    std::ofstream file(path, std::ios::binary);
+    std::vector<char> buffer(std::size_t{1} << 20);
+    for (bool is_empty = true;; is_empty = false) {
+        const auto count = read_some(buffer, stop);
+        if (!count) {
+            return count.error();
+        }
+        if (*count == 0) {
+            return is_empty ? Error{"standard input: nothing found, a raster was expected"}
+                            : Result<void>();
+        }
+        if (!file.write(buffer.data(), static_cast<std::streamsize>(*count)).flush()) {
+            return Error{
+                fmt::format("standard input: does not fit into {}", path.parent_path().string())};
+        }
+    }
+}
+
+} // namespace
+
+Result<TerrainInput> terrain_input(const std::string& terrain, const std::stop_token& stop) {
+    if (terrain != "-") {
+        return TerrainInput{terrain, nullptr};
+    }
+    if (isatty(STDIN_FILENO) != 0) {
+        fail_usage("TERRAIN: - found, and standard input is a terminal; a pipe or a file was "
+                   "expected");
+    }
+    auto folder = temporary_folder();
+    if (!folder) {
+        return folder.error();
+    }
+    const fs::path path = **folder / "standard input";
+    if (auto copied = copy_standard_input(path, stop); !copied) {
+        return copied.error();
+    }
+    return TerrainInput{path.string(), std::move(*folder)};
+}
+
+} // namespace reljef::cli
