@@ -3,47 +3,31 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
-#include "engine/gl/memory.h"
+#include "engine/gl/limits.h"
 
 namespace reljef::gl {
 
-namespace {
-
-Result<UniqueId<delete_buffer>> make_storage(std::size_t size, const std::byte* content,
-                                             GLbitfield flags) {
-    check(size > 0, "empty buffer");
-    GLuint name = 0;
-    glCreateBuffers(1, &name);
-    UniqueId<delete_buffer> id(name);
-    glNamedBufferStorage(name, static_cast<GLsizeiptr>(size), content, flags);
-    if (ran_out_of_memory()) {
-        return Error{fmt::format("GL buffer of {} bytes: the driver has no memory for it", size)};
-    }
-    return id;
-}
-
-} // namespace
-
 Result<Buffer> Buffer::create(std::span<const std::byte> content) {
-    auto id = make_storage(content.size(), content.data(), 0);
-    if (!id) {
-        return id.error();
-    }
-    Buffer buffer;
-    buffer.id_ = std::move(*id);
-    buffer.size_ = content.size();
-    return buffer;
+    return make(content.size(), content.data(), false);
 }
 
 Result<Buffer> Buffer::create_writable(std::size_t size) {
-    auto id = make_storage(size, nullptr, GL_DYNAMIC_STORAGE_BIT);
-    if (!id) {
-        return id.error();
-    }
+    return make(size, nullptr, true);
+}
+
+Result<Buffer> Buffer::make(std::size_t size, const std::byte* content, bool writable) {
+    check(size > 0, "empty buffer");
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
     Buffer buffer;
-    buffer.id_ = std::move(*id);
+    buffer.id_ = UniqueId<delete_buffer>(name);
     buffer.size_ = size;
-    buffer.writable_ = true;
+    buffer.writable_ = writable;
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(size), content,
+                         writable ? GL_DYNAMIC_STORAGE_BIT : 0U);
+    if (ran_out_of_memory()) {
+        return Error{fmt::format("GL buffer of {} bytes: the driver has no memory for it", size)};
+    }
     return buffer;
 }
 
@@ -56,10 +40,6 @@ void Buffer::write(std::size_t offset, std::span<const std::byte> bytes) {
 
 void Buffer::bind_uniform_block(unsigned int binding) const {
     glBindBufferBase(GL_UNIFORM_BUFFER, binding, id());
-}
-
-void Buffer::bind_storage_block(unsigned int binding) const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
 }
 
 } // namespace reljef::gl

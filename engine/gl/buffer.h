@@ -8,29 +8,29 @@
 
 namespace reljef::gl {
 
-/// Bytes in the driver's memory: vertices, indices, uniform or storage blocks. Default-constructed
-/// and moved-from ones hold nothing (id 0, size 0).
+/// A buffer object: vertices, indices or a uniform block. Default-constructed and moved-from
+/// buffers are empty (id 0, size 0).
 class Buffer {
 public:
     Buffer() = default;
 
-    /// Contents that never change. Fails when the driver has no memory. Precondition: not empty.
+    /// Immutable content. Fails when the driver has no memory. Precondition: not empty.
     static Result<Buffer> create(std::span<const std::byte> content);
-    /// `size` bytes of undefined content, to be filled with write(). Precondition: size > 0.
+    /// `size` bytes of undefined content for write(). Precondition: size > 0.
     static Result<Buffer> create_writable(std::size_t size);
 
-    /// Replaces the bytes from `offset` on. Precondition: made by create_writable(), and the bytes
-    /// fit.
+    /// Replaces the bytes from `offset` on. Precondition: made by create_writable(); the bytes fit.
     void write(std::size_t offset, std::span<const std::byte> bytes);
 
-    /// As the uniform or shader storage block of that binding point, for all programs.
+    /// Binds the buffer as a uniform block for all programs.
     void bind_uniform_block(unsigned int binding) const;
-    void bind_storage_block(unsigned int binding) const;
 
     [[nodiscard]] unsigned int id() const { return id_.get(); }
     [[nodiscard]] std::size_t size() const { return id() == 0U ? 0 : size_; }
 
 private:
+    static Result<Buffer> make(std::size_t size, const std::byte* content, bool writable);
+
     UniqueId<delete_buffer> id_;
     std::size_t size_ = 0;
     bool writable_ = false;

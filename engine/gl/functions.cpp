@@ -1,16 +1,11 @@
 #include "engine/gl/functions.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <glad/gl.h>
 
 namespace reljef::gl {
-
-namespace {
-
-constexpr int needed_major = 4;
-constexpr int needed_minor = 5;
-
-} // namespace
 
 Result<void> load_functions(GetProcAddress get_proc_address) {
     const int version = gladLoadGL(get_proc_address);
@@ -19,7 +14,7 @@ Result<void> load_functions(GetProcAddress get_proc_address) {
     }
     const int major = GLAD_VERSION_MAJOR(version);
     const int minor = GLAD_VERSION_MINOR(version);
-    if (major < needed_major || (major == needed_major && minor < needed_minor)) {
+    if (std::pair(major, minor) < std::pair(4, 5)) {
         return Error{fmt::format("found OpenGL {}.{} ({}), expected 4.5 core or newer", major,
                                  minor, reinterpret_cast<const char*>(glGetString(GL_VERSION)))};
     }

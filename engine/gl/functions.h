@@ -4,14 +4,12 @@
 
 namespace reljef::gl {
 
-/// What a context library offers to look up one GL function.
-using GlFunction = void (*)();
-using GetProcAddress = GlFunction (*)(const char* name);
+/// A context library's function that looks up one GL function.
+using GetProcAddress = void (*(*)(const char* name))();
 
-/// Loads the OpenGL 4.5 core functions of the context that is current on this thread. There is one
-/// table in the process (glad's): load again whenever another context becomes current, and draw
-/// with contexts of different libraries from one thread only. Fails when the context is older than
-/// 4.5; the sentence names its version.
+/// Loads the OpenGL 4.5 core functions of the current context. The process has one table (glad's):
+/// load again after another context becomes current, and use contexts of different libraries on
+/// one thread only. Fails with the found version when the context is older than 4.5.
 Result<void> load_functions(GetProcAddress get_proc_address);
 
 } // namespace reljef::gl

@@ -1,7 +1,5 @@
 #include "engine/gl/program.h"
 
-#include <array>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glad/gl.h>
@@ -16,42 +14,17 @@ namespace {
 
 using Shader = UniqueId<delete_shader>;
 
-GLenum shader_type(Stage stage) {
-    switch (stage) {
-    case Stage::vertex:
-        return GL_VERTEX_SHADER;
-    case Stage::tessellation_control:
-        return GL_TESS_CONTROL_SHADER;
-    case Stage::tessellation_evaluation:
-        return GL_TESS_EVALUATION_SHADER;
-    case Stage::geometry:
-        return GL_GEOMETRY_SHADER;
-    case Stage::fragment:
-        return GL_FRAGMENT_SHADER;
-    case Stage::compute:
-        return GL_COMPUTE_SHADER;
-    }
-    abort_with("unknown shader stage");
-}
-
-std::string shader_info_log(GLuint shader) {
+std::string info_log(GLuint object, PFNGLGETSHADERIVPROC get, PFNGLGETSHADERINFOLOGPROC get_log) {
     GLint length = 0;
-    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    get(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length), '\0');
-    glGetShaderInfoLog(shader, length, nullptr, log.data());
-    return log;
-}
-
-std::string program_info_log(GLuint program) {
-    GLint length = 0;
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(length), '\0');
-    glGetProgramInfoLog(program, length, nullptr, log.data());
+    get_log(object, length, nullptr, log.data());
     return log;
 }
 
 Result<Shader> compile(const StageSource& source) {
-    Shader shader(glCreateShader(shader_type(source.stage)));
+    Shader shader(
+        glCreateShader(source.stage == Stage::vertex ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER));
     const char* text = source.text.data();
     const auto length = static_cast<GLint>(source.text.size());
     glShaderSource(shader.get(), 1, &text, &length);
@@ -59,8 +32,9 @@ Result<Shader> compile(const StageSource& source) {
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_FALSE) {
-        return Error{fmt::format("shader {} does not compile: {}", source.name,
-                                 readable_log(source, shader_info_log(shader.get())))};
+        const std::string log = info_log(shader.get(), glGetShaderiv, glGetShaderInfoLog);
+        return Error{
+            fmt::format("shader {} does not compile: {}", source.name, readable_log(source, log))};
     }
     return shader;
 }
@@ -76,13 +50,9 @@ Result<void> link(GLuint program, std::span<const StageSource> stages) {
     for (const StageSource& stage : stages) {
         names.emplace_back(stage.name);
     }
-    return Error{fmt::format("shaders {} do not link: {}", fmt::join(names, " + "),
-                             readable_log({}, program_info_log(program)))};
-}
-
-GLuint block_index(GLuint program, std::string_view name) {
-    return program == 0U ? GL_INVALID_INDEX
-                         : glGetUniformBlockIndex(program, std::string(name).c_str());
+    const std::string log = info_log(program, glGetProgramiv, glGetProgramInfoLog);
+    return Error{
+        fmt::format("shaders {} do not link: {}", fmt::join(names, " + "), readable_log({}, log))};
 }
 
 } // namespace
@@ -118,10 +88,10 @@ void Program::read_uniform_locations() {
     glGetProgramInterfaceiv(id(), GL_UNIFORM, GL_MAX_NAME_LENGTH, &longest);
     std::string name(static_cast<std::size_t>(longest), '\0');
     for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
-        constexpr GLenum asked = GL_LOCATION;
+        constexpr GLenum property = GL_LOCATION;
         GLint found = -1;
         GLsizei length = 0;
-        glGetProgramResourceiv(id(), GL_UNIFORM, index, 1, &asked, 1, nullptr, &found);
+        glGetProgramResourceiv(id(), GL_UNIFORM, index, 1, &property, 1, nullptr, &found);
         glGetProgramResourceName(id(), GL_UNIFORM, index, longest, &length, name.data());
         std::string_view plain(name.data(), static_cast<std::size_t>(length));
         if (plain.ends_with("[0]")) {
@@ -140,10 +110,6 @@ void Program::use() const {
 int Program::location(std::string_view name) const {
     const auto found = locations_.find(name);
     return found == locations_.end() ? -1 : found->second;
-}
-
-bool Program::has_uniform(std::string_view name) const {
-    return location(name) >= 0;
 }
 
 void Program::write(int location, int value) {
@@ -179,7 +145,10 @@ void Program::write(int location, const glm::mat4& value) {
 }
 
 int Program::block_size(std::string_view name) const {
-    const GLuint block = block_index(id(), name);
+    if (id() == 0U) {
+        return 0;
+    }
+    const GLuint block = glGetUniformBlockIndex(id(), std::string(name).c_str());
     if (block == GL_INVALID_INDEX) {
         return 0;
     }

@@ -14,18 +14,10 @@
 
 namespace reljef::gl {
 
-enum class Stage {
-    vertex,
-    tessellation_control,
-    tessellation_evaluation,
-    geometry,
-    fragment,
-    compute
-};
+enum class Stage { vertex, fragment };
 
-/// One shader stage. `name` is the file that messages speak of. Where the text is joined from
-/// several files, each part starts with `#line LINE NUMBER`, where 0 is `name` and k is
-/// `included[k - 1]`.
+/// One shader stage. `name` is the file name in messages. In a text joined from several files each
+/// part starts with `#line LINE NUMBER`; number 0 is `name`, number k is `included[k - 1]`.
 struct StageSource {
     Stage stage = Stage::vertex;
     std::string name;
@@ -33,7 +25,7 @@ struct StageSource {
     std::vector<std::string> included{};
 };
 
-/// GLSL's name of a uniform's type. Other types do not compile.
+/// GLSL's name of a uniform's type.
 template <class T> struct GlslType;
 template <> struct GlslType<int> { static constexpr std::string_view name = "int"; };
 template <> struct GlslType<float> { static constexpr std::string_view name = "float"; };
@@ -44,7 +36,7 @@ template <> struct GlslType<glm::vec4> { static constexpr std::string_view name 
 template <> struct GlslType<glm::mat3> { static constexpr std::string_view name = "mat3"; };
 template <> struct GlslType<glm::mat4> { static constexpr std::string_view name = "mat4"; };
 
-/// A uniform outside blocks as shaders declare it: `uniform TYPE NAME;`.
+/// `uniform TYPE NAME;` outside blocks.
 struct UniformDeclaration {
     std::string_view name;
     std::string_view type;
@@ -56,23 +48,19 @@ template <class T> struct Uniform : UniformDeclaration {
         : UniformDeclaration{glsl_name, GlslType<T>::name} {}
 };
 
-/// A linked program. Default-constructed and moved-from ones hold nothing (id 0).
+/// A linked program. Default-constructed and moved-from programs are empty (id 0).
 class Program {
 public:
     Program() = default;
 
-    /// Fails with the file, the line and the driver's words when a stage does not compile, with all
-    /// file names when they do not link.
+    /// Fails with file, line and the driver's message when a stage does not compile, and with all
+    /// file names when the stages do not link.
     static Result<Program> create(std::span<const StageSource> stages);
 
     void use() const;
 
-    /// Whether the linked program uses that uniform (outside blocks): the driver drops unused ones.
-    /// Array names come without [0].
-    [[nodiscard]] bool has_uniform(std::string_view name) const;
-
-    /// Sets a uniform, whether or not the program is in use. Returns false, and does nothing, when
-    /// the program does not use it. A value of another type does not compile.
+    /// Sets a uniform; the program need not be in use. Returns false when the program does not use
+    /// the uniform.
     template <class T> bool set(const Uniform<T>& uniform, const T& value) {
         const int at = location(uniform.name);
         if (at >= 0) {
@@ -81,14 +69,12 @@ public:
         return at >= 0;
     }
 
-    /// Bytes that the program expects of a uniform block; 0 when it does not use it.
+    /// Size of a uniform block in bytes; 0 when the program does not use the block.
     [[nodiscard]] int block_size(std::string_view name) const;
 
     [[nodiscard]] unsigned int id() const { return id_.get(); }
 
 private:
-    using Locations = std::map<std::string, int, std::less<>>;
-
     [[nodiscard]] int location(std::string_view name) const;
     void read_uniform_locations();
     void write(int location, int value);
@@ -101,7 +87,7 @@ private:
     void write(int location, const glm::mat4& value);
 
     UniqueId<delete_program> id_;
-    Locations locations_;
+    std::map<std::string, int, std::less<>> locations_;
 };
 
 } // namespace reljef::gl

@@ -12,7 +12,7 @@ namespace reljef::gl {
 
 namespace {
 
-/// Where a message points to and what is left of it.
+/// A message and the place it points to.
 struct Located {
     std::size_t file = 0;
     int line = 0;

@@ -7,9 +7,9 @@
 
 namespace reljef::gl {
 
-/// The driver's compile log in one line, each message with the file and line of `source` in front:
-/// "surface.frag:12: error: …; …". Knows the notations of Mesa `0:12(5): …`, NVIDIA `0(12) : …` and
-/// `ERROR: 0:12: …`; other lines stay as they are.
+/// The driver's compile log on one line, each message after its file and line:
+/// "surface.frag:12: error: …; …". Parses the notations of Mesa `0:12(5): …`, NVIDIA `0(12) : …`
+/// and `ERROR: 0:12: …`; other lines stay unchanged.
 std::string readable_log(const StageSource& source, std::string_view log);
 
 } // namespace reljef::gl

@@ -43,23 +43,9 @@ void set_polygon_mode(PolygonMode mode) {
     glPolygonMode(GL_FRONT_AND_BACK, mode == PolygonMode::line ? GL_LINE : GL_FILL);
 }
 
-void set_polygon_offset(float slope_factor, float units) {
-    enable(GL_POLYGON_OFFSET_FILL, slope_factor != 0.0F || units != 0.0F);
-    glPolygonOffset(-slope_factor, -units);
-}
-
-void set_blending(bool on) {
-    enable(GL_BLEND, on);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-}
-
 void set_sample_shading(bool on) {
     enable(GL_SAMPLE_SHADING, on);
     glMinSampleShading(on ? 1.0F : 0.0F);
-}
-
-void set_viewport(glm::ivec2 origin, glm::ivec2 size) {
-    glViewport(origin.x, origin.y, size.x, size.y);
 }
 
 } // namespace reljef::gl

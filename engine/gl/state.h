@@ -1,7 +1,5 @@
 #pragma once
 
-#include <glm/vec2.hpp>
-
 namespace reljef::gl {
 
 /// With reversed depth the nearer fragment has the greater depth.
@@ -9,25 +7,17 @@ enum class DepthTest { off, greater, greater_or_equal };
 enum class Culling { none, back, front };
 enum class PolygonMode { fill, line };
 
-/// Clip depth runs from 1 (near) to 0 (far): glClipControl(lower left, 0..1), cleared to 0, tested
-/// with DepthTest::greater, written.
+/// Sets clip depth from 1 (near) to 0 (far), clear depth 0, DepthTest::greater and depth writing.
 void set_reversed_depth();
 
-/// Off also turns depth writing off, as GL does.
+/// DepthTest::off also turns depth writing off, as GL does.
 void set_depth_test(DepthTest test);
 void set_depth_writing(bool on);
 /// Front faces are counter-clockwise on the screen.
 void set_culling(Culling culling);
 void set_polygon_mode(PolygonMode mode);
-/// Moves filled polygons away from the eye (reversed depth), so that lines drawn over them show;
-/// 0, 0 turns it off.
-void set_polygon_offset(float slope_factor, float units);
-/// Straight alpha over what is there.
-void set_blending(bool on);
-/// Runs the fragment shader for each sample of a pixel, its inputs taken there, instead of once for
-/// the pixel. Changes nothing where a pixel has one sample.
+/// Runs the fragment shader once per sample, with its inputs at the sample, instead of once per
+/// pixel. No effect on a target with one sample per pixel.
 void set_sample_shading(bool on);
-/// Pixels, the origin at the lower left.
-void set_viewport(glm::ivec2 origin, glm::ivec2 size);
 
 } // namespace reljef::gl

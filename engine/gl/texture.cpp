@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
-#include "engine/gl/memory.h"
-#include "engine/gl/texture_format.h"
+#include "engine/gl/limits.h"
 
 namespace reljef::gl {
 
@@ -17,24 +16,26 @@ glm::ivec2 level_size(glm::ivec2 size, int level) {
     return {std::max(size.x >> level, 1), std::max(size.y >> level, 1)};
 }
 
+/// 1 + floor(log2(longer side)). Precondition: size > 0.
+int full_chain_levels(glm::ivec2 size) {
+    return static_cast<int>(std::bit_width(static_cast<unsigned int>(std::max(size.x, size.y))));
+}
+
 GLint minification(Filter filter, int levels) {
-    switch (filter) {
-    case Filter::nearest:
-        return levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST;
-    case Filter::bilinear:
-        return levels > 1 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR;
-    case Filter::trilinear:
-        return levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR;
+    if (levels == 1) {
+        return filter == Filter::nearest ? GL_NEAREST : GL_LINEAR;
     }
-    abort_with("unknown filter");
+    return filter == Filter::nearest    ? GL_NEAREST_MIPMAP_NEAREST
+           : filter == Filter::bilinear ? GL_LINEAR_MIPMAP_NEAREST
+                                        : GL_LINEAR_MIPMAP_LINEAR;
 }
 
 Result<void> check_size(glm::ivec2 size, int levels) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
+    GLint max = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max);
+    if (size.x < 1 || size.y < 1 || size.x > max || size.y > max) {
         return Error{fmt::format("GL texture of {} x {} texels: expected sides of 1 to {}", size.x,
-                                 size.y, most)};
+                                 size.y, max)};
     }
     if (levels < 0 || levels > full_chain_levels(size)) {
         return Error{
@@ -46,17 +47,26 @@ Result<void> check_size(glm::ivec2 size, int levels) {
 
 } // namespace
 
-std::string_view to_string(Format format) {
-    return traits(format).name;
-}
-
-std::size_t bytes_per_texel(Format format) {
-    return traits(format).bytes;
-}
-
-int full_chain_levels(glm::ivec2 size) {
-    check(size.x > 0 && size.y > 0, "mip levels of an empty texture");
-    return static_cast<int>(std::bit_width(static_cast<unsigned int>(std::max(size.x, size.y))));
+FormatTraits traits(Format format) {
+    switch (format) {
+    case Format::rgba8_srgb:
+        return {"rgba8_srgb", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::rgba8:
+        return {"rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::r32f:
+        return {"r32f", GL_R32F, GL_RED, GL_FLOAT, 4};
+    case Format::rg32f:
+        return {"rg32f", GL_RG32F, GL_RG, GL_FLOAT, 8};
+    case Format::rg16_snorm:
+        return {"rg16_snorm", GL_RG16_SNORM, GL_RG, GL_SHORT, 4};
+    case Format::rgba16_snorm:
+        return {"rgba16_snorm", GL_RGBA16_SNORM, GL_RGBA, GL_SHORT, 8};
+    case Format::rgba32f:
+        return {"rgba32f", GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+    case Format::depth32f:
+        return {"depth32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+    }
+    abort_with("unknown texture format");
 }
 
 Result<Texture2D> Texture2D::create(const TextureOptions& options) {
@@ -75,29 +85,21 @@ Result<Texture2D> Texture2D::create(const TextureOptions& options) {
                        options.size.y);
     if (ran_out_of_memory()) {
         return Error{fmt::format("GL texture of {} x {} {} texels: the driver has no memory for it",
-                                 options.size.x, options.size.y, to_string(options.format))};
+                                 options.size.x, options.size.y, traits(options.format).name)};
     }
-    texture.set_filter(options.filter);
-    texture.set_wrap(options.wrap);
+    texture.set_sampling(options.filter, options.wrap);
     return texture;
 }
 
 void Texture2D::upload(int level, std::span<const std::byte> texels) {
-    upload(level, {0, 0}, size(level), texels);
-}
-
-void Texture2D::upload(int level, glm::ivec2 offset, glm::ivec2 size,
-                       std::span<const std::byte> texels) {
-    const glm::ivec2 whole = this->size(level);
-    check(offset.x >= 0 && offset.y >= 0 && size.x > 0 && size.y > 0 &&
-              offset.x <= whole.x - size.x && offset.y <= whole.y - size.y,
-          "upload outside its texture");
-    check(texels.size() == static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                               bytes_per_texel(format_),
+    const glm::ivec2 area = size(level);
+    const FormatTraits format = traits(format_);
+    check(texels.size() ==
+              static_cast<std::size_t>(area.x) * static_cast<std::size_t>(area.y) * format.bytes,
           "upload of another byte count");
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(id(), level, offset.x, offset.y, size.x, size.y, traits(format_).layout,
-                        traits(format_).type, texels.data());
+    glTextureSubImage2D(id(), level, 0, 0, area.x, area.y, format.layout, format.type,
+                        texels.data());
 }
 
 void Texture2D::generate_mipmaps() {
@@ -106,13 +108,10 @@ void Texture2D::generate_mipmaps() {
     }
 }
 
-void Texture2D::set_filter(Filter filter) {
+void Texture2D::set_sampling(Filter filter, Wrap wrap) {
     glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, minification(filter, levels_));
     glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER,
                         filter == Filter::nearest ? GL_NEAREST : GL_LINEAR);
-}
-
-void Texture2D::set_wrap(Wrap wrap) {
     const GLint mode = wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
     glTextureParameteri(id(), GL_TEXTURE_WRAP_S, mode);
     glTextureParameteri(id(), GL_TEXTURE_WRAP_T, mode);
@@ -133,7 +132,7 @@ std::size_t Texture2D::bytes() const {
         const glm::ivec2 size = level_size(size_, level);
         sum += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     }
-    return sum * bytes_per_texel(format_);
+    return sum * traits(format_).bytes;
 }
 
 } // namespace reljef::gl

@@ -12,13 +12,11 @@
 
 namespace reljef::gl {
 
-/// Of a texel, in the driver's memory and in every upload.
+/// Texel format, in the driver's memory and in uploads.
 enum class Format {
-    rgba8_srgb,   ///< 4 bytes; r, g, b are decoded to linear when sampled, encoded when drawn to
+    rgba8_srgb,   ///< 4 bytes; r, g, b are decoded when sampled and encoded when drawn to
     rgba8,        ///< 4 bytes, [0,1]
-    r8,           ///< 1 byte, [0,1]
     r32f,         ///< 1 float
-    rg16f,        ///< 2 half floats (glm::packHalf)
     rg32f,        ///< 2 floats
     rg16_snorm,   ///< 2 int16, -32767..32767 for [-1,1]
     rgba16_snorm, ///< 4 int16, -32767..32767 for [-1,1]
@@ -26,16 +24,20 @@ enum class Format {
     depth32f      ///< 1 float, [0,1]
 };
 
-/// "rgba8_srgb", …
-std::string_view to_string(Format format);
-std::size_t bytes_per_texel(Format format);
+struct FormatTraits {
+    std::string_view name;
+    unsigned int internal = 0; ///< GL's sized internal format
+    unsigned int layout = 0;   ///< client texels: GL_RGBA, …
+    unsigned int type = 0;     ///< client components: GL_UNSIGNED_BYTE, …
+    std::size_t bytes = 0;     ///< per client texel
+};
+FormatTraits traits(Format format);
 
-/// How the mip levels, where there are several, join in: nearest and bilinear take the nearest
-/// level, trilinear blends two.
+/// nearest and bilinear use the nearest mip level, trilinear blends two.
 enum class Filter { nearest, bilinear, trilinear };
 enum class Wrap { clamp, repeat };
 
-/// For TextureOptions::levels: down to 1 by 1.
+/// TextureOptions::levels: all levels down to 1 by 1.
 inline constexpr int full_chain = 0;
 
 struct TextureOptions {
@@ -46,36 +48,29 @@ struct TextureOptions {
     Wrap wrap = Wrap::clamp;
 };
 
-/// Levels of a full chain: 1 + floor(log2(the longer side)). Precondition: size > 0.
-int full_chain_levels(glm::ivec2 size);
-
-/// A 2D texture of fixed size and format. Row 0 of an upload is the row at v = 0 (so a map's north
-/// row is at v = 0). Default-constructed and moved-from ones hold nothing (id 0).
+/// A 2D texture of fixed size and format. Row 0 of an upload is at v = 0. Default-constructed and
+/// moved-from textures are empty (id 0).
 class Texture2D {
 public:
     Texture2D() = default;
 
-    /// Undefined content. Fails when a side is not in 1..GL_MAX_TEXTURE_SIZE, when there are more
-    /// levels than the size has, or when the driver has no memory.
+    /// Undefined content. Fails when a side is not in 1..GL_MAX_TEXTURE_SIZE, the size has fewer
+    /// levels, or the driver has no memory.
     static Result<Texture2D> create(const TextureOptions& options);
 
-    /// Replaces one level; texels row after row without padding. Precondition: the level exists and
-    /// the byte count is exact.
+    /// Replaces one level; rows without padding. Precondition: the level exists; the byte count is
+    /// exact.
     void upload(int level, std::span<const std::byte> texels);
-    /// Replaces a rectangle of one level. Precondition: it lies inside, the byte count is exact.
-    void upload(int level, glm::ivec2 offset, glm::ivec2 size, std::span<const std::byte> texels);
-    /// Replaces one level by a grid of its size. Precondition: sizes and sizeof(T) match.
+    /// Precondition: the sizes and sizeof(T) match.
     template <class T> void upload(int level, const Grid<T>& texels) {
         check(glm::ivec2(texels.cols(), texels.rows()) == size(level), "grid of another size");
-        check(sizeof(T) == bytes_per_texel(format_), "grid of another texel format");
+        check(sizeof(T) == traits(format_).bytes, "grid of another texel format");
         upload(level, std::as_bytes(texels.samples()));
     }
-    /// Levels 1 and up from level 0 (a box filter; sRGB averages in linear light).
+    /// Makes levels 1 and up from level 0 (box filter; sRGB averages in linear light).
     void generate_mipmaps();
 
-    void set_filter(Filter filter);
-    void set_wrap(Wrap wrap);
-    /// What texture units sample: GLSL `layout(binding = unit)`.
+    /// GLSL `layout(binding = unit)`.
     void bind(unsigned int unit) const;
 
     [[nodiscard]] unsigned int id() const { return id_.get(); }
@@ -84,10 +79,12 @@ public:
     [[nodiscard]] glm::ivec2 size(int level) const;
     [[nodiscard]] int levels() const { return levels_; }
     [[nodiscard]] Format format() const { return format_; }
-    /// Of all levels, as uploaded.
+    /// Bytes of all levels, as uploaded.
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    void set_sampling(Filter filter, Wrap wrap);
+
     UniqueId<delete_texture> id_;
     glm::ivec2 size_{0, 0};
     int levels_ = 0;

@@ -7,9 +7,8 @@
 
 namespace reljef::gl {
 
-/// GPU time of the commands between begin() and end(). One may run at a time in a context. To
-/// measure every frame without waiting, use several in turn. Default-constructed and moved-from
-/// ones hold nothing (id 0).
+/// GPU time of the commands between begin() and end(). One query may run at a time in a context.
+/// Default-constructed and moved-from queries are empty (id 0).
 class TimerQuery {
 public:
     TimerQuery() = default;
@@ -17,7 +16,7 @@ public:
 
     void begin();
     void end();
-    /// The time of the last begin() … end(), once the GPU has done it; never waits.
+    /// The last measured time; empty until the GPU has finished. Never waits.
     [[nodiscard]] std::optional<std::chrono::nanoseconds> poll() const;
 
     [[nodiscard]] unsigned int id() const { return id_.get(); }

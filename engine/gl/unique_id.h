@@ -4,7 +4,6 @@
 
 namespace reljef::gl {
 
-/// Deletes the object of that name; 0 and a moved-from owner's 0 are no object.
 void delete_buffer(unsigned int id);
 void delete_texture(unsigned int id);
 void delete_renderbuffer(unsigned int id);
@@ -14,8 +13,8 @@ void delete_shader(unsigned int id);
 void delete_program(unsigned int id);
 void delete_query(unsigned int id);
 
-/// The name of a GL object, deleted with its owner; 0 is none. The object's context must be current
-/// when it is made, used and destroyed.
+/// Owns a GL object by its name; 0 is no object. The object's context must be current when the
+/// object is made, used and destroyed.
 template <void (*destroy)(unsigned int)> class UniqueId {
 public:
     UniqueId() = default;

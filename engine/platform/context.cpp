@@ -1,5 +1,7 @@
 #include "engine/platform/context.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,12 +16,14 @@ namespace reljef::platform {
 
 namespace {
 
-// GL itself keeps one current context a thread. Its owner is remembered, because the libraries do
-// not release each other's: GLX and EGL refuse a thread that has a context of the other.
+// The libraries do not release each other's contexts: GLX and EGL refuse a thread on which the
+// other has a current context.
 thread_local Context* current_context = nullptr;
 
-/// The one that was current, for later.
-Context* leave_current() {
+constexpr std::array<std::string_view, 3> kind_names{"osmesa", "egl", "glfw"}; // by ContextKind
+
+/// Returns the context that was current.
+Context* release_current() {
     Context* previous = current_context;
     if (previous != nullptr) {
         previous->release();
@@ -46,19 +50,14 @@ MadeContext create(ContextKind kind, const ContextOptions& options) {
         return create_osmesa_context();
     case ContextKind::egl:
         return create_egl_context(options);
-    case ContextKind::glfw: {
-        auto context = create_glfw_context(options);
-        if (!context) {
-            return context.error();
-        }
-        return std::unique_ptr<Context>(std::move(*context));
-    }
+    case ContextKind::glfw:
+        return create_glfw_context(options);
     }
     abort_with("unknown kind of context");
 }
 
-/// Makes a context and makes it current; on failure the one that was current is so again. None may
-/// be current meanwhile: GLFW makes a new window's context current for a moment.
+/// Makes a context and makes it current; on failure makes `previous` current again. Precondition:
+/// no context is current, because GLFW makes a new window's context current for a moment.
 template <class Maker> MadeContext make_with(Context* previous, const Maker& maker) {
     MadeContext made = maker();
     if (made) {
@@ -77,24 +76,14 @@ template <class Maker> MadeContext make_with(Context* previous, const Maker& mak
 } // namespace
 
 std::string_view to_string(ContextKind kind) {
-    switch (kind) {
-    case ContextKind::osmesa:
-        return "osmesa";
-    case ContextKind::egl:
-        return "egl";
-    case ContextKind::glfw:
-        return "glfw";
-    }
-    abort_with("unknown kind of context");
+    return kind_names[static_cast<std::size_t>(kind)];
 }
 
 std::optional<ContextKind> context_kind_from_string(std::string_view text) {
-    for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl, ContextKind::glfw}) {
-        if (text == to_string(kind)) {
-            return kind;
-        }
-    }
-    return std::nullopt;
+    const auto* const found = std::find(kind_names.begin(), kind_names.end(), text);
+    return found == kind_names.end()
+               ? std::nullopt
+               : std::optional(static_cast<ContextKind>(found - kind_names.begin()));
 }
 
 bool Context::is_current() const {
@@ -109,7 +98,7 @@ void Context::release() {
 }
 
 Result<void> Context::make_current() {
-    leave_current();
+    release_current();
     if (const auto bound = bind(); !bound) {
         return in_context(kind(), bound.error());
     }
@@ -119,23 +108,20 @@ Result<void> Context::make_current() {
         return in_context(
             kind(), Error{fmt::format("{}; {}", loaded.error().message, newer_driver(kind()))});
     }
-    const gl::Limits limits = gl::query_limits();
-    renderer_ = limits.renderer;
-    version_ = limits.version;
+    gl::Limits limits = gl::query_limits();
+    renderer_ = std::move(limits.renderer);
+    version_ = std::move(limits.version);
     return {};
 }
 
 bool Context::is_software() const {
-    for (const std::string_view rasterizer : {"llvmpipe", "softpipe", "swrast", "SWR"}) {
-        if (renderer_.find(rasterizer) != std::string::npos) {
-            return true;
-        }
-    }
-    return false;
+    constexpr std::array rasterizers{"llvmpipe", "softpipe", "swrast", "SWR"};
+    return std::any_of(rasterizers.begin(), rasterizers.end(),
+                       [&](const char* name) { return renderer_.find(name) != std::string::npos; });
 }
 
 Result<std::unique_ptr<Context>> make_context(ContextKind kind, const ContextOptions& options) {
-    return make_with(leave_current(), [&]() -> MadeContext {
+    return make_with(release_current(), [&]() -> MadeContext {
         auto made = create(kind, options);
         if (!made) {
             return in_context(kind, made.error());
@@ -145,7 +131,7 @@ Result<std::unique_ptr<Context>> make_context(ContextKind kind, const ContextOpt
 }
 
 Result<std::unique_ptr<Context>> make_headless_context(const ContextOptions& options) {
-    auto egl = make_with(leave_current(),
+    auto egl = make_with(release_current(),
                          [&] { return create_egl_context(options, EglDevices::hardware); });
     if (egl && !(*egl)->is_software()) {
         return egl;

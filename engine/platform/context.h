@@ -19,15 +19,15 @@ std::string_view to_string(ContextKind kind);
 std::optional<ContextKind> context_kind_from_string(std::string_view text);
 
 struct ContextOptions {
-    bool debug = false; ///< a debug context, see gl::DebugLog
-    glm::ivec2 size{1024,
-                    768}; ///< of the window; headless contexts draw to framebuffer objects only
-    std::string title = "reljef"; ///< of the window
-    bool visible = true;          ///< of the window
+    bool debug = false; ///< a GL debug context
+    // Of the window; headless contexts draw to framebuffer objects only.
+    glm::ivec2 size{1024, 768}; ///< screen units
+    std::string title = "reljef";
+    bool visible = true;
 };
 
-/// A current OpenGL 4.5 core context. Create, use and destroy on one thread; those of kind glfw on
-/// the main thread. Its GL objects must be gone before it is.
+/// An OpenGL 4.5 core context. Create, use and destroy it on one thread; glfw: on the main thread.
+/// Destroy its GL objects first.
 class Context {
 public:
     virtual ~Context() = default;
@@ -35,8 +35,8 @@ public:
     Context& operator=(const Context&) = delete;
 
     [[nodiscard]] virtual ContextKind kind() const = 0;
-    /// Makes this context current on the calling thread and loads its functions; needed only when
-    /// another one was made, made current or destroyed since.
+    /// Makes this context current on the calling thread and loads its functions. Needed only after
+    /// another context was made, made current or destroyed.
     Result<void> make_current();
     [[nodiscard]] bool is_current() const;
     /// Leaves the thread without a context if this one is current.
@@ -51,7 +51,7 @@ protected:
     Context() = default;
 
 private:
-    virtual Result<void> bind() = 0; ///< while no other one is current
+    virtual Result<void> bind() = 0; ///< precondition: no other context is current
     virtual void unbind() = 0;
     [[nodiscard]] virtual gl::GetProcAddress get_proc_address() const = 0;
 
@@ -59,11 +59,11 @@ private:
     std::string version_;
 };
 
-/// Makes a context of the kind and makes it current. Fails with one sentence: which context, which
-/// version was found, what to install.
+/// Makes a context and makes it current. Fails with the kind, the found version and the packages to
+/// install.
 Result<std::unique_ptr<Context>> make_context(ContextKind kind, const ContextOptions& options = {});
 
-/// For rendering without a window: EGL where it finds a hardware GPU, else OSMesa.
+/// A context without a window: EGL on a hardware GPU if there is one, else OSMesa.
 Result<std::unique_ptr<Context>> make_headless_context(const ContextOptions& options = {});
 
 } // namespace reljef::platform

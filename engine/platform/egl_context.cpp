@@ -26,9 +26,9 @@ EGLContext create(const Egl& egl, EGLDisplay display, int major, int minor, bool
     return egl.create_context(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
 }
 
-/// A context of that display, as new as possible up to what is needed; or why there is none.
+/// OpenGL 4.5, else 3.2, so that make_current() can report the version.
 Result<EGLContext> create(const Egl& egl, EGLDisplay display, bool debug) {
-    // Displays belong to the process and are shared by their users: they are never terminated.
+    // All users of the process share a display: it is never terminated.
     if (egl.initialize(display, nullptr, nullptr) == EGL_FALSE) {
         return Error{fmt::format("eglInitialize failed with 0x{:04x}", egl.get_error())};
     }
@@ -54,10 +54,8 @@ Result<EGLContext> create(const Egl& egl, EGLDisplay display, bool debug) {
 
 class EglContext final : public Context {
 public:
-    EglContext(Egl egl, EGLDisplay display, EGLContext context)
-        : egl_(std::move(egl)), display_(display), context_(context) {}
-    EglContext(const EglContext&) = delete;
-    EglContext& operator=(const EglContext&) = delete;
+    EglContext(const Egl& egl, EGLDisplay display, EGLContext context)
+        : egl_(egl), display_(display), context_(context) {}
     ~EglContext() override {
         release();
         egl_.destroy_context(display_, context_);
@@ -91,7 +89,7 @@ private:
 
 Result<std::unique_ptr<Context>> create_egl_context(const ContextOptions& options,
                                                     EglDevices devices) {
-    auto egl = open_egl();
+    const auto egl = open_egl();
     if (!egl) {
         return egl.error();
     }
@@ -103,7 +101,7 @@ Result<std::unique_ptr<Context>> create_egl_context(const ContextOptions& option
         const auto context = create(*egl, candidate.display, options.debug);
         if (context) {
             return std::unique_ptr<Context>(
-                std::make_unique<EglContext>(std::move(*egl), candidate.display, *context));
+                std::make_unique<EglContext>(*egl, candidate.display, *context));
         }
         why = context.error().message;
     }

@@ -8,11 +8,11 @@ namespace reljef::platform {
 
 enum class EglDevices {
     all,
-    hardware ///< no display that is known to be drawn on the CPU
+    hardware ///< without known CPU rasterizers
 };
 
-/// A context without surfaces on the first EGL display that gives one, not current yet. It may be
-/// older than 4.5 where there is nothing better; make_current() then says so.
+/// A context without surfaces on the first EGL display that has one, not current yet. It may be
+/// older than 4.5; then make_current() fails.
 Result<std::unique_ptr<Context>> create_egl_context(const ContextOptions& options,
                                                     EglDevices devices = EglDevices::all);
 

@@ -2,41 +2,16 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <type_traits>
 
 #include <fmt/format.h>
 
+#include "engine/platform/shared_library.h"
+
 namespace reljef::platform {
 
 namespace {
-
-bool load_core(Egl& egl) {
-    const auto find = [&egl](auto& function, const char* name) {
-        function = egl.library.function<std::remove_reference_t<decltype(function)>>(name);
-        return function != nullptr;
-    };
-    return find(egl.get_proc_address, "eglGetProcAddress") &&
-           find(egl.query_string, "eglQueryString") && find(egl.get_error, "eglGetError") &&
-           find(egl.initialize, "eglInitialize") && find(egl.bind_api, "eglBindAPI") &&
-           find(egl.create_context, "eglCreateContext") &&
-           find(egl.destroy_context, "eglDestroyContext") &&
-           find(egl.make_current, "eglMakeCurrent");
-}
-
-void load_extensions(Egl& egl) {
-    const auto find = [&egl](auto& function, const char* name) {
-        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
-            egl.get_proc_address(name));
-    };
-    const char* client = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (has_extension(client, "EGL_EXT_platform_base")) {
-        find(egl.get_platform_display, "eglGetPlatformDisplayEXT");
-    }
-    if (has_extension(client, "EGL_EXT_platform_device")) {
-        find(egl.query_devices, "eglQueryDevicesEXT");
-        find(egl.query_device_string, "eglQueryDeviceStringEXT");
-    }
-}
 
 std::vector<EGLDeviceEXT> devices(const Egl& egl) {
     EGLint count = 0;
@@ -61,29 +36,38 @@ bool is_software(const Egl& egl, EGLDeviceEXT device) {
 } // namespace
 
 bool has_extension(const char* list, std::string_view name) {
-    std::string_view rest = list == nullptr ? std::string_view() : std::string_view(list);
-    while (!rest.empty()) {
-        const std::size_t end = rest.find(' ');
-        if (rest.substr(0, end) == name) {
-            return true;
-        }
-        rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    }
-    return false;
+    const std::string padded = fmt::format(" {} ", list == nullptr ? "" : list);
+    return padded.find(fmt::format(" {} ", name)) != std::string::npos;
 }
 
 Result<Egl> open_egl() {
     constexpr std::array<const char*, 2> names{"libEGL.so.1", "libEGL.so"};
-    auto library = SharedLibrary::open(names);
+    const auto library = open_library(names);
     if (!library) {
         return Error{fmt::format("{}; install the packages libegl1 and libegl-mesa0",
                                  library.error().message)};
     }
-    Egl egl{std::move(*library)};
-    if (!load_core(egl)) {
+    Egl egl;
+    const bool has_core = load(*library, egl.get_proc_address, "eglGetProcAddress") &&
+                          load(*library, egl.query_string, "eglQueryString") &&
+                          load(*library, egl.get_error, "eglGetError") &&
+                          load(*library, egl.initialize, "eglInitialize") &&
+                          load(*library, egl.bind_api, "eglBindAPI") &&
+                          load(*library, egl.create_context, "eglCreateContext") &&
+                          load(*library, egl.destroy_context, "eglDestroyContext") &&
+                          load(*library, egl.make_current, "eglMakeCurrent");
+    if (!has_core) {
         return Error{"libEGL lacks core functions, expected EGL 1.5; install the package libegl1"};
     }
-    load_extensions(egl);
+    const auto load_extension = [&](auto& function, const char* extension, const char* name) {
+        if (has_extension(egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS), extension)) {
+            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
+                egl.get_proc_address(name));
+        }
+    };
+    load_extension(egl.get_platform_display, "EGL_EXT_platform_base", "eglGetPlatformDisplayEXT");
+    load_extension(egl.query_devices, "EGL_EXT_platform_device", "eglQueryDevicesEXT");
+    load_extension(egl.query_device_string, "EGL_EXT_platform_device", "eglQueryDeviceStringEXT");
     if (egl.get_platform_display == nullptr) {
         return Error{"libEGL lacks EGL_EXT_platform_base; install the packages libegl1 and "
                      "libegl-mesa0, or the GPU's own driver"};

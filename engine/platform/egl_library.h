@@ -10,13 +10,11 @@
 #include <EGL/eglext.h>
 
 #include "engine/core/result.h"
-#include "engine/platform/shared_library.h"
 
 namespace reljef::platform {
 
-/// libEGL's functions, by their C declarations.
+/// libEGL's functions. The library stays loaded.
 struct Egl {
-    SharedLibrary library;
     PFNEGLGETPROCADDRESSPROC get_proc_address = nullptr;
     PFNEGLQUERYSTRINGPROC query_string = nullptr;
     PFNEGLGETERRORPROC get_error = nullptr;
@@ -30,20 +28,19 @@ struct Egl {
     PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = nullptr; ///< may be null
 };
 
-/// Opens libEGL.so.1. Fails naming the package to install.
+/// Loads libEGL.so.1. Fails with the packages to install.
 Result<Egl> open_egl();
 
-/// Whether a list of extensions, separated by blanks, holds that one. `list` may be null.
+/// Whether a blank-separated list of extensions contains `name`. `list` may be null.
 bool has_extension(const char* list, std::string_view name);
 
 /// A display without a window system.
 struct EglCandidate {
     EGLDisplay display = EGL_NO_DISPLAY;
-    bool hardware = false; ///< not known to be a CPU rasterizer
+    bool hardware = false; ///< no known CPU rasterizer
 };
 
-/// The displays worth trying, the best first: GPUs, then Mesa's surfaceless platform, then its
-/// software device. None is initialized.
+/// Uninitialized displays, best first: GPUs, Mesa's surfaceless platform, its software device.
 std::vector<EglCandidate> egl_candidates(const Egl& egl);
 
 } // namespace reljef::platform

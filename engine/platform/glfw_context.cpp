@@ -8,7 +8,7 @@ namespace reljef::platform {
 
 namespace {
 
-constexpr int largest_side = 16384; // X servers end the program that asks for much more
+constexpr int max_side = 16384; // X servers kill programs that ask for much more
 
 std::string glfw_error() {
     const char* text = nullptr;
@@ -23,7 +23,7 @@ GLFWwindow* create(const ContextOptions& options, int major, int minor) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
-    // Depth lives in framebuffer objects.
+    // Framebuffer objects have the depth.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     return glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr,
@@ -33,8 +33,8 @@ GLFWwindow* create(const ContextOptions& options, int major, int minor) {
 } // namespace
 
 Result<std::shared_ptr<GlfwLibrary>> GlfwLibrary::acquire() {
-    static std::weak_ptr<GlfwLibrary> living;
-    if (auto library = living.lock()) {
+    static std::weak_ptr<GlfwLibrary> shared;
+    if (auto library = shared.lock()) {
         return library;
     }
     if (glfwInit() == GLFW_FALSE) {
@@ -42,7 +42,7 @@ Result<std::shared_ptr<GlfwLibrary>> GlfwLibrary::acquire() {
             fmt::format("no display ({}); set DISPLAY or use --context osmesa", glfw_error())};
     }
     std::shared_ptr<GlfwLibrary> library(new GlfwLibrary);
-    living = library;
+    shared = library;
     return library;
 }
 
@@ -74,11 +74,11 @@ gl::GetProcAddress GlfwContext::get_proc_address() const {
     return glfwGetProcAddress;
 }
 
-Result<std::unique_ptr<GlfwContext>> create_glfw_context(const ContextOptions& options) {
+Result<std::unique_ptr<Context>> create_glfw_context(const ContextOptions& options) {
     const glm::ivec2 size = options.size;
-    if (size.x < 1 || size.y < 1 || size.x > largest_side || size.y > largest_side) {
-        return Error{fmt::format("window of {} x {}: expected sides of 1 to {}", size.x, size.y,
-                                 largest_side)};
+    if (size.x < 1 || size.y < 1 || size.x > max_side || size.y > max_side) {
+        return Error{
+            fmt::format("window of {} x {}: expected sides of 1 to {}", size.x, size.y, max_side)};
     }
     auto library = GlfwLibrary::acquire();
     if (!library) {
@@ -93,7 +93,7 @@ Result<std::unique_ptr<GlfwContext>> create_glfw_context(const ContextOptions& o
                                  "the package libgl1-mesa-dri or the GPU's own driver",
                                  glfw_error())};
     }
-    return std::make_unique<GlfwContext>(std::move(*library), window);
+    return std::unique_ptr<Context>(std::make_unique<GlfwContext>(std::move(*library), window));
 }
 
 } // namespace reljef::platform

@@ -8,27 +8,24 @@ struct GLFWwindow;
 
 namespace reljef::platform {
 
-/// Keeps GLFW initialized as long as one of them lives. GLFW is one per process and belongs to the
-/// main thread.
+/// Keeps GLFW initialized. GLFW is one per process and belongs to the main thread.
 class GlfwLibrary {
 public:
     GlfwLibrary(const GlfwLibrary&) = delete;
     GlfwLibrary& operator=(const GlfwLibrary&) = delete;
     ~GlfwLibrary();
 
-    /// Fails when there is no display.
+    /// Fails without a display.
     static Result<std::shared_ptr<GlfwLibrary>> acquire();
 
 private:
     GlfwLibrary() = default;
 };
 
-/// The context of a GLFW window, and the window.
+/// A GLFW window and its context.
 class GlfwContext final : public Context {
 public:
     GlfwContext(std::shared_ptr<GlfwLibrary> library, GLFWwindow* window);
-    GlfwContext(const GlfwContext&) = delete;
-    GlfwContext& operator=(const GlfwContext&) = delete;
     ~GlfwContext() override;
 
     [[nodiscard]] ContextKind kind() const override { return ContextKind::glfw; }
@@ -43,8 +40,7 @@ private:
     GLFWwindow* window_;
 };
 
-/// A window with a context, not current yet. It may be older than 4.5 where there is nothing
-/// better; make_current() then says so.
-Result<std::unique_ptr<GlfwContext>> create_glfw_context(const ContextOptions& options);
+/// A GlfwContext, not current yet. It may be older than 4.5; then make_current() fails.
+Result<std::unique_ptr<Context>> create_glfw_context(const ContextOptions& options);
 
 } // namespace reljef::platform

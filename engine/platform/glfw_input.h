@@ -4,7 +4,7 @@
 
 namespace reljef::platform {
 
-/// GLFW's numbers (GLFW_KEY_…, GLFW_MOUSE_BUTTON_…, GLFW_MOD_…) as the engine's events say it.
+/// Convert GLFW_KEY_…, GLFW_MOUSE_BUTTON_… and GLFW_MOD_… values.
 Key key_from_glfw(int key);
 MouseButton mouse_button_from_glfw(int button);
 Modifiers modifiers_from_glfw(int bits);

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include <fmt/format.h>
-// The loader's header first: GL/osmesa.h includes GL/gl.h, which glad then keeps out.
+// Before GL/osmesa.h, which includes GL/gl.h: glad blocks that header.
 #include <glad/gl.h>
 
 #include <GL/osmesa.h>
@@ -15,9 +15,7 @@ namespace reljef::platform {
 
 namespace {
 
-/// The few functions that are needed, by their C declarations.
 struct OsMesa {
-    SharedLibrary library;
     decltype(&OSMesaCreateContextAttribs) create_context = nullptr;
     decltype(&OSMesaMakeCurrent) make_current = nullptr;
     decltype(&OSMesaDestroyContext) destroy_context = nullptr;
@@ -26,26 +24,22 @@ struct OsMesa {
 
 Result<OsMesa> open_osmesa() {
     constexpr std::array<const char*, 3> names{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
-    auto library = SharedLibrary::open(names);
+    const auto library = open_library(names);
     if (!library) {
         return Error{fmt::format("{}; install the package libosmesa6", library.error().message)};
     }
-    OsMesa mesa{std::move(*library)};
-    const auto find = [&mesa](auto& function, const char* name) {
-        function = mesa.library.function<std::remove_reference_t<decltype(function)>>(name);
-        return function != nullptr;
-    };
-    if (find(mesa.create_context, "OSMesaCreateContextAttribs") &&
-        find(mesa.make_current, "OSMesaMakeCurrent") &&
-        find(mesa.destroy_context, "OSMesaDestroyContext") &&
-        find(mesa.get_proc_address, "OSMesaGetProcAddress")) {
+    OsMesa mesa;
+    if (load(*library, mesa.create_context, "OSMesaCreateContextAttribs") &&
+        load(*library, mesa.make_current, "OSMesaMakeCurrent") &&
+        load(*library, mesa.destroy_context, "OSMesaDestroyContext") &&
+        load(*library, mesa.get_proc_address, "OSMesaGetProcAddress")) {
         return mesa;
     }
     return Error{"libOSMesa has no OSMesaCreateContextAttribs, expected Mesa 13 or newer; install "
                  "the package libosmesa6"};
 }
 
-/// The context's own buffer, of which nothing is seen: drawing goes to framebuffer objects.
+/// The context needs a buffer; drawing goes to framebuffer objects.
 constexpr int buffer_side = 4;
 
 OSMesaContext create(const OsMesa& mesa, int major, int minor) {
@@ -63,9 +57,7 @@ OSMesaContext create(const OsMesa& mesa, int major, int minor) {
 
 class OsMesaContext final : public Context {
 public:
-    OsMesaContext(OsMesa mesa, OSMesaContext context) : mesa_(std::move(mesa)), context_(context) {}
-    OsMesaContext(const OsMesaContext&) = delete;
-    OsMesaContext& operator=(const OsMesaContext&) = delete;
+    OsMesaContext(const OsMesa& mesa, OSMesaContext context) : mesa_(mesa), context_(context) {}
     ~OsMesaContext() override {
         release();
         mesa_.destroy_context(context_);
@@ -96,7 +88,7 @@ private:
 } // namespace
 
 Result<std::unique_ptr<Context>> create_osmesa_context() {
-    auto mesa = open_osmesa();
+    const auto mesa = open_osmesa();
     if (!mesa) {
         return mesa.error();
     }
@@ -108,7 +100,7 @@ Result<std::unique_ptr<Context>> create_osmesa_context() {
         return Error{"the library gives neither OpenGL 4.5 nor 3.2 core; install the package "
                      "libosmesa6"};
     }
-    return std::unique_ptr<Context>(std::make_unique<OsMesaContext>(std::move(*mesa), context));
+    return std::unique_ptr<Context>(std::make_unique<OsMesaContext>(*mesa, context));
 }
 
 } // namespace reljef::platform

@@ -2,37 +2,20 @@
 
 #include <string>
 
-#include <dlfcn.h>
-
 namespace reljef::platform {
 
-namespace {
-
-std::string loader_error() {
-    const char* text = dlerror();
-    return text == nullptr ? "unknown reason" : text;
-}
-
-} // namespace
-
-Result<SharedLibrary> SharedLibrary::open(std::span<const char* const> names) {
-    std::string why;
+Result<void*> open_library(std::span<const char* const> names) {
+    std::string reason;
     for (const char* name : names) {
-        if (void* handle = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE); handle != nullptr) {
-            return SharedLibrary(handle);
+        if (void* library = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
+            return library;
         }
-        const std::string reason = loader_error();
-        why = why.empty() ? reason : why;
+        const char* text = dlerror();
+        if (reason.empty()) {
+            reason = text == nullptr ? "unknown reason" : text;
+        }
     }
-    return Error{why};
-}
-
-void SharedLibrary::Close::operator()(void* handle) const {
-    dlclose(handle);
-}
-
-void* SharedLibrary::address(const char* name) const {
-    return dlsym(handle_.get(), name);
+    return Error{reason};
 }
 
 } // namespace reljef::platform

@@ -20,7 +20,7 @@ glm::ivec2 size_in_pixels(GLFWwindow* window) {
     return size;
 }
 
-/// A position in GLFW's screen units as framebuffer pixels.
+/// From GLFW's screen units to framebuffer pixels.
 glm::dvec2 in_pixels(GLFWwindow* window, double x, double y) {
     glm::ivec2 units{0, 0};
     glfwGetWindowSize(window, &units.x, &units.y);
@@ -62,7 +62,7 @@ void on_resize(GLFWwindow* window, int width, int height) {
     queue(window).emplace_back(ResizeEvent{{width, height}});
 }
 
-// What was shown is lost where the window was covered or hidden.
+// A window that was covered or hidden loses its content.
 void on_refresh(GLFWwindow* window) {
     queue(window).emplace_back(ResizeEvent{size_in_pixels(window)});
 }
@@ -77,7 +77,7 @@ void on_focus(GLFWwindow* window, int focused) {
 
 class GlfwWindow final : public Window {
 public:
-    /// Precondition: a context of kind glfw.
+    /// Precondition: a GlfwContext.
     explicit GlfwWindow(std::unique_ptr<Context> context)
         : context_(std::move(context)), window_(window_of(*context_)) {
         glfwSetWindowUserPointer(window_, &events_);
@@ -97,17 +97,13 @@ public:
     [[nodiscard]] bool should_close() const override {
         return glfwWindowShouldClose(window_) == GLFW_TRUE;
     }
-    void request_close() override { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
-    std::vector<Event> poll_events() override {
-        glfwPollEvents();
-        return std::exchange(events_, {});
-    }
     std::vector<Event> wait_events(std::chrono::milliseconds timeout) override {
         if (events_.empty() && timeout.count() > 0) {
             glfwWaitEventsTimeout(std::chrono::duration<double>(timeout).count());
         }
-        return poll_events();
+        glfwPollEvents();
+        return std::exchange(events_, {});
     }
 
     [[nodiscard]] glm::ivec2 framebuffer_size() const override { return size_in_pixels(window_); }
@@ -115,7 +111,6 @@ public:
         glfwSetWindowTitle(window_, title.c_str());
     }
     void swap_buffers() override { glfwSwapBuffers(window_); }
-    void set_vsync(bool on) override { glfwSwapInterval(on ? 1 : 0); }
     void capture_mouse(bool on) override {
         glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
     }

@@ -8,7 +8,7 @@
 namespace reljef::gl {
 namespace {
 
-GlFunction nothing(const char* /*name*/) {
+auto nothing(const char* /*name*/) -> void (*)() {
     return nullptr;
 }
 

@@ -2,12 +2,36 @@
 
 #include <array>
 
+#include <glad/gl.h>
 #include <gmock/gmock.h>
 
 #include "engine/gl/draw.h"
 #include "tests/support/test_context.h"
 
 namespace reljef::test {
+
+namespace {
+
+void GLAD_API_PTR collect(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity,
+                          GLsizei /*length*/, const GLchar* text, const void* user) {
+    if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH ||
+        severity == GL_DEBUG_SEVERITY_MEDIUM) {
+        static_cast<std::vector<std::string>*>(const_cast<void*>(user))->emplace_back(text);
+    }
+}
+
+} // namespace
+
+DebugLog::DebugLog() {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+    glDebugMessageCallback(collect, &problems_);
+}
+
+DebugLog::~DebugLog() {
+    glDebugMessageCallback(nullptr, nullptr);
+}
 
 void GlTest::SetUp() {
     const auto kind = platform::context_kind_from_string(context_name());
@@ -32,8 +56,20 @@ std::vector<std::string> GlTest::take_problems() {
     return problems;
 }
 
+Grid<float> read_depth(const gl::Framebuffer& framebuffer) {
+    const glm::ivec2 size = framebuffer.size();
+    Grid<float> depth(size.x, size.y);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.id());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    for (int row = 0; row < size.y; ++row) {
+        glReadPixels(0, size.y - 1 - row, size.x, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                     depth.row(row).data());
+    }
+    return depth;
+}
+
 gl::Framebuffer float_target(glm::ivec2 size) {
-    return must(gl::Framebuffer::create({.size = size, .colors = {gl::Format::rgba32f}}));
+    return must(gl::Framebuffer::create({.size = size, .color = gl::Format::rgba32f}));
 }
 
 gl::Program cover_program(const std::string& fragment_body) {
@@ -55,7 +91,7 @@ void cover(const gl::Program& program) {
     const gl::VertexArray none = gl::VertexArray::create();
     none.bind();
     program.use();
-    gl::draw_arrays(gl::Primitive::triangles, 0, 3);
+    gl::draw_arrays(gl::Primitive::triangles, 3);
 }
 
 } // namespace reljef::test

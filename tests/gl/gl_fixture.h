@@ -3,19 +3,35 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/core/grid.h"
-#include "engine/gl/debug_log.h"
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/program.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/platform/context.h"
 
 namespace reljef::test {
+
+/// Collects the current context's errors and messages above low severity. Needs a debug context;
+/// destroy while it is current.
+class DebugLog {
+public:
+    DebugLog();
+    DebugLog(const DebugLog&) = delete;
+    DebugLog& operator=(const DebugLog&) = delete;
+    ~DebugLog();
+
+    [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
+    void clear() { problems_.clear(); }
+
+private:
+    std::vector<std::string> problems_;
+};
 
 /// A test with a context of its own (test_context.h); it fails when the driver reports an error or
 /// anything above low severity.
@@ -29,7 +45,7 @@ protected:
 
 private:
     std::unique_ptr<platform::Context> context_;
-    std::optional<gl::DebugLog> log_;
+    std::optional<DebugLog> log_;
 };
 
 /// Fails the test and aborts when there is no value.
@@ -39,6 +55,9 @@ template <class T> T must(Result<T> result) {
     }
     return std::move(result).value();
 }
+
+/// The depth values, row 0 at the top.
+Grid<float> read_depth(const gl::Framebuffer& framebuffer);
 
 /// A float target of that size with depth.
 gl::Framebuffer float_target(glm::ivec2 size);

@@ -31,7 +31,7 @@ TEST_F(ReadPixelsGlTest, row_0_is_the_top_and_col_0_the_left) {
 
 TEST_F(ReadPixelsGlTest, color_keeps_channels_in_order) {
     const Framebuffer framebuffer =
-        must(Framebuffer::create({.size = {3, 2}, .colors = {Format::rgba8}}));
+        must(Framebuffer::create({.size = {3, 2}, .color = Format::rgba8}));
     const Program program = test::cover_program(
         "void main() { color = vec4(10.0, 20.0, 30.0, 40.0) / 255.0;\n"
         "              if (gl_FragCoord.y > 1.0) { color = vec4(1.0, 0.0, 0.0, 1.0); } }");
@@ -50,21 +50,21 @@ TEST_F(ReadPixelsGlTest, depth_of_a_slope_has_row_0_at_the_top) {
     framebuffer.bind();
     framebuffer.clear_depth();
     test::cover(program);
-    const Grid<float> depth = read_depth(framebuffer);
+    const Grid<float> depth = test::read_depth(framebuffer);
     EXPECT_EQ(depth(0, 0), 3.5F / 8.0F);
     EXPECT_EQ(depth(1, 3), 0.5F / 8.0F);
 }
 
 TEST_F(ReadPixelsGlTest, missing_channels_read_as_0_and_alpha_1) {
     const Framebuffer framebuffer =
-        must(Framebuffer::create({.size = {1, 1}, .colors = {Format::r32f}}));
+        must(Framebuffer::create({.size = {1, 1}, .color = Format::r32f}));
     framebuffer.clear_color(glm::vec4(-1234.5F, 7.0F, 7.0F, 7.0F));
     EXPECT_EQ(read_float_color(framebuffer)(0, 0), glm::vec4(-1234.5F, 0.0F, 0.0F, 1.0F));
 }
 
 TEST_F(ReadPixelsGlTest, rows_are_packed_whatever_alignment_was_set) {
     const Framebuffer framebuffer =
-        must(Framebuffer::create({.size = {7, 5}, .colors = {Format::rgba8}}));
+        must(Framebuffer::create({.size = {7, 5}, .color = Format::rgba8}));
     framebuffer.clear_color(glm::vec4(1.0F));
     glPixelStorei(GL_PACK_ALIGNMENT, 8);
     EXPECT_EQ(read_color(framebuffer), Image(7, 5, Rgba8{255, 255, 255, 255}));

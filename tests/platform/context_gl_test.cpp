@@ -54,7 +54,7 @@ std::unique_ptr<Context> must_make(ContextKind kind) {
 /// Draws a little and reads it back, so that the drivers' lazily made parts exist.
 void use(float shade) {
     const auto framebuffer =
-        gl::Framebuffer::create({.size = {8, 8}, .colors = {gl::Format::rgba32f}});
+        gl::Framebuffer::create({.size = {8, 8}, .color = gl::Format::rgba32f});
     ASSERT_TRUE(framebuffer) << framebuffer.error().message;
     const std::array stages{
         gl::StageSource{.stage = gl::Stage::vertex,
@@ -72,7 +72,7 @@ void use(float shade) {
     framebuffer->bind();
     program->use();
     none.bind();
-    gl::draw_arrays(gl::Primitive::triangles, 0, 3);
+    gl::draw_arrays(gl::Primitive::triangles, 3);
     EXPECT_EQ(gl::read_float_color(*framebuffer)(4, 4).r, shade);
 }
 

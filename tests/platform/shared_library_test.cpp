@@ -10,17 +10,17 @@ namespace {
 
 TEST(SharedLibraryTest, the_first_that_opens_is_taken) {
     constexpr std::array<const char*, 2> names{"libno_such_library.so.9", "libm.so.6"};
-    const auto library = SharedLibrary::open(names);
+    const auto library = open_library(names);
     ASSERT_TRUE(library) << library.error().message;
-    const auto cosine = library->function<double (*)(double)>("cos");
-    ASSERT_NE(cosine, nullptr);
+    double (*cosine)(double) = nullptr;
+    ASSERT_TRUE(load(*library, cosine, "cos"));
     EXPECT_EQ(cosine(0.0), 1.0);
-    EXPECT_EQ(library->function<void (*)()>("no_such_function"), nullptr);
+    EXPECT_FALSE(load(*library, cosine, "no_such_function"));
 }
 
 TEST(SharedLibraryTest, none_is_an_error_that_names_the_first) {
     constexpr std::array<const char*, 2> names{"libno_such_library.so.9", "libno_other.so"};
-    const auto library = SharedLibrary::open(names);
+    const auto library = open_library(names);
     ASSERT_FALSE(library);
     EXPECT_THAT(library.error().message, ::testing::HasSubstr("libno_such_library.so.9"));
 }

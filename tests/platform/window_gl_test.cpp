@@ -8,8 +8,8 @@
 #include <glad/gl.h>
 #include <gmock/gmock.h>
 
-#include "engine/gl/debug_log.h"
 #include "engine/gl/framebuffer.h"
+#include "tests/gl/gl_fixture.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -56,7 +56,7 @@ protected:
 
 private:
     std::unique_ptr<Window> window_;
-    std::optional<gl::DebugLog> log_;
+    std::optional<test::DebugLog> log_;
 };
 
 TEST_F(WindowGlTest, has_the_asked_size_and_a_current_context) {
@@ -66,8 +66,8 @@ TEST_F(WindowGlTest, has_the_asked_size_and_a_current_context) {
     EXPECT_FALSE(window().should_close());
 }
 
-TEST_F(WindowGlTest, request_close_is_seen) {
-    window().request_close();
+TEST_F(WindowGlTest, closing_is_seen) {
+    glfwSetWindowShouldClose(glfwGetCurrentContext(), GLFW_TRUE);
     EXPECT_TRUE(window().should_close());
 }
 
@@ -88,9 +88,9 @@ TEST_F(WindowGlTest, moving_the_mouse_is_told_in_pixels) {
 
 TEST_F(WindowGlTest, polling_and_waiting_end_where_nothing_happens) {
     // What the window's opening still brings comes first.
-    while (!window().poll_events().empty()) {
+    while (!window().wait_events(milliseconds(0)).empty()) {
     }
-    EXPECT_THAT(window().poll_events(), ::testing::IsEmpty());
+    EXPECT_THAT(window().wait_events(milliseconds(0)), ::testing::IsEmpty());
     while (!window().wait_events(milliseconds(20)).empty()) {
     }
 }
@@ -105,7 +105,7 @@ TEST_F(WindowGlTest, a_framebuffer_fills_it_once_it_is_larger) {
     ASSERT_TRUE(next<ResizeEvent>());
     framebuffer->bind();
     framebuffer->blit_to_window(window().framebuffer_size());
-    gl::bind_window_framebuffer(window().framebuffer_size());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
     std::array<unsigned char, 4> pixel{};
     glReadPixels(395, 295, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
     EXPECT_EQ(pixel[0], 255);
@@ -113,7 +113,7 @@ TEST_F(WindowGlTest, a_framebuffer_fills_it_once_it_is_larger) {
 }
 
 TEST_F(WindowGlTest, a_framebuffer_blitted_to_it_keeps_its_bytes) {
-    window().set_vsync(false);
+    glfwSwapInterval(0);
     window().set_title("blit");
     window().capture_mouse(true);
     window().capture_mouse(false);
@@ -121,7 +121,7 @@ TEST_F(WindowGlTest, a_framebuffer_blitted_to_it_keeps_its_bytes) {
     ASSERT_TRUE(framebuffer) << framebuffer.error().message;
     framebuffer->clear_color(glm::vec4(0.5F, 0.0F, 1.0F, 1.0F));
     framebuffer->blit_to_window(window().framebuffer_size());
-    gl::bind_window_framebuffer(window().framebuffer_size());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
     std::array<unsigned char, 4> pixel{};
     glReadPixels(100, 100, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
     EXPECT_NEAR(pixel[0], 188, 1);

@@ -42,7 +42,7 @@ Result<void> BeamTarget::prepare(const view::DrawList& list) {
     }
     auto made = gl::Framebuffer::create(
         {.size = (list.size + bindings::pixels_a_beam - 1) / bindings::pixels_a_beam,
-         .colors = {gl::Format::r32f},
+         .color = gl::Format::r32f,
          .depth = false});
     if (!made) {
         return made.error();

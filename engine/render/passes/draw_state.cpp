@@ -67,7 +67,7 @@ void DrawState::set_wireframe(bool wireframe) {
 
 void DrawState::draw(const ResidentMesh& mesh, gl::IndexType type) {
     mesh.vertex_array.bind();
-    gl::draw_elements({.type = type, .count = mesh.index_count});
+    gl::draw_elements(type, mesh.index_count);
     stats_.triangles += static_cast<std::size_t>(mesh.index_count) / 3;
     ++stats_.draws;
     ++stats_.state_changes;

@@ -79,7 +79,7 @@ void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull)
     program.set(uniforms.coordinate_range, hull.coordinate_range);
     constexpr int strip_vertices = 6; // relief_hull.vert
     hull.vertex_array.bind();
-    gl::draw_arrays(gl::Primitive::triangle_strip, 0, strip_vertices, hull.count);
+    gl::draw_arrays(gl::Primitive::triangle_strip, strip_vertices, hull.count);
     view::FrameStats& stats = state.stats();
     stats.triangles += 4U * static_cast<std::size_t>(hull.count);
     ++stats.draws;

@@ -26,7 +26,7 @@ Result<void> paint_beams(const FrameContext& frame_context, const view::ReliefDr
               picture_rays(frame_context.list.camera, frame_context.list.size, relief.space,
                            glm::inverse(draw.world_from_local)));
     frame_context.beams.bind();
-    gl::draw_arrays(gl::Primitive::triangles, 0, 3);
+    gl::draw_arrays(gl::Primitive::triangles, 3);
     frame_context.picture.bind();
     state.stats().state_changes += 3;
     ++state.stats().draws;
@@ -129,7 +129,7 @@ Result<void> paint_relief(const FrameContext& frame_context, const view::ReliefD
         return set;
     }
     constexpr int box_vertices = 14; // relief.vert
-    gl::draw_arrays(gl::Primitive::triangle_strip, 0, box_vertices);
+    gl::draw_arrays(gl::Primitive::triangle_strip, box_vertices);
     view::FrameStats& stats = state.stats();
     stats.triangles += box_vertices - 2;
     stats.state_changes += 3;

@@ -106,7 +106,7 @@ Result<void> SampleTarget::draw_mean(const gl::Framebuffer& target, DrawState& s
     target.bind();
     no_vertices.bind();
     gl::set_depth_test(gl::DepthTest::off);
-    gl::draw_arrays(gl::Primitive::triangles, 0, 3);
+    gl::draw_arrays(gl::Primitive::triangles, 3);
     gl::set_reversed_depth();
     state.stats().state_changes += 5;
     ++state.stats().draws;

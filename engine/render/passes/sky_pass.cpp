@@ -15,7 +15,7 @@ Result<void> paint_sky(const FrameContext& frame_context) {
     gl::set_depth_writing(false);
     gl::set_depth_test(gl::DepthTest::greater_or_equal);
     frame_context.no_vertices.bind();
-    gl::draw_arrays(gl::Primitive::triangles, 0, 3);
+    gl::draw_arrays(gl::Primitive::triangles, 3);
     gl::set_depth_writing(true);
     gl::set_depth_test(gl::DepthTest::greater);
     state.stats().state_changes += 5;

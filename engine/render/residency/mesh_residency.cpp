@@ -108,7 +108,7 @@ filled(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& in
     count_upload(stats, index_buffer->size());
     ResidentMesh mesh{std::move(*vertex_buffer), gl::VertexArray::create(),
                       static_cast<int>(indices.size()), std::move(*index_buffer)};
-    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(Vertex)}, attributes);
+    mesh.vertex_array.set_vertices(mesh.vertices, {.stride = sizeof(Vertex)}, attributes);
     mesh.vertex_array.set_indices(mesh.indices);
     return mesh;
 }
@@ -151,7 +151,7 @@ Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, view::Fra
     add(5, 4, offsetof(HullPart, coordinates) + sizeof(glm::vec4));
     ResidentHull hull{std::move(*buffer), gl::VertexArray::create(), static_cast<int>(parts.size()),
                       coordinate_range(parts)};
-    hull.vertex_array.set_vertices(0, hull.parts, {.stride = sizeof(HullPart), .divisor = 1},
+    hull.vertex_array.set_vertices(hull.parts, {.stride = sizeof(HullPart), .divisor = 1},
                                    attributes);
     return hull;
 }

@@ -17,8 +17,7 @@ ResidentMesh resident_grid(gl::Buffer vertices, int index_count) {
             .location = 2, .components = 1, .offset = offsetof(view::GridVertex, height)},
         gl::VertexAttribute{
             .location = 3, .components = 3, .offset = offsetof(view::GridVertex, rest)}};
-    mesh.vertex_array.set_vertices(0, mesh.vertices, {.stride = sizeof(view::GridVertex)},
-                                   attributes);
+    mesh.vertex_array.set_vertices(mesh.vertices, {.stride = sizeof(view::GridVertex)}, attributes);
     return mesh;
 }
 

@@ -278,8 +278,9 @@ TEST_F(ShaderLibraryGlTest, AFileInTheFolderComesBeforeTheEmbeddedOne) {
                                    "uniform float only_here;\n"
                                    "void main() { color = vec4(only_here); }\n");
     ShaderLibrary shaders(folder.path());
-    EXPECT_TRUE(test::must(shaders.program({ShaderKind::sky, 0}))->has_uniform("only_here"));
-    EXPECT_FALSE(test::must(shaders.program({ShaderKind::mesh, 0}))->has_uniform("only_here"));
+    const gl::Uniform<float> uniform("only_here");
+    EXPECT_TRUE(test::must(shaders.program({ShaderKind::sky, 0}))->set(uniform, 1.0F));
+    EXPECT_FALSE(test::must(shaders.program({ShaderKind::mesh, 0}))->set(uniform, 1.0F));
 }
 
 TEST_F(ShaderLibraryGlTest, AnErrorNamesTheFileAndTheLine) {
