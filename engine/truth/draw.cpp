@@ -7,11 +7,7 @@
 namespace reljef::truth {
 namespace {
 
-Error stopped() {
-    return {"the exact picture: drawing was stopped"};
-}
-
-// The rays of one picture. Depth along the view axis is their t.
+// The rays of one picture. Their t is the depth along the view axis.
 class Eye {
 public:
     Eye(const SceneCaster& caster, const scene::Camera& camera, glm::ivec2 size)
@@ -31,7 +27,7 @@ public:
         if (!hit) {
             return shading.background(ray.direction);
         }
-        // A map is seen from no particular distance: no air.
+        // A map has no viewing distance, hence no air.
         return is_perspective() ? shading.at(*hit, hit->surface.t * glm::length(ray.direction))
                                 : shading.at(*hit);
     }
@@ -55,17 +51,6 @@ Hit shown(const std::optional<SceneHit>& hit) {
     return {sample.x, sample.y, sample.z, static_cast<float>(hit->surface.t)};
 }
 
-// The linear mean over n×n rays of a pixel.
-glm::vec3 mean_color(const Eye& eye, const Shading& shading, glm::ivec2 pixel, int n) {
-    glm::vec3 sum(0.0F);
-    for (int i = 0; i < n * n; ++i) {
-        const glm::dvec2 part = (glm::dvec2(i % n, i / n) + 0.5) / static_cast<double>(n);
-        const Ray ray = eye.ray(glm::dvec2(pixel) + part);
-        sum += eye.color(ray, eye.first_hit(ray), shading);
-    }
-    return sum / static_cast<float>(n * n);
-}
-
 } // namespace
 
 Result<Picture> draw(const scene::Scene& scene, glm::ivec2 size, const DrawOptions& options) {
@@ -78,26 +63,23 @@ Result<Picture> draw(const scene::Scene& scene, glm::ivec2 size, const DrawOptio
 
 Result<Picture> draw(const SceneCaster& caster, const Shading& shading, const scene::Camera& camera,
                      glm::ivec2 size, const DrawOptions& options) {
-    check(size.x >= 1 && size.y >= 1, "a picture of at least 1x1 pixels was expected");
     check(options.rays_per_side >= 1, "at least one ray a pixel was expected");
     Picture picture{HitBuffer(size.x, size.y), Image(size.x, size.y)};
     const Eye eye(caster, camera, size);
-    const auto draw_row = [&](int row) {
-        for (int col = 0; col < size.x; ++col) {
-            const Ray ray = eye.ray(glm::dvec2(col, row) + 0.5);
-            const auto hit = eye.first_hit(ray);
-            const glm::vec3 color =
-                options.rays_per_side == 1
-                    ? eye.color(ray, hit, shading)
-                    : mean_color(eye, shading, {col, row}, options.rays_per_side);
-            picture.hits(col, row) = shown(hit);
-            picture.image(col, row) = rgba8_from_linear(color);
-        }
+    const auto color_at = [&](glm::dvec2 place) {
+        const Ray ray = eye.ray(place);
+        return eye.color(ray, eye.first_hit(ray), shading);
     };
-    if (!parallel_for(size.y, draw_row, options.parallel)) {
-        return stopped();
-    }
-    return picture;
+    const auto done = for_each_pixel(size, options.parallel, [&](glm::ivec2 pixel) {
+        const Ray ray = eye.ray(glm::dvec2(pixel) + 0.5);
+        const auto hit = eye.first_hit(ray);
+        const glm::vec3 color = options.rays_per_side == 1
+                                    ? eye.color(ray, hit, shading)
+                                    : mean_color(pixel, options.rays_per_side, color_at);
+        picture.hits(pixel.x, pixel.y) = shown(hit);
+        picture.image(pixel.x, pixel.y) = rgba8_from_linear(color);
+    });
+    return done ? Result<Picture>(std::move(picture)) : done.error();
 }
 
 Result<HitBuffer> draw_hits(const scene::Scene& scene, glm::ivec2 size,
@@ -111,18 +93,36 @@ Result<HitBuffer> draw_hits(const scene::Scene& scene, glm::ivec2 size,
 
 Result<HitBuffer> draw_hits(const SceneCaster& caster, const scene::Camera& camera, glm::ivec2 size,
                             const ParallelOptions& parallel) {
-    check(size.x >= 1 && size.y >= 1, "a picture of at least 1x1 pixels was expected");
     HitBuffer hits(size.x, size.y);
     const Eye eye(caster, camera, size);
+    const auto done = for_each_pixel(size, parallel, [&](glm::ivec2 pixel) {
+        hits(pixel.x, pixel.y) = shown(eye.first_hit(eye.ray(glm::dvec2(pixel) + 0.5)));
+    });
+    return done ? Result<HitBuffer>(std::move(hits)) : done.error();
+}
+
+Result<void> for_each_pixel(glm::ivec2 size, const ParallelOptions& parallel,
+                            const std::function<void(glm::ivec2 pixel)>& body) {
+    check(size.x >= 1 && size.y >= 1, "a picture of at least 1x1 pixels was expected");
     const auto draw_row = [&](int row) {
         for (int col = 0; col < size.x; ++col) {
-            hits(col, row) = shown(eye.first_hit(eye.ray(glm::dvec2(col, row) + 0.5)));
+            body({col, row});
         }
     };
     if (!parallel_for(size.y, draw_row, parallel)) {
-        return stopped();
+        return Error{"the exact picture: drawing was stopped"};
     }
-    return hits;
+    return {};
+}
+
+glm::vec3 mean_color(glm::ivec2 pixel, int n,
+                     const std::function<glm::vec3(glm::dvec2 place)>& color_at) {
+    glm::vec3 sum(0.0F);
+    for (int i = 0; i < n * n; ++i) {
+        const glm::dvec2 part = (glm::dvec2(i % n, i / n) + 0.5) / static_cast<double>(n);
+        sum += color_at(glm::dvec2(pixel) + part);
+    }
+    return sum / static_cast<float>(n * n);
 }
 
 } // namespace reljef::truth

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <glm/vec2.hpp>
 
 #include "engine/core/color.h"
@@ -13,33 +15,40 @@
 namespace reljef::truth {
 
 struct DrawOptions {
-    /// Rays along each side of a pixel; the colour is the linear mean of all, the hit always that
-    /// of the pixel's centre. >= 1.
+    /// Rays along each side of a pixel, >= 1. The colour is their linear mean; the hit is that of
+    /// the pixel's centre.
     int rays_per_side = 1;
-    SunShadow shadow = SunShadow::sweep; ///< where the shading is made from the scene
-    ParallelOptions parallel = {}; ///< stopped, drawing fails; the result depends on nothing of it
+    SunShadow shadow = SunShadow::sweep; ///< of the overload that makes the shading
+    ParallelOptions parallel = {};       ///< no influence on the result; drawing fails when stopped
 };
 
-/// What every pixel shows.
 struct Picture {
     HitBuffer hits;
     Image image;
 };
 
-/// The exact picture of a scene's terrains by its active camera, `size` in pixels, each side >= 1.
-/// Each pixel shows what the ray through its centre meets, from the camera's near depth on:
-/// orthographic rays begin before all of the scene. Light, shadow, air and sky are what the driver
-/// draws, evaluated at the hit itself. Fails as SceneCaster::create, and when it is stopped.
+/// The exact picture of a scene's terrains by its active camera; `size` in pixels, each side >= 1.
+/// Rays begin at the camera's near depth, orthographic rays in front of the scene. Light, shadow,
+/// air and sky are those of the driver, evaluated at the hit. Fails as SceneCaster::create and when
+/// stopped.
 Result<Picture> draw(const scene::Scene& scene, glm::ivec2 size, const DrawOptions& options = {});
 
-/// The same of a scene whose terrains and light are ready: another camera costs only its rays.
+/// The same with prepared terrains and light.
 Result<Picture> draw(const SceneCaster& caster, const Shading& shading, const scene::Camera& camera,
                      glm::ivec2 size, const DrawOptions& options = {});
 
-/// The hits alone.
+/// Only the hits.
 Result<HitBuffer> draw_hits(const scene::Scene& scene, glm::ivec2 size,
                             const ParallelOptions& parallel = {});
 Result<HitBuffer> draw_hits(const SceneCaster& caster, const scene::Camera& camera, glm::ivec2 size,
                             const ParallelOptions& parallel = {});
+
+/// Calls `body` for every pixel of a picture, from several threads. Fails when stopped.
+Result<void> for_each_pixel(glm::ivec2 size, const ParallelOptions& parallel,
+                            const std::function<void(glm::ivec2 pixel)>& body);
+
+/// The mean of `color_at` over a grid of n × n places in a pixel.
+glm::vec3 mean_color(glm::ivec2 pixel, int n,
+                     const std::function<glm::vec3(glm::dvec2 place)>& color_at);
 
 } // namespace reljef::truth

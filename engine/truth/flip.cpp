@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/core/parallel_for.h"
-#include "engine/truth/picture_size.h"
 #include "engine/truth/separable_filter.h"
 
 namespace reljef::truth {
@@ -22,18 +22,18 @@ namespace {
 
 using std::numbers::pi;
 
-// Exponents of the colour and of the feature difference, and where the redistribution bends: a
-// share of the largest colour difference, and what it becomes.
+// Exponents of the colour and feature differences; the bend of the redistribution maps the share
+// bend_difference of the largest colour difference to bend_error.
 constexpr double color_exponent = 0.7;
 constexpr double feature_exponent = 0.5;
 constexpr double bend_difference = 0.4;
 constexpr double bend_error = 0.95;
 
-// Degrees that a human edge detector measures from its peak to its trough.
+// Width of a human edge detector from peak to trough, degrees.
 constexpr double feature_width = 0.082;
 
-// A term a·√(π/b)·exp(−π²d²/b) of a contrast sensitivity function in space, d in degrees; table 1
-// of the paper.
+// A term a·√(π/b)·exp(−π²d²/b) of a contrast sensitivity function, d in degrees (table 1 of the
+// paper).
 struct SensitivityTerm {
     double a;
     double b;
@@ -42,9 +42,9 @@ constexpr std::array achromatic_sensitivity{SensitivityTerm{1.0, 0.0047}};
 constexpr std::array red_green_sensitivity{SensitivityTerm{1.0, 0.0053}};
 constexpr std::array blue_yellow_sensitivity{SensitivityTerm{34.1, 0.04},
                                              SensitivityTerm{13.5, 0.025}};
-constexpr double widest_b = 0.04;
+constexpr double max_b = 0.04;
 
-// CIE XYZ, each as a share of the D65 white's, of linear sRGB.
+// From linear sRGB to CIE XYZ relative to the D65 white.
 glm::dmat3 white_relative_from_linear() {
     const glm::dmat3 rows(glm::dvec3(10135552.0, 8788810.0, 4435075.0),
                           glm::dvec3(2613072.0, 8788810.0, 887015.0),
@@ -56,7 +56,7 @@ glm::dmat3 white_relative_from_linear() {
     return glm::transpose(relative);
 }
 
-// Linear value of each sRGB-encoded byte (IEC 61966-2-1), in double precision.
+// Linear values of the sRGB-encoded bytes (IEC 61966-2-1).
 std::array<double, 256> linear_from_bytes() {
     std::array<double, 256> linear{};
     for (std::size_t i = 0; i < linear.size(); ++i) {
@@ -66,8 +66,8 @@ std::array<double, 256> linear_from_bytes() {
     return linear;
 }
 
-// The channels of YCxCz without their scales and offsets, which a filter of sum 1 lets through:
-// (Y + 16) / 116, Cx / 500, Cz / 200.
+// The channels of YCxCz as (Y + 16) / 116, Cx / 500, Cz / 200: a filter of sum 1 keeps scales and
+// offsets.
 struct Opponent {
     Plane luminance;
     Plane red_green;
@@ -101,20 +101,17 @@ double deviation_of(double b, double pixels_per_degree) {
     return pixels_per_degree * std::sqrt(0.5 * b) / pi;
 }
 
-double sum_of(std::span<const double> kernel) {
-    return std::accumulate(kernel.begin(), kernel.end(), 0.0);
-}
-
-// Filtered with the sum of the terms, scaled to sum 1; each term alone is separable.
-Plane as_sensed(const Plane& plane, std::span<const SensitivityTerm> terms,
-                const FlipOptions& options) {
+// Filters with the sum of the terms, scaled to sum 1. Each term is separable.
+Plane contrast_filtered(const Plane& plane, std::span<const SensitivityTerm> terms,
+                        const FlipOptions& options) {
     const double ppd = options.pixels_per_degree;
-    const int radius = static_cast<int>(std::ceil(3.0 * deviation_of(widest_b, ppd)));
+    const int radius = static_cast<int>(std::ceil(3.0 * deviation_of(max_b, ppd)));
     Plane sum(plane.cols(), plane.rows());
     double total = 0.0;
     for (const SensitivityTerm& term : terms) {
         std::vector<double> kernel = gaussian(deviation_of(term.b, ppd), radius);
-        const double volume = sum_of(kernel) * sum_of(kernel);
+        const double kernel_sum = std::accumulate(kernel.begin(), kernel.end(), 0.0);
+        const double volume = kernel_sum * kernel_sum;
         const double weight = term.a * std::sqrt(pi / term.b) * volume;
         normalize(kernel);
         const Plane part = filtered(plane, kernel, kernel, options.threads);
@@ -130,13 +127,13 @@ Plane as_sensed(const Plane& plane, std::span<const SensitivityTerm> terms,
     return sum;
 }
 
-Opponent as_sensed(const Opponent& opponent, const FlipOptions& options) {
-    return {as_sensed(opponent.luminance, achromatic_sensitivity, options),
-            as_sensed(opponent.red_green, red_green_sensitivity, options),
-            as_sensed(opponent.blue_yellow, blue_yellow_sensitivity, options)};
+Opponent contrast_filtered(const Opponent& opponent, const FlipOptions& options) {
+    return {contrast_filtered(opponent.luminance, achromatic_sensitivity, options),
+            contrast_filtered(opponent.red_green, red_green_sensitivity, options),
+            contrast_filtered(opponent.blue_yellow, blue_yellow_sensitivity, options)};
 }
 
-// CIE L*a*b* from white-relative XYZ, its chroma scaled by the lightness (Hunt 1952).
+// CIE L*a*b* from white-relative XYZ, chroma scaled by lightness (Hunt 1952).
 glm::dvec3 hunt_lab(glm::dvec3 xyz) {
     constexpr double delta = 6.0 / 29.0;
     const auto compressed = [](double share) {
@@ -151,8 +148,9 @@ glm::dvec3 hunt_lab(glm::dvec3 xyz) {
 
 // HyAB: city block between lightness and chroma, Euclidean within chroma (Abasi et al. 2020).
 double hyab(glm::dvec3 a, glm::dvec3 b) {
-    const glm::dvec3 off = a - b;
-    return std::abs(off.x) + std::sqrt(off.y * off.y + off.z * off.z);
+    const glm::dvec3 difference = a - b;
+    return std::abs(difference.x) +
+           std::sqrt(difference.y * difference.y + difference.z * difference.z);
 }
 
 class ColorDifference {
@@ -160,11 +158,11 @@ public:
     ColorDifference()
         : relative_from_linear_(white_relative_from_linear()),
           linear_from_relative_(glm::inverse(relative_from_linear_)),
-          most_(
+          max_(
               std::pow(hyab(hunt_lab(relative_from_linear_[1]), hunt_lab(relative_from_linear_[2])),
                        color_exponent)) {}
 
-    // In [0,1], of two pictures as sensed.
+    // In [0,1]. Precondition: contrast-filtered pictures.
     [[nodiscard]] double at(const Opponent& a, const Opponent& b, int col, int row) const {
         return redistributed(std::pow(hyab(lab(a, col, row), lab(b, col, row)), color_exponent));
     }
@@ -180,18 +178,18 @@ private:
     }
 
     [[nodiscard]] double redistributed(double difference) const {
-        const double bend = bend_difference * most_;
+        const double bend = bend_difference * max_;
         return difference < bend
                    ? bend_error * difference / bend
-                   : bend_error + (1.0 - bend_error) * (difference - bend) / (most_ - bend);
+                   : bend_error + (1.0 - bend_error) * (difference - bend) / (max_ - bend);
     }
 
     glm::dmat3 relative_from_linear_;
     glm::dmat3 linear_from_relative_;
-    double most_; // between green and blue
+    double max_; // between green and blue
 };
 
-// Scales the positive weights to a sum of 1, the negative ones to −1.
+// Scales the positive weights to sum 1 and the negative weights to sum −1.
 void balance(std::vector<double>& kernel) {
     double positive = 0.0;
     double negative = 0.0;
@@ -203,11 +201,10 @@ void balance(std::vector<double>& kernel) {
     }
 }
 
-// First or second derivative of a Gaussian along one axis, and the Gaussian for the other one.
 struct FeatureKernels {
-    std::vector<double> smooth;
-    std::vector<double> edge;
-    std::vector<double> point;
+    std::vector<double> smooth; // Gaussian
+    std::vector<double> edge;   // its first derivative
+    std::vector<double> point;  // its second derivative
 };
 
 FeatureKernels feature_kernels(double pixels_per_degree) {
@@ -226,7 +223,7 @@ FeatureKernels feature_kernels(double pixels_per_degree) {
     return kernels;
 }
 
-// Length of the vector of the responses along both axes.
+// Length of the vector of both axes' responses.
 Plane magnitude_of(const Plane& luminance, std::span<const double> derivative,
                    std::span<const double> smooth, const FlipOptions& options) {
     Plane x = filtered(luminance, derivative, smooth, options.threads);
@@ -258,7 +255,7 @@ double feature_difference(const Features& a, const Features& b, int col, int row
     return std::pow(share, feature_exponent);
 }
 
-// All that is compared of a picture.
+// The compared properties of a picture.
 struct Percept {
     Opponent color;
     Features features;
@@ -266,7 +263,7 @@ struct Percept {
 
 Percept percept_of(const Image& picture, const FlipOptions& options) {
     const Opponent opponent = opponent_of(picture, options);
-    return {as_sensed(opponent, options), features_of(opponent.luminance, options)};
+    return {contrast_filtered(opponent, options), features_of(opponent.luminance, options)};
 }
 
 Grid<float> difference_map(const Percept& a, const Percept& b, const FlipOptions& options) {
@@ -282,14 +279,6 @@ Grid<float> difference_map(const Percept& a, const Percept& b, const FlipOptions
     return map;
 }
 
-double mean_of(const Grid<float>& map) {
-    double sum = 0.0;
-    for (const float error : map.samples()) {
-        sum += error;
-    }
-    return sum / static_cast<double>(map.size());
-}
-
 } // namespace
 
 Result<Flip> flip(const Image& shown, const Image& truth, const FlipOptions& options) {
@@ -299,8 +288,22 @@ Result<Flip> flip(const Image& shown, const Image& truth, const FlipOptions& opt
     }
     Flip result;
     result.map = difference_map(percept_of(shown, options), percept_of(truth, options), options);
-    result.mean = mean_of(result.map);
+    const auto errors = result.map.samples();
+    result.mean =
+        std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
     return result;
+}
+
+Result<void> check_same_size(const Image& shown, const Image& truth) {
+    if (shown.cols() != truth.cols() || shown.rows() != truth.rows()) {
+        return Error{fmt::format("a picture of {}x{} pixels: {}x{} as the true one was expected",
+                                 shown.cols(), shown.rows(), truth.cols(), truth.rows())};
+    }
+    if (shown.empty()) {
+        return Error{fmt::format("a picture of {}x{} pixels: one pixel at least was expected",
+                                 shown.cols(), shown.rows())};
+    }
+    return {};
 }
 
 } // namespace reljef::truth

@@ -17,7 +17,7 @@ constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr float no_error = std::numeric_limits<float>::quiet_NaN();
 constexpr double max_texels_off = 1.0;
 
-// The error as a map of floats can hold it; infinity for NaN too.
+// Infinity for NaN and for values beyond float's range.
 double bounded(double error) {
     return error <= std::numeric_limits<float>::max() ? error : no_bound;
 }
@@ -132,8 +132,8 @@ double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 p
     if (!is_before_eye(view.camera, projected.depth)) {
         return no_bound;
     }
-    const glm::dvec2 off = projected.pixel - (glm::dvec2(pixel) + 0.5);
-    return bounded(std::hypot(off.x, off.y));
+    const glm::dvec2 offset = projected.pixel - (glm::dvec2(pixel) + 0.5);
+    return bounded(std::hypot(offset.x, offset.y));
 }
 
 double hit_error(const Hit& shown, const Hit& true_hit) {

@@ -14,17 +14,17 @@
 
 namespace reljef::truth {
 
-/// The surface whose samples a frame's hits name, and who looked at it.
+/// The surface that a frame's hits refer to, and the camera.
 struct SurfaceView {
-    GridView<const float> heights; ///< metres, not empty; valid as long as the view is used
+    GridView<const float> heights; ///< metres, not empty; must outlive the view
     const terrain::Placement& placement;
     glm::dmat4 world_from_local{1.0}; ///< of the terrain's node
     scene::Camera camera;             ///< world metres
 };
 
-/// Summary of an error's distribution over pixels, in the error's unit.
+/// Distribution of an error over pixels, in the error's unit.
 struct Distribution {
-    std::size_t count = 0; ///< pixels it rests on, at least 1
+    std::size_t count = 0; ///< pixels, >= 1
     double median = 0.0;
     double p95 = 0.0;
     double p99 = 0.0;
@@ -34,62 +34,56 @@ struct Distribution {
 
 /// One error at every pixel of a frame.
 struct PixelErrors {
-    Grid<float> map;           ///< NaN where there is none, infinity where it has no bound
-    std::size_t unbounded = 0; ///< pixels whose error is infinite; not in the distribution
-    std::optional<Distribution> distribution; ///< of the finite errors; absent where none is
+    Grid<float> map;           ///< NaN: no error; infinity: unbounded error
+    std::size_t unbounded = 0; ///< pixels with an infinite error; not in the distribution
+    std::optional<Distribution> distribution; ///< of the finite errors; absent without any
 };
 
-/// What a technique shows at a pixel, held against the truth.
+/// A pixel of a technique compared with the truth.
 enum class Verdict : unsigned char {
-    no_terrain, ///< and the truth shows none either
-    right,      ///< the hit is at most one texel off
-    wrong,      ///< the hit is more than one texel off, or the truth shows no terrain there
-    hole,       ///< the truth shows terrain, the technique none: counts as wrong too
+    no_terrain, ///< neither shows terrain
+    right,      ///< the hits are at most one texel apart
+    wrong,      ///< the hits are more than one texel apart, or only the technique shows terrain
+    hole,       ///< only the truth shows terrain; also counts as wrong
 };
 
 struct GeometricErrors {
     PixelErrors reprojection;   ///< pixels
     PixelErrors hit;            ///< texels
-    Grid<Verdict> verdicts;     ///< one a pixel
-    std::size_t wrong = 0;      ///< pixels that show a wrong surface, holes among them
+    Grid<Verdict> verdicts;     ///< per pixel
+    std::size_t wrong = 0;      ///< pixels, including holes
     std::size_t holes = 0;      ///< pixels
-    double wrong_percent = 0.0; ///< share of all pixels of the frame, sky too
+    double wrong_percent = 0.0; ///< of all pixels of the frame, including sky
 };
 
-/// Whether a pixel shows a place on the heightfield: sky does not, nor does a mesh (col and row
-/// −1). A col or row that is not finite is shown all the same, and wrong.
+/// Whether a pixel shows the heightfield. Sky and meshes (col and row −1) do not. A hit with a col
+/// or row that is not finite counts as terrain.
 bool shows_terrain(const Hit& hit);
 
-/// How far from the centre of pixel (col, row) of a picture of `size` the place falls that the hit
-/// claims to be there: the texel (hit.col, hit.row) at its bilinear height (beyond the border the
-/// border's), placed, moved and projected in double precision. In pixels; infinity where the place
-/// is behind the eye or anything on the way is not finite. The hit's own height and depth are not
-/// looked at. Precondition: shows_terrain(hit).
+/// Distance in pixels between the pixel's centre and the projection of its hit: the texel
+/// (hit.col, hit.row) at its bilinear height (clamped at the border). Infinity behind the eye and
+/// for values that are not finite. Ignores the hit's height and depth. Precondition:
+/// shows_terrain(hit).
 double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 pixel,
                           const Hit& hit);
 
-/// How far two hits lie apart on the heightfield, texels; infinity where one is not finite.
+/// Distance of two hits on the heightfield, texels; infinity if one is not finite.
 double hit_error(const Hit& shown, const Hit& true_hit);
 
-/// How the errors of one pixel are given.
+/// The error functions of one pixel. Values that are not finite count as unbounded.
 struct PixelMeasure {
-    /// How far from a pixel's centre the place falls that it shows, pixels.
-    std::function<double(glm::ivec2 pixel, const Hit& hit)> reprojection;
-    /// How far two places lie apart, texels.
-    std::function<double(const Hit& shown, const Hit& true_hit)> hit;
+    std::function<double(glm::ivec2 pixel, const Hit& hit)> reprojection; ///< pixels
+    std::function<double(const Hit& shown, const Hit& true_hit)> hit;     ///< texels
 };
 
-/// The errors of a technique's frame, by the definitions that hold for every technique and for
-/// polygons: reprojection error over the pixels where the technique shows terrain, whatever the
-/// truth shows there; hit error over the pixels where both show terrain; wrong surface, and holes,
-/// over all pixels. `threads` 0: as many as the machine has; the result does not depend on it.
-/// Fails where the two frames differ in size and where neither shows terrain at any pixel: such a
-/// frame has no error, not a small one.
+/// The errors of a frame: reprojection error over the pixels where the technique shows terrain; hit
+/// error over the pixels where both show terrain; wrong surfaces and holes over all pixels.
+/// `threads` 0: as many as the machine has; no influence on the result. Fails when the frames
+/// differ in size or neither shows any terrain.
 Result<GeometricErrors> geometric_errors(const SurfaceView& view, const HitBuffer& shown,
                                          const HitBuffer& truth, unsigned threads = 0);
 
-/// The same of a surface that is no heightfield. What `measure` gives that is not finite has no
-/// bound.
+/// The same for any surface.
 Result<GeometricErrors> geometric_errors(const PixelMeasure& measure, const HitBuffer& shown,
                                          const HitBuffer& truth, unsigned threads = 0);
 

@@ -1,11 +1,12 @@
 #include "engine/truth/image_error.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "engine/truth/picture_size.h"
 #include "engine/truth/separable_filter.h"
 
 namespace reljef::truth {
@@ -18,28 +19,19 @@ double squared_difference(std::uint8_t a, std::uint8_t b) {
 
 Plane luma_of(const Image& picture) {
     Plane luma(picture.cols(), picture.rows());
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        const Rgba8 color = picture.samples()[i];
-        luma.samples()[i] = 0.299 * color.r + 0.587 * color.g + 0.114 * color.b;
-    }
+    std::ranges::transform(picture.samples(), luma.samples().begin(), [](Rgba8 color) {
+        return 0.299 * color.r + 0.587 * color.g + 0.114 * color.b;
+    });
     return luma;
 }
 
 Plane product(const Plane& a, const Plane& b) {
     Plane result(a.cols(), a.rows());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        result.samples()[i] = a.samples()[i] * b.samples()[i];
-    }
+    std::ranges::transform(a.samples(), b.samples(), result.samples().begin(), std::multiplies());
     return result;
 }
 
-std::vector<double> similarity_kernel() {
-    std::vector<double> kernel = gaussian(1.5, similarity_window / 2);
-    normalize(kernel);
-    return kernel;
-}
-
-// Means, and means of products, of two lumas under the window.
+// Windowed means of two lumas and of their products.
 struct Moments {
     Plane x;
     Plane y;
@@ -49,7 +41,8 @@ struct Moments {
 };
 
 Moments moments_of(const Plane& x, const Plane& y, unsigned threads) {
-    const std::vector<double> kernel = similarity_kernel();
+    std::vector<double> kernel = gaussian(1.5, similarity_window / 2);
+    normalize(kernel);
     const auto mean = [&](const Plane& plane) { return filtered(plane, kernel, kernel, threads); };
     return {mean(x), mean(y), mean(product(x, x)), mean(product(y, y)), mean(product(x, y))};
 }

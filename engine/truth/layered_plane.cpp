@@ -6,8 +6,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 namespace reljef::truth {
 namespace {
@@ -22,7 +20,7 @@ bool is_usable(const glm::vec4& heights) {
     return usable;
 }
 
-std::optional<Error> error_of(GridView<const glm::vec4> layers) {
+Result<void> check_layers(GridView<const glm::vec4> layers) {
     if (layers.empty()) {
         return Error{"layers: there are no texels, at least one was expected"};
     }
@@ -36,10 +34,10 @@ std::optional<Error> error_of(GridView<const glm::vec4> layers) {
             }
         }
     }
-    return std::nullopt;
+    return {};
 }
 
-// A layer over one cell along a ray: the ray's height above it, c + b·t + a·t².
+// The ray's height above a layer in one cell, c + b·t + a·t².
 struct Clearance {
     double a = 0.0;
     double b = 0.0;
@@ -68,7 +66,7 @@ void add_roots(const Clearance& clearance, Interval within, std::vector<double>&
         }
     };
     if (clearance.a == 0.0) {
-        add(-clearance.c / clearance.b); // none is no number, and lies nowhere
+        add(-clearance.c / clearance.b); // NaN: no root
         return;
     }
     const double discriminant = clearance.b * clearance.b - 4.0 * clearance.a * clearance.c;
@@ -79,7 +77,7 @@ void add_roots(const Clearance& clearance, Interval within, std::vector<double>&
     }
 }
 
-// Follows a ray, in texels from the first one's centre and height, from cell to cell.
+// Follows a ray in tile space from cell to cell.
 class LayerWalk {
 public:
     LayerWalk(const Grid<glm::vec4>& layers, bool wraps, const Ray& ray)
@@ -90,28 +88,12 @@ public:
         int layer = 0;
     };
     std::optional<Entry> first_entry(Interval range) {
-        glm::dvec2 cell = glm::floor(glm::dvec2(ray_.at(range.begin)));
-        double t = range.begin;
-        for (int count = 0; count < LayeredPlane::max_cells && t < range.end; ++count) {
-            const glm::dvec2 leaving{leaving_time(cell, 0), leaving_time(cell, 1)};
-            const double end = std::min({leaving.x, leaving.y, range.end});
-            if (const auto entry = entry_in(cell, {t, std::max(t, end)})) {
-                return entry;
-            }
-            cell.x += leaving.x <= end ? std::copysign(1.0, ray_.direction.x) : 0.0;
-            cell.y += leaving.y <= end ? std::copysign(1.0, ray_.direction.y) : 0.0;
-            t = std::max(t, end);
-        }
-        return std::nullopt;
+        return first_in_squares(
+            ray_, glm::dvec2(1.0), range, LayeredPlane::max_cells,
+            [&](glm::dvec2 cell, Interval within) { return entry_in(cell, within); });
     }
 
 private:
-    [[nodiscard]] double leaving_time(glm::dvec2 cell, int axis) const {
-        const double direction = ray_.direction[axis];
-        const double border = cell[axis] + (direction > 0.0 ? 1.0 : 0.0);
-        return direction == 0.0 ? no_end : (border - ray_.origin[axis]) / direction;
-    }
-
     [[nodiscard]] int index_of(double index, int count) const {
         if (wraps_) {
             return static_cast<int>(index - count * std::floor(index / count));
@@ -129,7 +111,7 @@ private:
         return corners;
     }
 
-    // Between two neighbouring times of crossings the ray stays in what it is in their middle.
+    // Between neighbouring crossings the ray is in the solid of the interval's middle.
     std::optional<Entry> entry_in(glm::dvec2 cell, Interval within) {
         Ray moved = ray_;
         moved.origin -= glm::dvec3(cell, 0.0);
@@ -151,7 +133,7 @@ private:
         return std::nullopt;
     }
 
-    // 0 or 1: the solid that a place on the ray is in; -1: none.
+    // The solid at a time, 0 or 1; -1: none.
     static int solid_at(const std::array<Clearance, 4>& clearances, double t) {
         for (std::size_t solid = 0; solid < 2; ++solid) {
             if (clearances[2 * solid].at(t) < 0.0 && clearances[2 * solid + 1].at(t) > 0.0) {
@@ -170,48 +152,39 @@ private:
     const Grid<glm::vec4>& layers_;
     bool wraps_;
     Ray ray_;
-    bool was_outside_ = false; // on first sight it may have come from inside
+    bool was_outside_ = false; // a ray may start inside
 };
-
-bool is_finite_ray(const Ray& ray) {
-    const auto finite = [](glm::dvec3 v) { return !glm::any(glm::isnan(v) || glm::isinf(v)); };
-    return finite(ray.origin) && finite(ray.direction);
-}
 
 } // namespace
 
 Result<LayeredPlane> LayeredPlane::create(GridView<const glm::vec4> layers,
                                           const ReliefOptions& options) {
-    if (auto fault = error_of(layers)) {
-        return *fault;
+    if (const auto good = check_layers(layers); !good) {
+        return good.error();
     }
-    const Grid<float> any(1, 1, 0.0F); // the options' rules are those of a relief
-    if (const auto plane = ReliefPlane::create(any.view(), options); !plane) {
-        return plane.error();
+    if (const auto good = check_options(options); !good) {
+        return good.error();
     }
     LayeredPlane plane;
     plane.options_ = options;
     plane.layers_ = Grid<glm::vec4>(layers.cols(), layers.rows());
     for (int row = 0; row < layers.rows(); ++row) {
-        std::copy(layers.row(row).begin(), layers.row(row).end(), plane.layers_.row(row).begin());
+        std::ranges::copy(layers.row(row), plane.layers_.row(row).begin());
     }
     return plane;
 }
 
-std::optional<LayeredHit> LayeredPlane::first_hit(const Ray& ray, Interval range) const {
-    const glm::dvec2 texels(layers_.cols(), layers_.rows());
-    const double width = options_.width;
-    const glm::dvec3 per_metre(texels.x / width, -texels.y / width, 1.0 / (options_.scale * width));
-    const glm::dvec3 middle(0.5 * texels - 0.5, -options_.offset);
-    const Ray on_tile{middle + ray.origin * per_metre, ray.direction * per_metre};
-    if (!is_finite_ray(on_tile)) {
+std::optional<ReliefHit> LayeredPlane::first_hit(const Ray& ray, Interval range) const {
+    const glm::ivec2 texels(layers_.cols(), layers_.rows());
+    const Ray on_tile = tile_ray(ray, texels, options_);
+    if (!is_finite(on_tile)) {
         return std::nullopt;
     }
-    constexpr double room = 0.01; // what begins on the outermost faces begins outside
-    Box reach{{-no_end, -no_end, -room}, {no_end, no_end, 1.0 + room}};
+    constexpr double margin = 0.01; // rays begin outside the outermost faces
+    Box reach{{-no_end, -no_end, -margin}, {no_end, no_end, 1.0 + margin}};
     if (options_.border == Border::discard) {
-        reach.low = {-0.5, -0.5, -room};
-        reach.high = {texels.x - 0.5, texels.y - 0.5, 1.0 + room};
+        reach.low = {-0.5, -0.5, -margin};
+        reach.high = {texels.x - 0.5, texels.y - 0.5, 1.0 + margin};
     }
     const auto inside = intersect(on_tile, reach, range);
     if (!inside) {
@@ -222,11 +195,9 @@ std::optional<LayeredHit> LayeredPlane::first_hit(const Ray& ray, Interval range
     if (!entry) {
         return std::nullopt;
     }
-    const glm::dvec3 place = on_tile.at(entry->t);
-    const glm::dvec2 coordinate = (glm::dvec2(place) + 0.5) / texels;
-    return LayeredHit{options_.border == Border::wrap ? glm::fract(coordinate)
-                                                      : glm::clamp(coordinate, 0.0, 1.0),
-                      std::clamp(place.z, 0.0, 1.0), entry->layer, entry->t};
+    ReliefHit hit = hit_at(on_tile, entry->t, texels, options_.border);
+    hit.layer = entry->layer;
+    return hit;
 }
 
 } // namespace reljef::truth

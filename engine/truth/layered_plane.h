@@ -3,7 +3,6 @@
 #include <limits>
 #include <optional>
 
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/core/geometry.h"
@@ -13,30 +12,21 @@
 
 namespace reljef::truth {
 
-/// Where a ray enters a solid.
-struct LayeredHit {
-    glm::dvec2 texture_coordinate{0.0}; ///< as ReliefHit has it
-    double height = 0.0;                ///< in [0,1]
-    int layer = 0;                      ///< 0 … 3: the surface that is met
-    double t = 0.0;                     ///< along the ray
-};
-
-/// Two solids over the plane z = 0, between four height surfaces: the first and the second, the
-/// third and the fourth. They lie as those of a ReliefPlane, and end as they do. Seen from either
-/// side. Safe to ask from several threads.
+/// Two solids over the plane z = 0: between height surfaces 1 and 2, and between 3 and 4. Placement
+/// and borders as for ReliefPlane. Visible from both sides. Thread-safe.
 class LayeredPlane {
 public:
-    /// Copies the layers; fails on none, on a height outside [0,1] or above that of the layer
-    /// before it, and on an option outside its range.
+    /// Copies the layers. Fails without texels, on a height outside [0,1] or above the layer before
+    /// it, and as check_options().
     static Result<LayeredPlane> create(GridView<const glm::vec4> layers,
                                        const ReliefOptions& options);
 
-    /// A ray that passes through this many cells meets nothing.
+    /// Limit of a ray's way, in cells.
     static constexpr int max_cells = 1'000'000;
 
-    /// The first place where a ray that was outside comes inside, t in `range` (begin finite);
-    /// world metres. A ray that is not finite meets nothing.
-    [[nodiscard]] std::optional<LayeredHit>
+    /// The first place where a ray enters a solid from outside, t in `range` (begin finite); world
+    /// metres. Empty for a ray that is not finite.
+    [[nodiscard]] std::optional<ReliefHit>
     first_hit(const Ray& ray,
               Interval range = {0.0, std::numeric_limits<double>::infinity()}) const;
 

@@ -14,26 +14,10 @@ namespace reljef::truth {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A ray along the plane stays in the slab without end: past the tile nothing changes any more.
-constexpr double farthest = 1e300;
+// A ray along the plane never leaves the slab.
+constexpr double max_time = 1e300;
 
-std::optional<Error> error_of(const ReliefOptions& options) {
-    if (!(std::isfinite(options.width) && options.width > 0.0)) {
-        return Error{
-            fmt::format("relief width {}: a finite number above 0 was expected", options.width)};
-    }
-    if (!(std::isfinite(options.scale) && options.scale > 0.0)) {
-        return Error{
-            fmt::format("relief scale {}: a finite number above 0 was expected", options.scale)};
-    }
-    if (!(options.offset >= -1.0 && options.offset <= 0.0)) {
-        return Error{
-            fmt::format("relief offset {}: a number in [-1, 0] was expected", options.offset)};
-    }
-    return std::nullopt;
-}
-
-std::optional<Error> error_of(GridView<const float> tile) {
+Result<void> check_tile(GridView<const float> tile) {
     if (tile.empty()) {
         return Error{"relief tile: it has no texels, at least one was expected"};
     }
@@ -45,10 +29,10 @@ std::optional<Error> error_of(GridView<const float> tile) {
             }
         }
     }
-    return std::nullopt;
+    return {};
 }
 
-// Wrapped, with the first texels again behind the last; else as it is, but at least 2×2.
+// wrap: repeats the first texels behind the last; else the tile, at least 2×2.
 Grid<float> with_border(GridView<const float> tile, Border border) {
     const bool wraps = border == Border::wrap;
     Grid<float> heights(wraps ? tile.cols() + 1 : std::max(tile.cols(), 2),
@@ -62,49 +46,30 @@ Grid<float> with_border(GridView<const float> tile, Border border) {
     return heights;
 }
 
-// A little more than the heights 0 … 1: what lies on its faces is met.
+// The heights 0 … 1 with a margin for rays on its faces.
 Box slab() {
-    constexpr double room = 0.01;
-    return {{-infinity, -infinity, -room}, {infinity, infinity, 1.0 + room}};
+    constexpr double margin = 0.01;
+    return {{-infinity, -infinity, -margin}, {infinity, infinity, 1.0 + margin}};
 }
 
-// The part of a coordinate in its own copy, [0, 1).
-glm::dvec2 wrapped(glm::dvec2 coordinate) {
-    const glm::dvec2 part = glm::fract(coordinate);
-    return {part.x < 1.0 ? part.x : 0.0, part.y < 1.0 ? part.y : 0.0};
-}
-
-// Follows a ray, given in texels from the first one's centre and height, over tile after tile.
-class TileRay {
+// Follows a ray in tile space over the tile and its surroundings.
+class TileWalk {
 public:
-    TileRay(const Grid<float>& heights, const terrain::MinMaxPyramid& pyramid, glm::ivec2 texels,
-            const Ray& ray, terrain::Side side)
+    TileWalk(const Grid<float>& heights, const terrain::MinMaxPyramid& pyramid, glm::ivec2 texels,
+             const Ray& ray, terrain::Side side)
         : heights_(heights), pyramid_(pyramid), texels_(texels), ray_(ray), side_(side) {}
 
-    // The relief repeated: from copy to copy, each met by the ray moved back over the tile.
     std::optional<double> first_hit_wrapped(Interval range) {
-        glm::dvec2 copy = glm::floor(glm::dvec2(ray_.at(range.begin)) / glm::dvec2(texels_));
-        double t = range.begin;
-        for (int count = 0; count < ReliefPlane::max_copies && t < range.end; ++count) {
-            const glm::dvec2 leaving{leaving_time(copy, 0), leaving_time(copy, 1)};
-            const double end = std::min({leaving.x, leaving.y, range.end});
-            if (end == infinity) {
-                return std::nullopt; // no direction at all
-            }
-            Ray moved = ray_;
-            moved.origin -= glm::dvec3(copy * glm::dvec2(texels_), 0.0);
-            if (const auto hit = followed(moved, {t, end})) {
-                return hit;
-            }
-            copy.x += leaving.x <= end ? std::copysign(1.0, ray_.direction.x) : 0.0;
-            copy.y += leaving.y <= end ? std::copysign(1.0, ray_.direction.y) : 0.0;
-            t = std::max(t, end);
-        }
-        return std::nullopt;
+        const glm::dvec2 size(texels_);
+        return first_in_squares(ray_, size, range, ReliefPlane::max_copies,
+                                [&](glm::dvec2 copy, Interval part) {
+                                    Ray moved = ray_;
+                                    moved.origin -= glm::dvec3(copy * size, 0.0);
+                                    return followed(moved, part);
+                                });
     }
 
-    // The relief goes on beyond its outermost texels as they are: there a ray sees it as if it did
-    // not move that way at all.
+    // Beyond the outermost texels the relief does not change: the ray's way is clamped there.
     std::optional<double> first_hit_clamped(Interval range) {
         const glm::dvec2 last = glm::dvec2(texels_) - 1.0;
         std::array<double, 6> breaks{range.begin,     time_at(0, 0.0),    time_at(0, last.x),
@@ -114,7 +79,7 @@ public:
         }
         std::sort(breaks.begin(), breaks.end());
         for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-            const Interval part{breaks[i], std::min(breaks[i + 1], farthest)};
+            const Interval part{breaks[i], std::min(breaks[i + 1], max_time)};
             if (const auto hit = followed(clamped(0.5 * (part.begin + part.end)), part)) {
                 return hit;
             }
@@ -130,15 +95,10 @@ private:
         return stretch.hit ? std::optional(stretch.hit->t) : std::nullopt;
     }
 
-    // When the ray passes a place of an axis; never where it does not move along it.
+    // Infinite if the ray does not move along the axis.
     [[nodiscard]] double time_at(int axis, double place) const {
         const double time = (place - ray_.origin[axis]) / ray_.direction[axis];
         return ray_.direction[axis] == 0.0 || std::isnan(time) ? infinity : time;
-    }
-
-    [[nodiscard]] double leaving_time(glm::dvec2 copy, int axis) const {
-        return time_at(axis,
-                       (copy[axis] + (ray_.direction[axis] > 0.0 ? 1.0 : 0.0)) * texels_[axis]);
     }
 
     // The ray without its way along the axes on which it is beyond the texels at t.
@@ -164,12 +124,44 @@ private:
 
 } // namespace
 
-Result<ReliefPlane> ReliefPlane::create(GridView<const float> tile, const ReliefOptions& options) {
-    if (auto fault = error_of(options)) {
-        return *fault;
+Result<void> check_options(const ReliefOptions& options) {
+    if (!(std::isfinite(options.width) && options.width > 0.0)) {
+        return Error{
+            fmt::format("relief width {}: a finite number above 0 was expected", options.width)};
     }
-    if (auto fault = error_of(tile)) {
-        return *fault;
+    if (!(std::isfinite(options.scale) && options.scale > 0.0)) {
+        return Error{
+            fmt::format("relief scale {}: a finite number above 0 was expected", options.scale)};
+    }
+    if (!(options.offset >= -1.0 && options.offset <= 0.0)) {
+        return Error{
+            fmt::format("relief offset {}: a number in [-1, 0] was expected", options.offset)};
+    }
+    return {};
+}
+
+Ray tile_ray(const Ray& ray, glm::ivec2 texels, const ReliefOptions& options) {
+    const glm::dvec3 per_metre(texels.x / options.width, -texels.y / options.width,
+                               1.0 / (options.scale * options.width));
+    const glm::dvec3 middle(0.5 * glm::dvec2(texels) - 0.5, -options.offset);
+    return {middle + ray.origin * per_metre, ray.direction * per_metre};
+}
+
+ReliefHit hit_at(const Ray& tile_ray, double t, glm::ivec2 texels, Border border) {
+    const glm::dvec3 place = tile_ray.at(t);
+    const glm::dvec2 coordinate = (glm::dvec2(place) + 0.5) / glm::dvec2(texels);
+    const glm::dvec2 part = glm::fract(coordinate); // 1 for tiny negative coordinates
+    const glm::dvec2 wrapped{part.x < 1.0 ? part.x : 0.0, part.y < 1.0 ? part.y : 0.0};
+    return {border == Border::wrap ? wrapped : glm::clamp(coordinate, 0.0, 1.0),
+            std::clamp(place.z, 0.0, 1.0), t};
+}
+
+Result<ReliefPlane> ReliefPlane::create(GridView<const float> tile, const ReliefOptions& options) {
+    if (const auto good = check_options(options); !good) {
+        return good.error();
+    }
+    if (const auto good = check_tile(tile); !good) {
+        return good.error();
     }
     ReliefPlane plane;
     plane.options_ = options;
@@ -180,41 +172,25 @@ Result<ReliefPlane> ReliefPlane::create(GridView<const float> tile, const Relief
 }
 
 std::optional<ReliefHit> ReliefPlane::first_hit(const Ray& ray, Interval range) const {
-    const Ray tile_ray = on_tile(ray);
-    if (!is_finite(tile_ray)) {
+    const Ray on_tile = tile_ray(ray, texels_, options_);
+    if (!is_finite(on_tile)) {
         return std::nullopt;
     }
     Box reach{glm::dvec3(-infinity), glm::dvec3(infinity)};
     if (options_.border == Border::discard) {
         reach = {{-0.5, -0.5, -infinity}, {texels_.x - 0.5, texels_.y - 0.5, infinity}};
     }
-    const auto over_plane = intersect(tile_ray, reach, range);
-    const auto inside = over_plane ? intersect(tile_ray, slab(), *over_plane) : std::nullopt;
+    const auto over_plane = intersect(on_tile, reach, range);
+    const auto inside = over_plane ? intersect(on_tile, slab(), *over_plane) : std::nullopt;
     if (!inside) {
         return std::nullopt;
     }
     const auto side =
-        tile_ray.at(over_plane->begin).z > 1.0 ? terrain::Side::above : terrain::Side::unknown;
-    TileRay walk(heights_, pyramid_, texels_, tile_ray, side);
+        on_tile.at(over_plane->begin).z > 1.0 ? terrain::Side::above : terrain::Side::unknown;
+    TileWalk walk(heights_, pyramid_, texels_, on_tile, side);
     const auto t = options_.border == Border::wrap ? walk.first_hit_wrapped(*inside)
                                                    : walk.first_hit_clamped(*inside);
-    return t ? std::optional(met(tile_ray, *t)) : std::nullopt;
-}
-
-// In texels from the centre of the first one, and height of the tile.
-Ray ReliefPlane::on_tile(const Ray& ray) const {
-    const glm::dvec3 per_metre(texels_.x / options_.width, -texels_.y / options_.width,
-                               1.0 / (options_.scale * options_.width));
-    const glm::dvec3 middle(0.5 * glm::dvec2(texels_) - 0.5, -options_.offset);
-    return {middle + ray.origin * per_metre, ray.direction * per_metre};
-}
-
-ReliefHit ReliefPlane::met(const Ray& tile_ray, double t) const {
-    const glm::dvec3 place = tile_ray.at(t);
-    const glm::dvec2 coordinate = (glm::dvec2(place) + 0.5) / glm::dvec2(texels_);
-    return {options_.border == Border::wrap ? wrapped(coordinate)
-                                            : glm::clamp(coordinate, 0.0, 1.0),
-            std::clamp(place.z, 0.0, 1.0), t};
+    return t ? std::optional(hit_at(on_tile, *t, texels_, options_.border)) : std::nullopt;
 }
 
 } // namespace reljef::truth

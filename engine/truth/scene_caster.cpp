@@ -13,9 +13,9 @@ PlacedTerrain placed(const scene::TerrainNode& node, const glm::dmat4& world_fro
                                    surface.placement())};
 }
 
-Ray moved(const glm::dmat4& to_from_from, const Ray& ray) {
-    return {glm::dvec3(to_from_from * glm::dvec4(ray.origin, 1.0)),
-            glm::dvec3(to_from_from * glm::dvec4(ray.direction, 0.0))};
+Ray transformed(const glm::dmat4& matrix, const Ray& ray) {
+    return {glm::dvec3(matrix * glm::dvec4(ray.origin, 1.0)),
+            glm::dvec3(matrix * glm::dvec4(ray.direction, 0.0))};
 }
 
 } // namespace
@@ -42,7 +42,7 @@ std::optional<SceneHit> SceneCaster::first_hit(const Ray& world_ray, Interval ra
     for (std::size_t i = 0; i < terrains_.size(); ++i) {
         const PlacedTerrain& terrain = terrains_[i];
         const auto hit =
-            terrain.caster.first_hit(moved(terrain.local_from_world, world_ray), range);
+            terrain.caster.first_hit(transformed(terrain.local_from_world, world_ray), range);
         if (hit && (!nearest || hit->t < nearest->surface.t)) {
             nearest = SceneHit{i, *hit};
         }

@@ -14,7 +14,7 @@
 
 namespace reljef::truth {
 
-/// A visible terrain node of a scene, kept alive.
+/// A visible terrain node of a scene; owns a reference to its surface.
 struct PlacedTerrain {
     std::shared_ptr<const scene::TerrainSurface> surface;
     glm::dmat4 world_from_local;
@@ -22,26 +22,25 @@ struct PlacedTerrain {
     terrain::SurfaceCaster caster;
 };
 
-/// Where a world ray meets a scene.
+/// The intersection of a world ray with a scene.
 struct SceneHit {
     std::size_t terrain = 0;     ///< index into SceneCaster::terrains()
-    terrain::SurfaceHit surface; ///< t along the world ray; the place on the terrain's own samples
+    terrain::SurfaceHit surface; ///< t along the world ray; place in the terrain's samples
 };
 
-/// Meets the bilinear surfaces of a scene's terrains with rays, in double precision: what a
-/// technique should show, so technique and wireframe count for nothing. Safe to ask from several
-/// threads; later changes of the scene are not seen.
+/// Intersects rays with the bilinear surfaces of a scene's terrains, in double precision. Ignores
+/// technique, wireframe and later changes of the scene. Thread-safe.
 class SceneCaster {
 public:
-    /// Fails where a mesh node is visible: its hit is no place on a heightfield.
+    /// Fails when a mesh node is visible.
     static Result<SceneCaster> create(const scene::Scene& scene);
 
     [[nodiscard]] const std::vector<PlacedTerrain>& terrains() const { return terrains_; }
-    /// Of all terrains, world metres.
+    /// World metres.
     [[nodiscard]] const Box& bounds() const { return bounds_; }
 
-    /// The nearest crossing from above to below any of the terrains, t in `range`; of two at one
-    /// place that of the node first in the tree.
+    /// The nearest crossing from above to below a terrain, t in `range`. Of equal crossings the
+    /// first node's in the tree wins.
     [[nodiscard]] std::optional<SceneHit> first_hit(const Ray& world_ray, Interval range) const;
 
 private:

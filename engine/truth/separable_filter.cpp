@@ -18,7 +18,7 @@ int radius_of(std::span<const double> kernel) {
 
 using Row = std::span<const double>;
 
-// A row with its first and last sample repeated `radius` times beyond it.
+// Repeats the first and the last sample `radius` times.
 std::vector<double> extended(Row row, int radius) {
     const auto margin = static_cast<std::size_t>(radius);
     std::vector<double> result(row.size() + 2 * margin, row.front());
@@ -27,7 +27,7 @@ std::vector<double> extended(Row row, int radius) {
     return result;
 }
 
-// `count` samples from `begin` on; a fixed count lets the compiler keep the sums in registers.
+// `count` samples from `begin` on. A fixed count keeps the sums in registers.
 template <std::size_t count>
 void weighted_block(std::span<double> sum, std::span<const Row> rows,
                     std::span<const double> weights, std::size_t begin) {
@@ -54,6 +54,38 @@ void weighted_sum(std::span<double> sum, std::span<const Row> rows,
     }
 }
 
+// Each row by itself.
+Plane filtered_along_cols(const Plane& plane, std::span<const double> kernel, unsigned threads) {
+    const int radius = radius_of(kernel);
+    const auto width = static_cast<std::size_t>(plane.cols());
+    Plane result(plane.cols(), plane.rows());
+    const auto filter_row = [&](int row) {
+        const std::vector<double> samples = extended(plane.row(row), radius);
+        std::vector<Row> shifted;
+        for (std::size_t k = 0; k < kernel.size(); ++k) {
+            shifted.push_back(Row(samples).subspan(k, width));
+        }
+        weighted_sum(result.row(row), shifted, kernel);
+    };
+    parallel_for(plane.cols() > 0 ? plane.rows() : 0, filter_row, {threads, {}, {}});
+    return result;
+}
+
+// Each column by itself.
+Plane filtered_along_rows(const Plane& plane, std::span<const double> kernel, unsigned threads) {
+    const int radius = radius_of(kernel);
+    Plane result(plane.cols(), plane.rows());
+    const auto filter_row = [&](int row) {
+        std::vector<Row> around;
+        for (int k = -radius; k <= radius; ++k) {
+            around.push_back(plane.row(std::clamp(row + k, 0, plane.rows() - 1)));
+        }
+        weighted_sum(result.row(row), around, kernel);
+    };
+    parallel_for(plane.rows(), filter_row, {threads, {}, {}});
+    return result;
+}
+
 } // namespace
 
 std::vector<double> gaussian(double deviation, int radius) {
@@ -77,36 +109,6 @@ void add_scaled(std::span<double> sum, std::span<const double> samples, double w
     for (std::size_t i = 0; i < sum.size(); ++i) {
         sum[i] += weight * samples[i];
     }
-}
-
-Plane filtered_along_cols(const Plane& plane, std::span<const double> kernel, unsigned threads) {
-    const int radius = radius_of(kernel);
-    const auto width = static_cast<std::size_t>(plane.cols());
-    Plane result(plane.cols(), plane.rows());
-    const auto filter_row = [&](int row) {
-        const std::vector<double> samples = extended(plane.row(row), radius);
-        std::vector<Row> shifted;
-        for (std::size_t k = 0; k < kernel.size(); ++k) {
-            shifted.push_back(Row(samples).subspan(k, width));
-        }
-        weighted_sum(result.row(row), shifted, kernel);
-    };
-    parallel_for(plane.cols() > 0 ? plane.rows() : 0, filter_row, {threads, {}, {}});
-    return result;
-}
-
-Plane filtered_along_rows(const Plane& plane, std::span<const double> kernel, unsigned threads) {
-    const int radius = radius_of(kernel);
-    Plane result(plane.cols(), plane.rows());
-    const auto filter_row = [&](int row) {
-        std::vector<Row> around;
-        for (int k = -radius; k <= radius; ++k) {
-            around.push_back(plane.row(std::clamp(row + k, 0, plane.rows() - 1)));
-        }
-        weighted_sum(result.row(row), around, kernel);
-    };
-    parallel_for(plane.rows(), filter_row, {threads, {}, {}});
-    return result;
 }
 
 Plane filtered(const Plane& plane, std::span<const double> along_cols,

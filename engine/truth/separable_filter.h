@@ -10,25 +10,20 @@ namespace reljef::truth {
 /// One channel of a picture, row 0 at the top.
 using Plane = Grid<double>;
 
-/// exp(−x² / 2σ²) at the integers −radius … radius, not normalised. `deviation` in pixels, > 0.
+/// exp(−x² / 2σ²) at the integers −radius … radius, not normalized. `deviation` in pixels, > 0.
 std::vector<double> gaussian(double deviation, int radius);
 
 /// Scales a kernel to sum 1. Precondition: its sum is not 0.
 void normalize(std::span<double> kernel);
 
-/// sum[i] += weight · samples[i]. Precondition: of the same length.
+/// sum[i] += weight · samples[i]. Precondition: equal lengths.
 void add_scaled(std::span<double> sum, std::span<const double> samples, double weight);
 
-/// Correlation with a kernel that is the product of two of odd length: sample (col, row) becomes
-/// the sum of along_cols[i]·along_rows[j]·plane(col + i − r, row + j − s), r and s the kernels'
-/// radii; beyond the border lies the nearest sample. The result does not depend on `threads` (0: as
-/// many as the machine has). Precondition: kernels of odd length.
+/// Correlation with a separable kernel: sample (col, row) becomes the sum of along_cols[i] ·
+/// along_rows[j] · plane(col + i − r, row + j − s), where r and s are the kernels' radii. Borders
+/// are clamped. `threads` 0: as many as the machine has; no influence on the result. Precondition:
+/// kernels of odd length.
 Plane filtered(const Plane& plane, std::span<const double> along_cols,
                std::span<const double> along_rows, unsigned threads = 0);
-
-/// Each row by itself, with a kernel of odd length; see filtered().
-Plane filtered_along_cols(const Plane& plane, std::span<const double> kernel, unsigned threads = 0);
-/// Each column by itself, with a kernel of odd length; see filtered().
-Plane filtered_along_rows(const Plane& plane, std::span<const double> kernel, unsigned threads = 0);
 
 } // namespace reljef::truth

@@ -7,17 +7,24 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
-#include "engine/truth/sun_ray.h"
 
 namespace reljef::truth {
 namespace {
 
-// Forward scattering: a wide glow, and the disc in it.
+// Forward scattering: a wide glow around the disc.
 glm::vec3 sun_glow(const scene::Light& sun, glm::dvec3 direction) {
     const double toward = std::max(glm::dot(direction, scene::to_light(sun)), 0.0);
     const double glow = std::pow(toward, 8);
     const double disc = glm::smoothstep(0.99985, 0.99995, toward);
     return sun.color * static_cast<float>(0.18 * glow + disc);
+}
+
+bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
+    const auto sample = surface.placement().sample_from_world(local);
+    const Grid<float>& heights = surface.heightfield().heights;
+    const bool is_over = sample && sample->x >= 0.0 && sample->y >= 0.0 &&
+                         sample->x <= heights.cols() - 1 && sample->y <= heights.rows() - 1;
+    return is_over && sample->z < terrain::bilinear_height(heights.view(), glm::dvec2(*sample));
 }
 
 } // namespace
@@ -59,7 +66,7 @@ Shading::Maps Shading::maps_of(const PlacedTerrain& terrain,
 
 glm::vec3 Shading::at(const SceneHit& hit) const {
     const Maps& maps = maps_[hit.terrain];
-    // Rounding may put a hit a hair beyond the border.
+    // Rounding may put a hit slightly beyond the border.
     const glm::dvec2 sample = glm::max(glm::dvec2(hit.surface.sample), glm::dvec2(0.0));
     const glm::vec3 albedo =
         bilinear(maps.albedo, sample * maps.texels_per_sample, linear_from_rgba8);
@@ -81,6 +88,18 @@ glm::vec3 Shading::at(const SceneHit& hit, double distance) const {
 
 glm::vec3 Shading::background(glm::dvec3 direction) const {
     return sky_ ? sky_color(*sky_, sun_, direction) : glm::vec3(0.0F);
+}
+
+bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun) {
+    const PlacedTerrain& terrain = caster.terrains()[hit.terrain];
+    const scene::TerrainSurface& surface = *terrain.surface;
+    Ray ray;
+    ray.origin = surface.placement().world_from_sample(hit.surface.sample);
+    ray.direction = glm::normalize(glm::dmat3(terrain.local_from_world) * to_sun);
+    constexpr double start = 1e-3; // samples
+    const glm::dvec2 spacing = surface.heightfield().spacing;
+    ray.origin = ray.at(start * std::min(spacing.x, spacing.y));
+    return !is_below(surface, ray.origin) && !terrain.caster.first_hit(ray);
 }
 
 } // namespace reljef::truth

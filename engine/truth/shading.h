@@ -13,36 +13,36 @@
 
 namespace reljef::truth {
 
-/// Light from the sky in a direction (need not be of unit length), linear: from the horizon's
-/// colour to the zenith's as the root of the height, darker below; around the sun, where there is
-/// one, its glow and its disc.
+/// Linear sky colour in a direction of any length. From the horizon's to the zenith's colour it
+/// grows with the root of the height; it is darker below the horizon. A sun adds glow and disc.
 glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun,
                     glm::dvec3 direction);
 
-/// What is left of a colour after `distance` metres of air, with the air's own added (Koschmieder
-/// 1924). Linear.
+/// A linear colour seen through `distance` metres of air (Koschmieder 1924).
 glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distance);
 
-/// Where shadows come from.
 enum class SunShadow {
-    sweep, ///< found once at the samples, with the sun's penumbra (scene/terrain_light.h)
-    ray,   ///< an exact ray from each hit to the sun (sun_ray.h)
+    sweep, ///< precomputed per sample, with penumbra (scene/terrain_light.h)
+    ray,   ///< exact, see sees_sun()
 };
 
-/// What the rays of one scene bring home, linear. Finds albedo, slopes and shadows of all terrains
-/// when it is made; safe to ask from several threads; later changes of the scene are not seen.
+/// Whether the ray from a hit to the sun meets nothing of the hit's terrain: exact, no penumbra.
+/// The ray starts a thousandth of a sample away. `to_sun`: unit vector in the world.
+bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun);
+
+/// Linear colours of a scene's hits. The constructor computes albedo, slopes and shadows of all
+/// terrains; later changes of the scene have no effect. Thread-safe.
 class Shading {
 public:
-    /// Precondition: `caster` was made from `scene`, and lives longer where rays find the shadows.
+    /// Precondition: `caster` was made from `scene`. With SunShadow::ray it must outlive this.
     Shading(const scene::Scene& scene, const SceneCaster& caster,
             SunShadow shadow = SunShadow::sweep);
 
-    /// Albedo times irradiance (scene/terrain_light.h) at the hit itself; the albedo alone without
-    /// a light.
+    /// Albedo times irradiance (scene/terrain_light.h); without a light the albedo.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit) const;
-    /// As `at`, seen from `distance` metres away.
+    /// The same through `distance` metres of air.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit, double distance) const;
-    /// Where there is no terrain: the sky, black without one.
+    /// The sky; black without one.
     [[nodiscard]] glm::vec3 background(glm::dvec3 direction) const;
 
 private:
@@ -55,10 +55,10 @@ private:
     [[nodiscard]] glm::vec3 irradiance(const Maps& maps, const SceneHit& hit,
                                        glm::dvec2 sample) const;
 
-    const SceneCaster* caster_; // null: the shadows are in the maps
+    const SceneCaster* caster_; // null: the maps contain the shadows
     std::optional<scene::Light> sun_;
     std::optional<scene::Sky> sky_;
-    std::vector<Maps> maps_; // of each terrain
+    std::vector<Maps> maps_; // per terrain
 };
 
 } // namespace reljef::truth

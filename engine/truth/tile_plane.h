@@ -14,62 +14,53 @@
 
 namespace reljef::truth {
 
-/// A tile of detail, its copies side by side over a level square around the origin, lit by a sun.
+/// A level square around the origin, covered with copies of a relief material and lit by a sun.
 struct TileSquare {
-    std::shared_ptr<const material::ReliefMaterial> set; ///< as completed() gave it
-    /// Which solids its maps say; absent: all below its heights.
-    std::optional<material::LayerKind> layers;
-    double side = 1.0;  ///< of the square, metres; > 0
-    int repeats = 1;    ///< tiles along the side; > 0
-    double scale = 0.1; ///< as ReliefOptions have it, and offset too
-    double offset = -1.0;
+    std::shared_ptr<const material::ReliefMaterial> set; ///< from completed()
+    std::optional<material::LayerKind> layers;           ///< absent: solid below the heights
+    double side = 1.0;                                   ///< of the square, metres; > 0
+    int repeats = 1;                                     ///< tiles along the side; > 0
+    double scale = 0.1;                                  ///< see ReliefOptions
+    double offset = -1.0;                                ///< see ReliefOptions
     scene::Light light;
 };
 
-/// What a technique should show of such a square: what is seen through it as through a window, in
-/// double precision. Light is that of the driver (Blinn and Phong, the set's normal map) with an
-/// exact shadow ray from each hit. Safe to ask from several threads.
+/// The true picture of such a square, seen through it as through a window, in double precision.
+/// Lit as by the driver (Blinn and Phong, the material's normal map) with an exact shadow ray from
+/// each hit. Thread-safe.
 class TilePlane {
 public:
-    /// Fails as ReliefPlane and LayeredPlane do.
+    /// Fails as ReliefPlane::create and LayeredPlane::create.
     static Result<TilePlane> create(TileSquare square);
 
-    /// Hits as the driver draws them: col and row of the tile, height in [0,1], depth; black where
-    /// nothing is. Each pixel's colour is the linear mean of rays_per_side² rays. Fails when it is
-    /// stopped.
+    /// Hits as from the driver: col and row in the tile, height in [0,1], depth. The background is
+    /// black. Fails when stopped.
     [[nodiscard]] Result<Picture> draw(const scene::Camera& camera, glm::ivec2 size,
                                        const DrawOptions& options = {}) const;
 
-    /// The errors of a frame against the true hits, see geometric_errors(). A hit names a place of
-    /// the tile, not which copy: the reprojection error is that of the copy that falls nearest to
-    /// the pixel, the hit error is taken across the border where that is nearer. Of layers the
-    /// place lies at the one that is nearest to the height the hit claims.
+    /// See geometric_errors(). A hit does not name the tile's copy: the copy nearest to the pixel
+    /// gives the reprojection error, and the hit error takes the shorter way across the border. A
+    /// hit on layers lies on the layer nearest to its height.
     [[nodiscard]] Result<GeometricErrors> errors(const scene::Camera& camera,
                                                  const HitBuffer& shown, const HitBuffer& truth,
                                                  unsigned threads = 0) const;
 
 private:
-    struct Place {
-        glm::dvec2 coordinate{0.0};
-        double height = 0.0;
-        int layer = 0;
-        double t = 0.0;
-    };
     TilePlane() = default;
-    [[nodiscard]] std::optional<Place> first_hit(const Ray& ray, Interval range) const;
-    [[nodiscard]] std::optional<Place> seen(const scene::Camera& camera, const Ray& ray) const;
-    [[nodiscard]] glm::dvec3 normal_at(const Place& place) const;
-    [[nodiscard]] glm::vec3 color_at(const Place& place, const Ray& ray) const;
+    [[nodiscard]] std::optional<ReliefHit> first_hit(const Ray& ray, Interval range) const;
+    [[nodiscard]] std::optional<ReliefHit> seen(const scene::Camera& camera, const Ray& ray) const;
+    [[nodiscard]] glm::dvec3 normal_at(const ReliefHit& hit) const;
+    [[nodiscard]] glm::vec3 color_at(const ReliefHit& hit, const Ray& ray) const;
     [[nodiscard]] bool sees_sun(const Ray& ray, double t) const;
-    [[nodiscard]] Hit hit_of(const Place& place) const;
-    [[nodiscard]] double true_height(glm::dvec2 coordinate, double claimed) const;
+    [[nodiscard]] Hit hit_of(const ReliefHit& hit) const;
+    [[nodiscard]] double true_height(glm::dvec2 coordinate, double hit_height) const;
     [[nodiscard]] double reprojection(const scene::Camera& camera, glm::ivec2 size,
                                       glm::ivec2 pixel, const Hit& hit) const;
 
     TileSquare square_;
     glm::dvec2 texels_{0.0};
     double width_ = 1.0;     // of a tile, metres
-    glm::dvec3 middle_{0.0}; // of the tile with texture coordinates 0 … 1
+    glm::dvec3 center_{0.0}; // of the tile with texture coordinates 0 … 1
     std::variant<std::monostate, ReliefPlane, LayeredPlane> surface_;
     material::LayerMap layers_;
     material::LayerNormals layer_normals_;

@@ -96,8 +96,9 @@ TEST(Gaussian, HasItsDeviation) {
 TEST(SeparableFilterDeathTest, KernelsHaveAMiddle) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const std::vector<double> even{0.5, 0.5};
-    EXPECT_DEATH(static_cast<void>(filtered_along_cols(Plane(3, 3), even)), "middle");
-    EXPECT_DEATH(static_cast<void>(filtered_along_rows(Plane(3, 3), even)), "middle");
+    const std::vector<double> odd{1.0};
+    EXPECT_DEATH(static_cast<void>(filtered(Plane(3, 3), even, odd)), "middle");
+    EXPECT_DEATH(static_cast<void>(filtered(Plane(3, 3), odd, even)), "middle");
 }
 
 } // namespace

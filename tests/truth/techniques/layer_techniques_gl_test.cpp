@@ -48,11 +48,6 @@ bool crosses_square(const Ray& ray) {
     return std::max(std::abs(entry.x), std::abs(entry.y)) <= 0.5 * plane_side - 0.02;
 }
 
-std::optional<ReliefHit> as_relief_hit(const std::optional<LayeredHit>& hit) {
-    return hit ? std::optional(ReliefHit{hit->texture_coordinate, hit->height, hit->t})
-               : std::nullopt;
-}
-
 TileErrors layer_errors(const Panel& panel, material::LayerKind kind, const HitBuffer& hits) {
     const PanelTruth place(panel);
     const LayeredPlane truth = layers_of(panel, kind);
@@ -63,7 +58,7 @@ TileErrors layer_errors(const Panel& panel, material::LayerKind kind, const HitB
                 scene::view_ray(panel.scene.camera(), mesh_picture, {x + 0.5, y + 0.5}));
             if (crosses_square(ray)) {
                 ray.origin -= place.middle;
-                judge(hits(x, y), as_relief_hit(truth.first_hit(ray)), panel, errors);
+                judge(hits(x, y), truth.first_hit(ray), panel, errors);
             }
         }
     }

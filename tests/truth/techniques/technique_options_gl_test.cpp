@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/truth/image_error.h"
-#include "engine/truth/sun_ray.h"
+#include "engine/truth/shading.h"
 #include "tests/support/release_only.h"
 #include "tests/truth/techniques/relief_stage.h"
 #include "tests/truth/techniques/two_ridges.h"
