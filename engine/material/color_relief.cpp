@@ -11,8 +11,7 @@
 namespace reljef::material {
 namespace {
 
-// CIE 1931 luminance of linear sRGB primaries, then the lightness (CIE 1976, up to scale) that
-// eyes, and who paints a texture, judge depth by.
+// CIE 1976 lightness, up to scale, of the CIE 1931 luminance.
 Grid<float> lightness_of(const Image& image) {
     Grid<float> lightness(image.cols(), image.rows());
     std::transform(image.samples().begin(), image.samples().end(), lightness.samples().begin(),
@@ -23,7 +22,7 @@ Grid<float> lightness_of(const Image& image) {
     return lightness;
 }
 
-// Beyond the border the picture is mirrored: a border drawn out would be a step as wide as a blur.
+// Mirrors at the border: clamping would make a step as wide as the blur.
 int mirrored_index(int index, int count) {
     const int period = 2 * count;
     const int inside = ((index % period) + period) % period;
@@ -34,25 +33,25 @@ int index_outside(int index, int count, bool wraps) {
     return wraps ? index_beyond(index, count, WrapMode::wrap) : mirrored_index(index, count);
 }
 
-// Binomial, its taps `step` samples apart along one axis.
+// Binomial filter along one axis, taps `step` samples apart.
 Grid<float> blurred_along(const Grid<float>& values, int step, bool south, bool wraps) {
     constexpr std::array taps{0.0625F, 0.25F, 0.375F, 0.25F, 0.0625F};
     Grid<float> blurred(values.cols(), values.rows());
     for (int row = 0; row < values.rows(); ++row) {
         for (int col = 0; col < values.cols(); ++col) {
             for (int i = 0; i < 5; ++i) {
-                const int away = (i - 2) * step;
+                const int offset = (i - 2) * step;
                 blurred(col, row) +=
                     taps[static_cast<std::size_t>(i)] *
-                    values(south ? col : index_outside(col + away, values.cols(), wraps),
-                           south ? index_outside(row + away, values.rows(), wraps) : row);
+                    values(south ? col : index_outside(col + offset, values.cols(), wraps),
+                           south ? index_outside(row + offset, values.rows(), wraps) : row);
             }
         }
     }
     return blurred;
 }
 
-// The lowest and the highest of a hundred parts are cut off.
+// Clips the lowest and the highest hundredth and scales to [0,1].
 Grid<float> stretched(Grid<float> heights) {
     std::vector<float> sorted(heights.samples().begin(), heights.samples().end());
     std::sort(sorted.begin(), sorted.end());
@@ -74,7 +73,7 @@ Grid<float> heights_from_colors(const Image& image, const ColorReliefOptions& op
     const auto samples = finer.samples();
     if (std::all_of(samples.begin(), samples.end(),
                     [&](float value) { return value == samples.front(); })) {
-        return heights; // what rounding leaves of no contrast is not to be stretched
+        return heights; // stretching would amplify rounding errors
     }
     for (int octave = 0; octave < options.octaves; ++octave) {
         const int step = 1 << octave; // à trous (Holschneider et al. 1989)

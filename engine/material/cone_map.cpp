@@ -21,7 +21,7 @@ Bounds joined(Bounds a, Bounds b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
-// Of a block of cells: its heights, and its slopes along the columns and along the rows, a sample.
+// Bounds over a block of cells: heights, and slopes per sample along columns and rows.
 struct Relief {
     Bounds height;
     Bounds east;
@@ -78,12 +78,12 @@ float steepest_slope(const Relief& relief) {
     return std::hypot(east, south);
 }
 
-// How far two gradients may lie apart.
+// Bound of the distance between two gradients.
 float variation(const Relief& relief) {
     return std::hypot(relief.east.high - relief.east.low, relief.south.high - relief.south.low);
 }
 
-// Of each 3×3.
+// Joins each 3×3 block.
 Grid<Relief> widened(const Grid<Relief>& cells) {
     Grid<Relief> along(cells.cols(), cells.rows());
     Grid<Relief> wide(cells.cols(), cells.rows());
@@ -102,19 +102,18 @@ Grid<Relief> widened(const Grid<Relief>& cells) {
     return wide;
 }
 
-// The way from the tip to a point that limits its cone rises at most so steeply on the whole, where
-// both lie in this block: as its steepest slope; and, where the surface falls at the way's end, as
-// much as the gradients on the way differ from that at its end.
+// Bound of the mean slope from a tip to a point that limits its cone, both in this block: the
+// steepest slope. Where the surface falls at the end, also the variation of the gradient.
 float steepest_way(const Relief& block, ConeKind kind) {
     const float steepest = steepest_slope(block);
     return kind == ConeKind::plain ? steepest : std::min(steepest, variation(block));
 }
 
-// Up to so many cells away this bounds a rise better than the cells' lowest and highest heights
-// may: both cells' own extents count for much of their distance there.
+// Up to this distance in cells slopes bound a rise better than minimum and maximum heights do: the
+// cells' own extents are a large part of the distance.
 constexpr int near_cells = 8;
 
-// [n]: of ways among the cells up to n away; fewer where it was stopped.
+// Element n: for cells up to n away. Fewer elements when stopped.
 std::vector<Grid<float>> steepest_ways(const Grid<Relief>& cells, ConeKind kind,
                                        const std::stop_token& stop) {
     std::vector<Grid<float>> ways;
@@ -134,7 +133,7 @@ float min_product(Bounds a, Bounds b) {
     return std::min({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
 }
 
-// A quarter of all directions, mirrored so that both parts of each are >= 0.
+// A quadrant of directions, mirrored so that both components are >= 0.
 struct Quarter {
     int east;
     int south;
@@ -145,13 +144,13 @@ Bounds mirrored(Bounds bounds, int sign) {
     return sign > 0 ? bounds : Bounds{-bounds.high, -bounds.low};
 }
 
-// Directions between two unit vectors of the quarter, counted from east (1, 0) to south (0, 1).
+// Directions between two unit vectors of the quadrant, from east (1, 0) to south (0, 1).
 struct Fan {
     glm::vec2 from{0.0F};
     glm::vec2 to{0.0F};
 };
 
-// In which directions of the quarter a cell may fall.
+// The directions in which a cell may fall.
 std::optional<Fan> falling(const Relief& cell, Quarter quarter) {
     const float east = mirrored(cell.east, quarter.east).low;
     const float south = mirrored(cell.south, quarter.south).low;
@@ -171,7 +170,7 @@ float cross(glm::vec2 a, glm::vec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// The steepest that a cell may rise in a direction of the fan.
+// The steepest possible rise of a cell in a direction of the fan.
 float steepest_in(const Relief& cell, Quarter quarter, const Fan& fan) {
     const glm::vec2 slope(mirrored(cell.east, quarter.east).high,
                           mirrored(cell.south, quarter.south).high);
@@ -180,24 +179,24 @@ float steepest_in(const Relief& cell, Quarter quarter, const Fan& fan) {
                   : std::max(glm::dot(slope, fan.from), glm::dot(slope, fan.to));
 }
 
-// What a float sum of a few products may be off by, and the ratio is made smaller by.
+// Covers the rounding error of a float sum of a few products.
 constexpr float rounding = 1.0F - 0x1p-20F;
 
-// Finds the ratio of one cell after another.
+// Finds the ratios of cells, one after another.
 class ConeFinder {
 public:
     ConeFinder(const std::vector<Grid<Relief>>& levels, const std::vector<Grid<float>>& steepest,
-               ConeKind kind, float widest)
+               ConeKind kind)
         : levels_(levels), cells_(levels.front()), steepest_(steepest),
-          relaxed_(kind == ConeKind::relaxed), widest_(widest) {}
+          relaxed_(kind == ConeKind::relaxed) {}
 
     float ratio(glm::ivec2 cell) {
         cell_ = cell;
-        ratio_ = std::min(widest_, relaxed_ ? near_relaxed_ratio() : 1.0F / slope_within(1));
+        ratio_ = std::min(widest_cone, relaxed_ ? near_relaxed_ratio() : 1.0F / slope_within(1));
         if (limit_.x >= 0) {
-            look_at(limit_); // what limits a cell often limits the next
+            test_cell(limit_); // the same cell often limits the next one
         }
-        look_everywhere();
+        test_all_cells();
         return ratio_ * rounding;
     }
 
@@ -217,9 +216,9 @@ private:
         return there ? &cells_(at.x, at.y) : nullptr;
     }
 
-    // Where the way from the cell ends falling in a neighbour: it rises in the cell and in what
-    // lies between as these do, and in the neighbour, along a parabola that ends falling, half as
-    // steeply as that begins.
+    // For ways that end falling in a neighbour. They rise with the slopes of the cell and of the
+    // cells between; in the neighbour they follow a parabola that ends falling, so half its initial
+    // slope bounds its mean slope.
     [[nodiscard]] float near_relaxed_ratio() const {
         float slope = own_slope();
         for (const Quarter quarter : quarters) {
@@ -242,22 +241,22 @@ private:
         return 1.0F / std::min(slope, slope_within(1));
     }
 
-    // From one point of a patch to another where it falls: half as steep as the steepest, and, as a
-    // patch bends along a line by its twist only, no steeper than the twist over √2.
+    // Between two points of a patch, falling at the end: half the steepest slope; and, because only
+    // the twist bends a patch along a line, at most twist / √2.
     [[nodiscard]] float own_slope() const {
         const Relief& own = cells_(cell_.x, cell_.y);
         const float twist = own.east.high - own.east.low;
         return std::min(0.5F * steepest_slope(own), twist / std::sqrt(2.0F));
     }
 
-    void look_everywhere() {
+    void test_all_cells() {
         stack_.push_back({static_cast<int>(levels_.size()) - 1, {0, 0}});
         while (!stack_.empty()) {
             const Block block = stack_.back();
             stack_.pop_back();
             if (may_limit(block.level, block.at)) {
                 if (block.level == 0) {
-                    look_at(block.at);
+                    test_cell(block.at);
                 } else {
                     push_parts(block);
                 }
@@ -265,7 +264,7 @@ private:
         }
     }
 
-    // The nearest part is looked at first.
+    // The nearest part is on top.
     void push_parts(const Block& block) {
         const int level = block.level - 1;
         const Grid<Relief>& grid = levels_[static_cast<std::size_t>(level)];
@@ -281,8 +280,7 @@ private:
         }
     }
 
-    // Samples between the cell and a block along one axis, and from any of its points to any of the
-    // block's.
+    // Bounds of the offset from a point of the cell to a point of a block, samples along one axis.
     static Bounds way_along(int cell, int first, int cells) {
         return {static_cast<float>(first - cell - 1), static_cast<float>(first + cells - cell)};
     }
@@ -305,8 +303,8 @@ private:
                 min_product(block.east, east) + min_product(block.south, south) < 0.0F);
     }
 
-    // Takes what a cell that is no neighbour limits the ratio to.
-    void look_at(glm::ivec2 at) {
+    // Limits the ratio by a cell that is not a neighbour.
+    void test_cell(glm::ivec2 at) {
         const glm::ivec2 away = glm::abs(at - cell_);
         const int cells = std::max(away.x, away.y);
         if (cells <= 1 || !may_limit(0, at)) {
@@ -326,7 +324,6 @@ private:
     const Grid<Relief>& cells_;
     const std::vector<Grid<float>>& steepest_;
     bool relaxed_;
-    float widest_;
     glm::ivec2 cell_{0};
     float ratio_ = 0.0F;
     glm::ivec2 limit_{-1};
@@ -336,31 +333,28 @@ private:
 } // namespace
 
 std::optional<Grid<float>> cone_map(GridView<const float> heights, ConeKind kind,
-                                    const ConeOptions& options) {
+                                    const ParallelOptions& parallel) {
     check(heights.cols() >= 2 && heights.rows() >= 2, "cones need at least 2x2 samples");
     const std::vector<Grid<Relief>> levels = relief_pyramid(heights);
-    const std::vector<Grid<float>> steepest =
-        steepest_ways(levels.front(), kind, options.parallel.stop);
+    const std::vector<Grid<float>> steepest = steepest_ways(levels.front(), kind, parallel.stop);
     Grid<float> ratios(heights.cols() - 1, heights.rows() - 1);
     const bool done = parallel_for(
         ratios.rows(),
         [&](int row) {
-            ConeFinder finder(levels, steepest, kind, options.widest);
+            ConeFinder finder(levels, steepest, kind);
             for (int col = 0; col < ratios.cols(); ++col) {
                 ratios(col, row) = finder.ratio({col, row});
             }
         },
-        options.parallel);
+        parallel);
     return done ? std::optional(std::move(ratios)) : std::nullopt;
 }
 
-std::optional<ConeMaps> cone_maps(GridView<const float> heights, const ConeOptions& options) {
-    ConeOptions half = options;
+std::optional<ConeMaps> cone_maps(GridView<const float> heights, const ParallelOptions& parallel) {
+    ParallelOptions half = parallel;
     double begin = 0.0;
-    if (options.parallel.progress) {
-        half.parallel.progress = [&](double fraction) {
-            options.parallel.progress(begin + 0.5 * fraction);
-        };
+    if (parallel.progress) {
+        half.progress = [&](double fraction) { parallel.progress(begin + 0.5 * fraction); };
     }
     auto plain = cone_map(heights, ConeKind::plain, half);
     begin = 0.5;

@@ -8,52 +8,47 @@
 
 namespace reljef::material {
 
-/// What a cone that stands on the surface with its tip, open upwards, may hold.
+/// A cone stands on the surface with its tip and opens upwards.
 enum class ConeKind {
-    plain,  ///< nothing of the surface: any ray inside is above it (Dummer 2006)
-    relaxed ///< what no ray that starts on its axis above the surface, and does not rise, meets
-            ///< more than once (Policarpo and Oliveira, GPU Gems 3, 2007, ch. 18)
+    plain,  ///< contains no part of the surface (Dummer 2006)
+    relaxed ///< no falling ray that starts on its axis above the surface meets the surface twice
+            ///< inside (Policarpo and Oliveira, GPU Gems 3, 2007, ch. 18)
 };
 
-/// No cone is wider: samples per unit of height of heights in [0,1]. A wider one saves little, as a
-/// ray that falls so slowly has left most maps.
+/// Maximum cone ratio, samples per unit of heights in [0,1]. A wider cone saves little: a ray that
+/// falls so slowly has left most maps.
 inline constexpr float widest_cone = 1024.0F;
 
-struct ConeOptions {
-    float widest = widest_cone; ///< samples per unit of height, > 0
-    ParallelOptions parallel;
-};
-
-/// How wide the cones over a bilinear height surface are: radius over height, in samples per unit
-/// of the heights. Cell (col, row) lies between the samples (col, row) and (col + 1, row + 1); its
-/// ratio holds for a cone on any point of its bilinear patch, not only on its corners. A surface
-/// that is scaled keeps its cones: they are ellipses then.
+/// The cone ratios (radius over height) of a bilinear height surface, in samples per unit of the
+/// heights, at most widest_cone. Cell (col, row) lies between the samples (col, row) and
+/// (col + 1, row + 1); its ratio is valid for a cone on any point of its bilinear patch. Scaling
+/// the surface keeps the ratios: the cones become ellipses.
 ///
-/// A plain cone's ratio is at most distance / rise to any higher point. A relaxed one's is at most
-/// that to any point where the surface falls along the way from the tip: there, and only there, a
-/// ray comes out of the surface again. Found by bounds over pairs of cells, pruned by a pyramid;
-/// what is rounded is rounded down.
+/// A plain cone's ratio is at most distance / rise to any higher point. For a relaxed cone only
+/// points count where the surface falls along the way from the tip: only there a ray leaves the
+/// surface again. Computed from bounds over pairs of cells, pruned by a pyramid, and rounded down.
 ///
-/// Absent when it was stopped. Precondition: at least 2×2 samples, all finite.
+/// Empty when stopped. Precondition: at least 2×2 finite samples.
 std::optional<Grid<float>> cone_map(GridView<const float> heights, ConeKind kind,
-                                    const ConeOptions& options = {});
+                                    const ParallelOptions& parallel = {});
 
-/// The least of the cells around each sample: what may be interpolated bilinearly between samples.
-/// Precondition: not empty.
+/// The minimum of the cells around each sample, for bilinear interpolation. Precondition: not
+/// empty.
 Grid<float> cones_at_samples(const Grid<float>& cells);
 
-/// Ratios as whole numbers up to `highest` (255, 65535), rounded down: ratio = widest · (code /
-/// highest)². Interpolated bilinearly they are still no wider than the widest of the four.
-/// Precondition: 0 < highest <= 65535, widest > 0.
+/// Ratios as integers up to `highest` (255, 65535), rounded down: ratio = widest · (code /
+/// highest)². Bilinear interpolation stays below the widest of the four. Precondition:
+/// 0 < highest <= 65535, widest > 0.
 Grid<std::uint16_t> cone_codes(const Grid<float>& ratios, float widest, int highest);
 float cone_of_code(float code, float widest, int highest);
 
-/// Both kinds of one surface, by cell.
+/// Both kinds, by cell.
 struct ConeMaps {
     Grid<float> plain;
     Grid<float> relaxed;
 };
-/// As cone_map, of both.
-std::optional<ConeMaps> cone_maps(GridView<const float> heights, const ConeOptions& options = {});
+/// See cone_map().
+std::optional<ConeMaps> cone_maps(GridView<const float> heights,
+                                  const ParallelOptions& parallel = {});
 
 } // namespace reljef::material

@@ -8,8 +8,11 @@
 namespace reljef::material {
 namespace {
 
-// A sum over links between neighbouring samples of weight · (difference of heights)²: the weights
-// of the links to the next column and to the next row; the last ones lead to the first.
+constexpr double reduction = 1e-8;
+constexpr int max_rounds = 200;
+
+// Weights of the links from each sample to the next column and row; the last sample links to the
+// first. The energy is the sum of weight · (difference of heights)².
 struct Links {
     Grid<double> east;
     Grid<double> south;
@@ -32,7 +35,7 @@ Links first_links(int cols, int rows, WrapMode border) {
     return links;
 }
 
-// Of blocks of 2×2 samples, all of one height each.
+// The links between blocks of 2×2 samples of constant height.
 Links block_links(const Links& fine) {
     Links coarse{Grid<double>((fine.cols() + 1) / 2, (fine.rows() + 1) / 2),
                  Grid<double>((fine.cols() + 1) / 2, (fine.rows() + 1) / 2)};
@@ -49,7 +52,7 @@ Links block_links(const Links& fine) {
     return coarse;
 }
 
-// A sample's links: the sum of the weights, and of weight · the neighbour's height.
+// Sums over a sample's links: weight, and weight · neighbour's height.
 struct Pull {
     double weight = 0.0;
     double height = 0.0;
@@ -88,7 +91,7 @@ void settle(const Links& links, const Grid<double>& desired, Grid<double>& heigh
     }
 }
 
-// Gauss-Seidel, forwards and then backwards: one is the other's transpose.
+// Gauss-Seidel; the backward sweep is the transpose of the forward sweep.
 void sweep_forwards(const Links& links, const Grid<double>& desired, Grid<double>& heights) {
     for (int row = 0; row < links.rows(); ++row) {
         for (int col = 0; col < links.cols(); ++col) {
@@ -104,11 +107,10 @@ void sweep_backwards(const Links& links, const Grid<double>& desired, Grid<doubl
     }
 }
 
-// Blocks of one height are stiffer than the smooth surface that they stand for: what they answer is
-// too small, by two where the surface is linear.
-constexpr double answer_scale = 1.8;
+// Blocks of constant height are stiffer than a smooth surface: their correction is too small, by a
+// factor of 2 on a linear surface.
+constexpr double correction_scale = 1.8;
 
-// About the heights for which the links' gradient is as wanted.
 class Multigrid {
 public:
     explicit Multigrid(Links links) {
@@ -120,25 +122,27 @@ public:
 
     [[nodiscard]] const Links& links() const { return levels_.front(); }
 
-    [[nodiscard]] Grid<double> about(const Grid<double>& desired, std::size_t level = 0) const {
+    // Approximate heights whose gradient over the links is `desired`.
+    [[nodiscard]] Grid<double> approximate(const Grid<double>& desired,
+                                           std::size_t level = 0) const {
         const Links& links = levels_[level];
         Grid<double> heights(links.cols(), links.rows());
         if (level + 1 == levels_.size()) {
-            return heights; // one block is as good at any height
+            return heights; // the height of a single block is free
         }
         sweep_forwards(links, desired, heights);
-        Grid<double> missing(links.cols(), links.rows());
-        apply_links(links, heights, missing);
+        Grid<double> reached(links.cols(), links.rows());
+        apply_links(links, heights, reached);
         Grid<double> sums((links.cols() + 1) / 2, (links.rows() + 1) / 2);
         for (int row = 0; row < links.rows(); ++row) {
             for (int col = 0; col < links.cols(); ++col) {
-                sums(col / 2, row / 2) += desired(col, row) - missing(col, row);
+                sums(col / 2, row / 2) += desired(col, row) - reached(col, row);
             }
         }
-        const Grid<double> blocks = about(sums, level + 1);
+        const Grid<double> blocks = approximate(sums, level + 1);
         for (int row = 0; row < links.rows(); ++row) {
             for (int col = 0; col < links.cols(); ++col) {
-                heights(col, row) += answer_scale * blocks(col / 2, row / 2);
+                heights(col, row) += correction_scale * blocks(col / 2, row / 2);
             }
         }
         sweep_backwards(links, desired, heights);
@@ -168,17 +172,18 @@ void subtract_mean(Grid<double>& values) {
     }
 }
 
-// Rise along one axis from one sample to the next.
+// Rise from one sample to the next along an axis.
 double rise_along(glm::vec3 normal, glm::dvec2 spacing, bool south) {
     const double rise = south ? spacing.y * normal.y / normal.z : -spacing.x * normal.x / normal.z;
     return normal.z > 0.0F && std::isfinite(rise) ? rise : 0.0;
 }
 
-// The gradient of half the sum of (difference − asked)² where all heights are 0, turned round.
-Grid<double> wanted_gradient(GridView<const glm::vec3> normals, const Links& links,
+// The negative gradient of ½ Σ (difference − rise)² at heights 0.
+Grid<double> target_gradient(GridView<const glm::vec3> normals, const Links& links,
                              glm::dvec2 spacing) {
     Grid<double> desired(links.cols(), links.rows());
-    const auto ask = [&](int col, int row, int next_col, int next_row, double weight, bool south) {
+    const auto add_rise = [&](int col, int row, int next_col, int next_row, double weight,
+                              bool south) {
         const double rise = 0.5 * weight *
                             (rise_along(normals(col, row), spacing, south) +
                              rise_along(normals(next_col, next_row), spacing, south));
@@ -187,8 +192,8 @@ Grid<double> wanted_gradient(GridView<const glm::vec3> normals, const Links& lin
     };
     for (int row = 0; row < links.rows(); ++row) {
         for (int col = 0; col < links.cols(); ++col) {
-            ask(col, row, links.next_col(col), row, links.east(col, row), false);
-            ask(col, row, col, links.next_row(row), links.south(col, row), true);
+            add_rise(col, row, links.next_col(col), row, links.east(col, row), false);
+            add_rise(col, row, col, links.next_row(row), links.south(col, row), true);
         }
     }
     return desired;
@@ -209,25 +214,24 @@ IntegratedHeights heights_from_normals(GridView<const glm::vec3> normals,
     check(options.spacing.x > 0.0 && options.spacing.y > 0.0, "heights without a spacing");
     const Multigrid grid(first_links(normals.cols(), normals.rows(), options.border));
     Grid<double> heights(normals.cols(), normals.rows());
-    Grid<double> missing = wanted_gradient(normals, grid.links(), options.spacing);
-    const double first = std::sqrt(product(missing, missing));
+    Grid<double> residual = target_gradient(normals, grid.links(), options.spacing);
+    const double first = std::sqrt(product(residual, residual));
     IntegratedHeights result{{}, first > 0.0 ? 1.0 : 0.0, 0};
-    Grid<double> way = grid.about(missing);
-    Grid<double> bent(normals.cols(), normals.rows());
-    double gain = product(missing, way);
-    while (result.remaining > options.reduction && result.rounds < options.max_rounds &&
+    Grid<double> direction = grid.approximate(residual);
+    Grid<double> image(normals.cols(), normals.rows());
+    double gain = product(residual, direction);
+    while (result.remaining > reduction && result.rounds < max_rounds &&
            !options.stop.stop_requested() && gain > 0.0) {
-        apply_links(grid.links(), way, bent);
-        const double length = gain / product(way, bent);
-        add_scaled(heights, length, way);
-        add_scaled(missing, -length, bent);
-        const Grid<double> better = grid.about(missing);
-        const double next_gain = product(missing, better);
-        Grid<double> next_way = better;
-        add_scaled(next_way, next_gain / gain, way);
-        way = std::move(next_way);
+        apply_links(grid.links(), direction, image);
+        const double length = gain / product(direction, image);
+        add_scaled(heights, length, direction);
+        add_scaled(residual, -length, image);
+        Grid<double> next = grid.approximate(residual);
+        const double next_gain = product(residual, next);
+        add_scaled(next, next_gain / gain, direction);
+        direction = std::move(next);
         gain = next_gain;
-        result.remaining = std::sqrt(product(missing, missing)) / first;
+        result.remaining = std::sqrt(product(residual, residual)) / first;
         ++result.rounds;
     }
     subtract_mean(heights);

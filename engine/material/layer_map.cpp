@@ -18,7 +18,6 @@ namespace {
 
 constexpr float middle_height = 0.5F;
 
-// What is wrong with the four heights of one place.
 std::optional<std::string> error_of(const glm::vec4& heights) {
     for (int i = 0; i < 4; ++i) {
         if (!(heights[i] >= 0.0F && heights[i] <= 1.0F)) {
@@ -35,22 +34,22 @@ std::optional<std::string> error_of(const glm::vec4& heights) {
     return std::nullopt;
 }
 
-template <class Heights> LayerMap made_layers(int cols, int rows, const Heights& heights_at) {
+template <class Heights>
+Result<LayerMap> make_layers(int cols, int rows, const Heights& heights_at) {
     Grid<glm::vec4> heights(cols, rows);
     for (int row = 0; row < rows; ++row) {
         for (int col = 0; col < cols; ++col) {
             heights(col, row) = heights_at(col, row);
         }
     }
-    return LayerMap::create(std::move(heights)).value();
+    return LayerMap::create(std::move(heights));
 }
 
-// Whether the triangle is met by the plumb line through a place, and at which height; edges belong
-// to the triangle on their one side only.
+// Height of a triangle above a place. An edge belongs to the triangle on one side of it only.
 std::optional<double> height_on(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                                 glm::dvec2 place) {
     const auto side = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        // The same number for an edge, whichever way it runs.
+        // The same value for both directions of an edge.
         const bool swapped = std::pair(to.x, to.y) < std::pair(from.x, from.y);
         const glm::dvec3& p = swapped ? to : from;
         const glm::dvec3& q = swapped ? from : to;
@@ -105,7 +104,7 @@ void add_crossings(Grid<Column>& columns, const TileMesh& mesh, std::size_t firs
         corners[k] = glm::dvec3(mesh.positions[mesh.indices[first + k]]) * to_texels;
     }
     const auto& [a, b, c] = corners;
-    // Rows run down: what faces up turns to the left on the tile as it is looked at.
+    // Rows run down, so a triangle that faces up has a negative area.
     const double turned = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     const glm::ivec2 low(glm::floor(glm::min(glm::min(a, b), c) - 0.5));
     const glm::ivec2 high(glm::ceil(glm::max(glm::max(a, b), c) - 0.5));
@@ -120,7 +119,7 @@ void add_crossings(Grid<Column>& columns, const TileMesh& mesh, std::size_t firs
     }
 }
 
-// What is solid along a plumb line, from above.
+// The solids along a vertical line, from above.
 std::vector<Solid> solids_of(Column column) {
     std::sort(column.begin(), column.end(), [](const Crossing& one, const Crossing& other) {
         return one.height != other.height ? one.height > other.height : one.turn > other.turn;
@@ -140,7 +139,7 @@ std::vector<Solid> solids_of(Column column) {
     return solids;
 }
 
-// The mean of the neighbours that have a value; in copies.
+// The mean of the neighbours with a value; wraps.
 std::optional<float> mean_around(const Grid<std::optional<float>>& values, int col, int row) {
     constexpr std::array<glm::ivec2, 4> ways{glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1),
                                              glm::ivec2(0, -1)};
@@ -155,7 +154,7 @@ std::optional<float> mean_around(const Grid<std::optional<float>>& values, int c
     return count > 0 ? std::optional(sum / static_cast<float>(count)) : std::nullopt;
 }
 
-// Texels without a value that lie beside one with a value take theirs. False where there are none.
+// Fills texels beside a texel with a value. Returns whether there were any.
 bool fill_one_ring(Grid<std::optional<float>>& values) {
     const Grid<std::optional<float>> before = values;
     bool is_changed = false;
@@ -170,12 +169,7 @@ bool fill_one_ring(Grid<std::optional<float>>& values) {
     return is_changed;
 }
 
-void fill_from_neighbours(Grid<std::optional<float>>& values) {
-    while (fill_one_ring(values)) {
-    }
-}
-
-// Where one of the two solids is, of each texel; and where their middles lie, also without them.
+// One of the two solids per texel, and its middle, also in holes.
 struct Halves {
     Grid<std::optional<Solid>> solids;
     Grid<std::optional<float>> middles;
@@ -193,7 +187,7 @@ struct Halves {
     }
 };
 
-// The uppermost and the lowest of what the plumb lines meet.
+// The uppermost and the lowest solids.
 struct BothHalves {
     Halves upper;
     Halves lower;
@@ -214,12 +208,14 @@ BothHalves halves_of(Grid<Column>& columns) {
             }
         }
     }
-    fill_from_neighbours(both.upper.middles);
-    fill_from_neighbours(both.lower.middles);
+    for (auto* middles : {&both.upper.middles, &both.lower.middles}) {
+        while (fill_one_ring(*middles)) {
+        }
+    }
     return both;
 }
 
-// A hole among the lower lies no higher than the upper.
+// A hole of the lower solid lies below the upper solid.
 glm::vec4 layers_at(const BothHalves& both, int col, int row) {
     const glm::vec2 high = both.upper.at(col, row);
     const glm::vec2 low = both.lower.at(col, row);
@@ -246,10 +242,11 @@ Result<LayerMap> LayerMap::create(Grid<glm::vec4> heights) {
 }
 
 LayerMap symmetric_layers(GridView<const float> heights) {
-    return made_layers(heights.cols(), heights.rows(), [&](int col, int row) {
+    const auto heights_at = [&](int col, int row) {
         const float half = 0.5F * heights(col, row);
         return glm::vec4(middle_height + half, middle_height - half, glm::vec2(0.0F));
-    });
+    };
+    return make_layers(heights.cols(), heights.rows(), heights_at).value();
 }
 
 Result<LayerMap> dual_layers(GridView<const float> front, GridView<const float> back) {
@@ -259,20 +256,17 @@ Result<LayerMap> dual_layers(GridView<const float> front, GridView<const float> 
                         "one size was expected",
                         front.cols(), front.rows(), back.cols(), back.rows())};
     }
-    Grid<glm::vec4> heights(front.cols(), front.rows());
-    for (int row = 0; row < heights.rows(); ++row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            heights(col, row) = {middle_height + 0.5F * front(col, row),
-                                 middle_height - 0.5F * back(col, row), 0.0F, 0.0F};
-        }
-    }
-    return LayerMap::create(std::move(heights));
+    return make_layers(front.cols(), front.rows(), [&](int col, int row) {
+        return glm::vec4(middle_height + 0.5F * front(col, row),
+                         middle_height - 0.5F * back(col, row), 0.0F, 0.0F);
+    });
 }
 
 LayerMap filled_layers(GridView<const float> heights) {
-    return made_layers(heights.cols(), heights.rows(), [&](int col, int row) {
+    const auto heights_at = [&](int col, int row) {
         return glm::vec4(heights(col, row), glm::vec3(0.0F));
-    });
+    };
+    return make_layers(heights.cols(), heights.rows(), heights_at).value();
 }
 
 Grid<float> top_heights(const LayerMap& layers) {
@@ -287,10 +281,11 @@ Grid<float> top_heights(const LayerMap& layers) {
 
 LayerMap seen_from_behind(const LayerMap& layers) {
     const Grid<glm::vec4>& from = layers.heights();
-    return made_layers(from.cols(), from.rows(), [&](int col, int row) {
+    const auto heights_at = [&](int col, int row) {
         const glm::vec4& heights = from(col, row);
         return 1.0F - glm::vec4(heights.w, heights.z, heights.y, heights.x);
-    });
+    };
+    return make_layers(from.cols(), from.rows(), heights_at).value();
 }
 
 LayerNormals layer_normals(const LayerMap& layers, float scale, WrapMode border) {
@@ -298,7 +293,6 @@ LayerNormals layer_normals(const LayerMap& layers, float scale, WrapMode border)
     const int cols = heights.cols();
     const int rows = heights.rows();
     LayerNormals normals{Grid<glm::vec4>(cols, rows), Grid<glm::vec4>(cols, rows)};
-    // Off the solid: up from the first and the third, down from the others.
     const glm::vec4 outward(1.0F, -1.0F, 1.0F, -1.0F);
     const glm::vec2 per_width = 0.5F * scale * glm::vec2(cols, rows);
     for (int row = 0; row < rows; ++row) {
@@ -326,13 +320,8 @@ Result<MeshLayers> layers_of_mesh(const TileMesh& mesh, int cols, int rows) {
         add_crossings(columns, mesh, i);
     }
     const BothHalves both = halves_of(columns);
-    Grid<glm::vec4> heights(cols, rows);
-    for (int row = 0; row < rows; ++row) {
-        for (int col = 0; col < cols; ++col) {
-            heights(col, row) = layers_at(both, col, row);
-        }
-    }
-    auto layers = LayerMap::create(std::move(heights));
+    auto layers =
+        make_layers(cols, rows, [&](int col, int row) { return layers_at(both, col, row); });
     if (!layers) {
         return layers.error();
     }

@@ -13,16 +13,14 @@
 
 namespace reljef::material {
 
-/// Two solids, one over the other, by their four surfaces over one tile: heights in [0,1], each
-/// nowhere above the one before it. What lies between the first and the second, and between the
-/// third and the fourth, is solid; where two such are equal there is a hole (Policarpo and Oliveira
-/// 2006). Between texel centres the surfaces are bilinear.
+/// Two solids over a tile, given by four bilinear surfaces with descending heights in [0,1]: solid
+/// between 1 and 2, and between 3 and 4; a hole where the two are equal (Policarpo and Oliveira
+/// 2006).
 class LayerMap {
 public:
-    /// None.
+    /// Empty.
     LayerMap() = default;
-    /// Fails on no texels, and where a height is outside [0,1] or above the one before it, with the
-    /// first such place.
+    /// Fails without texels, and at the first height outside [0,1] or above the one before it.
     static Result<LayerMap> create(Grid<glm::vec4> heights);
 
     [[nodiscard]] const Grid<glm::vec4>& heights() const { return heights_; }
@@ -31,49 +29,47 @@ private:
     Grid<glm::vec4> heights_;
 };
 
-/// A sheet as thick as the heights say, half of it on each side of its middle: height 0 is a hole
-/// (GPU surface-detail survey 2008 ch. 3.6.9). Precondition: heights in [0,1], at least one.
+/// A sheet whose thickness is the height, symmetric around its middle; height 0 is a hole (GPU
+/// surface-detail survey 2008 ch. 3.6.9). Precondition: not empty, heights in [0,1].
 LayerMap symmetric_layers(GridView<const float> heights);
 
-/// A sheet with its own heights on each side of its middle, `back` off the back (ch. 3.6.10). Fails
-/// as create, and on maps of different sizes.
+/// A sheet with its own heights on each side of its middle (ch. 3.6.10). Fails as create() and on
+/// maps of different sizes.
 Result<LayerMap> dual_layers(GridView<const float> front, GridView<const float> back);
 
-/// All below the heights is solid. Precondition: heights in [0,1], at least one.
+/// Solid below the heights. Precondition: not empty, heights in [0,1].
 LayerMap filled_layers(GridView<const float> heights);
 
-/// What is seen from straight above: the uppermost solid; 0 where there is none.
+/// The top of the uppermost solid; 0 without a solid.
 Grid<float> top_heights(const LayerMap& layers);
 
-/// The tile seen from behind: what was lowest is highest.
+/// The tile from behind: heights h become 1 − h.
 LayerMap seen_from_behind(const LayerMap& layers);
 
-/// x and y of the four surfaces' unit normals, off the solid; z is positive on the first and the
-/// third, negative on the others (ch. 3.6.11): sqrt(1 - x² - y²). x along u, y along v.
+/// x (along u) and y (along v) of the four surfaces' outward unit normals. |z| = sqrt(1 - x² - y²);
+/// z is positive on surfaces 1 and 3, negative on 2 and 4 (ch. 3.6.11).
 struct LayerNormals {
     Grid<glm::vec4> along_u;
     Grid<glm::vec4> along_v;
 };
-/// From central differences over the border, of a height of 1 that lifts a point `scale` tile
-/// widths. Precondition: not empty, scale > 0.
+/// From central differences. `scale`: height of 1, in tile widths. Precondition: not empty,
+/// scale > 0.
 LayerNormals layer_normals(const LayerMap& layers, float scale, WrapMode border);
 
-/// A closed mesh in tile space: x and y are texture coordinates, z the height; what lies beyond the
-/// tile counts in the next copy. Every three indices are one triangle, counter-clockwise from the
-/// outside.
+/// A closed mesh in tile space: x and y are texture coordinates and wrap, z is the height.
+/// Triangles are counter-clockwise from outside.
 struct TileMesh {
     std::span<const glm::vec3> positions;
     std::span<const std::uint32_t> indices;
 };
 struct MeshLayers {
     LayerMap layers;
-    /// Texels under more than two solids: the highest and the lowest are kept.
-    std::size_t too_many = 0;
+    std::size_t too_many = 0; ///< texels with more than two solids; the outer two are kept
 };
-/// What plumb lines through the texel centres meet of it, the uppermost solid first. A hole lies
-/// where the middle of the solid next to it does, so that surfaces close on their way there. Fails
-/// where a height is outside [0,1] or a place is farther than 64 copies of the tile. Precondition:
-/// cols, rows > 0, indices below the positions.
+/// Samples a mesh along vertical lines through the texel centres, uppermost solid first. A hole has
+/// the height of the nearest solid's middle, so that surfaces close towards it. Fails on a height
+/// outside [0,1] and on positions beyond 64 copies of the tile. Precondition: cols, rows > 0;
+/// indices in range.
 Result<MeshLayers> layers_of_mesh(const TileMesh& mesh, int cols, int rows);
 
 } // namespace reljef::material

@@ -59,33 +59,33 @@ void note_sizes(ReliefMaterial& set) {
     note("normals", set.normals);
 }
 
-// Unit vectors in eight bits are good to a few hundredths: half the length is none.
+// Unit vectors in 8 bits have errors of a few hundredths.
 bool is_normal(glm::vec3 normal) {
     constexpr float min_length = 0.5F;
     const float length = glm::length(normal);
     return length >= min_length && std::isfinite(length) && normal.z > 0.0F;
 }
 
-void mend_normals(ReliefMaterial& set) {
-    std::size_t mended = 0;
+void repair_normals(ReliefMaterial& set) {
+    std::size_t repaired = 0;
     std::size_t first = 0;
     for (std::size_t i = 0; i < set.normals.size(); ++i) {
         glm::vec3& normal = set.normals.samples()[i];
         const bool is_good = is_normal(normal);
-        first = mended == 0 && !is_good ? i : first;
-        mended += is_good ? 0U : 1U;
+        first = repaired == 0 && !is_good ? i : first;
+        repaired += is_good ? 0U : 1U;
         normal = is_good ? glm::normalize(normal) : glm::vec3(0.0F, 0.0F, 1.0F);
     }
-    if (mended > 0) {
+    if (repaired > 0) {
         const auto cols = static_cast<std::size_t>(set.normals.cols());
         set.notes.push_back(fmt::format("{}: {} of {} normals are zero or point into the surface, "
                                         "the first at column {}, row {}; they stand upright now",
-                                        set.name, mended, set.normals.size(), first % cols,
+                                        set.name, repaired, set.normals.size(), first % cols,
                                         first / cols));
     }
 }
 
-// Whether the last line and the first fit as two neighbours do. `at(line, i)`.
+// Between the last and the first line. `at(line, i)` is a height.
 template <class At> bool has_seam_along(int lines, int length, const At& at) {
     double within = 0.0;
     for (int line = 0; line + 1 < lines; ++line) {
@@ -110,7 +110,7 @@ Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, WrapMod
     options.border = border;
     Grid<glm::vec3> normals = normals_from_heights(heights, options);
     for (glm::vec3& normal : normals.samples()) {
-        normal.y = -normal.y; // v grows along the rows, north against them
+        normal.y = -normal.y; // v points south
     }
     return normals;
 }
@@ -140,7 +140,7 @@ Result<ReliefMaterial> completed(ReliefMaterial set, WrapMode border) {
     if (set.normals.empty()) {
         set.normals = tile_normals(set.heights.view(), set.scale, border);
     }
-    mend_normals(set);
+    repair_normals(set);
     note_sizes(set);
     if (border == WrapMode::wrap && has_seam(set.heights.view())) {
         set.notes.push_back(fmt::format("{}: opposite borders do not fit together; where the tile "

@@ -16,7 +16,7 @@
 
 namespace reljef::material {
 
-/// The cones over one side of a tile, made beforehand: over cone_field() of seen_heights().
+/// Precomputed cones over cone_field() of seen_heights().
 struct KnownCones {
     WrapMode border = WrapMode::wrap; ///< wrap, or clamp where the tile does not repeat
     bool from_behind = false;
@@ -24,53 +24,51 @@ struct KnownCones {
 };
 
 /// The maps of one tile of surface detail. Texture coordinates (u, v) in [0,1] cover the tile: u
-/// grows along the columns, v along the rows, texel (i, j) of an n × m map has its centre at
+/// along the columns, v along the rows; texel (i, j) of an n × m map has its centre at
 /// ((i + ½)/n, (j + ½)/m). Maps may differ in size.
 struct ReliefMaterial {
     std::string name;
     Image color;
     Grid<float> heights;            ///< in [0,1], 1 is the highest
-    Grid<float> back_heights;       ///< off the back of a sheet, of as many texels; empty: none
-    std::optional<LayerMap> layers; ///< where one height a place says too little
-    Grid<glm::vec3> normals;        ///< unit length, z > 0: x along u, y along v, z off the surface
-    std::vector<KnownCones> cones;  ///< those not among them are made when they are needed
+    Grid<float> back_heights;       ///< back of a sheet, same size as heights; may be empty
+    std::optional<LayerMap> layers; ///< several heights per place
+    Grid<glm::vec3> normals;        ///< unit length, z > 0: x along u, y along v, z outward
+    std::vector<KnownCones> cones;  ///< missing ones are computed when needed
     float scale = 0.05F;            ///< of the normals: height of 1, in tile widths
-    float specular = 0.10F;  ///< linear, what a surface turned into the mirror direction adds
-    float shininess = 32.0F; ///< exponent of Blinn and Phong
-    std::vector<std::string> notes; ///< what a person should know about the maps
+    float specular = 0.10F;         ///< linear reflectance in the mirror direction
+    float shininess = 32.0F;        ///< exponent of Blinn and Phong
+    std::vector<std::string> notes; ///< oddities of the maps
 };
 
-/// What a tile may cover, metres, and how high its relief may be, in tile widths.
-inline constexpr double min_tile_width = 1e-3;
-inline constexpr double max_tile_width = 1e6;
-inline constexpr double max_tile_scale = 10.0;
+inline constexpr double min_tile_width = 1e-3; ///< metres
+inline constexpr double max_tile_width = 1e6;  ///< metres
+inline constexpr double max_tile_scale = 10.0; ///< height of 1, in tile widths
 
-/// Normals of a tile whose height of 1 lifts a point `scale` tile widths, from central differences
-/// over the border: at a texel's centre the mean of the two slopes that the bilinear surface has
-/// there, exactly. Precondition: not empty.
+/// Normals of a tile from central differences. `scale`: height of 1, in tile widths. Precondition:
+/// not empty.
 Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, WrapMode border);
 
-/// The heights as a side of the tile shows them: from behind what is left of them to 1.
+/// The heights; from behind 1 − heights.
 Grid<float> seen_heights(const Grid<float>& heights, bool from_behind);
 
-/// Whether opposite borders do not fit together: across them the heights differ, in the mean, by
-/// more than `seam_limit` times what neighbouring texels differ by. Precondition: not empty.
+/// Whether opposite borders do not match: their mean height difference exceeds `seam_limit` times
+/// that of neighbouring texels. Precondition: not empty.
 bool has_seam(GridView<const float> heights);
 inline constexpr double seam_limit = 4.0;
 
-/// The set, ready to be drawn: normals are made where there are none; a normal that is none (zero,
-/// or not off the surface) becomes (0, 0, 1), with a note; maps of different sizes and borders that
-/// do not fit together where the tile is to be repeated get a note. Fails where colours or heights
-/// are missing, a height is outside [0,1], or the scale is no number above 0.
+/// The material, ready to draw. Computes missing normals; replaces invalid normals (zero or into
+/// the surface) by (0, 0, 1). Adds notes about those, maps of different sizes and seams of a
+/// repeated tile. Fails without colours or heights, on a height outside [0,1] and on a scale that
+/// is not a number above 0.
 Result<ReliefMaterial> completed(ReliefMaterial set, WrapMode border);
 
-/// Which solids a tile's maps say.
+/// The solids that a material's maps describe.
 enum class LayerKind {
-    symmetric, ///< a sheet, its heights on both sides
-    dual,      ///< a sheet with other heights on its back; flat there where the set has none
-    multi      ///< the set's layers; all below its heights where it has none
+    symmetric, ///< a sheet with the same heights on both sides
+    dual,      ///< a sheet with back_heights on its back; flat without them
+    multi      ///< the material's layers; without them solid below the heights
 };
-/// Precondition: as completed() gave it.
+/// Precondition: `set` is from completed().
 LayerMap layers_of(const ReliefMaterial& set, LayerKind kind);
 
 } // namespace reljef::material

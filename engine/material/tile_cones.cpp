@@ -5,7 +5,7 @@
 namespace reljef::material {
 namespace {
 
-// By the shorter side: a strip's field stays a strip.
+// From the shorter side: the field of a strip stays a strip.
 int field_margin(int cols, int rows, WrapMode border) {
     return border == WrapMode::wrap ? std::max(std::min(cols, rows) / 4, 1) : 0;
 }
@@ -15,7 +15,7 @@ int field_margin(int cols, int rows, WrapMode border) {
 Grid<float> cone_field(GridView<const float> heights, WrapMode border) {
     const int margin = field_margin(heights.cols(), heights.rows(), border);
     const bool wraps = border == WrapMode::wrap;
-    // A cell needs four samples.
+    // A cell has four samples.
     const int cols = wraps ? heights.cols() + 2 * margin + 1 : std::max(heights.cols(), 2);
     const int rows = wraps ? heights.rows() + 2 * margin + 1 : std::max(heights.rows(), 2);
     Grid<float> field(cols, rows);

@@ -4,11 +4,10 @@
 
 namespace reljef::material {
 
-/// What lies beyond a tile: its own copies; its border, drawn out for ever; nothing.
+/// The surface beyond a tile: copies of the tile, its border texels, nothing.
 enum class WrapMode { wrap, clamp, discard };
 
-/// Which of `count` texels lies at an index that may be beyond them: that of the next copy, or else
-/// that at the border. Precondition: count > 0.
+/// The index of the texel at any `index`: wrapped, else clamped. Precondition: count > 0.
 inline int index_beyond(int index, int count, WrapMode border) {
     return border == WrapMode::wrap ? ((index % count) + count) % count
                                     : std::clamp(index, 0, count - 1);

@@ -308,14 +308,14 @@ TEST(ConeMap, APlainMarchNeverGoesBelowTheSurfaceAndARelaxedOneOnlyBehindTheFirs
 TEST(ConeMap, TellsHowFarItIsAndStops) {
     const Grid<float> heights = test::random_heights(64, 64, 0.0F, 1.0F, 1);
     std::vector<double> told;
-    material::ConeOptions options;
-    options.parallel.progress = [&](double fraction) { told.push_back(fraction); };
+    ParallelOptions options;
+    options.progress = [&](double fraction) { told.push_back(fraction); };
     ASSERT_TRUE(material::cone_maps(heights.view(), options));
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_EQ(told.back(), 1.0);
     std::stop_source source;
-    options.parallel.stop = source.get_token();
-    options.parallel.progress = [&](double) { source.request_stop(); };
+    options.stop = source.get_token();
+    options.progress = [&](double) { source.request_stop(); };
     EXPECT_FALSE(material::cone_maps(heights.view(), options));
 }
 

@@ -81,7 +81,7 @@ std::optional<CachedCones> cached_cones(GridView<const float> unit_heights,
         }
     }
     const Stopwatch watch;
-    auto made = material::cone_maps(unit_heights, {.parallel = options.parallel});
+    auto made = material::cone_maps(unit_heights, options.parallel);
     if (!made) {
         return std::nullopt;
     }

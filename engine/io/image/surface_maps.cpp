@@ -192,9 +192,7 @@ Channels cone_channels(const Grid<float>& cones, bool as_floats) {
 Result<Channels> made_cones(const Grid<float>& heights, material::ConeKind kind, bool as_floats,
                             const SurfaceMapOptions& options) {
     const Grid<float> field = material::cone_field(heights.view(), options.border);
-    material::ConeOptions search;
-    search.parallel = options.parallel;
-    auto cones = material::cone_map(field.view(), kind, search);
+    auto cones = material::cone_map(field.view(), kind, options.parallel);
     if (!cones) {
         return Error{"interrupted"};
     }
