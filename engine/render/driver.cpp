@@ -1,5 +1,7 @@
 #include "engine/render/driver.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -8,10 +10,6 @@
 #include "engine/gl/read_pixels.h"
 #include "engine/render/passes/draw_state.h"
 #include "engine/render/passes/frame_context.h"
-#include "engine/render/passes/mesh_pass.h"
-#include "engine/render/passes/relief_pass.h"
-#include "engine/render/passes/sky_pass.h"
-#include "engine/render/passes/terrain_pass.h"
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/technique_support.h"
 
@@ -20,12 +18,8 @@
 namespace reljef::render {
 namespace {
 
-glm::vec4 channels_of(const Hit& hit) {
-    return {hit.col, hit.row, hit.height, hit.depth};
-}
-
 constexpr int samples_of_triangles = 4;
-// 512 MB of colour and depth at 4 samples. A larger picture is likely to be reduced anyway.
+// 512 MB of colour and depth at 4 samples. Users usually reduce larger pictures.
 constexpr double max_sampled_pixels = 4096.0 * 4096.0;
 
 int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
@@ -36,7 +30,7 @@ int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
     return samples != automatic_samples ? samples : has_several ? samples_of_triangles : 1;
 }
 
-// A picture's later passes draw the same again: what they take counts, what they show does not.
+// Later passes draw the same content again: only their work counts.
 void add_work(view::FrameStats& stats, const view::FrameStats& pass) {
     stats.draws += pass.draws;
     stats.state_changes += pass.state_changes;
@@ -47,10 +41,9 @@ void add_work(view::FrameStats& stats, const view::FrameStats& pass) {
 } // namespace
 
 Result<void> check_samples(int samples) {
-    for (const int possible : {automatic_samples, 1, 2, 4, 8, 16}) {
-        if (samples == possible) {
-            return {};
-        }
+    constexpr std::array possible{automatic_samples, 1, 2, 4, 8, 16};
+    if (std::find(possible.begin(), possible.end(), samples) != possible.end()) {
+        return {};
     }
     return Error{
         fmt::format("picture with {} samples a pixel: expected 1, 2, 4, 8 or 16", samples)};
@@ -108,7 +101,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     stats.cpu_ms = whole.milliseconds();
     if (wait) {
         if (options_.software && samples_of(list, size(), options_.samples) > 1) {
-            // The mean of samples has waited for them; gpu_ms counts that.
+            // Averaging the samples waited for the renderer; gpu_ms contains that time.
             stats.cpu_ms -= drawing.milliseconds();
         }
         glFinish();
@@ -133,18 +126,16 @@ Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
         return done.error();
     }
     hit_target_.bind();
-    hit_target_.clear_color(channels_of(Hit{}));
+    const Hit sky;
+    hit_target_.clear_color({sky.col, sky.row, sky.height, sky.depth});
     if (auto done = draw_content(list, hit_target_, true, stats); !done) {
         return done.error();
     }
     const Grid<glm::vec4> channels = gl::read_float_color(hit_target_);
     HitBuffer hits(channels.cols(), channels.rows());
-    for (int row = 0; row < hits.rows(); ++row) {
-        for (int col = 0; col < hits.cols(); ++col) {
-            const glm::vec4& hit = channels(col, row);
-            hits(col, row) = {hit.x, hit.y, hit.z, hit.w};
-        }
-    }
+    std::ranges::transform(channels.samples(), hits.samples().begin(), [](const glm::vec4& hit) {
+        return Hit{hit.x, hit.y, hit.z, hit.w};
+    });
     return hits;
 }
 
@@ -226,18 +217,18 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
     DrawState state(shaders_, blocks_, stats);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
-    const FrameContext frame_context{.list = list,
-                                     .residency = residency_,
-                                     .hits = hits,
-                                     .features = scene_features(list, hits, picture.samples()),
-                                     .picture = picture,
-                                     .beams = beam_target_.framebuffer(),
-                                     .no_vertices = no_vertices_,
-                                     .state = state};
-    for (const auto paint :
-         {paint_terrain_tiles, paint_streamed_tiles, paint_reliefs, paint_meshes, paint_sky}) {
-        if (auto painted = paint(frame_context); !painted) {
-            return painted;
+    const FrameContext frame{.list = list,
+                             .residency = residency_,
+                             .hits = hits,
+                             .features = scene_features(list, hits, picture.samples()),
+                             .picture = picture,
+                             .beams = beam_target_.framebuffer(),
+                             .no_vertices = no_vertices_,
+                             .state = state};
+    for (const auto pass :
+         {draw_terrain_tiles, draw_streamed_tiles, draw_reliefs, draw_meshes, draw_sky}) {
+        if (auto drawn = pass(frame); !drawn) {
+            return drawn;
         }
     }
     return {};

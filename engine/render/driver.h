@@ -22,48 +22,47 @@
 
 namespace reljef::render {
 
-/// 4 samples a pixel for a picture with triangles, else 1.
+/// 4 samples per pixel for a picture with triangles, else 1.
 inline constexpr int automatic_samples = 0;
 
-/// Fails where a pixel of a picture cannot have that many samples.
+/// Fails unless `samples` is 1, 2, 4, 8, 16 or automatic_samples.
 Result<void> check_samples(int samples);
 
 struct DriverOptions {
     glm::ivec2 size{1024, 768};       ///< of the picture, pixels
-    std::filesystem::path shader_dir; ///< files there come before the built-in shaders
-    bool software = true;             ///< the renderer is a CPU: time by a clock, not by queries
-    /// Of a pixel: 1, 2, 4, 8, 16 or automatic_samples. Where a surface is searched along rays,
-    /// each sample has its own ray. A hit is always that of the pixel's centre.
+    std::filesystem::path shader_dir; ///< files there override the built-in shaders
+    bool software = true;             ///< CPU renderer: measure time by a clock, not by queries
+    /// Per pixel, see check_samples(). In a relief search each sample has its own ray. Hits are
+    /// those of the pixels' centres.
     int samples = 1;
 };
 
-/// Draws selected frames with the current context, into its own framebuffer object with reversed
-/// 32-bit float depth. Keeps what frames show in the GPU's memory as long as their scene lives.
-/// Destroy while its context is current.
+/// Draws selected frames with the current context into its own framebuffer object with reversed
+/// 32-bit float depth. Keeps drawn content in GPU memory as long as the scene lives. Destroy while
+/// the context is current.
 class Driver {
 public:
-    /// Fails when the size is outside what the driver can draw, and as check_samples().
+    /// Fails on a size that GL cannot draw and as check_samples().
     static Result<Driver> create(const DriverOptions& options = {});
 
-    /// Draws a frame of size(); fails as check_techniques() and check_support() do. `wait` also
-    /// waits until it is finished and fills FrameStats::gpu_ms.
+    /// Draws a frame of size(). `wait` waits for the GPU and fills FrameStats::gpu_ms. Fails as
+    /// check_techniques() and check_support().
     Result<view::FrameStats> draw(const view::FrameView& frame, bool wait = false);
 
-    /// Draws what each pixel of the frame shows instead of its colour.
+    /// Draws the hits of a frame.
     Result<HitBuffer> draw_hits(const view::FrameView& frame);
 
-    /// The last frame drawn. Waits for it.
+    /// The last frame. Waits for the GPU.
     [[nodiscard]] Image read_color() const;
     /// Copies the last frame to the window's back buffer.
     void show_in_window(glm::ivec2 window_size) const;
 
-    /// Takes the light of a terrain that the next frame shows, so that drawing need not make it.
-    /// Fails when the driver has no memory left.
+    /// Adds precomputed light of a terrain in the next frame. Fails when GL has no memory.
     Result<void> add_light(const PreparedLight& prepared) { return residency_.add_light(prepared); }
     [[nodiscard]] int max_texture_side() const { return limits_.max_texture_size; }
 
     Result<void> resize(glm::ivec2 size);
-    /// For the frames to come, as DriverOptions::samples. Precondition: check_samples().
+    /// See DriverOptions::samples. Precondition: check_samples().
     void set_samples(int samples) { options_.samples = samples; }
     [[nodiscard]] glm::ivec2 size() const { return color_target_.size(); }
 
@@ -83,8 +82,8 @@ private:
     DriverOptions options_;
     gl::Limits limits_;
     gl::Framebuffer color_target_;
-    gl::Framebuffer hit_target_; // made when first asked for
-    SampleTarget sample_target_; // likewise
+    gl::Framebuffer hit_target_; // created on first use
+    SampleTarget sample_target_; // created on first use
     BeamTarget beam_target_;
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;

@@ -2,7 +2,7 @@
 
 // A pixel here is the beam of all rays of a block of pixels: down to which height it meets nothing of a
 // relief (Laine and Karras 2010, beam optimization; here on a pyramid of greatest heights).
-layout(binding = greatest_heights_unit) uniform sampler2D max_mipmap; // level 0: of a cell's corners
+layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: of a cell's corners
 uniform ivec2 last_cell;
 uniform int top_level;
 // Of the search space, of the place (1, x, y) on the picture, as gl_FragCoord.

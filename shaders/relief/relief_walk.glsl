@@ -3,7 +3,7 @@
 // The true first hit: down a pyramid of greatest heights (Tevs, Ihrke and Seidel 2008) to the cells
 // the ray may touch, where the bilinear surface along it is a quadratic. The inner loop only
 // descends and moves on, one tap a turn.
-layout(binding = greatest_heights_unit) uniform sampler2D max_mipmap; // level 0: of a cell's corners
+layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: of a cell's corners
 uniform ivec2 last_cell;
 uniform int top_level;
 

@@ -53,10 +53,10 @@ Result<void> BeamTarget::prepare(const view::DrawList& list) {
 }
 
 void set_beams(gl::Program& program, const ResidentRelief& relief, const PictureRays& rays) {
-    check(relief.greatest.has_value(), "beams over a relief without its greatest heights");
-    relief.greatest->bind(bindings::greatest_heights_unit);
+    check(relief.max_mipmap.has_value(), "beams over a relief without its greatest heights");
+    relief.max_mipmap->bind(bindings::max_mipmap_unit);
     program.set(uniforms.last_cell, relief.heights.size() - 2);
-    program.set(uniforms.top_level, relief.greatest->levels() - 1);
+    program.set(uniforms.top_level, relief.max_mipmap->levels() - 1);
     program.set(uniforms.origin_of_ray, rays.origin_of_ray);
     program.set(uniforms.direction_of_ray, rays.direction_of_ray);
     program.set(uniforms.begin_height, rays.begin_height);

@@ -12,32 +12,31 @@
 
 namespace reljef::render {
 
-/// The rays of a picture in a relief's search space: origin and direction of the ray through a
-/// place (x, y) of the picture, in pixels from its lower left corner, are these times (1, x, y).
+/// The rays of a picture in a relief's search space: matrix · (1, x, y) is the origin or direction
+/// of the ray through (x, y), in pixels from the lower left corner.
 struct PictureRays {
     glm::mat3 origin_of_ray;
     glm::mat3 direction_of_ray;
-    float begin_height; ///< where a ray meets the search space at the highest
+    float begin_height; ///< highest entry of a ray into the search space
 };
 PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const ReliefSpace& space,
                          const glm::dmat4& local_from_world);
 
-/// Where beams keep down to which height they meet nothing: a float for each block of pixels of the
-/// picture. Made when a list has beams. Needs a current context; destroy while it is current.
+/// The heights down to which beams meet nothing: a float per block of pixels. Created for the first
+/// list with beams. Needs a current context; destroy while it is current.
 class BeamTarget {
 public:
-    /// Fails where the driver has no memory.
+    /// Fails without GL memory.
     Result<void> prepare(const view::DrawList& list);
 
     [[nodiscard]] const gl::Framebuffer& framebuffer() const { return framebuffer_; }
 
 private:
     gl::Framebuffer framebuffer_;
-    glm::ivec2 picture_size_{0}; // that it is for
+    glm::ivec2 picture_size_{0};
 };
 
-/// The uniforms of beams.frag and the pyramid it looks in. Precondition: the relief has its
-/// greatest heights.
+/// Sets the uniforms and the max mipmap of beams.frag. Precondition: the relief has a max mipmap.
 void set_beams(gl::Program& program, const ResidentRelief& relief, const PictureRays& rays);
 
 } // namespace reljef::render

@@ -16,28 +16,27 @@
 
 namespace reljef::render {
 
-/// What is set for the draw calls of one frame. What is set already is not set again; what is set
-/// and drawn is counted. Each pass asks for all that it needs. Needs a current context.
+/// The GL state of one frame's draw calls. Skips redundant changes; counts changes and draws. Each
+/// pass sets all state that it needs. Needs a current context.
 class DrawState {
 public:
-    /// Sets what a frame begins with: reversed depth, filled triangles, their backs left out.
+    /// Sets reversed depth, filled triangles and back-face culling.
     DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats);
 
-    /// The variant's program, in use; one that looks for a surface does so for each sample of a
-    /// pixel. Fails as ShaderLibrary::program.
+    /// Binds the variant's program. Programs with a surface search run per sample. Fails as
+    /// ShaderLibrary::program.
     Result<gl::Program*> use(ShaderVariant variant);
-    /// What all programs read from that uniform block. Fails where the driver has no memory.
+    /// Sets a uniform block for all programs. Fails without GL memory.
     template <class Block> Result<void> set(const Block& block) {
         return set_block(Block::layout.binding, std::as_bytes(std::span(&block, 1)));
     }
-    /// Which sides of triangles are left out.
     void set_culling(gl::Culling culling);
     void set_wireframe(bool wireframe);
 
-    /// Draws all of a mesh with the program in use.
+    /// Draws a whole mesh with the bound program.
     void draw(const ResidentMesh& mesh, gl::IndexType type);
 
-    /// For what a pass sets and draws itself.
+    /// For passes that count their own draws.
     [[nodiscard]] view::FrameStats& stats() { return stats_; }
 
 private:

@@ -11,19 +11,34 @@
 
 namespace reljef::render {
 
-/// One frame as its passes see it: a file for each kind of thing.
+/// One frame for its passes.
 struct FrameContext {
     const view::DrawList& list;
     const Residency& residency; ///< prepared for the list
-    bool hits;                  ///< what each pixel shows is drawn, instead of its colour
-    std::uint32_t features;     ///< of the scene's, see scene_features
+    bool hits;                  ///< draws hits instead of colours
+    std::uint32_t features;     ///< see scene_features()
     const gl::Framebuffer& picture;
-    const gl::Framebuffer& beams; ///< there where a technique has them (beams.h)
+    const gl::Framebuffer& beams; ///< used by techniques with beams (beams.h)
     const gl::VertexArray& no_vertices;
     DrawState& state;
 };
 
-/// What all of the list's programs are compiled with, for a picture with so many samples a pixel.
+/// The features that all programs of the list share. `samples`: per pixel of the picture.
 std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples = 1);
+
+// The passes. They fail as ShaderLibrary::program and without memory.
+
+/// Draws the list's terrain tiles, with their visible surface detail.
+Result<void> draw_terrain_tiles(const FrameContext& frame);
+Result<void> draw_streamed_tiles(const FrameContext& frame);
+
+/// Draws the bounding box of each relief; before it the beams of techniques that have them.
+Result<void> draw_reliefs(const FrameContext& frame);
+
+/// Draws the list's meshes: of one colour, textured, or with a relief search per pixel.
+Result<void> draw_meshes(const FrameContext& frame);
+
+/// Draws the sky behind everything; nothing for hits.
+Result<void> draw_sky(const FrameContext& frame);
 
 } // namespace reljef::render

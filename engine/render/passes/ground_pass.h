@@ -9,14 +9,14 @@
 
 namespace reljef::render {
 
-/// The variant that draws a terrain with its tile of detail. `features` are the scene's.
-/// Precondition: something is seen of it.
+/// The variant for a terrain with surface detail. `features`: see scene_features(). Precondition:
+/// the level is not none.
 ShaderVariant ground_variant(const scene::TerrainDetail& detail, view::DetailLevel level,
                              std::uint32_t features);
 
-/// What these programs ask for beside the terrain's maps and its place. Fails where the driver has
-/// no memory.
-Result<void> set_ground(gl::Program& program, const FrameContext& frame_context,
+/// Sets the inputs of these programs except the terrain's maps and transform. Fails without GL
+/// memory.
+Result<void> set_ground(gl::Program& program, const FrameContext& frame,
                         const scene::TerrainNode& terrain, const glm::dmat4& world_from_local);
 
 } // namespace reljef::render

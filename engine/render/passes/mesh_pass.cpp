@@ -1,4 +1,4 @@
-#include "engine/render/passes/mesh_pass.h"
+#include "engine/render/passes/frame_context.h"
 
 #include <glm/matrix.hpp>
 
@@ -12,13 +12,13 @@
 namespace reljef::render {
 namespace {
 
-// Of the heights in [0,1] as they are seen: where the mesh lies.
+// The mesh's height among the visible heights in [0,1].
 float mesh_height(const view::MeshDraw& draw) {
     const float offset = draw.mesh->material.detail.offset;
     return draw.from_behind ? 1.0F + offset : -offset;
 }
 
-// From the tile's coordinates over the mesh to the warp's own, which go from 0 to 1 over it.
+// Maps the tile's coordinates on the mesh to the warp's, which go from 0 to 1.
 void bind_warp(gl::Program& program, const view::MeshDraw& draw, const gl::Texture2D& warp) {
     warp.bind(bindings::warped_map_unit);
     const auto plane = scene::texture_plane(*draw.mesh->mesh);
@@ -27,7 +27,7 @@ void bind_warp(gl::Program& program, const view::MeshDraw& draw, const gl::Textu
     program.set(uniforms.warp_from_tile, glm::vec4(per_tile, -plane->low / size));
 }
 
-// `features` are the scene's.
+// `features`: see scene_features().
 ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
     if (material.detail.set == nullptr) {
         return {ShaderKind::mesh, features};
@@ -53,21 +53,20 @@ DetailBlock mesh_detail(const view::MeshDraw& draw, const MeshResidency& residen
     return block;
 }
 
-// What the programs of meshes with a tile ask for, beside the transform.
-Result<void> set_tile(gl::Program& program, const view::MeshDraw& draw,
-                      const FrameContext& frame_context) {
-    const MeshResidency& residency = frame_context.residency.meshes();
+// Sets the inputs of programs with surface detail, except the transform.
+Result<void> set_tile(gl::Program& program, const view::MeshDraw& draw, const FrameContext& frame) {
+    const MeshResidency& residency = frame.residency.meshes();
     bind_tile(program, residency.tile(draw), residency.surface(draw));
     if (const gl::Texture2D* const warp = residency.warp(draw)) {
         bind_warp(program, draw, *warp);
     }
     const glm::dmat3 local_from_world = glm::inverse(glm::dmat3(draw.world_from_local));
     program.set(uniforms.local_from_relative, glm::mat3(local_from_world));
-    ++frame_context.state.stats().state_changes;
-    if (auto set = frame_context.state.set(mesh_detail(draw, residency)); !set) {
+    ++frame.state.stats().state_changes;
+    if (auto set = frame.state.set(mesh_detail(draw, residency)); !set) {
         return set;
     }
-    return frame_context.state.set(
+    return frame.state.set(
         technique_block(over_mesh(draw.mesh->material.technique, mesh_height(draw)),
                         static_cast<double>(mesh_height(draw))));
 }
@@ -86,12 +85,12 @@ void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull)
     ++stats.state_changes;
 }
 
-Result<void> paint_mesh(const FrameContext& frame_context, const view::MeshDraw& draw) {
+Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
-    const scene::Camera& camera = frame_context.list.camera;
-    const MeshResidency& residency = frame_context.residency.meshes();
-    DrawState& state = frame_context.state;
-    auto program = state.use(mesh_variant(material, frame_context.features));
+    const scene::Camera& camera = frame.list.camera;
+    const MeshResidency& residency = frame.residency.meshes();
+    DrawState& state = frame.state;
+    auto program = state.use(mesh_variant(material, frame.features));
     if (!program) {
         return program.error();
     }
@@ -103,7 +102,7 @@ Result<void> paint_mesh(const FrameContext& frame_context, const view::MeshDraw&
     (*program)->set(uniforms.albedo, material.color);
     const bool has_tile = material.detail.set != nullptr;
     if (has_tile) {
-        if (auto set = set_tile(**program, draw, frame_context); !set) {
+        if (auto set = set_tile(**program, draw, frame); !set) {
             return set;
         }
     }
@@ -117,13 +116,13 @@ Result<void> paint_mesh(const FrameContext& frame_context, const view::MeshDraw&
 
 } // namespace
 
-Result<void> paint_meshes(const FrameContext& frame_context) {
-    for (const view::MeshDraw& draw : frame_context.list.meshes) {
+Result<void> draw_meshes(const FrameContext& frame) {
+    for (const view::MeshDraw& draw : frame.list.meshes) {
         if (draw.mesh->mesh->indices.empty()) {
             continue;
         }
-        if (auto painted = paint_mesh(frame_context, draw); !painted) {
-            return painted;
+        if (auto drawn = draw_mesh(frame, draw); !drawn) {
+            return drawn;
         }
     }
     return {};

@@ -1,4 +1,4 @@
-#include "engine/render/passes/relief_pass.h"
+#include "engine/render/passes/frame_context.h"
 
 #include <algorithm>
 
@@ -13,21 +13,21 @@
 namespace reljef::render {
 namespace {
 
-// How far down the rays of each block of pixels meet nothing.
-Result<void> paint_beams(const FrameContext& frame_context, const view::ReliefDraw& draw) {
-    DrawState& state = frame_context.state;
+// The heights down to which the rays of each block of pixels meet nothing.
+Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw) {
+    DrawState& state = frame.state;
     auto program = state.use({ShaderKind::beams});
     if (!program) {
         return program.error();
     }
-    const ResidentRelief& relief = frame_context.residency.relief(draw);
+    const ResidentRelief& relief = frame.residency.relief(draw);
     state.set_wireframe(false);
     set_beams(**program, relief,
-              picture_rays(frame_context.list.camera, frame_context.list.size, relief.space,
+              picture_rays(frame.list.camera, frame.list.size, relief.space,
                            glm::inverse(draw.world_from_local)));
-    frame_context.beams.bind();
+    frame.beams.bind();
     gl::draw_arrays(gl::Primitive::triangles, 3);
-    frame_context.picture.bind();
+    frame.picture.bind();
     state.stats().state_changes += 3;
     ++state.stats().draws;
     return {};
@@ -43,9 +43,9 @@ void bind_light(gl::Program& program, const ResidentMaps& maps) {
 
 void set_heights(gl::Program& program, const ResidentRelief& relief) {
     relief.heights.bind(bindings::height_map_unit);
-    if (relief.greatest) {
-        relief.greatest->bind(bindings::greatest_heights_unit);
-        program.set(uniforms.top_level, relief.greatest->levels() - 1);
+    if (relief.max_mipmap) {
+        relief.max_mipmap->bind(bindings::max_mipmap_unit);
+        program.set(uniforms.top_level, relief.max_mipmap->levels() - 1);
     }
     if (relief.cones) {
         relief.cones->bind(bindings::relief_cone_map_unit);
@@ -74,14 +74,14 @@ ReliefBlock relief_block(const ReliefSpace& space) {
             .height_span = glm::vec4(space.lowest, space.range, 0.0, 0.0)};
 }
 
-// Texels of the lit map that a pixel facing the eye covers, a metre away.
-float texels_per_metre_away(const FrameContext& frame_context, const view::ReliefDraw& draw,
+// Texels of the lit map per pixel at a distance of one metre.
+float texels_per_metre_away(const FrameContext& frame, const view::ReliefDraw& draw,
                             const ReliefSpace& space) {
-    const view::DrawList& list = frame_context.list;
-    if (frame_context.hits || !is_perspective(list.camera)) {
+    const view::DrawList& list = frame.list;
+    if (frame.hits || !is_perspective(list.camera)) {
         return 1e6F; // no limit
     }
-    const ResidentMaps& maps = frame_context.residency.maps(*draw.terrain);
+    const ResidentMaps& maps = frame.residency.maps(*draw.terrain);
     const glm::vec2 texels_per_sample =
         glm::vec2(maps.lit_from_sample) * glm::vec2(maps.lit.size());
     const glm::vec2 texels_per_metre = texels_per_sample / glm::vec2(space.metres_per_unit);
@@ -89,43 +89,41 @@ float texels_per_metre_away(const FrameContext& frame_context, const view::Relie
     return ray.x * std::max(texels_per_metre.x, texels_per_metre.y);
 }
 
-Result<void> set_relief(gl::Program& program, const FrameContext& frame_context,
+Result<void> set_relief(gl::Program& program, const FrameContext& frame,
                         const view::ReliefDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    const ResidentRelief& relief = frame_context.residency.relief(draw);
-    if (!frame_context.hits) {
-        bind_light(program, frame_context.residency.maps(*draw.terrain));
-        ++frame_context.state.stats().state_changes;
+    const ResidentRelief& relief = frame.residency.relief(draw);
+    if (!frame.hits) {
+        bind_light(program, frame.residency.maps(*draw.terrain));
+        ++frame.state.stats().state_changes;
     }
     set_heights(program, relief);
-    set_space(program, frame_context.list.camera, relief.space, draw.world_from_local);
+    set_space(program, frame.list.camera, relief.space, draw.world_from_local);
     if (has_beams(technique)) {
-        frame_context.beams.color().bind(bindings::clear_heights_unit);
+        frame.beams.color().bind(bindings::clear_heights_unit);
     }
-    program.set(uniforms.texels_per_metre_away,
-                texels_per_metre_away(frame_context, draw, relief.space));
-    if (auto set = frame_context.state.set(relief_block(relief.space)); !set) {
+    program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, relief.space));
+    if (auto set = frame.state.set(relief_block(relief.space)); !set) {
         return set;
     }
-    return frame_context.state.set(technique_block(technique, reference_height(technique)));
+    return frame.state.set(technique_block(technique, reference_height(technique)));
 }
 
-Result<void> paint_relief(const FrameContext& frame_context, const view::ReliefDraw& draw) {
+Result<void> draw_relief(const FrameContext& frame, const view::ReliefDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    DrawState& state = frame_context.state;
-    frame_context.no_vertices.bind();
+    DrawState& state = frame.state;
+    frame.no_vertices.bind();
     if (has_beams(technique)) {
-        if (auto painted = paint_beams(frame_context, draw); !painted) {
-            return painted;
+        if (auto drawn = draw_beams(frame, draw); !drawn) {
+            return drawn;
         }
     }
-    auto program =
-        state.use({ShaderKind::relief, frame_context.features | technique_features(technique)});
+    auto program = state.use({ShaderKind::relief, frame.features | technique_features(technique)});
     if (!program) {
         return program.error();
     }
     state.set_wireframe(draw.terrain->material.wireframe);
-    if (auto set = set_relief(**program, frame_context, draw); !set) {
+    if (auto set = set_relief(**program, frame, draw); !set) {
         return set;
     }
     constexpr int box_vertices = 14; // relief.vert
@@ -140,12 +138,12 @@ Result<void> paint_relief(const FrameContext& frame_context, const view::ReliefD
 
 } // namespace
 
-Result<void> paint_reliefs(const FrameContext& frame_context) {
-    for (const view::ReliefDraw& draw : frame_context.list.reliefs) {
-        // The box's far sides are seen from inside, too.
-        frame_context.state.set_culling(gl::Culling::front);
-        if (auto painted = paint_relief(frame_context, draw); !painted) {
-            return painted;
+Result<void> draw_reliefs(const FrameContext& frame) {
+    for (const view::ReliefDraw& draw : frame.list.reliefs) {
+        // The eye may be inside the box: draw its far sides.
+        frame.state.set_culling(gl::Culling::front);
+        if (auto drawn = draw_relief(frame, draw); !drawn) {
+            return drawn;
         }
     }
     return {};

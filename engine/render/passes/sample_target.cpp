@@ -15,22 +15,18 @@ namespace {
 
 constexpr int max_passes = 4;
 
-// From a pixel's centre, in 16ths of a pixel, right and down: as Direct3D 11 and most GPUs have
-// them. No two in a row or in a column, so that steep and flat edges have as many steps.
+// Sample positions of Direct3D 11 and most GPUs, in 1/16 pixel from the centre, right and down. All
+// rows and columns differ, which is best for steep and flat edges.
 constexpr std::array one_place{glm::ivec2(0, 0)};
 constexpr std::array two_places{glm::ivec2(4, 4), glm::ivec2(-4, -4)};
 constexpr std::array four_places{glm::ivec2(-2, -6), glm::ivec2(6, -2), glm::ivec2(-6, 2),
                                  glm::ivec2(2, 6)};
 
 std::span<const glm::ivec2> places_of(int passes) {
-    switch (passes) {
-    case 1:
+    if (passes == 1) {
         return one_place;
-    case 2:
-        return two_places;
-    default:
-        return four_places;
     }
+    return passes == 2 ? std::span<const glm::ivec2>(two_places) : four_places;
 }
 
 } // namespace
@@ -53,7 +49,7 @@ Result<SamplePlan> plan_samples(int samples, std::span<const int> counts) {
 glm::dvec2 pass_shift(const SamplePlan& plan, int pass) {
     const std::span<const glm::ivec2> places = places_of(plan.passes);
     check(pass >= 0 && static_cast<std::size_t>(pass) < places.size(), "no such pass");
-    // The samples drawn at once share the pixel's rows and columns evenly, and so all do.
+    // The hardware samples also have different rows and columns.
     return glm::dvec2(places[static_cast<std::size_t>(pass)]) / (16.0 * plan.at_once);
 }
 

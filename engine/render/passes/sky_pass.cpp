@@ -1,12 +1,12 @@
-#include "engine/render/passes/sky_pass.h"
+#include "engine/render/passes/frame_context.h"
 
 namespace reljef::render {
-Result<void> paint_sky(const FrameContext& frame_context) {
-    if (!frame_context.list.sky || frame_context.hits) {
+Result<void> draw_sky(const FrameContext& frame) {
+    if (!frame.list.sky || frame.hits) {
         return {};
     }
-    DrawState& state = frame_context.state;
-    auto program = state.use({ShaderKind::sky, frame_context.features});
+    DrawState& state = frame.state;
+    auto program = state.use({ShaderKind::sky, frame.features});
     if (!program) {
         return program.error();
     }
@@ -14,7 +14,7 @@ Result<void> paint_sky(const FrameContext& frame_context) {
     state.set_wireframe(false);
     gl::set_depth_writing(false);
     gl::set_depth_test(gl::DepthTest::greater_or_equal);
-    frame_context.no_vertices.bind();
+    frame.no_vertices.bind();
     gl::draw_arrays(gl::Primitive::triangles, 3);
     gl::set_depth_writing(true);
     gl::set_depth_test(gl::DepthTest::greater);

@@ -1,4 +1,4 @@
-#include "engine/render/passes/terrain_pass.h"
+#include "engine/render/passes/frame_context.h"
 
 #include <algorithm>
 
@@ -21,17 +21,16 @@ void bind_ground(gl::Program& program, const ResidentGround& ground) {
     program.set(uniforms.ground_from_sample, ground.ground_from_sample);
 }
 
-// What a terrain's tiles share is set once for all that follow each other.
+// Sets shared state once for successive tiles of a terrain.
 class TerrainPass {
 public:
-    explicit TerrainPass(const FrameContext& frame_context)
-        : painting_(frame_context), state_(frame_context.state) {
+    explicit TerrainPass(const FrameContext& frame) : frame_(frame), state_(frame.state) {
         state_.set_culling(gl::Culling::back);
     }
 
     Result<void> draw(const view::TileDraw& draw) {
         const view::DetailLevel detail = shown(draw.detail);
-        const glm::dmat4& world_from_local = painting_.list.world_from_local(draw);
+        const glm::dmat4& world_from_local = frame_.list.world_from_local(draw);
         if (!is_set_for(*draw.terrain, detail)) {
             if (auto set = set_for(*draw.terrain, detail, world_from_local); !set) {
                 return set;
@@ -56,9 +55,9 @@ public:
     }
 
 private:
-    // A hit is the terrain's own.
+    // Hits are on the terrain itself.
     [[nodiscard]] view::DetailLevel shown(view::DetailLevel detail) const {
-        return painting_.hits ? view::DetailLevel::none : detail;
+        return frame_.hits ? view::DetailLevel::none : detail;
     }
 
     [[nodiscard]] bool has_ground() const { return detail_ != view::DetailLevel::none; }
@@ -82,10 +81,10 @@ private:
         detail_ = detail;
         state_.set_wireframe(terrain.material.wireframe);
         if (has_ground()) {
-            return set_ground(*program_, painting_, terrain, world_from_local);
+            return set_ground(*program_, frame_, terrain, world_from_local);
         }
         if (is_warped(terrain)) {
-            painting_.residency.warped(terrain).bind(bindings::warped_places_unit);
+            frame_.residency.warped(terrain).bind(bindings::warped_places_unit);
         }
         return {};
     }
@@ -93,28 +92,26 @@ private:
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
                                             view::DetailLevel detail) const {
         if (detail != view::DetailLevel::none) {
-            return ground_variant(*terrain.detail, detail, painting_.features);
+            return ground_variant(*terrain.detail, detail, frame_.features);
         }
-        return {ShaderKind::terrain,
-                painting_.features | (is_warped(terrain) ? feature_warped : 0U)};
+        return {ShaderKind::terrain, frame_.features | (is_warped(terrain) ? feature_warped : 0U)};
     }
 
     void bind_maps(const scene::TerrainNode& terrain) {
-        if (painting_.hits) {
+        if (frame_.hits) {
             return;
         }
-        const ResidentMaps& maps = painting_.residency.maps(terrain);
+        const ResidentMaps& maps = frame_.residency.maps(terrain);
         maps.lit.bind(lit_unit());
         program_->set(uniforms.lit_from_sample, maps.lit_from_sample);
         if (has_ground()) {
-            bind_ground(*program_, painting_.residency.ground().ground(terrain));
+            bind_ground(*program_, frame_.residency.ground().ground(terrain));
         }
         ++state_.stats().state_changes;
     }
 
     void set_place(const glm::dmat4& world_from_local) {
-        const SplitPoint eye =
-            split_into_floats(local_eye(painting_.list.camera, world_from_local));
+        const SplitPoint eye = split_into_floats(local_eye(frame_.list.camera, world_from_local));
         program_->set(uniforms.eye, eye.rounded);
         program_->set(uniforms.eye_rest, eye.rest);
         program_->set(uniforms.world_from_local, glm::mat3(glm::dmat3(world_from_local)));
@@ -125,7 +122,7 @@ private:
         view::FrameStats& stats = state_.stats();
         program_->set(uniforms.tile_sample, glm::vec2(tile.col, tile.row));
         const std::size_t before = stats.triangles;
-        for (const ResidentMesh& mesh : painting_.residency.tile(draw)) {
+        for (const ResidentMesh& mesh : frame_.residency.tile(draw)) {
             state_.draw(mesh, gl::IndexType::uint16);
         }
         if (draw.coarse) {
@@ -137,8 +134,8 @@ private:
     }
 
     void draw_streamed(const view::StreamedDraw& draw) {
-        const ResidentStreamed& resident = painting_.residency.streamed().tile(draw);
-        if (painting_.hits) {
+        const ResidentStreamed& resident = frame_.residency.streamed().tile(draw);
+        if (frame_.hits) {
             program_->set(uniforms.tile_sample,
                           glm::vec2(draw.terrain->stream->maker().first(draw.tile->id)));
         } else {
@@ -148,7 +145,6 @@ private:
         ++state_.stats().tiles;
     }
 
-    // A streamed tile has maps of its own.
     void bind_maps(const ResidentStreamed& resident) {
         resident.lit->bind(lit_unit());
         program_->set(uniforms.tile_sample, glm::vec2(0.0F));
@@ -159,16 +155,16 @@ private:
         ++state_.stats().state_changes;
     }
 
-    const FrameContext& painting_;
+    const FrameContext& frame_;
     DrawState& state_;
     gl::Program* program_ = nullptr;
-    const scene::TerrainNode* terrain_ = nullptr;        // that the program is set for
-    view::DetailLevel detail_ = view::DetailLevel::none; // likewise
+    const scene::TerrainNode* terrain_ = nullptr;        // of the program's state
+    view::DetailLevel detail_ = view::DetailLevel::none; // of the program's state
 };
 
 template <class Draw>
-Result<void> paint_all(const FrameContext& frame_context, const std::vector<Draw>& draws) {
-    TerrainPass pass(frame_context);
+Result<void> draw_all(const FrameContext& frame, const std::vector<Draw>& draws) {
+    TerrainPass pass(frame);
     for (const Draw& draw : draws) {
         if (auto drawn = pass.draw(draw); !drawn) {
             return drawn;
@@ -179,12 +175,12 @@ Result<void> paint_all(const FrameContext& frame_context, const std::vector<Draw
 
 } // namespace
 
-Result<void> paint_terrain_tiles(const FrameContext& frame_context) {
-    return paint_all(frame_context, frame_context.list.tiles);
+Result<void> draw_terrain_tiles(const FrameContext& frame) {
+    return draw_all(frame, frame.list.tiles);
 }
 
-Result<void> paint_streamed_tiles(const FrameContext& frame_context) {
-    return paint_all(frame_context, frame_context.list.streamed_tiles);
+Result<void> draw_streamed_tiles(const FrameContext& frame) {
+    return draw_all(frame, frame.list.streamed_tiles);
 }
 
 } // namespace reljef::render

@@ -13,9 +13,9 @@ namespace reljef::render {
 void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSurface& surface) {
     tile.color.bind(bindings::color_map_unit);
     surface.heights.bind(bindings::height_map_unit);
-    if (surface.greatest) {
-        surface.greatest->bind(bindings::greatest_heights_unit);
-        program.set(uniforms.top_level, surface.greatest->levels() - 1);
+    if (surface.max_mipmap) {
+        surface.max_mipmap->bind(bindings::max_mipmap_unit);
+        program.set(uniforms.top_level, surface.max_mipmap->levels() - 1);
     }
     tile.normals.bind(bindings::normal_map_unit);
     if (surface.normals) {

@@ -8,17 +8,15 @@
 
 namespace reljef::render {
 
-/// Binds the maps of a tile to where the programs that show it have them (tile_light.glsl,
-/// relief_surface.glsl).
+/// Binds the maps of a tile (tile_light.glsl, relief_surface.glsl).
 void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSurface& surface);
 
-/// How high a tile rises and how it shines, seen from the front. `lift`: metres that a height of 1
-/// lifts a point. `mesh_height`: of the heights in [0,1] as they are seen, where what carries the
-/// tile lies.
+/// Relief and reflection of a tile seen from the front. `lift`: height of 1, metres. `mesh_height`:
+/// height of the carrying surface among the visible heights in [0,1].
 DetailBlock detail_block(const material::ReliefMaterial& set, const ResidentSurface& surface,
                          float lift, float mesh_height);
 
-/// The same technique over what lies at that height: that is the reference plane of parallax.
+/// The technique with `mesh_height` as the reference plane of parallax.
 scene::Technique over_mesh(scene::Technique technique, float mesh_height);
 
 } // namespace reljef::render

@@ -23,11 +23,10 @@ Result<const gl::Buffer*> BlockBuffers::buffer(std::span<const std::byte> conten
         found->second.unused_frames = 0;
         return &found->second.buffer;
     }
-    auto made = gl::Buffer::create(content);
+    auto made = upload_buffer(content, stats);
     if (!made) {
         return made.error();
     }
-    count_upload(stats, content.size());
     return &buffers_.emplace(key, Entry{std::move(*made)}).first->second.buffer;
 }
 

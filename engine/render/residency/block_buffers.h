@@ -12,20 +12,18 @@
 
 namespace reljef::render {
 
-/// A buffer for each content of uniform blocks that frames ask for. None is ever rewritten: where
-/// draws still read a buffer, some drivers would wait for them or copy it. Needs a current context;
-/// destroy while it is current.
+/// Immutable buffers by the content of uniform blocks. Writing to a buffer that draws still read
+/// makes some drivers wait or copy. Needs a current context; destroy while it is current.
 class BlockBuffers {
 public:
-    /// Frames that a buffer outlives without being asked for: techniques that take turns, as when
-    /// they are measured, find theirs again.
+    /// Frames that a buffer survives unused, so that techniques that alternate find theirs again.
     static constexpr int kept_frames = 64;
 
-    /// Drops the buffers that no frame asked for in the last `kept_frames`.
+    /// Drops buffers that were unused for more than kept_frames.
     void begin_frame();
 
-    /// The buffer that holds these bytes, made when first asked for. Valid for the frame. Fails
-    /// when the driver has no memory. Precondition: not empty.
+    /// The buffer with this content, valid for the frame. Fails without GL memory. Precondition:
+    /// not empty.
     Result<const gl::Buffer*> buffer(std::span<const std::byte> content, view::FrameStats& stats);
 
     [[nodiscard]] std::size_t count() const { return buffers_.size(); }
@@ -33,7 +31,7 @@ public:
 private:
     struct Entry {
         gl::Buffer buffer;
-        int unused_frames = 0; // since a frame asked for it
+        int unused_frames = 0;
     };
     std::map<std::string, Entry, std::less<>> buffers_; // by the bytes
 };

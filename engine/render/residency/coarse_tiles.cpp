@@ -9,14 +9,12 @@
 namespace reljef::render {
 namespace {
 
-// A tile's triangles and their vertices, part by part; without vertices where the triangles are
-// those it had.
+// A tile's triangles and vertices by part; without vertices if the triangles did not change.
 struct NewCut {
     std::vector<terrain::Triangulation> parts;
     std::vector<std::vector<view::GridVertex>> vertices;
 };
 
-// What a tile had before.
 struct LastCut {
     const std::vector<terrain::Triangulation>& parts;
     const std::vector<std::vector<view::GridVertex>>& vertices;
@@ -37,7 +35,7 @@ vertices_of(const std::vector<terrain::Triangulation>& parts, const scene::Terra
     return vertices;
 }
 
-// `bisection` is there where the coarseness is an error.
+// `bisection` may be null unless the coarseness is an error.
 NewCut cut_tile(const terrain::Bisection* bisection, const view::Coarseness& coarseness,
                 const scene::TerrainSurface& surface, const terrain::Tile& tile,
                 const LastCut& last) {
@@ -53,30 +51,11 @@ NewCut cut_tile(const terrain::Bisection* bisection, const view::Coarseness& coa
     return cut;
 }
 
-Result<ResidentMesh> uploaded(const terrain::Triangulation& part,
-                              const std::vector<view::GridVertex>& vertices,
-                              view::FrameStats& stats) {
-    auto vertex_buffer = gl::Buffer::create(bytes_of(vertices));
-    if (!vertex_buffer) {
-        return vertex_buffer.error();
-    }
-    auto index_buffer = gl::Buffer::create(bytes_of(part.indices));
-    if (!index_buffer) {
-        return index_buffer.error();
-    }
-    count_upload(stats, vertex_buffer->size());
-    count_upload(stats, index_buffer->size());
-    ResidentMesh mesh =
-        resident_grid(std::move(*vertex_buffer), static_cast<int>(part.indices.size()));
-    mesh.indices = std::move(*index_buffer);
-    mesh.vertex_array.set_indices(mesh.indices);
-    return mesh;
-}
-
 Result<std::vector<ResidentMesh>> uploaded(const NewCut& cut, view::FrameStats& stats) {
     std::vector<ResidentMesh> meshes;
     for (std::size_t i = 0; i < cut.parts.size(); ++i) {
-        auto mesh = uploaded(cut.parts[i], cut.vertices[i], stats);
+        auto mesh =
+            with_indices(upload_vertices(cut.vertices[i], stats), cut.parts[i].indices, stats);
         if (!mesh) {
             return mesh.error();
         }
@@ -127,7 +106,7 @@ Result<void> CoarseTiles::prepare(const view::DrawList& list, const view::Coarse
     });
     for (std::size_t i = 0; i < outdated.size(); ++i) {
         CutTile& tile = cut.tiles[outdated[i]];
-        tile.choice = cut.choice;
+        tile.version = cut.version;
         if (cuts[i].parts == tile.parts) {
             ++stats.skipped.uploads_unchanged;
             continue;
@@ -152,7 +131,7 @@ CoarseTiles::Cut& CoarseTiles::cut_of(const view::CoarseTerrain& terrain) {
         cut.tiles.resize(surface->tiles().size());
     } else if (cut.coarseness != terrain.coarseness) {
         cut.coarseness = terrain.coarseness;
-        ++cut.choice;
+        ++cut.version;
     }
     return cut;
 }
@@ -179,7 +158,7 @@ std::vector<std::size_t> CoarseTiles::outdated_tiles(const view::DrawList& list,
         if (draw.terrain != &terrain) {
             continue;
         }
-        if (cut.tiles[index].choice == cut.choice) {
+        if (cut.tiles[index].version == cut.version) {
             ++stats.skipped.cuts_unchanged;
             ++stats.skipped.uploads_unchanged;
         } else {

@@ -14,32 +14,31 @@
 
 namespace reljef::render {
 
-/// The tiles whose triangles are chosen frame by frame: cut where the choice changed, uploaded
-/// where other triangles came of it. Needs a current context; destroy while it is current.
+/// Tiles whose triangles are chosen per frame. Triangulated when the coarseness changes, uploaded
+/// when the triangles change. Needs a current context; destroy while it is current.
 class CoarseTiles {
 public:
-    /// Precondition: `draw` is of a list that was prepared.
+    /// Precondition: `draw` is of a prepared list.
     [[nodiscard]] std::span<const ResidentMesh> tile(const view::TileDraw& draw) const;
 
-    /// Cuts and uploads the list's coarse tiles; fails when the driver has no memory left.
+    /// Triangulates and uploads the list's coarse tiles. Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
 
-    /// Begins a frame: lets go of what no scene holds any more, and of what was not drawn for long.
+    /// Begins a frame: drops tiles without a scene and tiles that were not drawn for long.
     void forget_unused();
 
 private:
-    // A tile as it was cut last.
     struct CutTile {
-        int choice = -1; // that it was cut for
+        int version = -1; // of its Cut
         std::vector<terrain::Triangulation> parts;
-        std::vector<std::vector<view::GridVertex>> vertices; // of each part
-        std::vector<ResidentMesh> meshes;                    // one a part
+        std::vector<std::vector<view::GridVertex>> vertices; // per part
+        std::vector<ResidentMesh> meshes;                    // per part
     };
     struct Cut {
         std::weak_ptr<const scene::TerrainSurface> owner;
         view::Coarseness coarseness;
-        int choice = 0; // counts how often it changed
-        int frame = 0;  // that it was drawn in last
+        int version = 0; // of the coarseness
+        int frame = 0;   // last drawn
         std::vector<CutTile> tiles;
     };
     struct SharedBisection {
@@ -55,7 +54,7 @@ private:
                                                    const scene::TerrainNode& terrain,
                                                    const Cut& cut, view::FrameStats& stats);
 
-    // A node and the parameters of its technique: one that is taken up again is cut already.
+    // The parameters are part of the key, so that a technique that is selected again is ready.
     using CutKey = std::pair<const scene::TerrainNode*, scene::TechniqueParameters>;
 
     int frame_ = 0;

@@ -4,28 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include <glm/common.hpp>
-#include <glm/gtc/type_precision.hpp>
-
 #include "engine/gl/limits.h"
-#include "engine/render/residency/resident_mesh.h"
 #include "engine/render/residency/uploads.h"
 
 namespace reljef::render {
 namespace {
 
-// As rgba16_snorm has them.
-std::vector<glm::i16vec4> packed_ground(const Grid<glm::vec4>& surface) {
-    constexpr float unit = 32767.0F;
-    std::vector<glm::i16vec4> packed;
-    packed.reserve(surface.size());
-    for (const glm::vec4& texel : surface.samples()) {
-        packed.emplace_back(glm::round(texel * unit));
-    }
-    return packed;
-}
-
-// Of each terrain whose detail is seen, one draw.
+// One draw of each terrain with visible detail.
 template <class Draw> std::vector<const Draw*> first_detailed(const std::vector<Draw>& draws) {
     std::vector<const Draw*> first;
     std::set<const scene::TerrainNode*> found;
@@ -41,13 +26,11 @@ template <class Draw> std::vector<const Draw*> first_detailed(const std::vector<
 
 Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_from_sample,
                                        view::FrameStats& stats) {
-    auto albedo = mipmapped({map.albedo.cols(), map.albedo.rows()}, gl::Format::rgba8_srgb,
-                            std::as_bytes(map.albedo.samples()), stats);
+    auto albedo = upload_mipmapped(map.albedo, gl::Format::rgba8_srgb, stats);
     if (!albedo) {
         return albedo.error();
     }
-    auto surface = mipmapped({map.surface.cols(), map.surface.rows()}, gl::Format::rgba16_snorm,
-                             bytes_of(packed_ground(map.surface)), stats);
+    auto surface = upload_mipmapped(snorm16(map.surface), gl::Format::rgba16_snorm, stats);
     if (!surface) {
         return surface.error();
     }

@@ -15,25 +15,24 @@
 
 namespace reljef::render {
 
-/// A terrain's ground_map, and how sample coordinates become texture coordinates: sample · xy + zw.
+/// A terrain's ground_map(). Texture coordinate = sample · xy + zw.
 struct ResidentGround {
     gl::Texture2D albedo;
     gl::Texture2D surface;
     glm::vec4 ground_from_sample{0.0F};
 };
-/// Fails when the driver has no memory left.
+/// Fails without GL memory.
 Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_from_sample,
                                        view::FrameStats& stats);
 
-/// What of the tiles of detail on terrains is in the driver's memory: the tiles, and the maps of
-/// the ground below them, once more when the sun moves. Needs a current context; destroy while it
-/// is current.
+/// The surface detail of terrains in GPU memory: its tiles, and the maps of the ground, again when
+/// the sun moves. Needs a current context; destroy while it is current.
 class GroundResidency {
 public:
-    /// Fails when the driver has no memory left.
+    /// Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
 
-    /// Precondition: prepared, and the list shows a detail on the terrain.
+    /// Precondition: prepared; the list shows detail on the terrain.
     [[nodiscard]] const TileResidency& tiles() const { return tiles_; }
     [[nodiscard]] const ResidentGround& ground(const scene::TerrainNode& terrain) const;
 

@@ -23,26 +23,25 @@ struct HullCorner {
     glm::vec4 place{0.0F};
     glm::vec2 coordinate{0.0F};
     glm::vec3 normal{0.0F};
-    std::uint32_t index = 0; // of the place on the mesh
+    std::uint32_t index = 0; // of the SharedPlace
 };
 
-// What the mesh's vertices are moved by.
 struct HullHeights {
-    double lift = 0.0;   // metres that a height of 1 lifts a point
-    double offset = 0.0; // of the heights against the mesh
+    double lift = 0.0;   // height of 1, metres
+    double offset = 0.0; // added to the heights
 };
 
-// Edges by the places of their ends, the lesser first.
+// By the indices of the end places, ascending.
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 Edge edge_between(std::uint32_t one, std::uint32_t other) {
     return std::minmax(one, other);
 }
 
-// Those that triangles share whose normals part there.
-std::set<Edge> parted_edges(const scene::Mesh& mesh, const Places& places) {
-    std::map<Edge, std::pair<glm::vec3, glm::vec3>> normals; // at the lesser end, at the other
-    std::set<Edge> parted;
+// Edges on which the normals of their triangles differ.
+std::set<Edge> hard_edges(const scene::Mesh& mesh, const Places& places) {
+    std::map<Edge, std::pair<glm::vec3, glm::vec3>> normals; // at the first and the second end
+    std::set<Edge> hard;
     for (std::size_t i = 0; i < mesh.indices.size() / 3 * 3; ++i) {
         const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
         std::uint32_t one = mesh.indices[i];
@@ -53,13 +52,13 @@ std::set<Edge> parted_edges(const scene::Mesh& mesh, const Places& places) {
         const std::pair found(mesh.normals[one], mesh.normals[other]);
         const Edge edge(places[one].index, places[other].index);
         if (normals.emplace(edge, found).first->second != found) {
-            parted.insert(edge);
+            hard.insert(edge);
         }
     }
-    return parted;
+    return hard;
 }
 
-// Each vertex along its own normal: where there is nothing beyond the tile nothing fills the edges.
+// Each vertex moves along its own normal; gaps at hard edges stay open.
 Places upright_places(const scene::Mesh& mesh) {
     Places places = scene::shared_places(mesh);
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -68,7 +67,7 @@ Places upright_places(const scene::Mesh& mesh) {
     return places;
 }
 
-// How a triangle's texture coordinates grow along a way: one off its plane adds nothing.
+// Gradient of a triangle's texture coordinates in its plane.
 glm::dmat3x2 coordinate_slopes(const scene::Mesh& mesh, std::size_t first) {
     const scene::TriangleEdges edges = scene::triangle_edges(mesh, first);
     const glm::dmat2x3 ways(edges.p, edges.q);
@@ -79,7 +78,6 @@ glm::dmat3x2 coordinate_slopes(const scene::Mesh& mesh, std::size_t first) {
                : glm::dmat3x2(0.0);
 }
 
-// The corners over one triangle.
 class HullTriangle {
 public:
     HullTriangle(const scene::Mesh& mesh, const Places& places, std::size_t first)
@@ -103,7 +101,7 @@ private:
     glm::dmat3x2 slopes_;
 };
 
-// In an order that does not hang on the triangle: so neighbours cut the side they share alike.
+// In a global order, so that neighbours cut their shared side equally.
 std::array<std::uint32_t, 3> by_place(const scene::Mesh& mesh, const Places& places,
                                       std::size_t first) {
     std::array<std::uint32_t, 3> corners{mesh.indices[first], mesh.indices[first + 1],
@@ -121,19 +119,19 @@ double volume(const std::array<HullCorner, 4>& part) {
     return glm::dot(from_first(1), glm::cross(from_first(2), from_first(3)));
 }
 
-// Whether the side across from a corner stands on an edge where normals part.
-bool is_on_parted_edge(const std::array<HullCorner, 4>& part, std::size_t across,
-                       const std::set<Edge>& parted) {
+// Whether the side opposite the corner `across` lies on a hard edge.
+bool is_on_hard_edge(const std::array<HullCorner, 4>& part, std::size_t across,
+                     const std::set<Edge>& hard) {
     std::set<std::uint32_t> places;
     for (std::size_t i = 0; i < 4; ++i) {
         if (i != across) {
             places.insert(part[i].index);
         }
     }
-    return places.size() == 2 && parted.contains(edge_between(*places.begin(), *places.rbegin()));
+    return places.size() == 2 && hard.contains(edge_between(*places.begin(), *places.rbegin()));
 }
 
-void add_part(std::array<HullCorner, 4> part, const std::set<Edge>& parted,
+void add_part(std::array<HullCorner, 4> part, const std::set<Edge>& hard,
               std::vector<HullPart>& hull) {
     const double size = volume(part);
     if (!std::isnormal(static_cast<float>(size))) {
@@ -145,8 +143,7 @@ void add_part(std::array<HullCorner, 4> part, const std::set<Edge>& parted,
     HullPart added{};
     for (std::size_t i = 0; i < 4; ++i) {
         added.corners[i] = part[i].place;
-        added.normals[i] =
-            glm::vec4(part[i].normal, is_on_parted_edge(part, i, parted) ? 1.0F : 0.0F);
+        added.normals[i] = glm::vec4(part[i].normal, is_on_hard_edge(part, i, hard) ? 1.0F : 0.0F);
     }
     added.coordinates = {glm::vec4(part[0].coordinate, part[1].coordinate),
                          glm::vec4(part[2].coordinate, part[3].coordinate)};
@@ -160,7 +157,7 @@ std::vector<HullPart> hull_parts(const scene::Mesh& mesh, const scene::SurfaceDe
                               static_cast<double>(detail.offset)};
     const bool ends = detail.border == material::WrapMode::discard;
     const Places places = ends ? upright_places(mesh) : scene::shared_places(mesh);
-    const std::set<Edge> parted = ends ? std::set<Edge>() : parted_edges(mesh, places);
+    const std::set<Edge> hard = ends ? std::set<Edge>() : hard_edges(mesh, places);
     std::vector<HullPart> hull;
     for (std::size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
         const HullTriangle triangle(mesh, places, first);
@@ -171,9 +168,9 @@ std::vector<HullPart> hull_parts(const scene::Mesh& mesh, const scene::SurfaceDe
             low[i] = triangle.corner(vertices[i], -scene::hull_margin, heights);
             high[i] = triangle.corner(vertices[i], 1.0 + scene::hull_margin, heights);
         }
-        add_part({low[0], low[1], low[2], high[2]}, parted, hull);
-        add_part({low[0], low[1], high[1], high[2]}, parted, hull);
-        add_part({low[0], high[0], high[1], high[2]}, parted, hull);
+        add_part({low[0], low[1], low[2], high[2]}, hard, hull);
+        add_part({low[0], low[1], high[1], high[2]}, hard, hull);
+        add_part({low[0], high[0], high[1], high[2]}, hard, hull);
     }
     return hull;
 }

@@ -22,7 +22,7 @@ struct PlainVertex {
     glm::vec3 normal;
 };
 
-// One vertex as in tile_vertex.glsl.
+// As in tile_vertex.glsl.
 struct TexturedVertex {
     glm::vec3 position;
     glm::vec3 normal;
@@ -49,7 +49,7 @@ bool has_tile(const view::MeshDraw& draw) {
     return draw.mesh->material.detail.set != nullptr;
 }
 
-// Null where it moves no vertices.
+// Null for other techniques.
 const scene::Displacement* displacement_of(const view::MeshDraw& draw) {
     const scene::TechniqueParameters& parameters = draw.mesh->material.technique.parameters;
     return has_tile(draw) ? std::get_if<scene::Displacement>(&parameters) : nullptr;
@@ -59,11 +59,16 @@ bool is_displaced(const view::MeshDraw& draw) {
     return displacement_of(draw) != nullptr;
 }
 
+// Of displacement; 0 for other techniques.
+double max_texels(const view::MeshDraw& draw) {
+    const scene::Displacement* const displacement = displacement_of(draw);
+    return displacement == nullptr ? 0.0 : displacement->max_texels;
+}
+
 bool has_hull(const view::MeshDraw& draw) {
     return has_tile(draw) && draw.mesh->material.technique.options.true_silhouettes;
 }
 
-// Which surface of its tile is shown.
 TileSide side_of(const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
     return {layers_for(material.technique.id()),
@@ -79,7 +84,7 @@ std::vector<PlainVertex> plain_vertices(const scene::Mesh& mesh) {
     return vertices;
 }
 
-// At `positions`, with the frames of the mesh as it is.
+// At `positions`, with the tangent frames of the original mesh.
 std::vector<TexturedVertex> textured_vertices(const scene::Mesh& mesh,
                                               const std::vector<glm::vec3>& positions) {
     const std::vector<scene::TangentFrame> frames = scene::tangent_frames(mesh);
@@ -94,51 +99,44 @@ std::vector<TexturedVertex> textured_vertices(const scene::Mesh& mesh,
 
 template <class Vertex>
 Result<ResidentMesh>
-filled(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices,
-       std::span<const gl::VertexAttribute> attributes, view::FrameStats& stats) {
-    auto vertex_buffer = gl::Buffer::create(bytes_of(vertices));
-    if (!vertex_buffer) {
-        return vertex_buffer.error();
-    }
-    auto index_buffer = gl::Buffer::create(bytes_of(indices));
-    if (!index_buffer) {
-        return index_buffer.error();
-    }
-    count_upload(stats, vertex_buffer->size());
-    count_upload(stats, index_buffer->size());
-    ResidentMesh mesh{std::move(*vertex_buffer), gl::VertexArray::create(),
-                      static_cast<int>(indices.size()), std::move(*index_buffer)};
-    mesh.vertex_array.set_vertices(mesh.vertices, {.stride = sizeof(Vertex)}, attributes);
-    mesh.vertex_array.set_indices(mesh.indices);
-    return mesh;
+upload_mesh(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices,
+            std::span<const gl::VertexAttribute> attributes, view::FrameStats& stats) {
+    auto mesh = upload_vertices(bytes_of(vertices), sizeof(Vertex), attributes, stats);
+    return with_indices(std::move(mesh), indices, stats);
 }
 
-// Of the texture where a hull is lowest: least and greatest.
+template <class Entry>
+const Entry* find_for(const std::vector<Entry>& entries, const view::MeshDraw& draw) {
+    const auto found = std::find_if(entries.begin(), entries.end(),
+                                    [&](const Entry& entry) { return entry.is_for(draw); });
+    return found == entries.end() ? nullptr : &*found;
+}
+
+// Minimum and maximum texture coordinate at the bottom of a hull.
 glm::vec4 coordinate_range(const std::vector<HullPart>& parts) {
-    glm::vec2 least(std::numeric_limits<float>::max());
-    glm::vec2 greatest(std::numeric_limits<float>::lowest());
+    glm::vec2 low(std::numeric_limits<float>::max());
+    glm::vec2 high(std::numeric_limits<float>::lowest());
     for (const HullPart& part : parts) {
         for (std::size_t i = 0; i < 4; ++i) {
             if (part.corners[i].w < 0.5F) {
                 const glm::vec4 two = part.coordinates[i / 2];
                 const glm::vec2 coordinate = i % 2 == 0 ? glm::vec2(two) : glm::vec2(two.z, two.w);
-                least = glm::min(least, coordinate);
-                greatest = glm::max(greatest, coordinate);
+                low = glm::min(low, coordinate);
+                high = glm::max(high, coordinate);
             }
         }
     }
-    return {least, greatest};
+    return {low, high};
 }
 
 Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, view::FrameStats& stats) {
     if (parts.empty()) {
         return ResidentHull{};
     }
-    auto buffer = gl::Buffer::create(bytes_of(parts));
+    auto buffer = upload_buffer(bytes_of(parts), stats);
     if (!buffer) {
         return buffer.error();
     }
-    count_upload(stats, buffer->size());
     std::vector<gl::VertexAttribute> attributes;
     const auto add = [&](unsigned int location, int components, std::size_t offset) {
         attributes.push_back({.location = location, .components = components, .offset = offset});
@@ -157,6 +155,12 @@ Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, view::Fra
 }
 
 } // namespace
+
+template <class Resident>
+bool MeshResidency::Derived<Resident>::is_for(const view::MeshDraw& draw) const {
+    return owner.lock() == draw.mesh->mesh && detail == scene::shown_detail(draw.mesh->material) &&
+           texels == max_texels(draw);
+}
 
 Result<void> MeshResidency::prepare(const std::vector<view::MeshDraw>& draws,
                                     const scene::Camera& camera, view::FrameStats& stats) {
@@ -187,22 +191,20 @@ void MeshResidency::forget_unused(const std::vector<view::MeshDraw>& draws) {
     const auto is_gone = [](const auto& entry) { return entry.second.owner.expired(); };
     std::erase_if(triangles_, is_gone);
     tiles_.forget_unused();
-    for (Displaced& entry : displaced_) {
-        entry.drawn = std::any_of(draws.begin(), draws.end(), [&](const view::MeshDraw& draw) {
-            return is_displaced(draw) && displaced(draw) == &entry;
+    std::erase_if(displaced_, [&](const auto& entry) {
+        return std::ranges::none_of(draws, [&](const view::MeshDraw& draw) {
+            return is_displaced(draw) && entry.is_for(draw);
         });
-    }
-    std::erase_if(displaced_, [](const Displaced& entry) { return !entry.drawn; });
-    for (Hull& entry : hulls_) {
-        entry.drawn = std::any_of(draws.begin(), draws.end(), [&](const view::MeshDraw& draw) {
-            return has_hull(draw) && find_hull(draw) == &entry;
+    });
+    std::erase_if(hulls_, [&](const auto& entry) {
+        return std::ranges::none_of(draws, [&](const view::MeshDraw& draw) {
+            return has_hull(draw) && entry.is_for(draw);
         });
-    }
-    std::erase_if(hulls_, [](const Hull& entry) { return !entry.drawn; });
+    });
 }
 
 Result<void> MeshResidency::prepare_hull(const view::MeshDraw& draw, view::FrameStats& stats) {
-    if (find_hull(draw) != nullptr) {
+    if (find_for(hulls_, draw) != nullptr) {
         ++stats.skipped.uploads_unchanged;
         return {};
     }
@@ -211,7 +213,7 @@ Result<void> MeshResidency::prepare_hull(const view::MeshDraw& draw, view::Frame
     if (!hull) {
         return hull.error();
     }
-    hulls_.push_back({draw.mesh->mesh, detail, std::move(*hull), true});
+    hulls_.push_back({draw.mesh->mesh, detail, max_texels(draw), std::move(*hull)});
     return {};
 }
 
@@ -223,9 +225,9 @@ Result<void> MeshResidency::prepare_triangles(const view::MeshDraw& draw, view::
         return {};
     }
     auto made = has_tile(draw)
-                    ? filled(textured_vertices(mesh, mesh.positions), mesh.indices,
-                             textured_attributes, stats)
-                    : filled(plain_vertices(mesh), mesh.indices, plain_attributes, stats);
+                    ? upload_mesh(textured_vertices(mesh, mesh.positions), mesh.indices,
+                                  textured_attributes, stats)
+                    : upload_mesh(plain_vertices(mesh), mesh.indices, plain_attributes, stats);
     if (!made) {
         return made.error();
     }
@@ -234,27 +236,26 @@ Result<void> MeshResidency::prepare_triangles(const view::MeshDraw& draw, view::
 }
 
 Result<void> MeshResidency::prepare_displaced(const view::MeshDraw& draw, view::FrameStats& stats) {
-    if (displaced(draw) != nullptr) {
+    if (find_for(displaced_, draw) != nullptr) {
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const scene::Material& material = draw.mesh->material;
-    const double texels = displacement_of(draw)->max_texels;
-    const scene::SurfaceDetail detail = scene::shown_detail(material);
+    const double texels = max_texels(draw);
+    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
     const scene::Mesh fine =
         scene::tessellated(*draw.mesh->mesh, scene::cuts_for(*draw.mesh->mesh, detail, texels));
-    auto made = filled(textured_vertices(fine, scene::displaced_positions(fine, detail)),
-                       fine.indices, textured_attributes, stats);
+    auto made = upload_mesh(textured_vertices(fine, scene::displaced_positions(fine, detail)),
+                            fine.indices, textured_attributes, stats);
     if (!made) {
         return made.error();
     }
-    displaced_.push_back({draw.mesh->mesh, detail, texels, std::move(*made), true});
+    displaced_.push_back({draw.mesh->mesh, detail, texels, std::move(*made)});
     return {};
 }
 
 Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& draws,
                                           const scene::Camera& camera, view::FrameStats& stats) {
-    std::map<const scene::MeshNode*, gl::Texture2D> before = std::exchange(warps_, {});
+    std::map<const scene::MeshNode*, gl::Texture2D> last = std::exchange(warps_, {});
     for (const view::MeshDraw& draw : draws) {
         const scene::Material& material = draw.mesh->material;
         if (!has_tile(draw) || material.technique.id() != scene::TechniqueId::prewarp) {
@@ -266,46 +267,24 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
         const Grid<glm::vec4> shown =
             warped_tile(*plane, detail, scene::relief_height(*draw.mesh->mesh, detail),
                         warp_eye(camera, draw.world_from_local));
-        auto texture = place_texture({shown.cols(), shown.rows()}, before[draw.mesh]);
+        auto texture = upload_places(shown, last[draw.mesh], stats);
         if (!texture) {
             return texture.error();
         }
-        texture->upload(0, shown);
-        count_upload(stats, texture->bytes());
         warps_.emplace(draw.mesh, std::move(*texture));
     }
     return {};
 }
 
-const MeshResidency::Displaced* MeshResidency::displaced(const view::MeshDraw& draw) const {
-    const scene::Material& material = draw.mesh->material;
-    const scene::SurfaceDetail detail = scene::shown_detail(material);
-    const double texels = displacement_of(draw)->max_texels;
-    const auto found =
-        std::find_if(displaced_.begin(), displaced_.end(), [&](const Displaced& entry) {
-            return entry.owner.lock() == draw.mesh->mesh && entry.detail == detail &&
-                   entry.texels == texels;
-        });
-    return found == displaced_.end() ? nullptr : &*found;
-}
-
-const MeshResidency::Hull* MeshResidency::find_hull(const view::MeshDraw& draw) const {
-    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
-    const auto found = std::find_if(hulls_.begin(), hulls_.end(), [&](const Hull& entry) {
-        return entry.owner.lock() == draw.mesh->mesh && entry.detail == detail;
-    });
-    return found == hulls_.end() ? nullptr : &*found;
-}
-
 const ResidentHull& MeshResidency::hull(const view::MeshDraw& draw) const {
-    const Hull* const entry = find_hull(draw);
+    const auto* const entry = find_for(hulls_, draw);
     check(entry != nullptr, "a hull that was not prepared");
     return entry->resident;
 }
 
 const ResidentMesh& MeshResidency::mesh(const view::MeshDraw& draw) const {
     if (is_displaced(draw)) {
-        const Displaced* const entry = displaced(draw);
+        const auto* const entry = find_for(displaced_, draw);
         check(entry != nullptr, "a displaced mesh that was not prepared");
         return entry->resident;
     }

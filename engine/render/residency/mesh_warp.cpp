@@ -13,7 +13,7 @@
 namespace reljef::render {
 namespace {
 
-// Samples of a warp and the texture coordinates they stand at.
+// The samples of a warp and their texture coordinates.
 struct WarpGrid {
     glm::ivec2 count{1};
     glm::dvec2 low{0.0};
@@ -37,7 +37,6 @@ WarpGrid warp_grid(const scene::TexturePlane& plane, const scene::SurfaceDetail&
     return {glm::ivec2(count), plane.low, size};
 }
 
-// The heights above the mesh.
 Grid<float> heights_above(const WarpGrid& grid, const scene::SurfaceDetail& detail) {
     Grid<float> above(grid.count.x, grid.count.y);
     parallel_for(grid.count.y, [&](int row) {
@@ -52,13 +51,13 @@ Grid<float> heights_above(const WarpGrid& grid, const scene::SurfaceDetail& deta
     return above;
 }
 
-// An eye in columns, rows and heights above the mesh.
+// The eye in columns, rows and heights above the mesh.
 glm::dvec4 eye_on_grid(const WarpGrid& grid, const scene::TexturePlane& plane, double lift,
                        glm::dvec4 local_eye) {
     const glm::dmat3 local_from_plane(plane.along_u, plane.along_v, lift * plane.normal);
     const bool is_near = local_eye.w > 0.0;
-    const glm::dvec3 off = glm::dvec3(local_eye) - (is_near ? plane.origin : glm::dvec3(0.0));
-    const glm::dvec3 eye = glm::inverse(local_from_plane) * off;
+    const glm::dvec3 offset = glm::dvec3(local_eye) - (is_near ? plane.origin : glm::dvec3(0.0));
+    const glm::dvec3 eye = glm::inverse(local_from_plane) * offset;
     const glm::dvec2 on_grid = is_near ? grid.place(glm::dvec2(eye))
                                        : glm::dvec2(eye) / grid.size * glm::dvec2(grid.count);
     return {on_grid, eye.z, local_eye.w};

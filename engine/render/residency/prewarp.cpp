@@ -16,14 +16,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// One place on its way: where it is along the line that is warped, and what it carries.
-struct Carried {
-    double at = std::numeric_limits<double>::quiet_NaN(); // nothing there
-    glm::dvec2 load{0.0};
+// A warped sample: its position along the line, and its values.
+struct Warped {
+    double at = std::numeric_limits<double>::quiet_NaN(); // empty
+    glm::dvec2 values{0.0};
 };
 
-// Calls `visit(i)` for the pairs of neighbours (i, i + 1) of a line, the ones far from `nearest`
-// first.
+// Calls `visit(i)` for the pairs (i, i + 1) of a line, far from `nearest` first.
 template <class Visit> void far_pairs_first(int count, double nearest, const Visit& visit) {
     const int middle = static_cast<int>(std::floor(std::clamp(nearest, -1.0, count + 0.0)));
     for (int i = 0; i < std::min(middle, count - 1); ++i) {
@@ -34,12 +33,12 @@ template <class Visit> void far_pairs_first(int count, double nearest, const Vis
     }
 }
 
-// Lays what a line carries onto the whole places of that line: `put(place, load)`.
-template <class Put> void resample(std::span<const Carried> line, double nearest, const Put& put) {
+// Resamples a line at integer positions: `put(place, values)`.
+template <class Put> void resample(std::span<const Warped> line, double nearest, const Put& put) {
     const int count = static_cast<int>(line.size());
     far_pairs_first(count, nearest, [&](int i) {
-        const Carried& a = line[static_cast<std::size_t>(i)];
-        const Carried& b = line[static_cast<std::size_t>(i) + 1];
+        const Warped& a = line[static_cast<std::size_t>(i)];
+        const Warped& b = line[static_cast<std::size_t>(i) + 1];
         const double low = std::max(std::ceil(std::min(a.at, b.at)), 0.0);
         const double high = std::min(std::floor(std::max(a.at, b.at)), count - 1.0);
         if (!std::isfinite(a.at) || !std::isfinite(b.at) || low > high) {
@@ -47,32 +46,32 @@ template <class Put> void resample(std::span<const Carried> line, double nearest
         }
         for (int place = static_cast<int>(low); place <= static_cast<int>(high); ++place) {
             const double part = a.at == b.at ? 0.0 : (place - a.at) / (b.at - a.at);
-            put(place, glm::mix(a.load, b.load, part));
+            put(place, glm::mix(a.values, b.values, part));
         }
     });
 }
 
-// A row of samples along itself: what is carried is its new row and the column it comes from.
-void warp_row(GridView<const float> heights, int row, const Warp& warp, Grid<Carried>& rows) {
-    std::vector<Carried> line(static_cast<std::size_t>(heights.cols()));
+// Warps a row. The values are the new row and the original column.
+void warp_row(GridView<const float> heights, int row, const Warp& warp, Grid<Warped>& rows) {
+    std::vector<Warped> line(static_cast<std::size_t>(heights.cols()));
     for (int col = 0; col < heights.cols(); ++col) {
         if (const auto seen = warp.at(glm::dvec2(col, row), heights(col, row))) {
             line[static_cast<std::size_t>(col)] = {seen->x, {seen->y, col}};
         }
     }
-    resample(line, warp.nearest().x, [&](int place, glm::dvec2 load) {
-        rows(place, row) = {load.x, {load.y, row}};
+    resample(line, warp.nearest().x, [&](int place, glm::dvec2 values) {
+        rows(place, row) = {values.x, {values.y, row}};
     });
 }
 
-// A column of what the rows became, along itself.
-void warp_column(const Grid<Carried>& rows, int col, const Warp& warp, Grid<glm::vec2>& places) {
-    std::vector<Carried> line(static_cast<std::size_t>(rows.rows()));
+// Warps a column of the warped rows.
+void warp_column(const Grid<Warped>& rows, int col, const Warp& warp, Grid<glm::vec2>& places) {
+    std::vector<Warped> line(static_cast<std::size_t>(rows.rows()));
     for (int row = 0; row < rows.rows(); ++row) {
         line[static_cast<std::size_t>(row)] = rows(col, row);
     }
     resample(line, warp.nearest().y,
-             [&](int place, glm::dvec2 load) { places(col, place) = glm::vec2(load); });
+             [&](int place, glm::dvec2 values) { places(col, place) = glm::vec2(values); });
 }
 
 } // namespace
@@ -82,10 +81,11 @@ Warp::Warp(glm::dvec4 eye) : sees_(eye.z > 0.0) {
         return;
     }
     k_ = -glm::dvec3(eye.x, eye.y, eye.w) / eye.z;
-    const auto far_off = [](double along) {
+    const auto toward_infinity = [](double along) {
         return along > 0.0 ? infinity : (along < 0.0 ? -infinity : 0.0);
     };
-    nearest_ = eye.w > 0.0 ? glm::dvec2(eye) : glm::dvec2(far_off(eye.x), far_off(eye.y));
+    nearest_ =
+        eye.w > 0.0 ? glm::dvec2(eye) : glm::dvec2(toward_infinity(eye.x), toward_infinity(eye.y));
 }
 
 std::optional<glm::dvec2> Warp::at(glm::dvec2 place, double height) const {
@@ -105,7 +105,7 @@ glm::dvec4 warp_eye(const scene::Camera& camera, const glm::dmat4& world_from_lo
 
 Grid<glm::vec2> prewarped(GridView<const float> heights, const Warp& warp,
                           const ParallelOptions& parallel) {
-    Grid<Carried> rows(heights.cols(), heights.rows());
+    Grid<Warped> rows(heights.cols(), heights.rows());
     parallel_for(
         heights.rows(), [&](int row) { warp_row(heights, row, warp, rows); }, parallel);
     Grid<glm::vec2> places(heights.cols(), heights.rows(), glm::vec2(-1.0F));

@@ -14,19 +14,19 @@
 
 namespace reljef::render {
 
-/// Relief texture mapping by forward warping (Oliveira, Bishop and McAllister 2000): where on the
-/// reference plane an eye sees a point of the surface that stands d above it,
-/// u' = (u + k1·d)/(1 + k3·d), v' = (v + k2·d)/(1 + k3·d).
+/// Relief texture mapping by forward warping (Oliveira, Bishop and McAllister 2000). Projects a
+/// surface point with displacement d onto the reference plane: u' = (u + k1·d)/(1 + k3·d),
+/// v' = (v + k2·d)/(1 + k3·d).
 class Warp {
 public:
-    /// `eye` in columns, rows and heights above the plane; w 1: a place, w 0: the direction towards
-    /// an eye that is far away. Nothing is seen by an eye that is not above the plane.
+    /// `eye` in columns, rows and heights above the plane; w 1: a position, w 0: a direction. An
+    /// eye that is not above the plane sees nothing.
     explicit Warp(glm::dvec4 eye);
 
-    /// Nothing where the point is not below the eye.
+    /// Empty if the point is not below the eye.
     [[nodiscard]] std::optional<glm::dvec2> at(glm::dvec2 place, double height) const;
 
-    /// Column and row nearest to the eye; infinite for one that is far away.
+    /// Column and row nearest to the eye; infinite for a direction.
     [[nodiscard]] glm::dvec2 nearest() const { return nearest_; }
 
 private:
@@ -35,19 +35,18 @@ private:
     glm::dvec2 nearest_{0.0};
 };
 
-/// The eye of a camera as Warp takes it, local metres.
+/// The eye of a camera for Warp, local metres.
 glm::dvec4 warp_eye(const scene::Camera& camera, const glm::dmat4& world_from_local);
 
-/// What each sample of the reference plane shows: the column and row of the surface that is seen
-/// there, both negative where it is none. `heights` above the plane. Every row of samples is warped
-/// along itself, then every column of the outcome; places and v' between samples are interpolated,
-/// and what lies farther from the eye is done first (McMillan and Bishop 1995), so that it is
-/// covered. What lands beyond the border is lost.
+/// The column and row of the surface that each sample of the reference plane shows; negative if
+/// none. `heights` above the plane. Warps the rows, then the columns of the result, with linear
+/// interpolation between samples, back to front (McMillan and Bishop 1995). Points that land beyond
+/// the border are lost.
 Grid<glm::vec2> prewarped(GridView<const float> heights, const Warp& warp,
                           const ParallelOptions& parallel = {});
 
-/// The same of a surface over a plane and its flat reference surface: column, row and the height
-/// there, metres. `local_eye`: metres, w as of Warp.
+/// The same for a surface and its flat reference surface: column, row and height in metres.
+/// `local_eye`: metres, w as for Warp.
 Grid<glm::vec4> warped_places(const scene::TerrainSurface& surface, glm::dvec4 local_eye);
 
 } // namespace reljef::render

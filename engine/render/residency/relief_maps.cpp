@@ -9,8 +9,8 @@
 namespace reljef::render {
 namespace {
 
-// Of the range of heights: how far the box reaches beyond them, so that a ray begins above and ends
-// below them whatever rounding says. Floats near 1 are good to 2^-24, and a ray adds a few of them.
+// Margin of the box, as a share of the range of heights: rays begin above and end below the heights
+// despite rounding. Floats near 1 have errors of 2^-24, and a ray adds a few of them.
 constexpr double margin = 1.0 / 4096.0;
 
 Grid<float> cell_maxima(GridView<const float> heights) {

@@ -13,15 +13,9 @@
 #include "engine/render/residency/terrain_maps.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/relief_options.h"
-#include "engine/terrain/mesh/grid_triangles.h"
 
 namespace reljef::render {
 namespace {
-
-Result<gl::Texture2D> map_texture(const Image& map, view::FrameStats& stats) {
-    return mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb, std::as_bytes(map.samples()),
-                     stats);
-}
 
 Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Texture2D lit,
                                 std::optional<gl::Texture2D> sun) {
@@ -33,14 +27,14 @@ Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Textur
 
 Result<ResidentMaps> upload_light(const scene::TerrainSurface& surface, const Image& lit,
                                   const Image& sun, view::FrameStats& stats) {
-    auto lit_texture = map_texture(lit, stats);
+    auto lit_texture = upload_mipmapped(lit, gl::Format::rgba8_srgb, stats);
     if (!lit_texture) {
         return lit_texture.error();
     }
     if (sun.empty()) {
         return with_place(surface, std::move(*lit_texture), std::nullopt);
     }
-    auto sun_texture = map_texture(sun, stats);
+    auto sun_texture = upload_mipmapped(sun, gl::Format::rgba8_srgb, stats);
     return sun_texture ? with_place(surface, std::move(*lit_texture), std::move(*sun_texture))
                        : sun_texture.error();
 }
@@ -56,19 +50,12 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
     return upload_light(surface, parts.sky, parts.sun, stats);
 }
 
-// Makes the cones where there are none.
+// Computes missing cones.
 Result<gl::Texture2D> cone_texture(const std::shared_ptr<const material::ConeMaps>& cones,
                                    const Grid<float>& heights, view::FrameStats& stats) {
     const Grid<glm::vec2> texels =
         cone_texels(cones ? *cones : *material::cone_maps(heights.view()));
-    auto texture = gl::Texture2D::create({.size = {texels.cols(), texels.rows()},
-                                          .format = gl::Format::rg32f,
-                                          .filter = gl::Filter::nearest});
-    if (texture) {
-        texture->upload(0, texels);
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
+    return upload_grid(texels, {.format = gl::Format::rg32f, .filter = gl::Filter::nearest}, stats);
 }
 
 } // namespace
@@ -76,32 +63,18 @@ Result<gl::Texture2D> cone_texture(const std::shared_ptr<const material::ConeMap
 Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
                                 view::FrameStats& stats) {
     forget_unused();
-    if (auto done = prepare_tiles(list, stats); !done) {
-        return done;
-    }
-    if (auto done = coarse_tiles_.prepare(list, stats); !done) {
-        return done;
-    }
-    if (auto done = streamed_tiles_.prepare(list, with_maps, stats); !done) {
-        return done;
-    }
+    auto done = prepare_tiles(list, stats);
+    done = done ? coarse_tiles_.prepare(list, stats) : done;
+    done = done ? streamed_tiles_.prepare(list, with_maps, stats) : done;
     if (with_maps) {
-        if (auto done = prepare_all_maps(list, stats); !done) {
-            return done;
-        }
-        if (auto done = ground_.prepare(list, stats); !done) {
-            return done;
-        }
+        done = done ? prepare_all_maps(list, stats) : done;
+        done = done ? ground_.prepare(list, stats) : done;
     }
-    if (auto done = prepare_warped(list, stats); !done) {
-        return done;
-    }
+    done = done ? prepare_warped(list, stats) : done;
     for (const view::ReliefDraw& draw : list.reliefs) {
-        if (auto done = prepare_relief(draw, stats); !done) {
-            return done;
-        }
+        done = done ? prepare_relief(draw, stats) : done;
     }
-    return meshes_.prepare(list.meshes, list.camera, stats);
+    return done ? meshes_.prepare(list.meshes, list.camera, stats) : done;
 }
 
 Result<void> Residency::add_light(const PreparedLight& prepared) {
@@ -110,8 +83,8 @@ Result<void> Residency::add_light(const PreparedLight& prepared) {
         streamed_tiles_.add_light(request.stream, request.light, prepared.irradiance);
         return {};
     }
-    view::FrameStats not_of_a_frame;
-    auto maps = upload_light(*request.surface, prepared.lit, prepared.sun, not_of_a_frame);
+    view::FrameStats ignored;
+    auto maps = upload_light(*request.surface, prepared.lit, prepared.sun, ignored);
     if (!maps) {
         return maps.error();
     }
@@ -157,8 +130,7 @@ std::vector<const view::TileDraw*> Residency::missing_tiles(const view::DrawList
 
 Result<void> Residency::prepare_tiles(const view::DrawList& list, view::FrameStats& stats) {
     const std::vector<const view::TileDraw*> missing = missing_tiles(list, stats);
-    // Meshes are made by all threads a batch at a time, so that memory holds one batch beside the
-    // driver's.
+    // In batches, which limits the memory for meshes that are not yet uploaded.
     constexpr std::size_t batch = 32;
     for (std::size_t first = 0; first < missing.size(); first += batch) {
         const std::size_t count = std::min(batch, missing.size() - first);
@@ -184,20 +156,13 @@ Result<void> Residency::prepare_tiles(const view::DrawList& list, view::FrameSta
 
 Result<void> Residency::upload_tile(const view::TileDraw& draw, const view::GridMesh& grid,
                                     view::FrameStats& stats) {
-    auto indices = indices_for(grid.cols, grid.rows, stats);
-    if (!indices) {
-        return indices.error();
+    auto mesh = grids_.upload(grid, stats);
+    if (!mesh) {
+        return mesh.error();
     }
-    auto vertices = gl::Buffer::create(bytes_of(grid.vertices));
-    if (!vertices) {
-        return vertices.error();
-    }
-    count_upload(stats, vertices->size());
-    ResidentMesh mesh = resident_grid(std::move(*vertices), 6 * grid.cols * grid.rows);
-    mesh.vertex_array.set_indices(**indices);
     Surface& resident = surface_of(draw.terrain->surface);
     auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
-    slots[static_cast<std::size_t>(draw.tile)] = std::move(mesh);
+    slots[static_cast<std::size_t>(draw.tile)] = std::move(*mesh);
     return {};
 }
 
@@ -258,18 +223,17 @@ Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::Frame
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const scene::Technique& technique = draw.terrain->material.technique;
     std::optional<ResidentRelief>& relief = surface_of(draw.terrain->surface).relief;
-    const bool looks_in_pyramid =
-        technique.id() == scene::TechniqueId::exact || has_beams(technique);
-    const bool needs_greatest = looks_in_pyramid && !(relief && relief->greatest);
+    const bool uses_mipmap = technique.id() == scene::TechniqueId::exact || has_beams(technique);
+    const bool needs_mipmap = uses_mipmap && !(relief && relief->max_mipmap);
     const bool needs_cones =
         technique.id() == scene::TechniqueId::cone && !(relief && relief->cones);
-    if (relief && !needs_greatest && !needs_cones) {
+    if (relief && !needs_mipmap && !needs_cones) {
         ++stats.skipped.uploads_unchanged;
         return {};
     }
     const Grid<float> heights = terrain::unit_heights(surface.heightfield().heights.view());
     if (!relief) {
-        auto texture = height_texture(heights, stats);
+        auto texture = upload_grid(heights, {.format = gl::Format::r32f}, stats);
         if (!texture) {
             return texture.error();
         }
@@ -277,8 +241,8 @@ Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::Frame
         relief->space = relief_space(surface);
         relief->heights = std::move(*texture);
     }
-    if (needs_greatest) {
-        auto kept = keep(pyramid_texture(max_mipmap(heights.view()), stats), relief->greatest);
+    if (needs_mipmap) {
+        auto kept = keep(upload_levels(max_mipmap(heights.view()), stats), relief->max_mipmap);
         if (!kept) {
             return kept;
         }
@@ -288,7 +252,7 @@ Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::Frame
 }
 
 Result<void> Residency::prepare_warped(const view::DrawList& list, view::FrameStats& stats) {
-    std::map<const scene::TerrainNode*, gl::Texture2D> before = std::exchange(warped_, {});
+    std::map<const scene::TerrainNode*, gl::Texture2D> last = std::exchange(warped_, {});
     for (const view::TileDraw& draw : list.tiles) {
         const scene::TerrainNode& terrain = *draw.terrain;
         if (terrain.material.technique.id() != scene::TechniqueId::prewarp ||
@@ -297,28 +261,13 @@ Result<void> Residency::prepare_warped(const view::DrawList& list, view::FrameSt
         }
         const Grid<glm::vec4> places =
             warped_places(*terrain.surface, warp_eye(list.camera, list.world_from_local(draw)));
-        auto texture = place_texture({places.cols(), places.rows()}, before[&terrain]);
+        auto texture = upload_places(places, last[&terrain], stats);
         if (!texture) {
             return texture.error();
         }
-        texture->upload(0, places);
-        count_upload(stats, texture->bytes());
         warped_.emplace(&terrain, std::move(*texture));
     }
     return {};
-}
-
-Result<const gl::Buffer*> Residency::indices_for(int cols, int rows, view::FrameStats& stats) {
-    const auto found = grid_indices_.find({cols, rows});
-    if (found != grid_indices_.end()) {
-        return &found->second;
-    }
-    auto buffer = gl::Buffer::create(bytes_of(terrain::grid_triangles<std::uint16_t>(cols, rows)));
-    if (!buffer) {
-        return buffer.error();
-    }
-    count_upload(stats, buffer->size());
-    return &grid_indices_.emplace(std::pair{cols, rows}, std::move(*buffer)).first->second;
 }
 
 std::span<const ResidentMesh> Residency::tile(const view::TileDraw& draw) const {

@@ -21,33 +21,30 @@
 
 namespace reljef::render {
 
-/// A terrain's lit_map, or, where rays cast the shadows, its light_parts; and how sample
-/// coordinates become texture coordinates: sample · xy + zw.
+/// A terrain's lit_map(), or its light_parts() if rays cast the shadows. Texture coordinate =
+/// sample · xy + zw.
 struct ResidentMaps {
     gl::Texture2D lit;
-    std::optional<gl::Texture2D> sun; ///< the sun's part; lit is then the sky's
+    std::optional<gl::Texture2D> sun; ///< the sun's part; then lit is the sky's
     glm::vec4 lit_from_sample{0.0F};
 };
 
-/// The heights that pixels look for along their rays, where they lie, and what some techniques need
-/// besides: exact a pyramid of the greatest, cone the cones over each cell.
+/// The heights of a relief search.
 struct ResidentRelief {
     ReliefSpace space;
     gl::Texture2D heights;
-    std::optional<gl::Texture2D> greatest;
-    std::optional<gl::Texture2D> cones;
+    std::optional<gl::Texture2D> max_mipmap; ///< for exact and beams
+    std::optional<gl::Texture2D> cones;      ///< for cone, per cell
 };
 
-/// What of the scene is in the driver's memory. Only what is drawn gets there, and stays while the
-/// scene holds its surface. Needs a current context; destroy while it is current.
+/// The scene's content in GPU memory. Drawn content is uploaded and stays as long as the scene has
+/// its surface. Needs a current context; destroy while it is current.
 class Residency {
 public:
-    /// Puts what the list draws into the driver's memory and counts it in `stats`; fails when the
-    /// driver has no memory left.
+    /// Uploads the list's content and counts it in `stats`. Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
 
-    /// Takes the light of a terrain that the next frame shows. Fails when the driver has no memory
-    /// left.
+    /// Adds precomputed light of a terrain in the next frame. Fails without GL memory.
     Result<void> add_light(const PreparedLight& prepared);
 
     /// Precondition: prepared.
@@ -57,7 +54,7 @@ public:
     [[nodiscard]] const StreamedTiles& streamed() const { return streamed_tiles_; }
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     [[nodiscard]] const GroundResidency& ground() const { return ground_; }
-    /// What prewarp shows at each sample: warped_places.
+    /// warped_places() for prewarp.
     [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
 private:
@@ -70,7 +67,7 @@ private:
         std::weak_ptr<const scene::TerrainSurface> owner;
         std::vector<std::optional<ResidentMesh>> tiles;
         std::vector<std::optional<ResidentMesh>> flat_tiles;
-        std::vector<LitMaps> maps; // one for each light that the last frame had for it
+        std::vector<LitMaps> maps; // one per light of the last frame
         std::optional<ResidentRelief> relief;
     };
     void forget_unused();
@@ -88,16 +85,15 @@ private:
              view::FrameStats& stats);
     Result<void> prepare_relief(const view::ReliefDraw& draw, view::FrameStats& stats);
     Result<void> prepare_warped(const view::DrawList& list, view::FrameStats& stats);
-    Result<const gl::Buffer*> indices_for(int cols, int rows, view::FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     CoarseTiles coarse_tiles_;
     StreamedTiles streamed_tiles_;
-    std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // last prepared
+    std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // of the frame
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     MeshResidency meshes_;
     GroundResidency ground_;
-    std::map<std::pair<int, int>, gl::Buffer> grid_indices_; // by quads along a row, and a column
+    GridUploader grids_;
 };
 
 } // namespace reljef::render

@@ -9,13 +9,10 @@
 
 #include "engine/material/tile_cones.h"
 #include "engine/render/residency/relief_maps.h"
-#include "engine/render/residency/resident_mesh.h"
 #include "engine/render/residency/uploads.h"
 
 namespace reljef::render {
 namespace {
-
-constexpr float snorm_unit = 32767.0F;
 
 gl::Wrap wrap_of(bool wraps) {
     return wraps ? gl::Wrap::repeat : gl::Wrap::clamp;
@@ -34,27 +31,17 @@ glm::vec3 mean_of(const Image& picture) {
     return glm::vec3(sum / static_cast<double>(picture.size()));
 }
 
-// x and y of the normals, as rg16_snorm has them.
-std::vector<glm::i16vec2> packed_normals(const Grid<glm::vec3>& normals) {
-    std::vector<glm::i16vec2> packed;
-    packed.reserve(normals.size());
-    for (const glm::vec3& normal : normals.samples()) {
-        packed.emplace_back(glm::round(glm::vec2(normal) * snorm_unit));
-    }
+// x and y of the normals as rg16_snorm.
+Grid<glm::i16vec2> packed_normals(const Grid<glm::vec3>& normals) {
+    Grid<glm::i16vec2> packed(normals.cols(), normals.rows());
+    std::ranges::transform(normals.samples(), packed.samples().begin(),
+                           [](const glm::vec3& normal) {
+                               return glm::i16vec2(glm::round(glm::vec2(normal) * 32767.0F));
+                           });
     return packed;
 }
 
-// One component of the layers' normals, as rgba16_snorm has them.
-std::vector<glm::i16vec4> packed_layers(const Grid<glm::vec4>& component) {
-    std::vector<glm::i16vec4> packed;
-    packed.reserve(component.size());
-    for (const glm::vec4& layers : component.samples()) {
-        packed.emplace_back(glm::round(layers * snorm_unit));
-    }
-    return packed;
-}
-
-// The heights with those that lie between the tile and its next copies; at least one cell.
+// wraps: repeats the first heights behind the last. At least one cell.
 Grid<float> with_next_copies(const Grid<float>& heights, bool wraps) {
     const int more = wraps ? 1 : 0;
     Grid<float> all(std::max(heights.cols() + more, 2), std::max(heights.rows() + more, 2));
@@ -85,7 +72,7 @@ glm::vec2 rms_rise(const Grid<float>& heights, bool wraps) {
     return glm::vec2(glm::sqrt(sum / static_cast<double>((all.cols() - 1) * (all.rows() - 1))));
 }
 
-// Null where they were not made beforehand.
+// Null if they were not precomputed.
 std::shared_ptr<const material::ConeMaps> known_cones(const material::ReliefMaterial& set,
                                                       const TileSide& side) {
     const auto found =
@@ -95,22 +82,9 @@ std::shared_ptr<const material::ConeMaps> known_cones(const material::ReliefMate
     return found == set.cones.end() ? nullptr : found->of_field;
 }
 
-Result<gl::Texture2D> layer_texture(const Grid<glm::vec4>& heights, bool wraps,
-                                    view::FrameStats& stats) {
-    auto texture = gl::Texture2D::create({.size = {heights.cols(), heights.rows()},
-                                          .format = gl::Format::rgba32f,
-                                          .wrap = wrap_of(wraps)});
-    if (texture) {
-        texture->upload(0, heights);
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
-}
-
 Result<gl::Texture2D> layer_normal_texture(const Grid<glm::vec4>& component, bool wraps,
                                            view::FrameStats& stats) {
-    return mipmapped({component.cols(), component.rows()}, gl::Format::rgba16_snorm,
-                     bytes_of(packed_layers(component)), stats, wrap_of(wraps));
+    return upload_mipmapped(snorm16(component), gl::Format::rgba16_snorm, stats, wrap_of(wraps));
 }
 
 Result<ResidentSurface> resident_layers(const material::ReliefMaterial& set, const TileSide& side,
@@ -120,7 +94,8 @@ Result<ResidentSurface> resident_layers(const material::ReliefMaterial& set, con
         layers = material::seen_from_behind(layers);
     }
     const auto normals = material::layer_normals(layers, set.scale, border_as(side.wraps));
-    auto heights = layer_texture(layers.heights(), side.wraps, stats);
+    auto heights = upload_grid(layers.heights(),
+                               {.format = gl::Format::rgba32f, .wrap = wrap_of(side.wraps)}, stats);
     if (!heights) {
         return heights.error();
     }
@@ -132,24 +107,23 @@ Result<ResidentSurface> resident_layers(const material::ReliefMaterial& set, con
     if (!along_v) {
         return along_v.error();
     }
-    const glm::ivec2 cells = cells_of(layers.heights().cols(), layers.heights().rows(), side.wraps);
-    return ResidentSurface{
-        std::move(*heights), cells,
-        glm::vec2(0.0F),     LayerTextures{std::move(*along_u), std::move(*along_v)},
-        std::nullopt,        std::nullopt};
+    ResidentSurface surface;
+    surface.heights = std::move(*heights);
+    surface.cells = cells_of(layers.heights().cols(), layers.heights().rows(), side.wraps);
+    surface.normals = LayerTextures{std::move(*along_u), std::move(*along_v)};
+    return surface;
 }
 
 } // namespace
 
 Result<ResidentTile> resident_tile(const material::ReliefMaterial& set, bool wraps,
                                    view::FrameStats& stats) {
-    auto color = mipmapped({set.color.cols(), set.color.rows()}, gl::Format::rgba8_srgb,
-                           std::as_bytes(set.color.samples()), stats, wrap_of(wraps));
+    auto color = upload_mipmapped(set.color, gl::Format::rgba8_srgb, stats, wrap_of(wraps));
     if (!color) {
         return color.error();
     }
-    auto normals = mipmapped({set.normals.cols(), set.normals.rows()}, gl::Format::rg16_snorm,
-                             bytes_of(packed_normals(set.normals)), stats, wrap_of(wraps));
+    auto normals = upload_mipmapped(packed_normals(set.normals), gl::Format::rg16_snorm, stats,
+                                    wrap_of(wraps));
     if (!normals) {
         return normals.error();
     }
@@ -162,23 +136,24 @@ Result<ResidentSurface> resident_surface(const material::ReliefMaterial& set, co
         return resident_layers(set, side, stats);
     }
     const Grid<float> shown = material::seen_heights(set.heights, side.from_behind);
-    auto heights = tile_height_texture(shown, wrap_of(side.wraps), stats);
+    auto heights = upload_grid(
+        shown, {.format = gl::Format::r32f, .levels = gl::full_chain, .wrap = wrap_of(side.wraps)},
+        stats);
     if (!heights) {
         return heights.error();
     }
-    return ResidentSurface{std::move(*heights),
-                           cells_of(shown.cols(), shown.rows(), side.wraps),
-                           rms_rise(shown, side.wraps),
-                           std::nullopt,
-                           std::nullopt,
-                           std::nullopt};
+    ResidentSurface surface;
+    surface.heights = std::move(*heights);
+    surface.cells = cells_of(shown.cols(), shown.rows(), side.wraps);
+    surface.rms_rise = rms_rise(shown, side.wraps);
+    return surface;
 }
 
-Result<gl::Texture2D> greatest_texture(const material::ReliefMaterial& set, const TileSide& side,
-                                       view::FrameStats& stats) {
+Result<gl::Texture2D> max_mipmap_texture(const material::ReliefMaterial& set, const TileSide& side,
+                                         view::FrameStats& stats) {
     const Grid<float> heights =
         with_next_copies(material::seen_heights(set.heights, side.from_behind), side.wraps);
-    return pyramid_texture(max_mipmap(heights.view()), stats);
+    return upload_levels(max_mipmap(heights.view()), stats);
 }
 
 Result<gl::Texture2D> tile_cone_texture(const material::ReliefMaterial& set, const TileSide& side,
@@ -190,18 +165,10 @@ Result<gl::Texture2D> tile_cone_texture(const material::ReliefMaterial& set, con
     const material::ConeMaps cones =
         material::tile_cones(known ? *known : *material::cone_maps(field.view()), heights.cols(),
                              heights.rows(), border);
-    auto texture = gl::Texture2D::create({.size = {cones.plain.cols(), cones.plain.rows()},
-                                          .format = gl::Format::rg32f,
-                                          .filter = gl::Filter::nearest});
-    if (texture) {
-        Grid<glm::vec2> texels(cones.plain.cols(), cones.plain.rows());
-        for (std::size_t i = 0; i < texels.size(); ++i) {
-            texels.samples()[i] = {cones.plain.samples()[i], cones.relaxed.samples()[i]};
-        }
-        texture->upload(0, texels);
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
+    Grid<glm::vec2> texels(cones.plain.cols(), cones.plain.rows());
+    std::ranges::transform(cones.plain.samples(), cones.relaxed.samples(), texels.samples().begin(),
+                           [](float plain, float relaxed) { return glm::vec2(plain, relaxed); });
+    return upload_grid(texels, {.format = gl::Format::rg32f, .filter = gl::Filter::nearest}, stats);
 }
 
 } // namespace reljef::render

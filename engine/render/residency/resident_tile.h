@@ -13,21 +13,21 @@
 
 namespace reljef::render {
 
-/// How a tile of detail looks.
+/// The colours and normals of a surface detail's tile.
 struct ResidentTile {
     gl::Texture2D color;
     gl::Texture2D normals;
     glm::vec3 mean_color{1.0F}; ///< linear
 };
-/// Fails when the driver has no memory left.
+/// Fails without GL memory.
 Result<ResidentTile> resident_tile(const material::ReliefMaterial& set, bool wraps,
                                    view::FrameStats& stats);
 
-/// Which surface of a tile is looked for.
+/// The searched surface of a tile.
 struct TileSide {
-    std::optional<material::LayerKind> layers; ///< none: its heights
+    std::optional<material::LayerKind> layers; ///< empty: the heights
     bool wraps = true;
-    bool from_behind = false; ///< what is left of its heights to 1
+    bool from_behind = false; ///< 1 − heights
 
     friend auto operator<=>(const TileSide&, const TileSide&) = default;
 };
@@ -37,7 +37,7 @@ inline TileSide ground_side() {
     return {std::nullopt, true, false};
 }
 
-/// x and y of the normals of a tile's layers.
+/// See material::LayerNormals.
 struct LayerTextures {
     gl::Texture2D along_u;
     gl::Texture2D along_v;
@@ -47,20 +47,19 @@ struct LayerTextures {
 /// wraps, those between the last and the first: `greatest` is there for the exact technique,
 /// `cones` for cone.
 struct ResidentSurface {
-    gl::Texture2D heights; ///< one a place, or those of the four layers
+    gl::Texture2D heights; ///< or the four layers
     glm::ivec2 cells{1};
-    glm::vec2 rms_rise{
-        0.0F}; ///< of the heights, from sample to sample along u and v; not of layers
-    std::optional<LayerTextures> normals; ///< of layers
-    std::optional<gl::Texture2D> greatest;
-    std::optional<gl::Texture2D> cones;
+    glm::vec2 rms_rise{0.0F}; ///< height difference per texel along u and v; 0 for layers
+    std::optional<LayerTextures> normals;    ///< of layers
+    std::optional<gl::Texture2D> max_mipmap; ///< for exact
+    std::optional<gl::Texture2D> cones;      ///< for cone
 };
-/// Fails when the driver has no memory left.
+/// Fails without GL memory.
 Result<ResidentSurface> resident_surface(const material::ReliefMaterial& set, const TileSide& side,
                                          view::FrameStats& stats);
-/// What the techniques ask for besides. Precondition: a surface without layers.
-Result<gl::Texture2D> greatest_texture(const material::ReliefMaterial& set, const TileSide& side,
-                                       view::FrameStats& stats);
+/// Precondition: a surface without layers.
+Result<gl::Texture2D> max_mipmap_texture(const material::ReliefMaterial& set, const TileSide& side,
+                                         view::FrameStats& stats);
 Result<gl::Texture2D> tile_cone_texture(const material::ReliefMaterial& set, const TileSide& side,
                                         view::FrameStats& stats);
 

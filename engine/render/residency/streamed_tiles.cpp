@@ -6,15 +6,13 @@
 #include "engine/core/parallel_for.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/scene/tile_stream.h"
-#include "engine/terrain/mesh/grid_triangles.h"
 
 namespace reljef::render {
 namespace {
 
-// A vertex of a drawn tile in local metres, and its height in true metres.
 struct PlacedVertex {
-    glm::dvec3 place;
-    float height;
+    glm::dvec3 place; // local metres
+    float height;     // true metres
 };
 
 PlacedVertex placed(const view::StreamedDraw& draw, glm::ivec2 vertex) {
@@ -36,20 +34,20 @@ std::map<const scene::TileStream*, StreamedByTile> draws_by_stream(const view::D
     return streams;
 }
 
-// What is not drawn for longer is uploaded again.
+// Frames that an unused tile stays.
 constexpr std::uint64_t kept_frames = 8;
 
-// Vertices of so many tiles are made at a time: what waits to be uploaded takes memory, too.
-constexpr std::size_t uploaded_together = 8;
+// Tiles per batch; limits the memory for vertices that are not yet uploaded.
+constexpr std::size_t batch_tiles = 8;
 
-// Texels lie edge to edge over the vertices.
+// The outermost texel centres are the outermost vertices.
 glm::vec4 lit_from_samples(const scene::TileBuilder& maker, const scene::StreamedTile& tile) {
     const glm::dvec2 texels(tile.albedo.cols(), tile.albedo.rows());
     const glm::dvec2 samples = glm::dvec2(tile.cells) * maker.step(tile.id);
     return {glm::vec2((texels - 1.0) / (samples * texels)), glm::vec2(0.5 / texels)};
 }
 
-// A tile's ground_map, of the albedo's size; the sun's shadows are the overview's.
+// A tile's ground map with the albedo's size and the overview's shadows.
 GroundMap streamed_ground(const scene::TileBuilder& maker, const scene::StreamedTile& tile,
                           const scene::TerrainIrradiance* irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
@@ -77,7 +75,7 @@ std::set<terrain::TreeTile> tiles_of(const std::vector<terrain::EdgeMove>& moves
     return tiles;
 }
 
-// Around the Earth a sample is many: the one that is nearest to a place.
+// On a global terrain sample columns repeat: the one nearest to `place`.
 glm::dvec2 nearest_turn(const scene::TileBuilder& maker, glm::dvec2 sample, glm::dvec2 place) {
     if (maker.tree().wraps_longitude()) {
         const terrain::TreeTile root = maker.tree().root();
@@ -182,9 +180,9 @@ Result<void> StreamedTiles::prepare_meshes(const terrain::DrawnTiles& cover,
             changed.push_back({draw, &moves});
         }
     }
-    for (std::size_t i = 0; i < changed.size(); i += uploaded_together) {
+    for (std::size_t i = 0; i < changed.size(); i += batch_tiles) {
         const auto part = std::span(changed).subspan(i);
-        const std::size_t count = std::min(part.size(), uploaded_together);
+        const std::size_t count = std::min(part.size(), batch_tiles);
         if (auto done = upload_all(part.first(count), drawn, stats); !done) {
             return done;
         }
@@ -216,7 +214,7 @@ Result<void> StreamedTiles::upload_all(std::span<const ChangedMesh> changed,
     return {};
 }
 
-// Onto the same vertices, of tiles that are no newer than its own.
+// To the same vertices, whose tiles are not newer than the upload.
 bool StreamedTiles::is_moved_as(const view::StreamedDraw& draw,
                                 const std::vector<terrain::EdgeMove>& moves) const {
     const Entry& entry = entries_.at(key_of(draw));
@@ -239,18 +237,11 @@ StreamedTiles::Entry& StreamedTiles::entry_of(const view::StreamedDraw& draw) {
 
 Result<void> StreamedTiles::upload(const view::StreamedDraw& draw, const view::GridMesh& mesh,
                                    view::FrameStats& stats) {
-    auto indices = indices_for(draw.tile->cells, stats);
-    if (!indices) {
-        return indices.error();
+    auto made = grids_.upload(mesh, stats);
+    if (!made) {
+        return made.error();
     }
-    auto vertices = gl::Buffer::create(bytes_of(mesh.vertices));
-    if (!vertices) {
-        return vertices.error();
-    }
-    count_upload(stats, vertices->size());
-    ResidentMesh made = resident_grid(std::move(*vertices), 6 * mesh.cols * mesh.rows);
-    made.vertex_array.set_indices(**indices);
-    set_mesh(draw, std::move(made));
+    set_mesh(draw, std::move(*made));
     Entry& entry = entry_of(draw);
     entry.is_whole = true;
     entry.vertices = {};
@@ -302,22 +293,12 @@ Result<void> StreamedTiles::set_triangles(const view::StreamedDraw& draw,
     for (const std::uint16_t vertex : triangles.vertices) {
         used.push_back(entry.vertices[vertex]);
     }
-    auto vertices = gl::Buffer::create(bytes_of(used));
-    if (!vertices) {
-        return vertices.error();
+    auto mesh = with_indices(upload_vertices(used, stats), triangles.indices, stats);
+    if (!mesh) {
+        return mesh.error();
     }
-    auto indices = gl::Buffer::create(bytes_of(triangles.indices));
-    if (!indices) {
-        return indices.error();
-    }
-    count_upload(stats, vertices->size());
-    count_upload(stats, indices->size());
     ++stats.tiles_cut;
-    ResidentMesh mesh =
-        resident_grid(std::move(*vertices), static_cast<int>(triangles.indices.size()));
-    mesh.indices = std::move(*indices);
-    mesh.vertex_array.set_indices(mesh.indices);
-    set_mesh(draw, std::move(mesh));
+    set_mesh(draw, std::move(*mesh));
     entry.is_whole = false;
     return {};
 }
@@ -333,8 +314,7 @@ Result<void> StreamedTiles::prepare_light(const view::DrawList& list,
     const Image map = light ? scene::lit_tile(draw.terrain->stream->maker(), *draw.tile,
                                               irradiance_of(draw, *light))
                             : draw.tile->albedo;
-    auto texture = mipmapped({map.cols(), map.rows()}, gl::Format::rgba8_srgb,
-                             std::as_bytes(map.samples()), stats);
+    auto texture = upload_mipmapped(map, gl::Format::rgba8_srgb, stats);
     if (!texture) {
         return texture.error();
     }
@@ -348,7 +328,7 @@ Result<void> StreamedTiles::prepare_ground(const view::StreamedDraw& draw,
                                            view::FrameStats& stats) {
     Entry& entry = entry_of(draw);
     if (draw.detail == view::DetailLevel::none) {
-        entry.resident->ground.reset(); // only tiles near the eye have it: no budget counts it
+        entry.resident->ground.reset(); // no budget counts it: keep it only near the eye
         return {};
     }
     if (entry.resident->ground) {
@@ -381,20 +361,6 @@ const scene::TerrainIrradiance& StreamedTiles::irradiance_of(const view::Streame
                       draw.terrain->stream->maker().overview(), light)};
     }
     return *shared.irradiance;
-}
-
-Result<const gl::Buffer*> StreamedTiles::indices_for(glm::ivec2 cells, view::FrameStats& stats) {
-    const auto found = indices_.find({cells.x, cells.y});
-    if (found != indices_.end()) {
-        return &found->second;
-    }
-    auto buffer =
-        gl::Buffer::create(bytes_of(terrain::grid_triangles<std::uint16_t>(cells.x, cells.y)));
-    if (!buffer) {
-        return buffer.error();
-    }
-    count_upload(stats, buffer->size());
-    return &indices_.emplace(std::pair{cells.x, cells.y}, std::move(*buffer)).first->second;
 }
 
 const ResidentStreamed& StreamedTiles::tile(const view::StreamedDraw& draw) const {

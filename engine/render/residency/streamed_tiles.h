@@ -22,52 +22,52 @@ namespace reljef::render {
 
 using StreamedByTile = std::map<terrain::TreeTile, const view::StreamedDraw*>;
 
-/// A streamed tile in the driver's memory.
+/// A streamed tile in GPU memory.
 struct ResidentStreamed {
     ResidentMesh mesh;
     std::optional<gl::Texture2D> lit;
     glm::vec4 lit_from_sample{0.0F}; ///< texture coordinate = samples from the first · xy + zw
-    std::optional<ResidentGround> ground; ///< there where a detail is seen on it
+    std::optional<ResidentGround> ground; ///< for visible surface detail
 };
 
-/// The tiles of streamed terrains: uploaded when they are first drawn, again where a neighbour of
-/// another level moves their border, or has other heights than before, or the sun moves. They go
-/// when the stream lets go of them, and when they have not been drawn for some frames: most tiles
-/// of a stream stand above those drawn. Needs a current context; destroy while it is current.
+/// The tiles of streamed terrains. Uploaded on first use, and again when a neighbour moves their
+/// border or changes its heights, or when the sun moves. Dropped when the stream drops them or
+/// after some frames unused: most tiles of a stream are ancestors of the drawn ones. Needs a
+/// current context; destroy while it is current.
 class StreamedTiles {
 public:
-    /// Fails when the driver has no memory left.
+    /// Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
 
-    /// Takes the light that the next frame shows.
+    /// Adds precomputed light for the next frame.
     void add_light(const std::shared_ptr<scene::TileStream>& stream,
                    const scene::TerrainLight& light,
                    std::shared_ptr<const scene::TerrainIrradiance> irradiance);
 
-    /// Precondition: `draw` is of the list that was prepared.
+    /// Precondition: `draw` is of the prepared list.
     [[nodiscard]] const ResidentStreamed& tile(const view::StreamedDraw& draw) const;
 
 private:
     using Key = std::pair<const scene::TileStream*, terrain::TreeTile>;
     struct Entry {
         std::weak_ptr<const scene::StreamedTile> owner;
-        std::uint64_t drawn = 0;    // frame that drew it last
-        std::uint64_t since = 0;    // frame that drew it first
-        std::uint64_t uploaded = 0; // frame that made its vertices
+        std::uint64_t drawn = 0;    // last frame
+        std::uint64_t since = 0;    // first frame
+        std::uint64_t uploaded = 0; // frame of the vertices
         bool flat = false;
         std::vector<terrain::EdgeMove> moves;
-        std::set<terrain::TreeTile> moved_to; // the tiles that they name
+        std::set<terrain::TreeTile> moved_to; // their target tiles
         std::optional<scene::TerrainLight> light;
         std::optional<ResidentStreamed> resident;
         bool is_whole = false;                  // the resident mesh has all triangles
-        std::vector<view::GridVertex> vertices; // where it has fewer: all that they are chosen from
+        std::vector<view::GridVertex> vertices; // all vertices of a mesh that is not whole
         view::StreamedCut cut;
     };
-    // The tiles of a stream that were drawn last.
+    // The tiles of a stream in the last frame.
     struct Cover {
         std::weak_ptr<const scene::TileStream> owner;
         terrain::DrawnTiles tiles;
-        bool is_new = true; // its tiles' triangles are those of another
+        bool is_new = true; // the triangles are still those of the last cover
     };
     struct SharedLight {
         std::weak_ptr<scene::TileStream> owner;
@@ -98,7 +98,6 @@ private:
                         view::FrameStats& stats);
     const scene::TerrainIrradiance& irradiance_of(const view::StreamedDraw& draw,
                                                   const scene::TerrainLight& light);
-    Result<const gl::Buffer*> indices_for(glm::ivec2 cells, view::FrameStats& stats);
     static Key key_of(const view::StreamedDraw& draw) {
         return {draw.terrain->stream.get(), draw.tile->id};
     }
@@ -110,11 +109,10 @@ private:
     std::map<Key, Entry> entries_;
     std::map<const scene::TileStream*, Cover> covers_;
     std::map<const scene::TileStream*, SharedLight> lights_;
-    std::map<std::pair<int, int>, gl::Buffer> indices_; // by cells along a row, and a column
+    GridUploader grids_;
 };
 
-/// The vertices of a tile, with its border where the moves put it. `drawn` holds the tiles that
-/// they name.
+/// The vertices of a tile after the moves of its border. `drawn` contains the moves' target tiles.
 view::GridMesh streamed_mesh(const view::StreamedDraw& draw,
                              const std::vector<terrain::EdgeMove>& moves,
                              const StreamedByTile& drawn);

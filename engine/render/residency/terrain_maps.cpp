@@ -15,7 +15,7 @@
 namespace reljef::render {
 namespace {
 
-// Every k-th sample, the last ones kept, so that no side is longer than `largest`.
+// Nearest samples, including the border, with sides up to `largest`.
 template <class T> Grid<T> subsampled(Grid<T> grid, int largest) {
     const int cols = std::min(grid.cols(), largest);
     const int rows = std::min(grid.rows(), largest);
@@ -36,7 +36,7 @@ template <class T> Grid<T> subsampled(Grid<T> grid, int largest) {
     return thin;
 }
 
-// Where a texel lies on a grid that covers the same ground, corner on corner.
+// The position of a texel on a grid with the same corners.
 glm::dvec2 place_on(glm::ivec2 texel, glm::ivec2 texels, glm::ivec2 grid) {
     const glm::dvec2 steps(glm::max(texels - 1, glm::ivec2(1)));
     return glm::dvec2(texel) * glm::dvec2(grid - 1) / steps;
@@ -46,7 +46,7 @@ template <class T> glm::ivec2 size_of(const Grid<T>& grid) {
     return {grid.cols(), grid.rows()};
 }
 
-// Visits every texel of a map of the surface: `visit(texel, sample, albedo)`, albedo linear.
+// Calls `visit(texel, sample, linear albedo)` for every texel of a map.
 template <class Visit>
 void for_each_texel(const scene::TerrainSurface& surface, const Image& albedo, glm::ivec2 size,
                     const Visit& visit) {

@@ -13,15 +13,13 @@
 
 namespace reljef::render {
 
-/// What every place of a terrain sends to the eye, whichever way it looks: its albedo times its
-/// irradiance (scene/terrain_light.h). sRGB, opaque; the albedo alone without a light. As fine as
-/// the finer of imagery and heights, but no side longer than `largest_side`; outermost texels are
-/// the outermost samples.
+/// The terrain's diffuse reflection: albedo times irradiance (scene/terrain_light.h); without a
+/// light the albedo. sRGB, opaque. Has the finer resolution of imagery and heights, sides up to
+/// `largest_side`; outermost texels are the outermost samples.
 Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::TerrainLight>& light,
               int largest_side);
 
-/// The same in two parts for those who find out themselves what the sun sees: what the sky lights,
-/// and what the sun would if nothing hid it.
+/// The same in two parts: the sky's light, and the sun's light without shadows.
 struct LightParts {
     Image sky;
     Image sun;
@@ -29,7 +27,7 @@ struct LightParts {
 LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
                        int largest_side);
 
-/// The light of a terrain that is to be made before it is drawn.
+/// Light to compute before the terrain is drawn.
 struct LightRequest {
     std::shared_ptr<const scene::TerrainSurface> surface; ///< the overview of a streamed terrain
     std::shared_ptr<scene::TileStream> stream;            ///< null: the terrain is in memory
@@ -38,21 +36,19 @@ struct LightRequest {
     int largest_side = 0;  ///< of the maps, texels
 };
 
-/// Light that was made before it is drawn, with what it was made for.
+/// Computed light and its request.
 struct PreparedLight {
     LightRequest request;
     Image lit; ///< or the sky's part; empty for a streamed terrain
-    Image sun; ///< the sun's part, else empty
-    std::shared_ptr<const scene::TerrainIrradiance>
-        irradiance; ///< of a streamed terrain, else null
+    Image sun; ///< the sun's part, or empty
+    std::shared_ptr<const scene::TerrainIrradiance> irradiance; ///< null unless streamed
 };
 
-/// Makes the light; on any thread.
+/// On any thread.
 PreparedLight prepare_light(LightRequest request);
 
-/// What a tile of detail on a terrain is lit by: its albedo, sRGB, and, in local directions, its
-/// normals (xyz), with the share of the sun's disc that the terrain around leaves (w; 1 without a
-/// light). Both of one size, as lit_map's.
+/// The ground's maps for surface detail: albedo (sRGB); normals in local directions (xyz) and the
+/// visible share of the sun's disc (w; 1 without a light). Both have lit_map's size.
 struct GroundMap {
     Image albedo;
     Grid<glm::vec4> surface;
@@ -60,8 +56,7 @@ struct GroundMap {
 GroundMap ground_map(const scene::TerrainSurface& surface,
                      const std::optional<scene::TerrainLight>& light, int largest_side);
 
-/// How sample coordinates of a heightfield become texture coordinates, sample · xy + zw, where the
-/// outermost centres of texels are the outermost samples.
+/// Texture coordinate = sample · xy + zw; the outermost texel centres are the outermost samples.
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels);
 
 } // namespace reljef::render

@@ -57,8 +57,8 @@ Result<void> TileResidency::prepare_surface(const Set& set, const TileSide& side
         found = surfaces_.emplace(key, Surface{set, std::move(*surface)}).first;
     }
     ResidentSurface& surface = found->second.resident;
-    if (technique == scene::TechniqueId::exact && !surface.greatest) {
-        return keep(greatest_texture(*set, side, stats), surface.greatest);
+    if (technique == scene::TechniqueId::exact && !surface.max_mipmap) {
+        return keep(max_mipmap_texture(*set, side, stats), surface.max_mipmap);
     }
     if (technique == scene::TechniqueId::cone && !surface.cones) {
         return keep(tile_cone_texture(*set, side, stats), surface.cones);

@@ -11,17 +11,16 @@
 
 namespace reljef::render {
 
-/// The layers of a tile that a technique looks for; none: its heights.
+/// The layers that a technique searches; empty: the heights.
 std::optional<material::LayerKind> layers_for(scene::TechniqueId id);
 
-/// Which tiles of detail are in the driver's memory. They stay while the scene holds them. Needs a
-/// current context; destroy while it is current.
+/// The surface detail in GPU memory, kept as long as the scene has it. Needs a current context;
+/// destroy while it is current.
 class TileResidency {
 public:
     using Set = std::shared_ptr<const material::ReliefMaterial>;
 
-    /// Puts the maps of a tile and that side of it into the driver's memory, with what the
-    /// technique needs besides. Fails when the driver has no memory left.
+    /// Uploads a tile, its side and the technique's additional maps. Fails without GL memory.
     Result<void> prepare(const Set& set, const TileSide& side, scene::TechniqueId technique,
                          view::FrameStats& stats);
     void forget_unused();
@@ -39,7 +38,7 @@ private:
         std::weak_ptr<const material::ReliefMaterial> owner;
         ResidentSurface resident;
     };
-    using TileKey = std::pair<const material::ReliefMaterial*, bool>; // whether it wraps
+    using TileKey = std::pair<const material::ReliefMaterial*, bool>; // wraps
     using SurfaceKey = std::pair<const material::ReliefMaterial*, TileSide>;
 
     Result<void> prepare_tile(const Set& set, bool wraps, view::FrameStats& stats);

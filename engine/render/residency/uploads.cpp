@@ -1,19 +1,17 @@
 #include "engine/render/residency/uploads.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <glm/common.hpp>
 
 #include "engine/render/residency/resident_mesh.h"
 
 namespace reljef::render {
 
-Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
-                                std::span<const std::byte> texels, view::FrameStats& stats,
-                                gl::Wrap wrap) {
-    auto texture = gl::Texture2D::create({.size = size,
-                                          .format = format,
-                                          .levels = gl::full_chain,
-                                          .filter = gl::Filter::trilinear,
-                                          .wrap = wrap});
+Result<gl::Texture2D> upload_texture(const gl::TextureOptions& options,
+                                     std::span<const std::byte> texels, view::FrameStats& stats) {
+    auto texture = gl::Texture2D::create(options);
     if (texture) {
         texture->upload(0, texels);
         texture->generate_mipmaps();
@@ -22,32 +20,8 @@ Result<gl::Texture2D> mipmapped(glm::ivec2 size, gl::Format format,
     return texture;
 }
 
-Result<gl::Texture2D> height_texture(const Grid<float>& heights, view::FrameStats& stats) {
-    auto texture = gl::Texture2D::create(
-        {.size = {heights.cols(), heights.rows()}, .format = gl::Format::r32f});
-    if (texture) {
-        texture->upload(0, heights);
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
-}
-
-Result<gl::Texture2D> tile_height_texture(const Grid<float>& heights, gl::Wrap wrap,
-                                          view::FrameStats& stats) {
-    auto texture = gl::Texture2D::create({.size = {heights.cols(), heights.rows()},
-                                          .format = gl::Format::r32f,
-                                          .levels = gl::full_chain,
-                                          .wrap = wrap});
-    if (texture) {
-        texture->upload(0, heights);
-        texture->generate_mipmaps();
-        count_upload(stats, texture->bytes());
-    }
-    return texture;
-}
-
-Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels,
-                                      view::FrameStats& stats) {
+Result<gl::Texture2D> upload_levels(const std::vector<Grid<float>>& levels,
+                                    view::FrameStats& stats) {
     auto texture = gl::Texture2D::create({.size = {levels.front().cols(), levels.front().rows()},
                                           .format = gl::Format::r32f,
                                           .levels = gl::full_chain,
@@ -61,12 +35,15 @@ Result<gl::Texture2D> pyramid_texture(const std::vector<Grid<float>>& levels,
     return texture;
 }
 
-Result<gl::Texture2D> place_texture(glm::ivec2 size, gl::Texture2D& before) {
-    if (before.size() == size) {
-        return std::move(before);
+Result<gl::Texture2D> upload_places(const Grid<glm::vec4>& places, gl::Texture2D& last,
+                                    view::FrameStats& stats) {
+    if (last.size() != glm::ivec2(places.cols(), places.rows())) {
+        return upload_grid(places, {.format = gl::Format::rgba32f, .filter = gl::Filter::nearest},
+                           stats);
     }
-    return gl::Texture2D::create(
-        {.size = size, .format = gl::Format::rgba32f, .filter = gl::Filter::nearest});
+    last.upload(0, places);
+    count_upload(stats, last.bytes());
+    return std::move(last);
 }
 
 Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place) {
@@ -75,6 +52,14 @@ Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& plac
     }
     place = std::move(*made);
     return {};
+}
+
+Grid<glm::i16vec4> snorm16(const Grid<glm::vec4>& values) {
+    Grid<glm::i16vec4> packed(values.cols(), values.rows());
+    std::ranges::transform(values.samples(), packed.samples().begin(), [](const glm::vec4& value) {
+        return glm::i16vec4(glm::round(value * 32767.0F));
+    });
+    return packed;
 }
 
 } // namespace reljef::render
