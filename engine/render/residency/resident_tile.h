@@ -43,9 +43,8 @@ struct LayerTextures {
     gl::Texture2D along_v;
 };
 
-/// The surface of a tile. Of its cells, that is, those between the heights and, where the tile
-/// wraps, those between the last and the first: `greatest` is there for the exact technique,
-/// `cones` for cone.
+/// The surface of a tile. Its cells lie between the heights; a wrapping tile also has cells between
+/// the last and the first heights.
 struct ResidentSurface {
     gl::Texture2D heights; ///< or the four layers
     glm::ivec2 cells{1};

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The binding points of uniform blocks and the units of maps, as the shaders have them.
+/// Binding points of uniform blocks and texture units, shared with GLSL.
 namespace reljef::render::bindings {
 
 using uint = unsigned int;

@@ -11,8 +11,7 @@
 
 namespace reljef::render {
 
-/// The uniform block `FrameBlock` of every shader, std140. Its members stand in
-/// shaders/frame/frame_block.inc.
+/// The uniform block of every shader, std140.
 struct FrameBlock {
     using mat4 = glm::mat4;
     using vec4 = glm::vec4;
@@ -30,11 +29,9 @@ static_assert(sizeof(FrameBlock) == 64 + 12 * 16);
 inline constexpr BlockLayout FrameBlock::layout{"FrameBlock", bindings::frame_block_binding,
                                                 sizeof(FrameBlock)};
 
-/// The blocks of all shaders.
 inline constexpr std::array block_layouts{FrameBlock::layout, TechniqueBlock::layout,
                                           ReliefBlock::layout, DetailBlock::layout};
 
-/// What all of the list's programs read.
 FrameBlock frame_block(const view::DrawList& list);
 
 } // namespace reljef::render

@@ -5,7 +5,7 @@
 namespace reljef::render {
 namespace {
 
-// How the shaders of a technique search or light: their features, and the values that these read.
+// A technique's shader features and their parameters.
 struct Search {
     std::uint32_t features = 0U;
     TechniqueBlock values{};
@@ -15,119 +15,94 @@ template <class Number> float block_value(Number number) {
     return static_cast<float>(number);
 }
 
-Search search_of(const scene::Texture& /*texture*/) {
-    return {};
-}
-
-Search search_of(const scene::Polygons& /*polygons*/) {
-    return {};
-}
-
-Search search_of(const scene::Displacement& /*displacement*/) {
-    return {.features = feature_normal_map};
-}
-
-Search search_of(const scene::Bump& /*bump*/) {
-    return {.features = feature_bump};
-}
-
-Search search_of(const scene::Emboss& emboss) {
-    Search search{.features = feature_emboss};
-    search.values.emboss_delta = block_value(emboss.delta);
+Search parallax_search(std::uint32_t features, double offset) {
+    Search search{.features = feature_parallax | features};
+    search.values.parallax_offset = block_value(offset);
     return search;
 }
 
-Search search_of(const scene::Normal& /*normal*/) {
-    return {.features = feature_normal_map};
-}
-
-Search search_of(const scene::Prewarp& /*prewarp*/) {
-    return {.features = feature_normal_map | feature_warped};
-}
-
-Search search_of(const scene::Parallax& parallax) {
-    Search search{.features = feature_parallax};
-    search.values.parallax_offset = block_value(parallax.offset);
+template <class Technique>
+Search stepped_search(std::uint32_t features, const Technique& technique) {
+    Search search{.features = features};
+    search.values.linear_steps = block_value(technique.linear_steps);
     return search;
 }
 
-Search search_of(const scene::ParallaxLimited& parallax) {
-    Search search{.features = feature_parallax | feature_limited};
-    search.values.parallax_offset = block_value(parallax.offset);
+template <class Technique>
+Search bisection_search(std::uint32_t features, const Technique& technique) {
+    Search search = stepped_search(features, technique);
+    search.values.bisection_steps = block_value(technique.bisection_steps);
     return search;
 }
 
-Search search_of(const scene::ParallaxIterated& parallax) {
-    Search search{.features = feature_parallax | feature_iterated};
-    search.values.parallax_offset = block_value(parallax.offset);
-    search.values.parallax_iterations = block_value(parallax.iterations);
-    return search;
-}
+// Does not compile for a technique without an overload.
+struct SearchVisitor {
+    Search operator()(const scene::Texture& /*texture*/) const { return {}; }
+    Search operator()(const scene::Polygons& /*polygons*/) const { return {}; }
+    Search operator()(const scene::Displacement& /*displacement*/) const {
+        return {.features = feature_normal_map};
+    }
+    Search operator()(const scene::Bump& /*bump*/) const { return {.features = feature_bump}; }
+    Search operator()(const scene::Emboss& emboss) const {
+        Search search{.features = feature_emboss};
+        search.values.emboss_delta = block_value(emboss.delta);
+        return search;
+    }
+    Search operator()(const scene::Normal& /*normal*/) const {
+        return {.features = feature_normal_map};
+    }
+    Search operator()(const scene::Prewarp& /*prewarp*/) const {
+        return {.features = feature_normal_map | feature_warped};
+    }
+    Search operator()(const scene::Parallax& parallax) const {
+        return parallax_search(0U, parallax.offset);
+    }
+    Search operator()(const scene::ParallaxLimited& parallax) const {
+        return parallax_search(feature_limited, parallax.offset);
+    }
+    Search operator()(const scene::ParallaxIterated& parallax) const {
+        Search search = parallax_search(feature_iterated, parallax.offset);
+        search.values.parallax_iterations = block_value(parallax.iterations);
+        return search;
+    }
+    Search operator()(const scene::Steep& steep) const { return stepped_search(0U, steep); }
+    Search operator()(const scene::Relief& relief) const {
+        return bisection_search(feature_bisect, relief);
+    }
+    Search operator()(const scene::Interval& interval) const {
+        Search search = stepped_search(feature_secant, interval);
+        search.values.secant_steps = block_value(interval.secant_steps);
+        return search;
+    }
+    Search operator()(const scene::Pom& pom) const {
+        Search search{.features = feature_secant | feature_view_steps};
+        search.values.secant_steps = 1.0F;
+        search.values.steps_from_above = block_value(pom.min_steps);
+        search.values.steps_along_ground = block_value(pom.max_steps);
+        return search;
+    }
+    Search operator()(const scene::Cone& cone) const {
+        Search search{.features = feature_cone};
+        search.values.cone_relaxed = block_value(cone.relaxed);
+        search.values.cone_max_steps = block_value(cone.max_steps);
+        search.values.cone_min_step = block_value(cone.min_step);
+        search.values.bisection_steps = block_value(cone.bisection_steps);
+        return search;
+    }
+    Search operator()(const scene::Exact& /*exact*/) const { return {.features = feature_exact}; }
+    Search operator()(const scene::Lattice& lattice) const {
+        return bisection_search(feature_layers, lattice);
+    }
+    Search operator()(const scene::DualLayer& layers) const {
+        return bisection_search(feature_layers, layers);
+    }
+    Search operator()(const scene::MultiLayer& layers) const {
+        return bisection_search(feature_layers, layers);
+    }
+};
 
-Search search_of(const scene::Steep& steep) {
-    Search search;
-    search.values.linear_steps = block_value(steep.linear_steps);
-    return search;
-}
-
-Search search_of(const scene::Relief& relief) {
-    Search search{.features = feature_bisect};
-    search.values.linear_steps = block_value(relief.linear_steps);
-    search.values.bisection_steps = block_value(relief.bisection_steps);
-    return search;
-}
-
-Search search_of(const scene::Interval& interval) {
-    Search search{.features = feature_secant};
-    search.values.linear_steps = block_value(interval.linear_steps);
-    search.values.secant_steps = block_value(interval.secant_steps);
-    return search;
-}
-
-Search search_of(const scene::Pom& pom) {
-    Search search{.features = feature_secant | feature_view_steps};
-    search.values.secant_steps = 1.0F;
-    search.values.steps_from_above = block_value(pom.min_steps);
-    search.values.steps_along_ground = block_value(pom.max_steps);
-    return search;
-}
-
-Search search_of(const scene::Cone& cone) {
-    Search search{.features = feature_cone};
-    search.values.cone_relaxed = block_value(cone.relaxed);
-    search.values.cone_max_steps = block_value(cone.max_steps);
-    search.values.cone_min_step = block_value(cone.min_step);
-    search.values.bisection_steps = block_value(cone.bisection_steps);
-    return search;
-}
-
-Search search_of(const scene::Exact& /*exact*/) {
-    return {.features = feature_exact};
-}
-
-Search search_between_layers(int linear_steps, int bisection_steps) {
-    Search search{.features = feature_layers};
-    search.values.linear_steps = block_value(linear_steps);
-    search.values.bisection_steps = block_value(bisection_steps);
-    return search;
-}
-
-Search search_of(const scene::Lattice& lattice) {
-    return search_between_layers(lattice.linear_steps, lattice.bisection_steps);
-}
-
-Search search_of(const scene::DualLayer& layers) {
-    return search_between_layers(layers.linear_steps, layers.bisection_steps);
-}
-
-Search search_of(const scene::MultiLayer& layers) {
-    return search_between_layers(layers.linear_steps, layers.bisection_steps);
-}
-
-// A technique that is new does not compile until it has a search_of.
 Search search_of(const scene::Technique& technique) {
-    Search search = std::visit([](const auto& parameters) { return search_of(parameters); },
-                               technique.parameters);
+    Search search = std::visit(SearchVisitor(), technique.parameters);
     if (const auto& steps = technique.options.steps) {
         search.values.steps_from_above = block_value(steps->low);
         search.values.steps_along_ground = block_value(steps->high);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <bit>
 
 #include <fmt/format.h>
 
@@ -12,61 +12,30 @@
 namespace reljef::render {
 namespace {
 
-constexpr std::array kinds{
-    std::pair{ShaderKind::terrain, std::string_view("terrain/terrain")},
-    std::pair{ShaderKind::relief, std::string_view("relief/relief")},
-    std::pair{ShaderKind::beams, std::string_view("relief/beams")},
-    std::pair{ShaderKind::mesh, std::string_view("mesh/mesh")},
-    std::pair{ShaderKind::textured_mesh, std::string_view("mesh/textured_mesh")},
-    std::pair{ShaderKind::relief_mesh, std::string_view("mesh/relief_mesh")},
-    std::pair{ShaderKind::relief_hull, std::string_view("mesh/relief_hull")},
-    std::pair{ShaderKind::textured_terrain, std::string_view("terrain/textured_terrain")},
-    std::pair{ShaderKind::relief_terrain, std::string_view("terrain/relief_terrain")},
-    std::pair{ShaderKind::sky, std::string_view("frame/sky")},
-    std::pair{ShaderKind::average, std::string_view("frame/average")}};
-constexpr std::array features_by_name{
-    std::pair{feature_lit, std::string_view("LIT")},
-    std::pair{feature_fog, std::string_view("FOG")},
-    std::pair{feature_hit, std::string_view("HIT")},
-    std::pair{feature_exact, std::string_view("EXACT")},
-    std::pair{feature_parallax, std::string_view("PARALLAX")},
-    std::pair{feature_bisect, std::string_view("BISECT")},
-    std::pair{feature_secant, std::string_view("SECANT")},
-    std::pair{feature_limited, std::string_view("LIMITED")},
-    std::pair{feature_iterated, std::string_view("ITERATED")},
-    std::pair{feature_view_steps, std::string_view("VIEW_STEPS")},
-    std::pair{feature_fade, std::string_view("FADE")},
-    std::pair{feature_hard_shadow, std::string_view("HARD_SHADOW")},
-    std::pair{feature_soft_shadow, std::string_view("SOFT_SHADOW")},
-    std::pair{feature_smooth_edges, std::string_view("SMOOTH_EDGES")},
-    std::pair{feature_write_depth, std::string_view("WRITE_DEPTH")},
-    std::pair{feature_warped, std::string_view("WARPED")},
-    std::pair{feature_cone, std::string_view("CONE")},
-    std::pair{feature_normal_map, std::string_view("NORMAL_MAP")},
-    std::pair{feature_bump, std::string_view("BUMP")},
-    std::pair{feature_emboss, std::string_view("EMBOSS")},
-    std::pair{feature_wrap, std::string_view("WRAP")},
-    std::pair{feature_beams, std::string_view("BEAMS")},
-    std::pair{feature_layers, std::string_view("LAYERS")},
-    std::pair{feature_multisampled, std::string_view("MULTISAMPLED")}};
-
-std::string_view name_of(ShaderKind kind) {
-    const auto* const found = std::find_if(kinds.begin(), kinds.end(),
-                                           [&](const auto& entry) { return entry.first == kind; });
-    return found->second;
-}
+// By ShaderKind.
+constexpr std::array<std::string_view, 11> file_names{
+    "terrain/terrain",        "relief/relief",    "relief/beams",     "mesh/mesh",
+    "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
+    "terrain/relief_terrain", "frame/sky",        "frame/average"};
+// By the bits of ShaderFeature.
+constexpr std::array<std::string_view, 24> feature_names{
+    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX", "BISECT",
+    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",     "HARD_SHADOW",
+    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",     "NORMAL_MAP",
+    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",   "MULTISAMPLED"};
+static_assert(std::bit_width(std::uint32_t{feature_multisampled}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
-    for (const auto& [feature, name] : features_by_name) {
-        if ((features & feature) != 0) {
-            header += fmt::format("#define {}\n", name);
+    for (std::size_t bit = 0; bit < feature_names.size(); ++bit) {
+        if ((features >> bit & 1U) != 0) {
+            header += fmt::format("#define {}\n", feature_names[bit]);
         }
     }
     return header;
 }
 
-// Joins a shader file and what it includes into one text that still knows its files' lines.
+// Joins a shader file and its includes into one text with `#line` directives.
 class Joiner {
 public:
     explicit Joiner(const std::filesystem::path& folder) : folder_(folder) {}
@@ -80,7 +49,7 @@ public:
     }
 
 private:
-    static constexpr int deepest_include = 8;
+    static constexpr int max_include_depth = 8;
 
     [[nodiscard]] Result<std::string> text_of(const std::string& name) const {
         std::error_code ignored;
@@ -97,9 +66,9 @@ private:
     }
 
     Result<void> append(const std::string& name, std::size_t number, int depth) {
-        if (depth > deepest_include) {
+        if (depth > max_include_depth) {
             return Error{
-                fmt::format("shader {}: included more than {} deep", name, deepest_include)};
+                fmt::format("shader {}: included more than {} deep", name, max_include_depth)};
         }
         const auto text = text_of(name);
         if (!text) {
@@ -139,7 +108,7 @@ private:
     gl::StageSource source_;
 };
 
-// Whether the program reads its blocks as they are written.
+// Compares the program's blocks with the C++ structs.
 Result<void> check_blocks(const gl::Program& program, std::string_view name) {
     for (const BlockLayout& block : block_layouts) {
         const int size = program.block_size(block.name);
@@ -153,7 +122,7 @@ Result<void> check_blocks(const gl::Program& program, std::string_view name) {
 }
 
 Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& folder) {
-    const std::string name(name_of(variant.kind));
+    const std::string name(file_names[static_cast<std::size_t>(variant.kind)]);
     const std::string header = header_of(variant.features);
     auto vertex = Joiner(folder).join(gl::Stage::vertex, name + ".vert", header);
     if (!vertex) {
@@ -174,11 +143,7 @@ Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& 
     return program;
 }
 
-} // namespace
-
-namespace {
-
-// One way to search, with what belongs to it.
+// One search method with its modifiers.
 std::uint32_t search_of(std::uint32_t features) {
     if ((features & feature_exact) != 0) {
         return feature_exact;
@@ -197,7 +162,7 @@ std::uint32_t search_of(std::uint32_t features) {
     return narrowing | (features & feature_view_steps);
 }
 
-// What a relief with that search does beside.
+// The options that apply to a search.
 std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
     std::uint32_t options = features & (feature_fade | feature_write_depth);
     const bool follows_rays = (search & feature_parallax) == 0;
@@ -212,62 +177,29 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
     return options;
 }
 
-// Beams follow rays as they are, from where their technique may begin anywhere.
+// Only techniques that may begin anywhere on their rays have beams.
 std::uint32_t beams_of(std::uint32_t features, std::uint32_t search) {
     const bool anywhere =
         search == feature_exact || search == feature_cone || search == feature_secant;
     return anywhere && (features & feature_fade) == 0 ? features & feature_beams : 0U;
 }
 
-// One way to be lit by heights.
-std::uint32_t look_of(std::uint32_t features) {
-    for (const std::uint32_t look : {feature_normal_map, feature_bump, feature_emboss}) {
-        if ((features & look) != 0) {
-            return look;
+// One lighting method.
+std::uint32_t lighting_of(std::uint32_t features) {
+    for (const std::uint32_t method : {feature_normal_map, feature_bump, feature_emboss}) {
+        if ((features & method) != 0) {
+            return method;
         }
     }
     return 0U;
 }
 
-// Whatever may mean something to a kind, alone or with others.
-std::uint32_t features_that_mean_something(ShaderKind kind) {
-    constexpr std::uint32_t any = feature_lit | feature_fog | feature_hit;
-    constexpr std::uint32_t search = feature_exact | feature_parallax | feature_bisect |
-                                     feature_secant | feature_limited | feature_iterated |
-                                     feature_view_steps | feature_cone;
-    constexpr std::uint32_t relief = search | feature_fade | feature_hard_shadow |
-                                     feature_soft_shadow | feature_smooth_edges |
-                                     feature_write_depth;
-    switch (kind) {
-    case ShaderKind::terrain:
-        return any | feature_warped | feature_multisampled;
-    case ShaderKind::mesh:
-        return any | feature_multisampled;
-    case ShaderKind::relief:
-        return any | relief | feature_beams | feature_multisampled;
-    case ShaderKind::relief_mesh:
-        return any | relief | feature_layers | feature_wrap | feature_multisampled;
-    case ShaderKind::textured_mesh:
-        return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
-               feature_warped | feature_multisampled;
-    case ShaderKind::textured_terrain:
-        return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled;
-    case ShaderKind::relief_hull:
-        return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap |
-               feature_multisampled;
-    case ShaderKind::relief_terrain:
-        return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled;
-    default:
-        return any;
-    }
-}
-
-// What a kind of shader has beside light, fog and hit.
+// Features of a kind of shader except light, fog and hit.
 std::uint32_t own_features(ShaderVariant variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
     const bool is_lit = (variant.features & feature_lit) != 0;
     const std::uint32_t wrap = variant.features & feature_wrap;
-    const std::uint32_t look = is_lit ? look_of(variant.features) : 0U;
+    const std::uint32_t lighting = is_lit ? lighting_of(variant.features) : 0U;
     constexpr std::uint32_t shadows = feature_hard_shadow | feature_soft_shadow;
     const bool on_mesh = variant.kind == ShaderKind::relief_mesh;
     const std::uint32_t foreign = (on_mesh ? 0U : feature_layers) |
@@ -281,9 +213,9 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap;
     case ShaderKind::textured_mesh:
-        return (variant.features & feature_warped) | (is_hit ? wrap : look);
+        return (variant.features & feature_warped) | (is_hit ? wrap : lighting);
     case ShaderKind::textured_terrain:
-        return look;
+        return lighting;
     case ShaderKind::relief_hull:
         return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap;
     case ShaderKind::relief_terrain:
@@ -293,11 +225,10 @@ std::uint32_t own_features(ShaderVariant variant) {
     }
 }
 
-// Whether its values are taken elsewhere than in the middle of a pixel.
 bool is_multisampled(ShaderVariant variant) {
-    const bool knows = variant.kind != ShaderKind::beams && variant.kind != ShaderKind::sky &&
-                       variant.kind != ShaderKind::average;
-    return knows && (variant.features & feature_hit) == 0 &&
+    const bool has_samples = variant.kind != ShaderKind::beams && variant.kind != ShaderKind::sky &&
+                             variant.kind != ShaderKind::average;
+    return has_samples && (variant.features & feature_hit) == 0 &&
            (variant.features & feature_multisampled) != 0;
 }
 
@@ -305,10 +236,9 @@ bool has_ground(ShaderKind kind) {
     return kind == ShaderKind::textured_terrain || kind == ShaderKind::relief_terrain;
 }
 
-// Lit per pixel.
-bool has_own_light(ShaderKind kind) {
-    return kind == ShaderKind::mesh || kind == ShaderKind::textured_mesh ||
-           kind == ShaderKind::relief_mesh || kind == ShaderKind::relief_hull || has_ground(kind);
+// Terrains and their reliefs have the light in their maps.
+bool is_lit_per_pixel(ShaderKind kind) {
+    return kind != ShaderKind::terrain && kind != ShaderKind::relief;
 }
 
 } // namespace
@@ -330,25 +260,11 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
         variant.features &= feature_lit;
     } else if ((variant.features & feature_hit) != 0) {
         variant.features = feature_hit;
-    } else if (!has_own_light(variant.kind)) {
-        variant.features &= ~feature_lit; // a terrain's light is in its map
+    } else if (!is_lit_per_pixel(variant.kind)) {
+        variant.features &= ~feature_lit;
     }
     variant.features |= own;
     return variant;
-}
-
-std::vector<ShaderVariant> all_variants() {
-    std::set<ShaderVariant> variants;
-    for (const auto& [kind, name] : kinds) {
-        const std::uint32_t all = features_that_mean_something(kind);
-        std::uint32_t features = all;
-        variants.insert(without_meaningless({kind, features}));
-        while (features != 0) {
-            features = (features - 1) & all; // the next subset
-            variants.insert(without_meaningless({kind, features}));
-        }
-    }
-    return {variants.begin(), variants.end()};
 }
 
 Result<gl::Program*> ShaderLibrary::program(ShaderVariant variant) {

@@ -19,7 +19,7 @@ struct GlVersion {
 };
 constexpr GlVersion shader_version{4, 5};
 
-// "4.5 (Core Profile) Mesa 22.3.6"; 0.0 where it is none such.
+// Of "4.5 (Core Profile) Mesa 22.3.6"; 0.0 if it has no such form.
 GlVersion version_of(const std::string& text) {
     GlVersion version;
     const char* const end = text.data() + text.size();
@@ -30,11 +30,7 @@ GlVersion version_of(const std::string& text) {
     return version;
 }
 
-bool uses_pyramid(scene::TechniqueId id) {
-    return id == scene::TechniqueId::exact;
-}
-
-// The highest that its shaders read: relief*.glsl, tile_light.glsl, terrain.frag.
+// The highest unit in its shaders: relief*.glsl, tile_light.glsl, terrain.frag.
 unsigned int last_texture_unit(scene::TechniqueId id, bool is_mesh) {
     if (id == scene::TechniqueId::prewarp) {
         return is_mesh ? bindings::warped_map_unit : bindings::warped_places_unit;
@@ -50,19 +46,21 @@ unsigned int last_texture_unit(scene::TechniqueId id, bool is_mesh) {
             id == scene::TechniqueId::texture || id == scene::TechniqueId::polygons;
         return is_plain ? bindings::height_map_unit : bindings::normal_map_unit;
     }
-    if (uses_pyramid(id)) {
+    if (id == scene::TechniqueId::exact) {
         return bindings::clear_heights_unit;
     }
     return scene::geometry_of(id) == scene::Geometry::box ? bindings::sun_map_unit
                                                           : bindings::lit_map_unit;
 }
 
-// Of the maps that hold the heights, which may not be made smaller. Triangles have none.
-int widest_map(scene::TechniqueId id, const DrawnSurface& surface) {
+// Longest side of the maps with the heights, which cannot be reduced; 0 for triangles.
+int max_map_side(scene::TechniqueId id, const DrawnSurface& surface) {
     const bool has_map = surface.is_mesh || scene::geometry_of(id) == scene::Geometry::box ||
                          id == scene::TechniqueId::prewarp;
     const int side = has_map ? std::max(surface.samples.x, surface.samples.y) : 0;
-    return uses_pyramid(id) ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(side))) : side;
+    return id == scene::TechniqueId::exact
+               ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(side)))
+               : side;
 }
 
 bool draws(scene::TechniqueId id, bool is_mesh) {
@@ -95,11 +93,11 @@ std::optional<std::string> lack_of(scene::TechniqueId id, const DrawnSurface& su
         return fmt::format("OpenGL {} found, 4.5 was expected", limits.version);
     }
     const int units = static_cast<int>(last_texture_unit(id, surface.is_mesh)) + 1;
-    const int units_there = std::min(limits.max_texture_units, limits.max_fragment_texture_units);
-    if (units > units_there) {
-        return fmt::format("{} texture units found, {} were expected", units_there, units);
+    const int max_units = std::min(limits.max_texture_units, limits.max_fragment_texture_units);
+    if (units > max_units) {
+        return fmt::format("{} texture units found, {} were expected", max_units, units);
     }
-    const int side = widest_map(id, surface);
+    const int side = max_map_side(id, surface);
     if (side > limits.max_texture_size) {
         return fmt::format("heights of {} x {} samples found, which take a texture {} wide, at "
                            "most {} was expected",
@@ -130,33 +128,27 @@ nearest_technique(scene::TechniqueId id, const DrawnSurface& surface, const gl::
 }
 
 Result<void> check_support(const view::DrawList& list, const gl::Limits& limits) {
-    for (const view::TileDraw& draw : list.tiles) {
-        const auto& terrain = *draw.terrain;
-        if (auto good = check_surface(terrain.material.technique, surface_of(terrain), limits);
-            !good) {
-            return good;
+    const auto check_terrains = [&](const auto& draws) -> Result<void> {
+        for (const auto& draw : draws) {
+            const scene::TerrainNode& terrain = *draw.terrain;
+            if (auto good = check_surface(terrain.material.technique, surface_of(terrain), limits);
+                !good) {
+                return good;
+            }
         }
-    }
-    for (const view::ReliefDraw& draw : list.reliefs) {
-        const auto& terrain = *draw.terrain;
-        if (auto good = check_surface(terrain.material.technique, surface_of(terrain), limits);
-            !good) {
-            return good;
-        }
-    }
+        return {};
+    };
+    auto good = check_terrains(list.tiles);
+    good = good ? check_terrains(list.reliefs) : good;
     for (const view::MeshDraw& draw : list.meshes) {
         const scene::Material& material = draw.mesh->material;
-        if (material.detail.set == nullptr) {
-            continue;
-        }
-        const Grid<float>& heights = material.detail.set->heights;
-        if (auto good =
+        if (good && material.detail.set != nullptr) {
+            const Grid<float>& heights = material.detail.set->heights;
+            good =
                 check_surface(material.technique, {true, {heights.cols(), heights.rows()}}, limits);
-            !good) {
-            return good;
         }
     }
-    return {};
+    return good;
 }
 
 } // namespace reljef::render

@@ -9,15 +9,14 @@
 
 namespace reljef::render {
 
-/// What a shader's uniform block must be like to be read from a struct of C++.
+/// Name, binding and size of a uniform block.
 struct BlockLayout {
     std::string_view name;
     unsigned int binding = 0;
     std::size_t size = 0;
 };
 
-/// Uniform blocks of the same name, std140. Their members stand in shaders/frame. What they hold
-/// stays as it is from frame to frame.
+// Uniform blocks of the same name, std140. Their content rarely changes between frames.
 
 struct TechniqueBlock {
     static const BlockLayout layout;

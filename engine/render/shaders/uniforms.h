@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <bit>
-#include <cstddef>
-
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -14,10 +10,10 @@
 
 namespace reljef::render {
 
-/// All uniforms outside blocks: what changes from draw to draw. A name has one type in all shaders,
-/// which say what it means.
+/// All uniforms outside blocks; they change per draw. A name has one type and meaning in all
+/// shaders.
 struct Uniforms {
-    // A tile of a terrain: terrain.vert, terrain.frag.
+    // Terrain tiles: terrain.vert, terrain.frag.
     gl::Uniform<glm::vec3> eye{"eye"};
     gl::Uniform<glm::vec3> eye_rest{"eye_rest"};
     gl::Uniform<glm::mat3> world_from_local{"world_from_local"};
@@ -27,7 +23,7 @@ struct Uniforms {
     gl::Uniform<glm::vec4> ground_from_sample{"ground_from_sample"};
     gl::Uniform<glm::vec3> tiles_at_eye{"tiles_at_eye"};
 
-    // A mesh: mesh.vert, tile_vertex.glsl, relief_hull.vert; the first of a relief's box too.
+    // Meshes: mesh.vert, tile_vertex.glsl, relief_hull.vert; the first also in relief.vert.
     gl::Uniform<glm::mat4> relative_from_local{"relative_from_local"};
     gl::Uniform<glm::mat3> world_from_normal{"world_from_normal"};
     gl::Uniform<glm::vec3> albedo{"albedo"};
@@ -56,13 +52,5 @@ struct Uniforms {
     gl::Uniform<int> picture_count{"picture_count"};
 };
 inline constexpr Uniforms uniforms;
-
-inline constexpr std::size_t uniform_count = sizeof(Uniforms) / sizeof(gl::UniformDeclaration);
-
-/// The same as a list. All members are declarations, and nothing but these.
-inline std::array<gl::UniformDeclaration, uniform_count> declared_uniforms() {
-    static_assert(sizeof(gl::Uniform<float>) == sizeof(gl::UniformDeclaration));
-    return std::bit_cast<std::array<gl::UniformDeclaration, uniform_count>>(uniforms);
-}
 
 } // namespace reljef::render

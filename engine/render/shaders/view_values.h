@@ -10,18 +10,17 @@
 
 namespace reljef::render {
 
-/// What programs ask for of a view, and of where a thing lies in it: doubles until what remains is
-/// small enough for floats.
+// Inputs of programs, computed in double precision.
 
 bool is_perspective(const scene::Camera& camera);
 
-/// The view ray at depth 1 of a place on the picture: gl_FragCoord · xy + zw. `size` in pixels.
+/// The view ray at depth 1 is gl_FragCoord · xy + zw. `size` in pixels.
 glm::vec4 ray_from_pixel(const scene::Camera& camera, glm::ivec2 size);
 
 /// The eye in the local frame, metres.
 glm::dvec3 local_eye(const scene::Camera& camera, const glm::dmat4& world_from_local);
 
-/// From the local frame to places relative to the eye, along the world's axes.
+/// From the local frame to world axes with the eye as origin.
 glm::mat4 relative_from_local(const scene::Camera& camera, const glm::dmat4& world_from_local);
 
 glm::mat3 world_from_normal(const glm::dmat4& world_from_local);

@@ -17,6 +17,7 @@
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/uniforms.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/render/shaders/all_variants.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::render {
@@ -42,6 +43,13 @@ std::vector<ShaderVariant> covering_variants() {
         return searches && count > 1 && count < 5;
     });
     return variants;
+}
+
+// All uniforms of Uniforms. Its members are declarations only.
+auto declared_uniforms() {
+    static_assert(sizeof(gl::Uniform<float>) == sizeof(gl::UniformDeclaration));
+    constexpr std::size_t count = sizeof(Uniforms) / sizeof(gl::UniformDeclaration);
+    return std::bit_cast<std::array<gl::UniformDeclaration, count>>(uniforms);
 }
 
 // What the driver says of a uniform. In a block: its offset; a sampler: its unit.

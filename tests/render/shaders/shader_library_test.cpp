@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/render/shaders/all_variants.h"
+
 namespace reljef::render {
 namespace {
 

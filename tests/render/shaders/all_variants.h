@@ -1,0 +1,59 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "engine/render/shaders/shader_library.h"
+
+namespace reljef::render {
+
+/// The features that may have an effect on a kind, alone or with others.
+inline std::uint32_t possible_features(ShaderKind kind) {
+    constexpr std::uint32_t any = feature_lit | feature_fog | feature_hit;
+    constexpr std::uint32_t search = feature_exact | feature_parallax | feature_bisect |
+                                     feature_secant | feature_limited | feature_iterated |
+                                     feature_view_steps | feature_cone;
+    constexpr std::uint32_t relief = search | feature_fade | feature_hard_shadow |
+                                     feature_soft_shadow | feature_smooth_edges |
+                                     feature_write_depth;
+    switch (kind) {
+    case ShaderKind::terrain:
+        return any | feature_warped | feature_multisampled;
+    case ShaderKind::mesh:
+        return any | feature_multisampled;
+    case ShaderKind::relief:
+        return any | relief | feature_beams | feature_multisampled;
+    case ShaderKind::relief_mesh:
+        return any | relief | feature_layers | feature_wrap | feature_multisampled;
+    case ShaderKind::textured_mesh:
+        return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
+               feature_warped | feature_multisampled;
+    case ShaderKind::textured_terrain:
+        return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled;
+    case ShaderKind::relief_hull:
+        return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap |
+               feature_multisampled;
+    case ShaderKind::relief_terrain:
+        return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled;
+    default:
+        return any;
+    }
+}
+
+/// Every variant with an effect, each once.
+inline std::vector<ShaderVariant> all_variants() {
+    std::set<ShaderVariant> variants;
+    for (int index = 0; index <= static_cast<int>(ShaderKind::average); ++index) {
+        const auto kind = static_cast<ShaderKind>(index);
+        const std::uint32_t all = possible_features(kind);
+        std::uint32_t features = all;
+        variants.insert(without_meaningless({kind, features}));
+        while (features != 0) {
+            features = (features - 1) & all; // the next subset
+            variants.insert(without_meaningless({kind, features}));
+        }
+    }
+    return {variants.begin(), variants.end()};
+}
+
+} // namespace reljef::render
