@@ -1,7 +1,7 @@
 // The mean of 2 or 4 pictures.
 #include "frame/bindings.inc"
 
-layout(binding = picture_0_unit) uniform sampler2D picture_0; // linear, as all
+layout(binding = picture_0_unit) uniform sampler2D picture_0; // linear
 layout(binding = picture_1_unit) uniform sampler2D picture_1;
 layout(binding = picture_2_unit) uniform sampler2D picture_2;
 layout(binding = picture_3_unit) uniform sampler2D picture_3;

@@ -1,9 +1,8 @@
-// Where a triangle covers part of a pixel with several samples, its values are taken inside that part:
-// beyond its border they are none of its own, and of one seen edge-on far from them. Where each sample
-// is shaded by itself (PER_SAMPLE), they are taken there.
+// Multisampling: interpolates at the covered part of a pixel, because extrapolated values of a triangle
+// seen edge-on are far off. With PER_SAMPLE the inputs already belong to the sample.
 #ifdef MULTISAMPLED
-// 1 everywhere. Mesa's software renderer divides by the w of the pixel's centre whatever it
-// interpolates elsewhere, and so by this again.
+// Always 1. Mesa's software renderer divides by the w of the pixel's centre wherever it interpolates;
+// dividing by this corrects it.
 in float one;
 #endif
 
@@ -12,7 +11,7 @@ in float one;
 #define FROM_PIXEL_TO_PIXEL(value) INSIDE(value)
 #elif defined(MULTISAMPLED)
 #define INSIDE(value) (interpolateAtCentroid(value) / interpolateAtCentroid(one))
-#define FROM_PIXEL_TO_PIXEL(value) (value) // for derivatives: always at the centres
+#define FROM_PIXEL_TO_PIXEL(value) (value) // for derivatives: at the centres
 #else
 #define INSIDE(value) (value)
 #define FROM_PIXEL_TO_PIXEL(value) (value)

@@ -10,7 +10,7 @@ void main() {
     vec3 sky = height > 0.0 ? mix(sky_horizon.rgb, sky_zenith.rgb, sqrt(height))
                             : sky_horizon.rgb * (1.0 + 0.35 * max(height, -1.0));
 #ifdef LIT
-    // Forward scattering: a wide glow, and the disc in it.
+    // Forward scattering: a wide glow around the disc.
     float toward = max(dot(direction, to_sun.xyz), 0.0);
     float glow = toward * toward;
     glow *= glow;

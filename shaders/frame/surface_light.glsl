@@ -1,4 +1,4 @@
-// What a diffuse surface sends to the eye. `visibility`: share of the sun's disc it sees.
+// Diffuse reflection. `visibility`: visible share of the sun's disc.
 vec3 lit_color(vec3 albedo, vec3 normal, float visibility) {
 #ifdef LIT
     float sun = max(dot(normal, to_sun.xyz), 0.0) * visibility;

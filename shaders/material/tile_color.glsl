@@ -1,12 +1,12 @@
-// What a place of the tile sends to an eye that is `way` off. `right`, `up`: what a pixel to the
-// right and one up add to the tile's coordinate.
+// Reflection of a place of the tile towards the eye. `way`: to the eye. `right`, `up`: change of the tile
+// coordinate per pixel.
 vec3 color_at(vec2 place, mat3 space, vec3 way, vec2 right, vec2 up) {
     vec2 coordinate = (place + 0.5) * height_texel;
     vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
     vec3 leaning = mapped_normal(coordinate, level_of(normal_map, right, up));
     vec3 normal = world_normal_of(leaning, space);
 #ifdef LAYERS
-    vec3 upright = normal; // its own back is lit, too
+    vec3 upright = normal; // the back is lit, too
 #else
     vec3 upright = world_normal_of(vec3(0.0, 0.0, 1.0), space);
 #endif

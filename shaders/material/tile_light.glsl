@@ -1,4 +1,4 @@
-// What a tile of detail sends to the eye, lit per pixel.
+// Per-pixel lighting of surface detail.
 layout(binding = color_map_unit) uniform sampler2D color_map;  // linear albedo
 #ifdef LAYERS
 layout(binding = normal_map_unit) uniform sampler2D normal_map;   // x of the layers' normals in tangent space
@@ -9,8 +9,7 @@ layout(binding = normal_map_unit) uniform sampler2D normal_map; // x and y of th
 
 uniform mat3 world_from_normal;
 
-// The mip level for a pixel that moves over the map so far from pixel to pixel; no coarser than
-// for a surface that is seen eight times longer than wide.
+// Mip level; `right`, `up`: change of the coordinate per pixel. Limited to an anisotropy of 8.
 float level_of(sampler2D map, vec2 right, vec2 up) {
     vec2 texels = vec2(textureSize(map, 0));
     float across = dot(right * texels, right * texels);
@@ -18,12 +17,12 @@ float level_of(sampler2D map, vec2 right, vec2 up) {
     return 0.5 * log2(min(max(across, down), 64.0 * max(min(across, down), 1e-12)));
 }
 
-// Off a surface that rises so far a metre in x and y (Blinn 1978, for a frame that is orthonormal).
+// Normal of a surface with that slope (Blinn 1978, in an orthonormal frame).
 vec3 normal_of_slope(vec2 slope) {
     return normalize(vec3(-slope, 1.0));
 }
 
-// From the map; what is higher than the map was made for leans more.
+// From the map, rescaled to the actual height.
 vec3 mapped_normal(vec2 coordinate, float level) {
 #ifdef LAYERS
     vec2 lean = vec2(textureLod(normal_map, coordinate, level)[met_layer],
@@ -36,14 +35,12 @@ vec3 mapped_normal(vec2 coordinate, float level) {
     return vec3(normal.xy, outward() * normal.z);
 }
 
-// Of the heights as they are seen from afar.
 float seen_height(vec2 place, float level) {
     return textureLod(height_map, (place + 0.5) * height_texel, level).r;
 }
 
-// From the heights half a texel around. What a pixel covers is lit by the mean of its normals, which
-// no mean of heights has: a steep edge is as steep in all it spreads over. From afar it is the map
-// of the heights' normals that knows it.
+// From the heights half a texel around. From afar from the normal map: averaged heights do not have the
+// mean normal.
 vec3 bumped_normal(vec2 place, float level) {
     const vec2 right = vec2(0.5, 0.0);
     const vec2 up = vec2(0.0, 0.5);
@@ -58,8 +55,8 @@ vec3 world_normal_of(vec3 tangent_normal, mat3 space) {
     return normalize(world_from_normal * (space * tangent_normal));
 }
 
-// Where the mesh itself looks away from the sun, nothing on it is lit: a share that goes to none over
-// a few degrees, on a terrain over one, whose own light knows of no such share.
+// Nothing on a mesh that faces away from the sun is lit. Fades over a few degrees; over one degree on a
+// terrain, whose own light does not fade.
 float facing_of(vec3 upright) {
 #ifdef GROUND
     const float steepness = 64.0;
@@ -69,8 +66,7 @@ float facing_of(vec3 upright) {
     return clamp(steepness * dot(upright, to_sun.xyz), 0.0, 1.0);
 }
 
-// `upright`: the mesh's own normal.
-// `visibility`: share of the sun's disc that is seen.
+// `upright`: the mesh's normal. `visibility`: visible share of the sun's disc.
 vec3 shiny_color(vec3 albedo, vec3 normal, vec3 upright, vec3 to_eye, float visibility) {
 #ifdef LIT
     float facing = facing_of(upright) * visibility;

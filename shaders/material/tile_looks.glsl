@@ -1,7 +1,6 @@
-// How a tile of detail that nothing is looked for on is lit by its heights or normals.
+// Lighting of surface detail without a relief search.
 
-// How much higher the tile is here than a little way towards the sun: the slope that faces it
-// (emboss bump mapping; Schlag 1994). As a part of the sun's light.
+// Height difference towards the sun (emboss bump mapping; Schlag 1994), as a share of the sun's light.
 float embossed(vec2 place, float level, mat3 space) {
     vec3 to_light = normalize(local_from_relative * to_sun.xyz) * space;
     vec2 samples_per_metre = tiles_per_metre * tile_samples();
@@ -10,8 +9,7 @@ float embossed(vec2 place, float level, mat3 space) {
     return (seen_height(place, level) - below) * lift / metres;
 }
 
-// `right`, `up`: what a pixel to the right and one up add to the tile's coordinate. `visibility`:
-// share of the sun's disc that is seen.
+// `right`, `up`: change of the tile coordinate per pixel. `visibility`: visible share of the sun's disc.
 vec3 lit_tile(vec3 albedo, vec2 coordinate, mat3 space, vec2 right, vec2 up, float visibility) {
     vec2 place = coordinate * tile_samples() - 0.5;
     vec3 upright = world_normal_of(vec3(0.0, 0.0, 1.0), space);

@@ -1,4 +1,4 @@
-// Each pixel looks for the tile's surface along its ray, in the plane that touches what carries it.
+// Relief search along the pixel's ray, in the tangent plane of the carrying surface.
 #if defined(EXACT)
 #include "relief/relief_exact_tile.glsl"
 #elif defined(CONE)
@@ -11,22 +11,20 @@
 #include "relief/relief_linear.glsl"
 #endif
 
-// A ray that is so flat that it would cross more tiles than these on its way through the heights is
-// taken to cross no more: what it looks for is hidden by what stands before it.
+// Limit of the tiles that a flat ray crosses; nearer relief hides what lies beyond.
 const float max_tiles = 64.0;
-// How far the search goes beyond the heights [0,1], so that a ray begins above and ends below them
-// whatever rounding says: floats near 1 are good to 2^-24, and a ray adds a few of them.
+// Margin around the heights [0,1]: rays begin above and end below them despite rounding. Floats near 1
+// have errors of 2^-24, and a ray adds a few of them.
 const float margin = 1.0 / 4096.0;
 
-// The ray through the heights, in samples and height, and how far along the way to the eye a
-// height of 1 is.
+// The ray in samples and height; `way_per_height`: share of the way to the eye per height of 1.
 struct TileRay {
     vec3 start;
     vec3 span;
     float way_per_height;
 };
 
-// `to_eye` in tangent space; `near_part` of the way is not seen.
+// `to_eye`: tangent space. `near_part`: share of the way before the near plane.
 TileRay ray_through(vec3 to_eye, float near_part) {
     vec2 samples = tile_samples();
     vec2 samples_per_metre = tiles_per_metre * samples;
@@ -36,11 +34,11 @@ TileRay ray_through(vec3 to_eye, float near_part) {
     vec2 shift = to_eye.xy * way * samples_per_metre;
     float top = 1.0 + margin;
     if (perspective > 0.5) {
-        top = min(top, mesh_height + (1.0 - near_part) / way); // the eye may be that near
+        top = min(top, mesh_height + (1.0 - near_part) / way); // the eye may be near
     }
     vec2 coordinate = tile_coordinate;
 #ifdef WRAP
-    coordinate = fract(coordinate); // small numbers are exact ones
+    coordinate = fract(coordinate); // keeps precision
 #endif
     vec2 entry = coordinate * samples - 0.5;
     vec3 start = vec3(entry + shift * (top - mesh_height), top);
@@ -48,7 +46,7 @@ TileRay ray_through(vec3 to_eye, float near_part) {
     return TileRay(start, end - start, way);
 }
 
-// From where to where a ray is over the tile; none where the first is not less than the second.
+// The part of a ray over the tile, from x to y; empty if x >= y.
 vec2 part_on_tile(vec3 start, vec3 span) {
     if (bounded < 0.5) {
         return vec2(0.0, 1.0);

@@ -1,22 +1,21 @@
-// What of the sun's light a tile's own heights leave.
+// Self-shadowing of a relief tile.
 #if defined(HARD_SHADOW) || defined(SOFT_SHADOW)
 #define SHADOW
 #include "relief/relief_shadow.glsl"
 
-// Where a pixel covers several samples, one place says little of the others: then it asks some in a
-// row, and, from the first of these levels of the height map to the second, more and more what the
-// whole tile sees.
+// A pixel that covers several samples tests some in a row. Between these mip levels of the height map it
+// blends to the mean of the tile.
 const float places_of_a_pixel = 4.0;
 const vec2 mean_levels = vec2(2.0, 5.0);
 
-// What all of a rough surface sees of the sun, `direction` in samples and height: for slopes that are
-// spread normally (Smith 1967), as a quotient (Walter, Marschner, Li and Torrance 2007).
+// Mean visibility of the sun for normally distributed slopes (Smith 1967), as a rational function
+// (Walter, Marschner, Li and Torrance 2007). `direction`: samples and height.
 float mean_sun_share(vec3 direction) {
     float a = max(direction.z, 0.0) / max(sqrt(2.0) * length(direction.xy * rms_rise), 1e-30);
     return a < 1.6 ? a * (3.535 + 2.181 * a) / (1.0 + a * (2.276 + 2.577 * a)) : 1.0;
 }
 
-// `row`: samples that the pixel covers, along its longer side.
+// `row`: the longer side of the pixel, in samples.
 float sun_share_along(vec2 row, vec2 place, vec3 direction, float places) {
     vec2 reach = max_tiles * tile_samples();
     vec2 low = mix(place - reach, vec2(-0.5), bounded);
@@ -30,8 +29,8 @@ float sun_share_along(vec2 row, vec2 place, vec3 direction, float places) {
 }
 #endif
 
-// Share of the sun's light that reaches a place of the surface, past the surface. `right`, `up`: what
-// a pixel to the right and one up add to the tile's coordinate.
+// Visible share of the sun at a place of the relief. `right`, `up`: change of the tile coordinate per
+// pixel.
 float sun_share(vec2 place, mat3 space, vec2 right, vec2 up) {
 #ifdef SHADOW
     vec3 to_light = (local_from_relative * to_sun.xyz) * space;
@@ -39,7 +38,7 @@ float sun_share(vec2 place, mat3 space, vec2 right, vec2 up) {
         vec3(to_light.xy * tiles_per_metre * tile_samples(), to_light.z / metres_per_unit.z);
     float level = level_of(height_map, right, up);
 #ifdef LAYERS
-    float mean_part = 0.0; // they have no slope, and a place is on one of them
+    float mean_part = 0.0; // layers have no mean slope
     float places = 1.0;
 #else
     float mean_part = smoothstep(mean_levels.x, mean_levels.y, level);

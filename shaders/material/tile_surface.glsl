@@ -1,6 +1,5 @@
-// A tile of detail on a mesh, as a fragment sees it. Tangent space: x where u grows, y where v
-// grows, z off the side of the mesh that is seen; metres of the mesh. From behind, heights are what
-// is left of 1.
+// Surface detail at a fragment of a mesh. Tangent space, metres: x along u, y along v, z off the visible
+// side. From behind heights are 1 - height.
 #include "frame/detail_block.glsl"
 #include "frame/fragment.glsl"
 #ifdef GROUND
@@ -24,7 +23,7 @@ vec2 tiles_per_metre = INSIDE(vertex_tiles_per_metre); // along x and y
 uniform mat3 local_from_relative; // directions
 
 #if !defined(GROUND) && !defined(HULL)
-// Local directions from tangent space: orthonormal.
+// Local directions from tangent space, orthonormal.
 mat3 tangent_space() {
     vec3 z = normalize(local_normal);
     vec3 x = normalize(local_tangent.xyz - z * dot(z, local_tangent.xyz));
@@ -32,7 +31,7 @@ mat3 tangent_space() {
 }
 #endif
 
-// World direction towards the eye; in perspective as long as it is far.
+// World direction towards the eye; in perspective its length is the distance.
 vec3 way_to_eye() {
     return mix(-view_forward.xyz, -relative, perspective);
 }

@@ -1,11 +1,11 @@
 #include "frame/detail_block.glsl"
 
-// The vertices of a mesh that carries a tile of detail.
+// The vertices of a mesh with surface detail.
 layout(location = 0) in vec3 position; // local metres
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texture_coordinate;
 layout(location = 3) in vec4 tangent; // w: handedness
-layout(location = 4) in vec2 density; // texture coordinates a metre, along the tangent and across
+layout(location = 4) in vec2 density; // texture coordinates per metre, along and across the tangent
 
 uniform mat4 relative_from_local; // world directions relative to the eye, metres
 

@@ -12,7 +12,7 @@ in float view_depth;
 uniform vec3 albedo; // linear
 
 #ifdef HIT
-layout(location = 0) out vec4 hit; // no place on the heightfield, its depth
+layout(location = 0) out vec4 hit; // col and row -1, depth
 #else
 layout(location = 0) out vec4 color;
 #endif

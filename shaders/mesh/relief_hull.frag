@@ -1,5 +1,5 @@
-// Each pixel looks for the tile's surface along its ray, in a hull that holds all of it: the mesh
-// moved inwards to the lowest and outwards to the highest. What leaves it has met nothing.
+// Relief search along the pixel's ray in a hull: the mesh moved inwards to the lowest and outwards to the
+// highest height.
 #define TILE
 #define HULL
 #define PER_SAMPLE
@@ -20,16 +20,16 @@ layout(location = 0) out vec4 hit; // col, row, height, depth
 layout(location = 0) out vec4 color;
 #endif
 
-// So far the search goes beyond the sides of a tetrahedron, as a share of a corner, that none ends
-// before the next begins: rounding, and what rasterizers move vertices by, 1/256 of a pixel.
+// Margin of the search around a tetrahedron, in shares: closes gaps from rounding and from the rasterizers'
+// vertex grid of 1/256 pixel.
 float share_beyond() {
     vec4 a_pixel = fwidth(shares);
-    float most = max(max(a_pixel.x, a_pixel.y), max(a_pixel.z, a_pixel.w));
-    return max(1.5 / 256.0 * most, 1.0 / 16384.0);
+    float widest = max(max(a_pixel.x, a_pixel.y), max(a_pixel.z, a_pixel.w));
+    return max(1.5 / 256.0 * widest, 1.0 / 16384.0);
 }
 
-// How much of a way lies in the tetrahedron, and the corner across from the side where it ends.
-// `toward`: what the way adds to the shares.
+// The part of a way inside the tetrahedron; `across`: the corner opposite the side of its end. `toward`:
+// change of the shares along the way.
 float way_inside(vec4 toward, float beyond, out int across) {
     float inside = 3e38;
     across = 0;
@@ -47,16 +47,15 @@ vec3 in_tile(vec4 at, vec2 first_tile) {
     return vec3(coordinate * tile_samples() - 0.5, dot(heights, at));
 }
 
-// What a pixel beside adds to the tile's coordinate where its ray meets the plane that touches the
-// mesh `at` a place. On the tetrahedron's side it lies `beside` this one's; `nearer`: of the way to
-// there, the place.
+// Change of the tile coordinate to a neighbouring pixel, in the mesh's tangent plane at the hit. `beside`:
+// offset of the neighbour's fragment; `nearer`: share of the way to the fragment at the hit.
 vec2 pixel_on_mesh(vec3 beside, vec4 at, float nearer) {
     vec3 normal = normalize(corner_normals * at);
     vec3 ray = local_from_relative * mix(view_forward.xyz, relative + beside, perspective);
     vec3 shift = local_from_relative * beside * mix(1.0, nearer, perspective);
     float facing = dot(normal, ray);
-    float least = 0.125 * length(ray); // what stands out over an outline faces the eye more
-    facing = facing < 0.0 ? min(facing, -least) : max(facing, least);
+    float min_facing = 0.125 * length(ray); // relief at an outline faces the eye more
+    facing = facing < 0.0 ? min(facing, -min_facing) : max(facing, min_facing);
     return coordinates * shares_along(shift - ray * (dot(normal, shift) / facing)) * repeats;
 }
 
@@ -69,7 +68,7 @@ void main() {
     int across;
     float more = way_inside(-toward, beyond, across);
     float first = way_inside(toward, beyond, across);
-    bool from_face = parted[across] > 0.5; // over an edge, from another face's heights
+    bool from_face = hard_edges[across] > 0.5; // from another face over a hard edge
     if (perspective > 0.5 && first > 1.0 - near_part) {
         first = 1.0 - near_part;
         from_face = false;
@@ -95,7 +94,7 @@ void main() {
         discard;
     }
     if (from_face && kept.x <= 0.0 && depth_in_surface(start) > 0.0) {
-        part = 0.0; // where the faces' heights differ stands a wall between them
+        part = 0.0; // a wall between the faces' different heights
         place = start.xy;
     } else if (!find_hit(start + kept.x * span, (kept.y - kept.x) * span, part, place)) {
         discard;

@@ -1,4 +1,4 @@
-// Each pixel looks for the tile's surface along its ray, in the plane that touches the mesh there.
+// Relief search along the pixel's ray in the mesh's tangent plane.
 #define TILE
 #define PER_SAMPLE
 #include "frame/frame_block.glsl"

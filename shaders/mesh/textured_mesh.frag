@@ -9,7 +9,7 @@
 #endif
 
 #ifdef WARPED
-// What is seen at a sample of the mesh: the tile's coordinate, its height, 1; all 0 where nothing is.
+// Visible tile coordinate, height and 1; zeros if nothing is visible.
 layout(binding = warped_map_unit) uniform sampler2D warped_map;
 uniform vec4 warp_from_tile; // texture coordinate = tile coordinate · xy + zw
 #endif

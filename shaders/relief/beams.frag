@@ -1,15 +1,15 @@
 #include "frame/bindings.inc"
 
-// A pixel here is the beam of all rays of a block of pixels: down to which height it meets nothing of a
-// relief (Laine and Karras 2010, beam optimization; here on a pyramid of greatest heights).
-layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: of a cell's corners
+// The height down to which the beam of a block of pixels meets nothing (Laine and Karras 2010, beam
+// optimization; here with a max mipmap).
+layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: maximum of a cell's corners
 uniform ivec2 last_cell;
 uniform int top_level;
-// Of the search space, of the place (1, x, y) on the picture, as gl_FragCoord.
+// Search space; matrix · (1, x, y), with x and y as gl_FragCoord.
 uniform mat3 origin_of_ray;
 uniform mat3 direction_of_ray;
-uniform float begin_height; // where beams begin
-uniform float beam_lift;    // in heights: rounding puts no ray below the surface above it
+uniform float begin_height; // of the beams
+uniform float beam_lift;    // margin for rounding errors, in heights
 
 layout(location = 0) out float clear_height;
 
@@ -36,19 +36,19 @@ Corners section(Beam beam, float height) {
                    beam.origins[1] + way * beam.directions[1]);
 }
 
-float least(vec4 values) {
+float smallest(vec4 values) {
     return min(min(values.x, values.y), min(values.z, values.w));
 }
 
-float most(vec4 values) {
+float largest(vec4 values) {
     return max(max(values.x, values.y), max(values.z, values.w));
 }
 
-// Of the surface below or above a rectangle; looked up where no more than four blocks cover it.
-float greatest_within(vec2 low, vec2 high) {
+// Maximum height over a rectangle, from the level where at largest four blocks cover it.
+float max_height_within(vec2 low, vec2 high) {
     vec2 end = vec2(last_cell);
     if (any(greaterThan(low, end + 1.0)) || any(lessThan(high, vec2(0.0)))) {
-        return -1.0; // there is none
+        return -1.0; // outside the surface
     }
     ivec2 first = ivec2(clamp(low, vec2(0.0), end));
     ivec2 last = ivec2(clamp(high, vec2(0.0), end));
@@ -60,26 +60,26 @@ float greatest_within(vec2 low, vec2 high) {
                         texelFetch(max_mipmap, ivec2(last.x, first.y), level).r,
                         texelFetch(max_mipmap, ivec2(first.x, last.y), level).r,
                         texelFetch(max_mipmap, last, level).r);
-    return most(heights);
+    return largest(heights);
 }
 
-float greatest_between(Corners upper, Corners lower) {
-    return greatest_within(vec2(min(least(upper.cols), least(lower.cols)),
-                                min(least(upper.rows), least(lower.rows))),
-                           vec2(max(most(upper.cols), most(lower.cols)),
-                                max(most(upper.rows), most(lower.rows))));
+float max_height_between(Corners upper, Corners lower) {
+    return max_height_within(vec2(min(smallest(upper.cols), smallest(lower.cols)),
+                                min(smallest(upper.rows), smallest(lower.rows))),
+                           vec2(max(largest(upper.cols), largest(lower.cols)),
+                                max(largest(upper.rows), largest(lower.rows))));
 }
 
-// Down in steps that double where nothing was met and halve where something may be.
+// Steps down; the step doubles in free space and halves where the beam may hit.
 float clear_down_to(Beam beam) {
-    const int looks = 24;
+    const int max_steps = 24;
     const float min_step = 1.0 / 256.0;
     float height = begin_height;
     float down = height;
     Corners upper = section(beam, height);
-    for (int i = 0; i < looks && down > min_step && height > 0.0; ++i) {
+    for (int i = 0; i < max_steps && down > min_step && height > 0.0; ++i) {
         float lower = max(height - down, 0.0);
-        float reached = max(greatest_between(upper, section(beam, lower)), lower);
+        float reached = max(max_height_between(upper, section(beam, lower)), lower);
         down *= reached > lower ? 0.5 : 2.0;
         if (reached < height) {
             height = reached;

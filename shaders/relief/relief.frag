@@ -33,12 +33,12 @@ vec3 back = INSIDE(vertex_back); // where the view ray leaves the box, relative 
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
-uniform float texels_per_metre_away; // of a pixel that faces the eye
+uniform float texels_per_metre_away; // per pixel
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
-layout(binding = lit_map_unit) uniform sampler2D lit_map; // what the surface sends to the eye, linear
+layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, linear
 #ifdef SHADOW
-layout(binding = sun_map_unit) uniform sampler2D sun_map; // of the sun's light alone, lit_map of the rest
+layout(binding = sun_map_unit) uniform sampler2D sun_map; // the sun's part; lit_map has the rest
 #endif
 
 #ifdef HIT
@@ -47,8 +47,7 @@ layout(location = 0) out vec4 hit; // col, row, height, depth
 layout(location = 0) out vec4 color;
 #endif
 
-// Where the ray from the box's back enters it, in units of -along: from the nearest depth on in
-// perspective.
+// Entry of the ray into the box, as a negative multiple of `along`; in perspective behind the near plane.
 float entry_before(vec3 point, vec3 direction) {
     vec3 away = vec3(equal(direction, vec3(0.0)));
     vec3 inverse = (1.0 - away) / (direction + away);
@@ -59,18 +58,18 @@ float entry_before(vec3 point, vec3 direction) {
 }
 
 #ifndef HIT
-// The mip level for a pixel, as from derivatives; but no coarser than for a surface that is seen
-// eight times longer than wide: over a silhouette the neighbours show another place.
+// Mip level from derivatives, limited to an anisotropy of 8: over a silhouette the neighbours show another
+// place.
 float level_of(vec2 coordinate, float distance_to_hit) {
     vec2 texels = coordinate * vec2(textureSize(lit_map, 0));
     vec2 across = dFdx(texels);
     vec2 down = dFdy(texels);
-    float most = 8.0 * distance_to_hit * texels_per_metre_away;
-    return 0.5 * log2(min(max(dot(across, across), dot(down, down)), most * most));
+    float longest = 8.0 * distance_to_hit * texels_per_metre_away;
+    return 0.5 * log2(min(max(dot(across, across), dot(down, down)), longest * longest));
 }
 
 #ifdef SMOOTH_EDGES
-// The same of a place that is passed by: its neighbours show others.
+// For a missed place, whose neighbours show other places.
 float near_level(float level, float distance_to_hit) {
     return min(level, log2(2.0 * distance_to_hit * texels_per_metre_away));
 }

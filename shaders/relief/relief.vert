@@ -1,7 +1,7 @@
 #include "frame/frame_block.glsl"
 #include "frame/relief_block.glsl"
 
-// The box that holds a surface, as the 14 vertices of one strip; its inner sides are seen.
+// The bounding box of a surface: a strip of 14 vertices, visible from inside.
 uniform mat4 relative_from_local; // world directions relative to the eye, metres
 
 out vec3 vertex_back; // relative to the eye

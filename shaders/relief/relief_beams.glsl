@@ -1,7 +1,7 @@
-// A relief's rays begin where their beam may first meet something.
-layout(binding = clear_heights_unit) uniform sampler2D clear_heights; // of each block of pixels: beams.frag
+// Rays begin where their beam may hit.
+layout(binding = clear_heights_unit) uniform sampler2D clear_heights; // per block of pixels: beams.frag
 
-// As a part of the ray.
+// The free part of the ray.
 float clear_part(vec3 start, vec3 span) {
     float clear = texelFetch(clear_heights, ivec2(gl_FragCoord.xy) / pixels_a_beam, 0).r;
     return span.z < 0.0 ? clamp((clear - start.z) / span.z, 0.0, 1.0) : 0.0;

@@ -1,5 +1,5 @@
-// Where the ray crosses the bilinear surface of a cell from above to below between two parts; 2
-// where it does not. `above`: it was above on entering, whatever rounding says now.
+// The part at which the ray crosses a cell's bilinear surface downwards; 2 if it does not. `above`: the ray
+// enters above the surface, despite rounding.
 float crossing(vec3 start, vec3 span, ivec2 cell, float begin, float end, inout bool above) {
     vec4 corners = textureGather(height_map, (vec2(cell) + 1.0) * height_texel);
     float h01 = corners.x;
@@ -16,7 +16,7 @@ float crossing(vec3 start, vec3 span, ivec2 cell, float begin, float end, inout 
                         twist * (enter.x * way.y + enter.y * way.x));
     float c2 = -twist * way.x * way.y;
     if (above && c0 < 0.0) {
-        return begin; // it crossed on the border
+        return begin; // crossed on the border
     }
     float root = 2.0;
     float under_root = c1 * c1 - 4.0 * c2 * c0;

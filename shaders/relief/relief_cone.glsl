@@ -1,7 +1,6 @@
-// From cone to cone (Dummer 2006): as far as the ray stays inside the one that stands below it,
-// which holds nothing of the surface. A relaxed cone (Policarpo and Oliveira 2007) holds what a ray
-// that does not rise meets at most once: where it is found below the surface, the hit lies behind
-// the last place above it.
+// Cone stepping (Dummer 2006): each step goes to the end of the cone below the ray. In a relaxed cone
+// (Policarpo and Oliveira 2007) a falling ray meets the surface at most once, so a step may end below the
+// surface, and the hit lies in that step.
 #ifdef TILE
 layout(binding = cone_map_unit) uniform sampler2D cone_map;
 uniform ivec2 last_cell;
@@ -9,7 +8,7 @@ uniform ivec2 last_cell;
 layout(binding = relief_cone_map_unit) uniform sampler2D cone_map;
 #endif
 
-// Of a cell, samples per unit: plain, relaxed.
+// Plain and relaxed cone, samples per unit of height.
 vec2 cones_at(vec2 place) {
 #ifdef TILE
     vec2 cell = floor(place);
@@ -23,8 +22,7 @@ vec2 cones_at(vec2 place) {
 #endif
 }
 
-// Between `part` where the ray is `over` (>= 0) above the surface and `low_part` where it is `under`
-// (< 0): halved, then the chord.
+// Bisection, then a secant, between `part` at clearance `over` (>= 0) and `low_part` at `under` (< 0).
 float halved(vec3 start, vec3 span, float part, float over, float low_part, float under) {
     for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (part + low_part);
@@ -42,11 +40,11 @@ float halved(vec3 start, vec3 span, float part, float over, float low_part, floa
 }
 
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
-    const float steps_below = 64.0; // from the border on, until the ray comes out
+    const float steps_below = 64.0; // per ray, until it leaves the surface
     bool relaxed = cone_relaxed > 0.5 && span.z <= 0.0;
     float n = cone_max_steps;
     float run = length(span.xy);
-    float least = run > cone_min_step ? cone_min_step / run : 1.0;
+    float min_way = run > cone_min_step ? cone_min_step / run : 1.0;
     float at = 0.0;
     float over = start.z - height_at(start.xy);
     float next = 0.0;
@@ -56,7 +54,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         vec2 cones = cones_at(start.xy + at * span.xy);
         float ratio = relaxed ? cones.g : cones.r;
         float opens = run - ratio * span.z;
-        float way = opens > 0.0 ? max(ratio * over / opens, least) : 1.0;
+        float way = opens > 0.0 ? max(ratio * over / opens, min_way) : 1.0;
         next = min(at + (over >= 0.0 ? way : 1.0 / steps_below), 1.0);
         vec3 p = start + next * span;
         float now = p.z - height_at(p.xy);
@@ -70,6 +68,6 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     }
     part = found ? halved(start, span, at, over, next, under) : at;
     place = start.xy + part * span.xy;
-    // A falling ray is so near to it that the steps were used up.
+    // The steps also run out close to the surface.
     return found || (at < 1.0 && over >= 0.0 && span.z < 0.0);
 }

@@ -1,11 +1,11 @@
-// The place that a ray narrowly misses on its way to its hit (GPU surface-detail survey 2008 ch.
-// 3.6.7): where the same search, so much lower, meets the surface, and then where the ray is nearest.
+// The place that a ray narrowly misses (GPU surface-detail survey 2008 ch. 3.6.7): the hit of a lowered ray,
+// then the nearest place.
 
 float clearance(vec3 point) {
     return point.z - height_at(point.xy);
 }
 
-// Where between two parts of a way the surface is nearest, to a sixtieth of what lies between them.
+// The nearest part between two, by ternary search to 1/60 of the range.
 float nearest_part(vec3 start, vec3 way, float low, float high) {
     for (float i = 0.0; i < 10.0; ++i) {
         float third = (high - low) / 3.0;
@@ -17,8 +17,7 @@ float nearest_part(vec3 start, vec3 way, float low, float high) {
     return 0.5 * (low + high);
 }
 
-// How far the ray is from the surface there, over edge_distance, and the place; 1 where it misses
-// nothing on its way to `part`.
+// Distance to the missed place in units of edge_distance; 1 without one.
 float near_miss(vec3 start, vec3 span, float part, out vec2 place) {
     const float max_steps = 64.0;
     vec3 way = part * span;
@@ -27,18 +26,18 @@ float near_miss(vec3 start, vec3 span, float part, out vec2 place) {
     if (!find_hit(start - vec3(0.0, 0.0, edge_distance), way, at, place)) {
         return 1.0;
     }
-    // On from there, a sample at a time, to the nearest of all places that it passes.
+    // From there one sample at a time to the nearest of all places.
     float samples = max(max(abs(way.x), abs(way.y)), 1.0);
     float stride = max(1.0 / samples, (1.0 - at) / max_steps);
     float before = edge_distance;
-    float least = edge_distance;
+    float nearest_clearance = edge_distance;
     float passed = -1.0;
     bool nearing = true;
     while (at < 1.0) {
         at += stride;
         float now = clearance(start + min(at, 1.0) * way);
-        if (nearing && now > before && before <= least) {
-            least = before;
+        if (nearing && now > before && before <= nearest_clearance) {
+            nearest_clearance = before;
             passed = at;
         }
         nearing = now <= before;

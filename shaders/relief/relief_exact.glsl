@@ -1,6 +1,6 @@
 #include "relief/relief_walk.glsl"
 
-// Over a surface that ends at its border.
+// Over a finite surface.
 bool is_endless(vec3 start, vec3 span) {
     return false;
 }
@@ -19,6 +19,6 @@ bool stays(inout vec3 start, inout Walk walk) {
     return all(greaterThanEqual(walk.block, ivec2(0))) && all(lessThanEqual(walk.block, beyond));
 }
 
-float greatest_in(Walk walk) {
+float max_height_in(Walk walk) {
     return texelFetch(max_mipmap, walk.block, walk.level).r;
 }

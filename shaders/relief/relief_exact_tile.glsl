@@ -1,9 +1,8 @@
 #include "relief/relief_walk.glsl"
 
-// Over a tile that goes on for ever: in its own copies, between whose last and first samples there
-// are cells too, or as its border, drawn out.
+// Over an infinite tile: repeated, with cells between the copies, or clamped at its border.
 
-// No number where the mesh has no tangent frame.
+// Infinite or NaN without a tangent frame of the mesh.
 bool is_endless(vec3 start, vec3 span) {
     return !(dot(abs(start) + abs(span), vec3(1.0)) < 1e30);
 }
@@ -26,7 +25,7 @@ vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk) {
     return max((vec2(border) - start.xy) * inverse, walk.part);
 }
 
-// From one copy into the next: the ray is moved back over the tile.
+// In the next copy the ray moves back over the tile.
 bool stays(inout vec3 start, inout Walk walk) {
 #ifdef WRAP
     ivec2 beyond = last_cell >> walk.level;
@@ -37,7 +36,7 @@ bool stays(inout vec3 start, inout Walk walk) {
     return true;
 }
 
-float greatest_in(Walk walk) {
+float max_height_in(Walk walk) {
     ivec2 block = clamp(walk.block, ivec2(0), last_cell >> walk.level);
     return texelFetch(max_mipmap, block, walk.level).r;
 }

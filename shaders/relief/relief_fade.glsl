@@ -1,14 +1,13 @@
-// Heights that are less the flatter one looks (GPU surface-detail survey 2008 ch. 3.6.4):
-// low + (high - low)(1 - (1 - cos a)^power) of them is left, about the height of the reference
-// plane. That is the same surface met by a ray that is stretched along z.
+// Reduces heights at grazing angles (GPU surface-detail survey 2008 ch. 3.6.4): low + (high - low)(1 -
+// (1 - cos a)^power) of them remains, around the reference height. Implemented by stretching the ray in z.
 float share_of_heights(vec3 span) {
-    const float flattest = 1.0 / 4096.0; // as far as the box reaches beyond the heights
+    const float flattest = 1.0 / 4096.0; // the margin of the box
     float upright = abs(normalize(span * metres_per_unit).z);
     float share = 1.0 - pow(1.0 - min(upright, 1.0), fade_power);
     return max(mix(fade_low, fade_high, share), flattest);
 }
 
-// Stretches a ray and cuts it to what lies between two heights; what of it is left, as parts.
+// Stretches a ray and clips it to two heights. Returns the remaining parts.
 vec2 stretch(float low, float high, inout vec3 start, inout vec3 span) {
     float share = share_of_heights(span);
     float begin_height = fade_reference_height + (start.z - fade_reference_height) / share;

@@ -1,6 +1,5 @@
-// Equal steps until one lies in a solid, or beyond one, between whose surfaces the ray went over to
-// its other side; then the way in is halved, then the chord (GPU surface-detail survey 2008 ch.
-// 3.6.9-11; Policarpo and Oliveira 2006).
+// Equal steps until one lies in a solid or crosses one; then bisection of the entry, then a secant (GPU
+// surface-detail survey 2008 ch. 3.6.9-11; Policarpo and Oliveira 2006).
 
 vec2 middles_of(vec4 layers) {
     return 0.5 * (layers.xz + layers.yw);
@@ -10,7 +9,7 @@ float depth_at(vec3 point) {
     return depth_between(layers_at(point.xy), point.z);
 }
 
-// Where between two parts the ray passes the middle of one of the solids: 1 for the lower.
+// The part at which the ray passes the middle of a solid; `solid`: 0 upper, 1 lower.
 float middle_part(vec3 start, vec3 span, float low, float high, int solid) {
     vec3 first = start + low * span;
     bool over = first.z > middles_of(layers_at(first.xy))[solid];
@@ -24,7 +23,7 @@ float middle_part(vec3 start, vec3 span, float low, float high, int solid) {
     return 0.5 * (low + high);
 }
 
-// A part within a step that lies in a solid the ray goes through; 2 where there is none.
+// A part of the step inside a solid that it crosses; 2 if none.
 float part_within(vec3 start, vec3 span, float low, float high, vec2 over, vec2 now) {
     float within = 2.0;
     for (int solid = 0; solid < 2; ++solid) {
@@ -36,7 +35,7 @@ float part_within(vec3 start, vec3 span, float low, float high, vec2 over, vec2 
     return within;
 }
 
-// Between `part`, outside, and `inner`, inside; tells which surface is met.
+// Between `part`, outside, and `inner`, inside. Sets met_layer.
 float entry_part(vec3 start, vec3 span, float part, float inner) {
     for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (part + inner);

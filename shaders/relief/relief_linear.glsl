@@ -1,5 +1,5 @@
-// Equal steps until one lies below the surface, then the bracket is narrowed: by halving (Policarpo,
-// Oliveira and Comba 2005) or by the chord, the bracket kept (Risser, Shah and Pattanaik 2006).
+// Equal steps until one lies below the surface; then bisection (Policarpo, Oliveira and Comba 2005) or the
+// bracketed secant method (Risser, Shah and Pattanaik 2006).
 #define EQUAL_STEPS
 
 float steps_for(vec3 span) {
@@ -11,8 +11,7 @@ float steps_for(vec3 span) {
 #endif
 }
 
-// Between `part` where the ray is `over` (>= 0) above the surface and `low_part` where it is `under`
-// (< 0).
+// Between `part` at clearance `over` (>= 0) and `low_part` at `under` (< 0).
 float narrowed(vec3 start, vec3 span, float part, float over, float low_part, float under) {
 #if defined(BISECT)
     for (float i = 0.0; i < bisection_steps; ++i) {

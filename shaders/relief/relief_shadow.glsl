@@ -1,9 +1,9 @@
-// A ray from a place of the surface to the sun, through the same search.
+// A shadow ray with the same search.
 
-// As far as the box reaches beyond the heights: rounding puts no place in its own shadow.
+// The margin of the box: avoids self-shadowing by rounding.
 const float shadow_lift = 1.0 / 4096.0;
 
-// The way from a point to where the ray leaves the box.
+// The way from a point to the ray's exit from the box.
 vec3 way_out(vec3 point, vec3 direction, vec3 low, vec3 high) {
     vec3 away = vec3(equal(direction, vec3(0.0)));
     vec3 ends = mix(low, high, vec3(greaterThan(direction, vec3(0.0))));
@@ -16,11 +16,11 @@ float shadow_steps(vec3 span) {
 #ifdef EQUAL_STEPS
     return steps_for(span);
 #else
-    return clamp(ceil(max(abs(span.x), abs(span.y))), 1.0, 4096.0); // a look for each sample
+    return clamp(ceil(max(abs(span.x), abs(span.y))), 1.0, 4096.0); // one per sample
 #endif
 }
 
-// What the deepest penetration leaves of the light (GPU surface-detail survey 2008 ch. 3.6.6).
+// From the deepest penetration (GPU surface-detail survey 2008 ch. 3.6.6).
 float share_of_sun(vec3 start, vec3 span) {
     float n = shadow_steps(span);
     float deepest = 0.0;
@@ -31,7 +31,7 @@ float share_of_sun(vec3 start, vec3 span) {
     return clamp(1.0 - deepest / shadow_depth, 0.0, 1.0);
 }
 #else
-// Whether the ray meets nothing (Policarpo, Oliveira and Comba 2005).
+// 1 if the ray is free (Policarpo, Oliveira and Comba 2005).
 float share_of_sun(vec3 start, vec3 span) {
     float part;
     vec2 place;
@@ -39,8 +39,7 @@ float share_of_sun(vec3 start, vec3 span) {
 }
 #endif
 
-// Share of the sun's light that reaches a place of the surface; `low` and `high` bound the search
-// space.
+// Visible share of the sun; `low` and `high` bound the search space.
 float sun_at(vec2 place, vec3 sun_direction, vec3 low, vec3 high) {
     vec3 start = vec3(place, height_at(place) + outward() * shadow_lift);
     return share_of_sun(start, way_out(start, sun_direction, low, high));

@@ -1,11 +1,10 @@
 #include "frame/technique_block.glsl"
 
-// The surface a relief technique looks for, in samples: x column, y row, z height in [0,1] of the
-// range.
+// The searched surface: x column, y row, z height in [0,1].
 layout(binding = height_map_unit) uniform sampler2D height_map;
 uniform vec2 height_texel; // 1 / samples
 #ifdef TILE
-vec3 metres_per_unit = vec3(1.0); // of the search space's axes, at this fragment of a mesh
+vec3 metres_per_unit = vec3(1.0); // of the search space at this fragment
 bool is_off_tile(vec2 coordinate); // tile_surface.glsl
 #else
 #include "frame/relief_block.glsl"
@@ -13,18 +12,18 @@ bool is_off_tile(vec2 coordinate); // tile_surface.glsl
 #endif
 
 #ifdef LAYERS
-// Between the first and the second, and between the third and the fourth, is solid.
+// Solid between 1 and 2, and between 3 and 4.
 vec4 layers_at(vec2 place) {
     return textureLod(height_map, (place + 0.5) * height_texel, 0.0);
 }
 
-// How deep a height is in a solid; negative outside.
+// Depth in a solid; negative outside.
 float depth_between(vec4 layers, float height) {
     vec2 depths = min(layers.xz - height, height - layers.yw);
     return max(depths.x, depths.y);
 }
 
-int met_layer = 0; // by the ray before
+int met_layer = 0; // of the last hit
 
 float height_at(vec2 place) {
     return layers_at(place)[met_layer];
@@ -34,7 +33,7 @@ float depth_in_surface(vec3 point) {
     return depth_between(layers_at(point.xy), point.z);
 }
 
-// Off the solid: 1 up, -1 down.
+// 1 up, -1 down.
 float outward() {
     return (met_layer & 1) == 0 ? 1.0 : -1.0;
 }
@@ -52,10 +51,9 @@ float outward() {
 }
 #endif
 
-// What is known of the ray a search is for.
+// The current ray begins above the surface.
 bool begins_above = false;
 
-// Whether the surface has such a place.
 bool is_on_surface(vec2 place) {
 #ifdef TILE
     return !is_off_tile((place + 0.5) * height_texel);

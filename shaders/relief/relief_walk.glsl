@@ -1,9 +1,8 @@
 #include "relief/relief_cell.glsl"
 
-// The true first hit: down a pyramid of greatest heights (Tevs, Ihrke and Seidel 2008) to the cells
-// the ray may touch, where the bilinear surface along it is a quadratic. The inner loop only
-// descends and moves on, one tap a turn.
-layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: of a cell's corners
+// The true first hit: traverses a max mipmap (Tevs, Ihrke and Seidel 2008) down to cells, where the bilinear
+// surface along the ray is quadratic. The inner loop only descends or advances, with one texel fetch.
+layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: maximum of a cell's corners
 uniform ivec2 last_cell;
 uniform int top_level;
 
@@ -13,24 +12,22 @@ const int start_level = 2; // the ray begins near the surface
 const int start_level = 5;
 #endif
 
-// The way of a ray through the blocks of one level.
 struct Walk {
     int level;
     ivec2 block;
-    float part; // where the ray enters the block
+    float part; // of the ray at the entry
 };
 
-// Whether a ray would never leave.
+// Whether the walk would not end.
 bool is_endless(vec3 start, vec3 span);
-// The cell a ray begins in.
 ivec2 first_cell(inout vec3 start);
-// Where along the ray the walk leaves its block through a column's and through a row's border.
+// Parts at which the ray leaves its block through a column's and a row's border.
 vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk);
-// After a step into another block: whether there is one.
+// After a step into the next block: whether it exists.
 bool stays(inout vec3 start, inout Walk walk);
-float greatest_in(Walk walk);
+float max_height_in(Walk walk);
 
-// Into the next block, and up a level where that begins a new one there. False where there is none.
+// Steps into the next block, and a level up at the border of a parent block. False if there is none.
 bool move_on(vec2 exits, ivec2 forward, inout vec3 start, inout Walk walk) {
     walk.part = min(exits.x, exits.y);
     bool sideways = exits.x <= exits.y;
@@ -53,11 +50,11 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         return false;
     }
     ivec2 forward = ivec2(greaterThan(span.xy, vec2(0.0)));
-    // A ray along an axis never leaves through that axis's borders.
+    // A ray does not leave through borders that are parallel to it.
     vec2 inverse = vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0);
     vec2 never = vec2(span.x != 0.0 ? 0.0 : 2.0, span.y != 0.0 ? 0.0 : 2.0);
     bool falls = span.z < 0.0;
-    // Where that is not known, the first cell tells, for less than a look at its height.
+    // If unknown, the first cell decides; that is cheaper than a height lookup.
     bool above = begins_above || start.z >= 1.0;
     Walk walk;
     walk.level = min(top_level, start_level);
@@ -71,7 +68,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             exits = exits_of(start, inverse, forward, walk) + never;
             float leave = min(min(exits.x, exits.y), 1.0);
             float lowest = start.z + (falls ? leave : walk.part) * span.z;
-            bool over = above && lowest > greatest_in(walk);
+            bool over = above && lowest > max_height_in(walk);
             reached = !over && walk.level == 0;
             if (over) {
                 inside = move_on(exits, forward, start, walk);

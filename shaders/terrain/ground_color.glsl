@@ -1,20 +1,19 @@
-// What a terrain with a tile of detail sends to the eye: with the distance it becomes what the
-// terrain sends without one.
+// Reflection of a terrain with surface detail, which fades out with distance.
 uniform vec2 tile_sample;        // col, row of the terrain tile's first sample
 uniform vec4 lit_from_sample;    // texture coordinate = sample · xy + zw
-uniform vec4 ground_from_sample; // likewise
+uniform vec4 ground_from_sample; // see lit_from_sample
 
-layout(binding = ground_lit_map_unit) uniform sampler2D lit_map;    // what the surface sends to the eye, linear
+layout(binding = ground_lit_map_unit) uniform sampler2D lit_map;    // reflected light, linear
 layout(binding = albedo_map_unit) uniform sampler2D albedo_map; // linear
-layout(binding = ground_map_unit) uniform sampler2D ground_map; // local normal; w: share of the sun's disc seen
+layout(binding = ground_map_unit) uniform sampler2D ground_map; // local normal; w: visible share of the sun
 
 layout(location = 0) out vec4 color;
 
-// The tile as it is seen along one axis, in the terrain's colour. `right`, `up`: what a pixel to the
-// right and one up add to the tile's coordinate. `height_share`: of the heights that are looked for.
+// The detail along one axis, tinted by the terrain. `right`, `up`: change of the tile coordinate per pixel.
+// `height_share`: scales the heights of the search.
 vec3 seen_in(mat3 space, vec3 albedo, vec2 right, vec2 up, float visibility, float height_share);
 
-// The terrain's colour, in the places of the tile as much brighter or darker as these are than all.
+// The terrain's colour times the tile's deviation from its mean colour.
 vec3 tinted(vec3 albedo, vec2 coordinate, vec2 right, vec2 up) {
     vec3 tile = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
     return min(albedo * tile / mean_color.rgb, vec3(1.0));

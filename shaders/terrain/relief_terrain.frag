@@ -1,4 +1,4 @@
-// A terrain whose pixels look for the surface of a tile of detail.
+// A terrain with a relief search per pixel.
 #define GROUND
 #define TILE
 #define WRAP
@@ -12,8 +12,8 @@
 #include "material/tile_shadow.glsl"
 #include "terrain/ground_color.glsl"
 
-// Where the ray to the eye meets the tile's surface; `place` stays where it meets none.
-void look_for_hit(mat3 space, vec3 way, inout vec2 place) {
+// Moves `place` to the hit, if any.
+void move_to_hit(mat3 space, vec3 way, inout vec2 place) {
     float near_part = near_depth / max(dot(relative, view_forward.xyz), near_depth);
     TileRay ray = ray_through((local_from_relative * way) * space, near_part);
     float part;
@@ -29,7 +29,7 @@ vec3 seen_in(mat3 space, vec3 albedo, vec2 right, vec2 up, float visibility, flo
     float sun = visibility;
     if (height_share > 0.0) {
         metres_per_unit = vec3(1.0 / (tiles_per_metre * tile_samples()), lift * height_share);
-        look_for_hit(space, way, place);
+        move_to_hit(space, way, place);
         sun *= sun_share(place, space, right, up);
     }
     vec2 coordinate = (place + 0.5) * height_texel;

@@ -11,9 +11,9 @@ in vec2 height_and_depth;
 uniform vec2 tile_sample;     // col, row of the tile's first sample
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
-layout(binding = lit_map_unit) uniform sampler2D lit_map; // what the surface sends to the eye, linear
+layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, linear
 #ifdef WARPED
-// A texel for each sample: what is seen there, column, row (< 0: nothing) and height.
+// Visible column, row (< 0: none) and height per sample.
 layout(binding = warped_places_unit) uniform sampler2D warped_places;
 #endif
 

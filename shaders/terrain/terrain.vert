@@ -25,17 +25,17 @@ out vec3 way_from_eye; // metres
 out float one;
 #endif
 
-// Where the rasterizer puts the vertex anyway, before it interpolates: else triangles seen edge-on show
-// places beyond their own border, and on cliffs those lie pixels away.
+// Snaps to the rasterizer's vertex grid before interpolation. Otherwise triangles seen edge-on show places
+// beyond their border, on cliffs pixels away.
 vec4 on_vertex_grid(vec4 clip) {
-    const float farthest = 1048576.0; // steps of which floats still tell an eighth
+    const float farthest = 1048576.0; // floats still resolve 1/8 step
     vec2 steps = clip.xy / clip.w * vertex_grid.xy;
     bool is_on_it = clip.w > 0.0 && max(abs(steps.x), abs(steps.y)) < farthest;
     return is_on_it ? vec4(round(steps) / vertex_grid.xy * clip.w, clip.zw) : clip;
 }
 
 void main() {
-    // The same bits for a vertex of two tiles: they do not part. Differences of neighbouring floats
+    // Equal bits for shared vertices of two tiles, so there are no cracks. Differences of neighbouring floats
     // are exact (Cozzi and Ring 2011, "3D Engine Design for Virtual Globes", 5.4).
     precise vec3 from_eye = (position - eye) + (rest - eye_rest);
     vec3 relative = world_from_local * from_eye;

@@ -1,4 +1,4 @@
-// A terrain with a tile of detail that it is lit by.
+// A terrain lit with surface detail.
 #define GROUND
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/view/select.h"
 #include "tests/render/made_scene.h"
 
 namespace reljef::render {
