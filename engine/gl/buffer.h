@@ -8,8 +8,7 @@
 
 namespace reljef::gl {
 
-/// A buffer object: vertices, indices or a uniform block. Default-constructed and moved-from
-/// buffers are empty (id 0, size 0).
+/// A buffer object: vertices, indices or a uniform block.
 class Buffer {
 public:
     Buffer() = default;
@@ -22,7 +21,6 @@ public:
     /// Replaces the bytes from `offset` on. Precondition: made by create_writable(); the bytes fit.
     void write(std::size_t offset, std::span<const std::byte> bytes);
 
-    /// Binds the buffer as a uniform block for all programs.
     void bind_uniform_block(unsigned int binding) const;
 
     [[nodiscard]] unsigned int id() const { return id_.get(); }

@@ -15,7 +15,7 @@ struct FramebufferOptions {
     glm::ivec2 size{1, 1};
     Format color = Format::rgba8_srgb;
     bool depth = true; ///< 32-bit float
-    int samples = 1;   ///< per pixel
+    int samples = 1;
 };
 
 /// The possible samples per pixel with these formats, ascending; 1 is always possible.
@@ -23,7 +23,6 @@ std::vector<int> sample_counts(const FramebufferOptions& options);
 
 /// A colour target and an optional 32-bit float depth. The colour is a texture whose row 0 is the
 /// bottom of the picture. With several samples per pixel there is no texture: use resolve_to().
-/// Default-constructed and moved-from framebuffers are empty (id 0).
 class Framebuffer {
 public:
     Framebuffer() = default;

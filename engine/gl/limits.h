@@ -6,10 +6,9 @@
 
 namespace reljef::gl {
 
-/// Names and limits of the current context.
 struct Limits {
-    std::string renderer;               ///< GL_RENDERER
-    std::string version;                ///< GL_VERSION
+    std::string renderer;
+    std::string version;
     int max_texture_size = 0;           ///< texels along a side
     int max_texture_units = 0;          ///< all stages together
     int max_fragment_texture_units = 0; ///< fragment stage

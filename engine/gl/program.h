@@ -25,7 +25,6 @@ struct StageSource {
     std::vector<std::string> included{};
 };
 
-/// GLSL's name of a uniform's type.
 template <class T> struct GlslType;
 template <> struct GlslType<int> { static constexpr std::string_view name = "int"; };
 template <> struct GlslType<float> { static constexpr std::string_view name = "float"; };
@@ -48,7 +47,7 @@ template <class T> struct Uniform : UniformDeclaration {
         : UniformDeclaration{glsl_name, GlslType<T>::name} {}
 };
 
-/// A linked program. Default-constructed and moved-from programs are empty (id 0).
+/// A linked program.
 class Program {
 public:
     Program() = default;

@@ -12,7 +12,6 @@ namespace reljef::gl {
 
 namespace {
 
-/// A message and the place it points to.
 struct Located {
     std::size_t file = 0;
     int line = 0;

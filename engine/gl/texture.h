@@ -12,16 +12,15 @@
 
 namespace reljef::gl {
 
-/// Texel format, in the driver's memory and in uploads.
 enum class Format {
-    rgba8_srgb,   ///< 4 bytes; r, g, b are decoded when sampled and encoded when drawn to
-    rgba8,        ///< 4 bytes, [0,1]
-    r32f,         ///< 1 float
-    rg32f,        ///< 2 floats
+    rgba8_srgb, ///< 4 bytes; r, g, b are decoded when sampled and encoded when drawn to
+    rgba8,      ///< 4 bytes, [0,1]
+    r32f,
+    rg32f,
     rg16_snorm,   ///< 2 int16, -32767..32767 for [-1,1]
     rgba16_snorm, ///< 4 int16, -32767..32767 for [-1,1]
-    rgba32f,      ///< 4 floats
-    depth32f      ///< 1 float, [0,1]
+    rgba32f,
+    depth32f ///< 1 float, [0,1]
 };
 
 struct FormatTraits {
@@ -41,15 +40,14 @@ enum class Wrap { clamp, repeat };
 inline constexpr int full_chain = 0;
 
 struct TextureOptions {
-    glm::ivec2 size{1, 1}; ///< columns, rows of level 0
+    glm::ivec2 size{1, 1};
     Format format = Format::rgba8;
-    int levels = 1; ///< mip levels, or full_chain
+    int levels = 1;
     Filter filter = Filter::bilinear;
     Wrap wrap = Wrap::clamp;
 };
 
-/// A 2D texture of fixed size and format. Row 0 of an upload is at v = 0. Default-constructed and
-/// moved-from textures are empty (id 0).
+/// A 2D texture of fixed size and format. Row 0 of an upload is at v = 0.
 class Texture2D {
 public:
     Texture2D() = default;

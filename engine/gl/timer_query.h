@@ -8,7 +8,6 @@
 namespace reljef::gl {
 
 /// GPU time of the commands between begin() and end(). One query may run at a time in a context.
-/// Default-constructed and moved-from queries are empty (id 0).
 class TimerQuery {
 public:
     TimerQuery() = default;

@@ -13,8 +13,8 @@ void delete_shader(unsigned int id);
 void delete_program(unsigned int id);
 void delete_query(unsigned int id);
 
-/// Owns a GL object by its name; 0 is no object. The object's context must be current when the
-/// object is made, used and destroyed.
+/// Owns a GL object by its name; 0, also after a move, is no object. The object's context must be
+/// current when the object is made, used and destroyed.
 template <void (*destroy)(unsigned int)> class UniqueId {
 public:
     UniqueId() = default;

@@ -10,9 +10,9 @@ namespace reljef::gl {
 
 /// A float attribute.
 struct VertexAttribute {
-    unsigned int location = 0; ///< GLSL `layout(location = …)`
-    int components = 1;        ///< 1..4
-    std::size_t offset = 0;    ///< bytes from the start of the vertex
+    unsigned int location = 0;
+    int components = 1;     ///< 1..4
+    std::size_t offset = 0; ///< bytes from the start of the vertex
 };
 
 struct VertexLayout {
@@ -21,7 +21,6 @@ struct VertexLayout {
 };
 
 /// Where a draw reads its vertices and indices. The buffers must outlive the draws.
-/// Default-constructed and moved-from arrays are empty (id 0).
 class VertexArray {
 public:
     VertexArray() = default;

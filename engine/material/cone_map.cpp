@@ -78,12 +78,10 @@ float steepest_slope(const Relief& relief) {
     return std::hypot(east, south);
 }
 
-// Bound of the distance between two gradients.
 float variation(const Relief& relief) {
     return std::hypot(relief.east.high - relief.east.low, relief.south.high - relief.south.low);
 }
 
-// Joins each 3×3 block.
 Grid<Relief> widened(const Grid<Relief>& cells) {
     Grid<Relief> along(cells.cols(), cells.rows());
     Grid<Relief> wide(cells.cols(), cells.rows());
@@ -182,7 +180,6 @@ float steepest_in(const Relief& cell, Quarter quarter, const Fan& fan) {
 // Covers the rounding error of a float sum of a few products.
 constexpr float rounding = 1.0F - 0x1p-20F;
 
-// Finds the ratios of cells, one after another.
 class ConeFinder {
 public:
     ConeFinder(const std::vector<Grid<Relief>>& levels, const std::vector<Grid<float>>& steepest,

@@ -39,7 +39,7 @@ struct DriverOptions {
 
 /// Draws selected frames with the current context into its own framebuffer object with reversed
 /// 32-bit float depth. Keeps drawn content in GPU memory as long as the scene lives. Destroy while
-/// the context is current.
+/// the context is current, like all objects of this room that own GL objects.
 class Driver {
 public:
     /// Fails on a size that GL cannot draw and as check_samples().
@@ -49,12 +49,10 @@ public:
     /// check_techniques() and check_support().
     Result<view::FrameStats> draw(const view::FrameView& frame, bool wait = false);
 
-    /// Draws the hits of a frame.
     Result<HitBuffer> draw_hits(const view::FrameView& frame);
 
     /// The last frame. Waits for the GPU.
     [[nodiscard]] Image read_color() const;
-    /// Copies the last frame to the window's back buffer.
     void show_in_window(glm::ivec2 window_size) const;
 
     /// Adds precomputed light of a terrain in the next frame. Fails when GL has no memory.
@@ -83,7 +81,7 @@ private:
     gl::Limits limits_;
     gl::Framebuffer color_target_;
     gl::Framebuffer hit_target_; // created on first use
-    SampleTarget sample_target_; // created on first use
+    SampleTarget sample_target_;
     BeamTarget beam_target_;
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;

@@ -32,7 +32,6 @@ struct Distribution {
     double rms = 0.0;
 };
 
-/// One error at every pixel of a frame.
 struct PixelErrors {
     Grid<float> map;           ///< NaN: no error; infinity: unbounded error
     std::size_t unbounded = 0; ///< pixels with an infinite error; not in the distribution
@@ -48,11 +47,11 @@ enum class Verdict : unsigned char {
 };
 
 struct GeometricErrors {
-    PixelErrors reprojection;   ///< pixels
-    PixelErrors hit;            ///< texels
-    Grid<Verdict> verdicts;     ///< per pixel
-    std::size_t wrong = 0;      ///< pixels, including holes
-    std::size_t holes = 0;      ///< pixels
+    PixelErrors reprojection; ///< pixels
+    PixelErrors hit;          ///< texels
+    Grid<Verdict> verdicts;
+    std::size_t wrong = 0; ///< pixels, including holes
+    std::size_t holes = 0;
     double wrong_percent = 0.0; ///< of all pixels of the frame, including sky
 };
 

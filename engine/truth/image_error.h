@@ -11,8 +11,8 @@ namespace reljef::truth {
 
 /// Errors of a picture against the true one. Alpha is ignored.
 struct ImageErrors {
-    double rmse = 0.0;          ///< root_mean_square_error()
-    double psnr = 0.0;          ///< peak_signal_to_noise()
+    double rmse = 0.0;
+    double psnr = 0.0;
     std::optional<double> ssim; ///< structural_similarity(); absent below its window's size
     Flip flip;
 };

@@ -77,7 +77,6 @@ void add_roots(const Clearance& clearance, Interval within, std::vector<double>&
     }
 }
 
-// Follows a ray in tile space from cell to cell.
 class LayerWalk {
 public:
     LayerWalk(const Grid<glm::vec4>& layers, bool wraps, const Ray& ray)

@@ -52,7 +52,6 @@ Box slab() {
     return {{-infinity, -infinity, -margin}, {infinity, infinity, 1.0 + margin}};
 }
 
-// Follows a ray in tile space over the tile and its surroundings.
 class TileWalk {
 public:
     TileWalk(const Grid<float>& heights, const terrain::MinMaxPyramid& pyramid, glm::ivec2 texels,

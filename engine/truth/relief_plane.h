@@ -28,12 +28,11 @@ struct ReliefOptions {
 /// Fails when an option is outside its range.
 Result<void> check_options(const ReliefOptions& options);
 
-/// The intersection of a ray with a relief.
 struct ReliefHit {
     glm::dvec2 texture_coordinate{0.0}; ///< in [0,1) (wrap), [0,1] (clamp, discard)
     double height = 0.0;                ///< in [0,1]
-    double t = 0.0;                     ///< along the ray
-    int layer = 0;                      ///< of a LayeredPlane, 0 … 3: the surface
+    double t = 0.0;
+    int layer = 0; ///< of a LayeredPlane, 0 … 3: the surface
 };
 
 /// A world ray in tile space: texels from the first texel's centre, and height.

@@ -22,7 +22,6 @@ struct PlacedTerrain {
     terrain::SurfaceCaster caster;
 };
 
-/// The intersection of a world ray with a scene.
 struct SceneHit {
     std::size_t terrain = 0;     ///< index into SceneCaster::terrains()
     terrain::SurfaceHit surface; ///< t along the world ray; place in the terrain's samples

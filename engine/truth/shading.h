@@ -58,7 +58,7 @@ private:
     const SceneCaster* caster_; // null: the maps contain the shadows
     std::optional<scene::Light> sun_;
     std::optional<scene::Sky> sky_;
-    std::vector<Maps> maps_; // per terrain
+    std::vector<Maps> maps_;
 };
 
 } // namespace reljef::truth

@@ -21,7 +21,7 @@ struct TileSquare {
     double side = 1.0;                                   ///< of the square, metres; > 0
     int repeats = 1;                                     ///< tiles along the side; > 0
     double scale = 0.1;                                  ///< see ReliefOptions
-    double offset = -1.0;                                ///< see ReliefOptions
+    double offset = -1.0;
     scene::Light light;
 };
 

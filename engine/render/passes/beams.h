@@ -23,10 +23,9 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const Rel
                          const glm::dmat4& local_from_world);
 
 /// The heights down to which beams meet nothing: a float per block of pixels. Created for the first
-/// list with beams. Needs a current context; destroy while it is current.
+/// list with beams.
 class BeamTarget {
 public:
-    /// Fails without GL memory.
     Result<void> prepare(const view::DrawList& list);
 
     [[nodiscard]] const gl::Framebuffer& framebuffer() const { return framebuffer_; }

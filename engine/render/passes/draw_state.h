@@ -26,17 +26,14 @@ public:
     /// Binds the variant's program. Programs with a surface search run per sample. Fails as
     /// ShaderLibrary::program.
     Result<gl::Program*> use(ShaderVariant variant);
-    /// Sets a uniform block for all programs. Fails without GL memory.
     template <class Block> Result<void> set(const Block& block) {
         return set_block(Block::layout.binding, std::as_bytes(std::span(&block, 1)));
     }
     void set_culling(gl::Culling culling);
     void set_wireframe(bool wireframe);
 
-    /// Draws a whole mesh with the bound program.
     void draw(const ResidentMesh& mesh, gl::IndexType type);
 
-    /// For passes that count their own draws.
     [[nodiscard]] view::FrameStats& stats() { return stats_; }
 
 private:
@@ -48,7 +45,7 @@ private:
     view::FrameStats& stats_;
     std::optional<ShaderVariant> variant_;
     gl::Program* program_ = nullptr;
-    std::map<unsigned int, const gl::Buffer*> bound_; // by binding point
+    std::map<unsigned int, const gl::Buffer*> bound_;
     gl::Culling culling_ = gl::Culling::back;
     bool wireframe_ = false;
     bool shades_samples_ = false;

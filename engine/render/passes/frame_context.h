@@ -11,7 +11,6 @@
 
 namespace reljef::render {
 
-/// One frame for its passes.
 struct FrameContext {
     const view::DrawList& list;
     const Residency& residency; ///< prepared for the list
@@ -28,14 +27,12 @@ std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples 
 
 // The passes. They fail as ShaderLibrary::program and without memory.
 
-/// Draws the list's terrain tiles, with their visible surface detail.
 Result<void> draw_terrain_tiles(const FrameContext& frame);
 Result<void> draw_streamed_tiles(const FrameContext& frame);
 
 /// Draws the bounding box of each relief; before it the beams of techniques that have them.
 Result<void> draw_reliefs(const FrameContext& frame);
 
-/// Draws the list's meshes: of one colour, textured, or with a relief search per pixel.
 Result<void> draw_meshes(const FrameContext& frame);
 
 /// Draws the sky behind everything; nothing for hits.

@@ -19,7 +19,6 @@ glm::vec3 tiles_at_eye(const glm::dmat4& world_from_local, const scene::Camera& 
     return glm::vec3(glm::fract(local_eye(camera, world_from_local) / width));
 }
 
-// A divisor above 0.
 glm::vec3 divisible(glm::vec3 mean_color) {
     constexpr float darkest = 1.0F / 255.0F;
     return glm::max(mean_color, glm::vec3(darkest));

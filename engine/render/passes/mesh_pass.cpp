@@ -27,7 +27,6 @@ void bind_warp(gl::Program& program, const view::MeshDraw& draw, const gl::Textu
     program.set(uniforms.warp_from_tile, glm::vec4(per_tile, -plane->low / size));
 }
 
-// `features`: see scene_features().
 ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
     if (material.detail.set == nullptr) {
         return {ShaderKind::mesh, features};

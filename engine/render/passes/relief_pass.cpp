@@ -13,7 +13,6 @@
 namespace reljef::render {
 namespace {
 
-// The heights down to which the rays of each block of pixels meet nothing.
 Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw) {
     DrawState& state = frame.state;
     auto program = state.use({ShaderKind::beams});
@@ -79,7 +78,7 @@ float texels_per_metre_away(const FrameContext& frame, const view::ReliefDraw& d
                             const ReliefSpace& space) {
     const view::DrawList& list = frame.list;
     if (frame.hits || !is_perspective(list.camera)) {
-        return 1e6F; // no limit
+        return 1e6F;
     }
     const ResidentMaps& maps = frame.residency.maps(*draw.terrain);
     const glm::vec2 texels_per_sample =

@@ -29,8 +29,7 @@ Result<SamplePlan> plan_samples(int samples, std::span<const int> counts);
 /// (scene::Camera::shift). It lies on the rasterizers' vertex grid of 1/256 pixel.
 glm::dvec2 pass_shift(const SamplePlan& plan, int pass);
 
-/// The target of a picture with several samples per pixel. Needs a current context; destroy while
-/// it is current.
+/// The target of a picture with several samples per pixel.
 class SampleTarget {
 public:
     SampleTarget() = default;
@@ -40,7 +39,6 @@ public:
 
     [[nodiscard]] bool is_for(glm::ivec2 size, int samples) const;
     [[nodiscard]] const SamplePlan& plan() const { return plan_; }
-    /// The draw target of each pass.
     [[nodiscard]] const gl::Framebuffer& picture() const { return picture_; }
 
     /// Call after each pass, in order. The last call writes the mean of all samples, in linear
@@ -54,7 +52,7 @@ private:
 
     SamplePlan plan_;
     gl::Framebuffer picture_;
-    std::vector<gl::Framebuffer> passes_; // empty for a single pass
+    std::vector<gl::Framebuffer> passes_;
 };
 
 } // namespace reljef::render

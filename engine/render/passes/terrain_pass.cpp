@@ -158,8 +158,8 @@ private:
     const FrameContext& frame_;
     DrawState& state_;
     gl::Program* program_ = nullptr;
-    const scene::TerrainNode* terrain_ = nullptr;        // of the program's state
-    view::DetailLevel detail_ = view::DetailLevel::none; // of the program's state
+    const scene::TerrainNode* terrain_ = nullptr; // of the program's state
+    view::DetailLevel detail_ = view::DetailLevel::none;
 };
 
 template <class Draw>

@@ -8,7 +8,6 @@
 
 namespace reljef::render {
 
-/// Binds the maps of a tile (tile_light.glsl, relief_surface.glsl).
 void bind_tile(gl::Program& program, const ResidentTile& tile, const ResidentSurface& surface);
 
 /// Relief and reflection of a tile seen from the front. `lift`: height of 1, metres. `mesh_height`:

@@ -13,13 +13,12 @@
 namespace reljef::render {
 
 /// Immutable buffers by the content of uniform blocks. Writing to a buffer that draws still read
-/// makes some drivers wait or copy. Needs a current context; destroy while it is current.
+/// makes some drivers wait or copy.
 class BlockBuffers {
 public:
     /// Frames that a buffer survives unused, so that techniques that alternate find theirs again.
     static constexpr int kept_frames = 64;
 
-    /// Drops buffers that were unused for more than kept_frames.
     void begin_frame();
 
     /// The buffer with this content, valid for the frame. Fails without GL memory. Precondition:

@@ -35,7 +35,6 @@ vertices_of(const std::vector<terrain::Triangulation>& parts, const scene::Terra
     return vertices;
 }
 
-// `bisection` may be null unless the coarseness is an error.
 NewCut cut_tile(const terrain::Bisection* bisection, const view::Coarseness& coarseness,
                 const scene::TerrainSurface& surface, const terrain::Tile& tile,
                 const LastCut& last) {

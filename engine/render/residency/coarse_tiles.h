@@ -15,13 +15,12 @@
 namespace reljef::render {
 
 /// Tiles whose triangles are chosen per frame. Triangulated when the coarseness changes, uploaded
-/// when the triangles change. Needs a current context; destroy while it is current.
+/// when the triangles change.
 class CoarseTiles {
 public:
     /// Precondition: `draw` is of a prepared list.
     [[nodiscard]] std::span<const ResidentMesh> tile(const view::TileDraw& draw) const;
 
-    /// Triangulates and uploads the list's coarse tiles. Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
 
     /// Begins a frame: drops tiles without a scene and tiles that were not drawn for long.
@@ -29,10 +28,10 @@ public:
 
 private:
     struct CutTile {
-        int version = -1; // of its Cut
+        int version = -1;
         std::vector<terrain::Triangulation> parts;
-        std::vector<std::vector<view::GridVertex>> vertices; // per part
-        std::vector<ResidentMesh> meshes;                    // per part
+        std::vector<std::vector<view::GridVertex>> vertices;
+        std::vector<ResidentMesh> meshes;
     };
     struct Cut {
         std::weak_ptr<const scene::TerrainSurface> owner;

@@ -21,15 +21,13 @@ struct ResidentGround {
     gl::Texture2D surface;
     glm::vec4 ground_from_sample{0.0F};
 };
-/// Fails without GL memory.
 Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_from_sample,
                                        view::FrameStats& stats);
 
 /// The surface detail of terrains in GPU memory: its tiles, and the maps of the ground, again when
-/// the sun moves. Needs a current context; destroy while it is current.
+/// the sun moves.
 class GroundResidency {
 public:
-    /// Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
 
     /// Precondition: prepared; the list shows detail on the terrain.

@@ -119,7 +119,6 @@ double volume(const std::array<HullCorner, 4>& part) {
     return glm::dot(from_first(1), glm::cross(from_first(2), from_first(3)));
 }
 
-// Whether the side opposite the corner `across` lies on a hard edge.
 bool is_on_hard_edge(const std::array<HullCorner, 4>& part, std::size_t across,
                      const std::set<Edge>& hard) {
     std::set<std::uint32_t> places;

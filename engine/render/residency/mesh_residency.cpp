@@ -22,7 +22,6 @@ struct PlainVertex {
     glm::vec3 normal;
 };
 
-// As in tile_vertex.glsl.
 struct TexturedVertex {
     glm::vec3 position;
     glm::vec3 normal;
@@ -49,7 +48,6 @@ bool has_tile(const view::MeshDraw& draw) {
     return draw.mesh->material.detail.set != nullptr;
 }
 
-// Null for other techniques.
 const scene::Displacement* displacement_of(const view::MeshDraw& draw) {
     const scene::TechniqueParameters& parameters = draw.mesh->material.technique.parameters;
     return has_tile(draw) ? std::get_if<scene::Displacement>(&parameters) : nullptr;

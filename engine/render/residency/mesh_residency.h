@@ -27,10 +27,9 @@ struct ResidentHull {
 
 /// Meshes in GPU memory: triangles, surface detail, displaced triangles and hulls. Drawn content is
 /// uploaded and stays as long as the scene has it; displaced triangles and hulls as long as they
-/// are drawn. Needs a current context; destroy while it is current.
+/// are drawn.
 class MeshResidency {
 public:
-    /// Fails without GL memory.
     Result<void> prepare(const std::vector<view::MeshDraw>& draws, const scene::Camera& camera,
                          view::FrameStats& stats);
 

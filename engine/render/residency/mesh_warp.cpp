@@ -13,7 +13,6 @@
 namespace reljef::render {
 namespace {
 
-// The samples of a warp and their texture coordinates.
 struct WarpGrid {
     glm::ivec2 count{1};
     glm::dvec2 low{0.0};
@@ -51,7 +50,6 @@ Grid<float> heights_above(const WarpGrid& grid, const scene::SurfaceDetail& deta
     return above;
 }
 
-// The eye in columns, rows and heights above the mesh.
 glm::dvec4 eye_on_grid(const WarpGrid& grid, const scene::TexturePlane& plane, double lift,
                        glm::dvec4 local_eye) {
     const glm::dmat3 local_from_plane(plane.along_u, plane.along_v, lift * plane.normal);

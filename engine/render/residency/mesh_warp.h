@@ -8,7 +8,6 @@
 
 namespace reljef::render {
 
-/// Per warp of a mesh.
 inline constexpr int max_warp_samples = 1 << 20;
 
 /// Forward warping (prewarp.h) of a relief tile on a flat mesh. The samples cover the mesh's

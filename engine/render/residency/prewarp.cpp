@@ -64,7 +64,6 @@ void warp_row(GridView<const float> heights, int row, const Warp& warp, Grid<War
     });
 }
 
-// Warps a column of the warped rows.
 void warp_column(const Grid<Warped>& rows, int col, const Warp& warp, Grid<glm::vec2>& places) {
     std::vector<Warped> line(static_cast<std::size_t>(rows.rows()));
     for (int row = 0; row < rows.rows(); ++row) {

@@ -35,7 +35,6 @@ private:
     glm::dvec2 nearest_{0.0};
 };
 
-/// The eye of a camera for Warp, local metres.
 glm::dvec4 warp_eye(const scene::Camera& camera, const glm::dmat4& world_from_local);
 
 /// The column and row of the surface that each sample of the reference plane shows; negative if

@@ -50,7 +50,6 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
     return upload_light(surface, parts.sky, parts.sun, stats);
 }
 
-// Computes missing cones.
 Result<gl::Texture2D> cone_texture(const std::shared_ptr<const material::ConeMaps>& cones,
                                    const Grid<float>& heights, view::FrameStats& stats) {
     const Grid<glm::vec2> texels =

@@ -29,7 +29,6 @@ struct ResidentMaps {
     glm::vec4 lit_from_sample{0.0F};
 };
 
-/// The heights of a relief search.
 struct ResidentRelief {
     ReliefSpace space;
     gl::Texture2D heights;
@@ -38,7 +37,7 @@ struct ResidentRelief {
 };
 
 /// The scene's content in GPU memory. Drawn content is uploaded and stays as long as the scene has
-/// its surface. Needs a current context; destroy while it is current.
+/// its surface.
 class Residency {
 public:
     /// Uploads the list's content and counts it in `stats`. Fails without GL memory.
@@ -89,7 +88,7 @@ private:
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     CoarseTiles coarse_tiles_;
     StreamedTiles streamed_tiles_;
-    std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_; // of the frame
+    std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_;
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     MeshResidency meshes_;
     GroundResidency ground_;

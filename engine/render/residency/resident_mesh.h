@@ -14,7 +14,6 @@
 
 namespace reljef::render {
 
-/// Triangles in GPU memory.
 struct ResidentMesh {
     gl::Buffer vertices;
     gl::VertexArray vertex_array;
@@ -22,7 +21,6 @@ struct ResidentMesh {
     gl::Buffer indices; ///< empty if shared
 };
 
-/// Counts an upload to a buffer or texture.
 void count_upload(view::FrameStats& stats, std::size_t bytes);
 
 template <class T> std::span<const std::byte> bytes_of(const std::vector<T>& values) {

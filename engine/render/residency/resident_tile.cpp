@@ -72,7 +72,6 @@ glm::vec2 rms_rise(const Grid<float>& heights, bool wraps) {
     return glm::vec2(glm::sqrt(sum / static_cast<double>((all.cols() - 1) * (all.rows() - 1))));
 }
 
-// Null if they were not precomputed.
 std::shared_ptr<const material::ConeMaps> known_cones(const material::ReliefMaterial& set,
                                                       const TileSide& side) {
     const auto found =

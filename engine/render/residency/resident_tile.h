@@ -13,17 +13,14 @@
 
 namespace reljef::render {
 
-/// The colours and normals of a surface detail's tile.
 struct ResidentTile {
     gl::Texture2D color;
     gl::Texture2D normals;
     glm::vec3 mean_color{1.0F}; ///< linear
 };
-/// Fails without GL memory.
 Result<ResidentTile> resident_tile(const material::ReliefMaterial& set, bool wraps,
                                    view::FrameStats& stats);
 
-/// The searched surface of a tile.
 struct TileSide {
     std::optional<material::LayerKind> layers; ///< empty: the heights
     bool wraps = true;
@@ -53,7 +50,6 @@ struct ResidentSurface {
     std::optional<gl::Texture2D> max_mipmap; ///< for exact
     std::optional<gl::Texture2D> cones;      ///< for cone
 };
-/// Fails without GL memory.
 Result<ResidentSurface> resident_surface(const material::ReliefMaterial& set, const TileSide& side,
                                          view::FrameStats& stats);
 /// Precondition: a surface without layers.

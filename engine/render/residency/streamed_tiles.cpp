@@ -25,7 +25,6 @@ PlacedVertex placed(const view::StreamedDraw& draw, glm::ivec2 vertex) {
     return {tile.place(vertex), tile.heights(vertex.x, vertex.y)};
 }
 
-// The draws of each stream, by tile.
 std::map<const scene::TileStream*, StreamedByTile> draws_by_stream(const view::DrawList& list) {
     std::map<const scene::TileStream*, StreamedByTile> streams;
     for (const view::StreamedDraw& draw : list.streamed_tiles) {

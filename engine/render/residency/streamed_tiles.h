@@ -22,7 +22,6 @@ namespace reljef::render {
 
 using StreamedByTile = std::map<terrain::TreeTile, const view::StreamedDraw*>;
 
-/// A streamed tile in GPU memory.
 struct ResidentStreamed {
     ResidentMesh mesh;
     std::optional<gl::Texture2D> lit;
@@ -32,14 +31,11 @@ struct ResidentStreamed {
 
 /// The tiles of streamed terrains. Uploaded on first use, and again when a neighbour moves their
 /// border or changes its heights, or when the sun moves. Dropped when the stream drops them or
-/// after some frames unused: most tiles of a stream are ancestors of the drawn ones. Needs a
-/// current context; destroy while it is current.
+/// after some frames unused: most tiles of a stream are ancestors of the drawn ones.
 class StreamedTiles {
 public:
-    /// Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
 
-    /// Adds precomputed light for the next frame.
     void add_light(const std::shared_ptr<scene::TileStream>& stream,
                    const scene::TerrainLight& light,
                    std::shared_ptr<const scene::TerrainIrradiance> irradiance);
@@ -56,14 +52,13 @@ private:
         std::uint64_t uploaded = 0; // frame of the vertices
         bool flat = false;
         std::vector<terrain::EdgeMove> moves;
-        std::set<terrain::TreeTile> moved_to; // their target tiles
+        std::set<terrain::TreeTile> moved_to;
         std::optional<scene::TerrainLight> light;
         std::optional<ResidentStreamed> resident;
         bool is_whole = false;                  // the resident mesh has all triangles
         std::vector<view::GridVertex> vertices; // all vertices of a mesh that is not whole
         view::StreamedCut cut;
     };
-    // The tiles of a stream in the last frame.
     struct Cover {
         std::weak_ptr<const scene::TileStream> owner;
         terrain::DrawnTiles tiles;

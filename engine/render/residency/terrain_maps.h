@@ -36,7 +36,6 @@ struct LightRequest {
     int largest_side = 0;  ///< of the maps, texels
 };
 
-/// Computed light and its request.
 struct PreparedLight {
     LightRequest request;
     Image lit; ///< or the sky's part; empty for a streamed terrain

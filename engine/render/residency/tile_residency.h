@@ -14,8 +14,7 @@ namespace reljef::render {
 /// The layers that a technique searches; empty: the heights.
 std::optional<material::LayerKind> layers_for(scene::TechniqueId id);
 
-/// The surface detail in GPU memory, kept as long as the scene has it. Needs a current context;
-/// destroy while it is current.
+/// The surface detail in GPU memory, kept as long as the scene has it.
 class TileResidency {
 public:
     using Set = std::shared_ptr<const material::ReliefMaterial>;

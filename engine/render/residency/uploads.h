@@ -48,7 +48,6 @@ Result<gl::Texture2D> upload_levels(const std::vector<Grid<float>>& levels,
 Result<gl::Texture2D> upload_places(const Grid<glm::vec4>& places, gl::Texture2D& last,
                                     view::FrameStats& stats);
 
-/// Stores a texture that could be created.
 Result<void> keep(Result<gl::Texture2D> made, std::optional<gl::Texture2D>& place);
 
 /// Values in [-1,1] as rgba16_snorm.

@@ -5,7 +5,6 @@
 namespace reljef::render {
 namespace {
 
-// A technique's shader features and their parameters.
 struct Search {
     std::uint32_t features = 0U;
     TechniqueBlock values{};

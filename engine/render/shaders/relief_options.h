@@ -7,7 +7,6 @@
 
 namespace reljef::render {
 
-/// The shader features (shader_library.h) of a technique and its options.
 std::uint32_t technique_features(const scene::Technique& technique);
 
 /// The height in [0,1] that does not change when heights fade: the reference plane of parallax,

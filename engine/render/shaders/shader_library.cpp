@@ -162,7 +162,6 @@ std::uint32_t search_of(std::uint32_t features) {
     return narrowing | (features & feature_view_steps);
 }
 
-// The options that apply to a search.
 std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
     std::uint32_t options = features & (feature_fade | feature_write_depth);
     const bool follows_rays = (search & feature_parallax) == 0;
@@ -184,7 +183,6 @@ std::uint32_t beams_of(std::uint32_t features, std::uint32_t search) {
     return anywhere && (features & feature_fade) == 0 ? features & feature_beams : 0U;
 }
 
-// One lighting method.
 std::uint32_t lighting_of(std::uint32_t features) {
     for (const std::uint32_t method : {feature_normal_map, feature_bump, feature_emboss}) {
         if ((features & method) != 0) {

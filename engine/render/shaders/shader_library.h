@@ -11,7 +11,6 @@
 
 namespace reljef::render {
 
-/// A built-in file of shaders/.
 struct EmbeddedShader {
     std::string_view name;
     std::string_view text;
@@ -21,24 +20,23 @@ std::span<const EmbeddedShader> embedded_shaders();
 enum class ShaderKind {
     terrain,
     relief,
-    beams,            ///< free height of a relief's rays, per block of pixels
-    mesh,             ///< of one colour
-    textured_mesh,    ///< with surface detail
-    relief_mesh,      ///< with a relief search per pixel
-    relief_hull,      ///< the same in a hull around the mesh
-    textured_terrain, ///< with surface detail
-    relief_terrain,   ///< with a relief search per pixel
+    beams, ///< free height of a relief's rays, per block of pixels
+    mesh,  ///< of one colour
+    textured_mesh,
+    relief_mesh, ///< with a relief search per pixel
+    relief_hull, ///< the same in a hull around the mesh
+    textured_terrain,
+    relief_terrain,
     sky,
     average ///< of several pictures, in linear light
 };
 
-/// Whether each pixel searches for its surface along a ray.
 bool searches_for_surface(ShaderKind kind);
 
 /// Preprocessor definitions of a shader variant.
 enum ShaderFeature : std::uint32_t {
-    feature_lit = 1U << 0U, ///< a sun
-    feature_fog = 1U << 1U, ///< air
+    feature_lit = 1U << 0U,
+    feature_fog = 1U << 1U,
     feature_hit = 1U << 2U, ///< writes hits instead of colours
     // Relief search; linear steps without any of these.
     feature_exact = 1U << 3U,      ///< the true first hit
@@ -60,10 +58,10 @@ enum ShaderFeature : std::uint32_t {
     feature_normal_map = 1U << 17U,
     feature_bump = 1U << 18U,
     feature_emboss = 1U << 19U,
-    feature_wrap = 1U << 20U,         ///< the tile on a mesh repeats
-    feature_beams = 1U << 21U,        ///< relief rays begin where their beam may hit
-    feature_layers = 1U << 22U,       ///< relief search: solids between layers
-    feature_multisampled = 1U << 23U, ///< several samples per pixel
+    feature_wrap = 1U << 20U,   ///< the tile on a mesh repeats
+    feature_beams = 1U << 21U,  ///< relief rays begin where their beam may hit
+    feature_layers = 1U << 22U, ///< relief search: solids between layers
+    feature_multisampled = 1U << 23U,
 };
 
 struct ShaderVariant {

@@ -12,7 +12,6 @@
 
 namespace reljef::render {
 
-/// A terrain, or a mesh with surface detail.
 struct DrawnSurface {
     bool is_mesh = false;
     glm::ivec2 samples{0}; ///< of the heights

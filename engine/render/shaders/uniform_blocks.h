@@ -9,7 +9,6 @@
 
 namespace reljef::render {
 
-/// Name, binding and size of a uniform block.
 struct BlockLayout {
     std::string_view name;
     unsigned int binding = 0;

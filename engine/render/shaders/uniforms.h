@@ -48,7 +48,6 @@ struct Uniforms {
     gl::Uniform<float> begin_height{"begin_height"};
     gl::Uniform<float> beam_lift{"beam_lift"};
 
-    // The mean of pictures: average.frag.
     gl::Uniform<int> picture_count{"picture_count"};
 };
 inline constexpr Uniforms uniforms;

@@ -17,7 +17,6 @@ bool is_perspective(const scene::Camera& camera);
 /// The view ray at depth 1 is gl_FragCoord · xy + zw. `size` in pixels.
 glm::vec4 ray_from_pixel(const scene::Camera& camera, glm::ivec2 size);
 
-/// The eye in the local frame, metres.
 glm::dvec3 local_eye(const scene::Camera& camera, const glm::dmat4& world_from_local);
 
 /// From the local frame to world axes with the eye as origin.
