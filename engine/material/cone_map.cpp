@@ -72,7 +72,7 @@ std::vector<Grid<Relief>> relief_pyramid(GridView<const float> heights) {
     return levels;
 }
 
-float steepest_slope(const Relief& relief) {
+float max_slope(const Relief& relief) {
     const float east = std::max(-relief.east.low, relief.east.high);
     const float south = std::max(-relief.south.low, relief.south.high);
     return std::hypot(east, south);
@@ -102,9 +102,9 @@ Grid<Relief> widened(const Grid<Relief>& cells) {
 
 // Bound of the mean slope from a tip to a point that limits its cone, both in this block: the
 // steepest slope. Where the surface falls at the end, also the variation of the gradient.
-float steepest_way(const Relief& block, ConeKind kind) {
-    const float steepest = steepest_slope(block);
-    return kind == ConeKind::plain ? steepest : std::min(steepest, variation(block));
+float slope_bound(const Relief& block, ConeKind kind) {
+    const float slope = max_slope(block);
+    return kind == ConeKind::plain ? slope : std::min(slope, variation(block));
 }
 
 // Up to this distance in cells slopes bound a rise better than minimum and maximum heights do: the
@@ -112,19 +112,19 @@ float steepest_way(const Relief& block, ConeKind kind) {
 constexpr int near_cells = 8;
 
 // Element n: for cells up to n away. Fewer elements when stopped.
-std::vector<Grid<float>> steepest_ways(const Grid<Relief>& cells, ConeKind kind,
-                                       const std::stop_token& stop) {
-    std::vector<Grid<float>> ways;
+std::vector<Grid<float>> slope_bounds(const Grid<Relief>& cells, ConeKind kind,
+                                      const std::stop_token& stop) {
+    std::vector<Grid<float>> bounds;
     Grid<Relief> blocks = cells;
     for (int n = 0; n <= near_cells && !stop.stop_requested(); ++n) {
-        Grid<float> steepest(cells.cols(), cells.rows());
+        Grid<float> slopes(cells.cols(), cells.rows());
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            steepest.samples()[i] = steepest_way(blocks.samples()[i], kind);
+            slopes.samples()[i] = slope_bound(blocks.samples()[i], kind);
         }
-        ways.push_back(std::move(steepest));
+        bounds.push_back(std::move(slopes));
         blocks = widened(blocks);
     }
-    return ways;
+    return bounds;
 }
 
 float min_product(Bounds a, Bounds b) {
@@ -132,11 +132,11 @@ float min_product(Bounds a, Bounds b) {
 }
 
 // A quadrant of directions, mirrored so that both components are >= 0.
-struct Quarter {
+struct Quadrant {
     int east;
     int south;
 };
-constexpr std::array<Quarter, 4> quarters{{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+constexpr std::array<Quadrant, 4> quadrants{{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
 Bounds mirrored(Bounds bounds, int sign) {
     return sign > 0 ? bounds : Bounds{-bounds.high, -bounds.low};
@@ -149,9 +149,9 @@ struct Fan {
 };
 
 // The directions in which a cell may fall.
-std::optional<Fan> falling(const Relief& cell, Quarter quarter) {
-    const float east = mirrored(cell.east, quarter.east).low;
-    const float south = mirrored(cell.south, quarter.south).low;
+std::optional<Fan> falling(const Relief& cell, Quadrant quadrant) {
+    const float east = mirrored(cell.east, quadrant.east).low;
+    const float south = mirrored(cell.south, quadrant.south).low;
     if (east >= 0.0F && south >= 0.0F) {
         return std::nullopt;
     }
@@ -169,9 +169,9 @@ float cross(glm::vec2 a, glm::vec2 b) {
 }
 
 // The steepest possible rise of a cell in a direction of the fan.
-float steepest_in(const Relief& cell, Quarter quarter, const Fan& fan) {
-    const glm::vec2 slope(mirrored(cell.east, quarter.east).high,
-                          mirrored(cell.south, quarter.south).high);
+float max_slope_in(const Relief& cell, Quadrant quadrant, const Fan& fan) {
+    const glm::vec2 slope(mirrored(cell.east, quadrant.east).high,
+                          mirrored(cell.south, quadrant.south).high);
     const bool inside = cross(fan.from, slope) >= 0.0F && cross(slope, fan.to) >= 0.0F;
     return inside ? glm::length(slope)
                   : std::max(glm::dot(slope, fan.from), glm::dot(slope, fan.to));
@@ -182,9 +182,9 @@ constexpr float rounding = 1.0F - 0x1p-20F;
 
 class ConeFinder {
 public:
-    ConeFinder(const std::vector<Grid<Relief>>& levels, const std::vector<Grid<float>>& steepest,
+    ConeFinder(const std::vector<Grid<Relief>>& levels, const std::vector<Grid<float>>& slopes,
                ConeKind kind)
-        : levels_(levels), cells_(levels.front()), steepest_(steepest),
+        : levels_(levels), cells_(levels.front()), slope_bounds_(slopes),
           relaxed_(kind == ConeKind::relaxed) {}
 
     float ratio(glm::ivec2 cell) {
@@ -204,13 +204,13 @@ private:
     };
 
     [[nodiscard]] float slope_within(int cells) const {
-        return steepest_[static_cast<std::size_t>(cells)](cell_.x, cell_.y);
+        return slope_bounds_[static_cast<std::size_t>(cells)](cell_.x, cell_.y);
     }
 
     [[nodiscard]] const Relief* neighbour(int east, int south) const {
         const glm::ivec2 at = cell_ + glm::ivec2(east, south);
-        const bool there = at.x >= 0 && at.y >= 0 && at.x < cells_.cols() && at.y < cells_.rows();
-        return there ? &cells_(at.x, at.y) : nullptr;
+        const bool exists = at.x >= 0 && at.y >= 0 && at.x < cells_.cols() && at.y < cells_.rows();
+        return exists ? &cells_(at.x, at.y) : nullptr;
     }
 
     // For ways that end falling in a neighbour. They rise with the slopes of the cell and of the
@@ -218,20 +218,20 @@ private:
     // slope bounds its mean slope.
     [[nodiscard]] float near_relaxed_ratio() const {
         float slope = own_slope();
-        for (const Quarter quarter : quarters) {
-            const Relief* east = neighbour(quarter.east, 0);
-            const Relief* south = neighbour(0, quarter.south);
-            const Relief* beyond = neighbour(quarter.east, quarter.south);
+        for (const Quadrant quadrant : quadrants) {
+            const Relief* east = neighbour(quadrant.east, 0);
+            const Relief* south = neighbour(0, quadrant.south);
+            const Relief* beyond = neighbour(quadrant.east, quadrant.south);
             for (const Relief* end : {east, south, beyond}) {
-                const auto fan = end == nullptr ? std::nullopt : falling(*end, quarter);
+                const auto fan = end == nullptr ? std::nullopt : falling(*end, quadrant);
                 if (!fan) {
                     continue;
                 }
-                slope = std::max({slope, steepest_in(cells_(cell_.x, cell_.y), quarter, *fan),
-                                  0.5F * steepest_in(*end, quarter, *fan)});
+                slope = std::max({slope, max_slope_in(cells_(cell_.x, cell_.y), quadrant, *fan),
+                                  0.5F * max_slope_in(*end, quadrant, *fan)});
                 if (end == beyond) {
-                    slope = std::max({slope, steepest_in(*east, quarter, *fan),
-                                      steepest_in(*south, quarter, *fan)});
+                    slope = std::max({slope, max_slope_in(*east, quadrant, *fan),
+                                      max_slope_in(*south, quadrant, *fan)});
                 }
             }
         }
@@ -243,7 +243,7 @@ private:
     [[nodiscard]] float own_slope() const {
         const Relief& own = cells_(cell_.x, cell_.y);
         const float twist = own.east.high - own.east.low;
-        return std::min(0.5F * steepest_slope(own), twist / std::sqrt(2.0F));
+        return std::min(0.5F * max_slope(own), twist / std::sqrt(2.0F));
     }
 
     void test_all_cells() {
@@ -278,10 +278,10 @@ private:
     }
 
     // Bounds of the offset from a point of the cell to a point of a block, samples along one axis.
-    static Bounds way_along(int cell, int first, int cells) {
+    static Bounds offset_along(int cell, int first, int cells) {
         return {static_cast<float>(first - cell - 1), static_cast<float>(first + cells - cell)};
     }
-    static float gap_of(Bounds way) { return std::max({way.low, -way.high, 0.0F}); }
+    static float gap_to(Bounds offset) { return std::max({offset.low, -offset.high, 0.0F}); }
 
     [[nodiscard]] bool may_limit(int level, glm::ivec2 at) const {
         const Relief& block = levels_[static_cast<std::size_t>(level)](at.x, at.y);
@@ -290,10 +290,10 @@ private:
             return false;
         }
         const glm::ivec2 first = at * (1 << level);
-        const Bounds east = way_along(cell_.x, first.x, 1 << level);
-        const Bounds south = way_along(cell_.y, first.y, 1 << level);
-        const float gap_east = gap_of(east);
-        const float gap_south = gap_of(south);
+        const Bounds east = offset_along(cell_.x, first.x, 1 << level);
+        const Bounds south = offset_along(cell_.y, first.y, 1 << level);
+        const float gap_east = gap_to(east);
+        const float gap_south = gap_to(south);
         const float limit = ratio_ * rise;
         return gap_east * gap_east + gap_south * gap_south < limit * limit &&
                (!relaxed_ ||
@@ -319,7 +319,7 @@ private:
 
     const std::vector<Grid<Relief>>& levels_;
     const Grid<Relief>& cells_;
-    const std::vector<Grid<float>>& steepest_;
+    const std::vector<Grid<float>>& slope_bounds_;
     bool relaxed_;
     glm::ivec2 cell_{0};
     float ratio_ = 0.0F;
@@ -333,12 +333,12 @@ std::optional<Grid<float>> cone_map(GridView<const float> heights, ConeKind kind
                                     const ParallelOptions& parallel) {
     check(heights.cols() >= 2 && heights.rows() >= 2, "cones need at least 2x2 samples");
     const std::vector<Grid<Relief>> levels = relief_pyramid(heights);
-    const std::vector<Grid<float>> steepest = steepest_ways(levels.front(), kind, parallel.stop);
+    const std::vector<Grid<float>> slopes = slope_bounds(levels.front(), kind, parallel.stop);
     Grid<float> ratios(heights.cols() - 1, heights.rows() - 1);
     const bool done = parallel_for(
         ratios.rows(),
         [&](int row) {
-            ConeFinder finder(levels, steepest, kind);
+            ConeFinder finder(levels, slopes, kind);
             for (int col = 0; col < ratios.cols(); ++col) {
                 ratios(col, row) = finder.ratio({col, row});
             }

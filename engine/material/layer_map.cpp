@@ -74,8 +74,8 @@ Result<void> check_positions(const TileMesh& mesh) {
     constexpr float max_copies = 64.0F;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec3& place = mesh.positions[i];
-        const float farthest = std::max(std::abs(place.x), std::abs(place.y));
-        if (!(farthest <= max_copies) || !std::isfinite(place.z)) {
+        const float max_coordinate = std::max(std::abs(place.x), std::abs(place.y));
+        if (!(max_coordinate <= max_copies) || !std::isfinite(place.z)) {
             return Error{
                 fmt::format("vertex {} of the mesh lies at {}, {}, {}; a place within {} copies "
                             "of the tile was expected",
@@ -141,13 +141,13 @@ std::vector<Solid> solids_of(Column column) {
 
 // The mean of the neighbours with a value; wraps.
 std::optional<float> mean_around(const Grid<std::optional<float>>& values, int col, int row) {
-    constexpr std::array<glm::ivec2, 4> ways{glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1),
-                                             glm::ivec2(0, -1)};
+    constexpr std::array<glm::ivec2, 4> directions{glm::ivec2(1, 0), glm::ivec2(-1, 0),
+                                                   glm::ivec2(0, 1), glm::ivec2(0, -1)};
     float sum = 0.0F;
     int count = 0;
-    for (const glm::ivec2 way : ways) {
-        const auto& other = values(index_beyond(col + way.x, values.cols(), WrapMode::wrap),
-                                   index_beyond(row + way.y, values.rows(), WrapMode::wrap));
+    for (const glm::ivec2 direction : directions) {
+        const auto& other = values(index_beyond(col + direction.x, values.cols(), WrapMode::wrap),
+                                   index_beyond(row + direction.y, values.rows(), WrapMode::wrap));
         sum += other.value_or(0.0F);
         count += other ? 1 : 0;
     }
@@ -231,8 +231,8 @@ Result<LayerMap> LayerMap::create(Grid<glm::vec4> heights) {
     }
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 0; col < heights.cols(); ++col) {
-            if (const auto fault = error_of(heights(col, row))) {
-                return Error{fmt::format("layer map: at column {}, row {} {}", col, row, *fault)};
+            if (const auto error = error_of(heights(col, row))) {
+                return Error{fmt::format("layer map: at column {}, row {} {}", col, row, *error)};
             }
         }
     }

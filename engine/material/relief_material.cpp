@@ -18,28 +18,28 @@ template <class T> std::string size_text(const Grid<T>& grid) {
 }
 
 std::optional<Error> error_of(const ReliefMaterial& set) {
-    const auto fault = [&](const std::string& found, const char* expected) {
+    const auto error = [&](const std::string& found, const char* expected) {
         return Error{
             fmt::format("texture set {}: {} found, {} expected", set.name, found, expected)};
     };
     if (set.color.empty()) {
-        return fault("no colours", "a map of colours was");
+        return error("no colours", "a map of colours was");
     }
     if (set.heights.empty()) {
-        return fault("no heights", "a map of heights was");
+        return error("no heights", "a map of heights was");
     }
     if (!(std::isfinite(set.scale) && set.scale > 0.0F)) {
-        return fault(fmt::format("a scale of {}", set.scale), "a number above 0 was");
+        return error(fmt::format("a scale of {}", set.scale), "a number above 0 was");
     }
     for (const Grid<float>* const heights : {&set.heights, &set.back_heights}) {
         for (const float height : heights->samples()) {
             if (!(height >= 0.0F && height <= 1.0F)) {
-                return fault(fmt::format("a height of {}", height), "heights in [0, 1] were");
+                return error(fmt::format("a height of {}", height), "heights in [0, 1] were");
             }
         }
     }
     if (!set.back_heights.empty() && size_text(set.back_heights) != size_text(set.heights)) {
-        return fault(fmt::format("heights of {} and of the back of {} texels",
+        return error(fmt::format("heights of {} and of the back of {} texels",
                                  size_text(set.heights), size_text(set.back_heights)),
                      "one size was");
     }
@@ -134,8 +134,8 @@ bool has_seam(GridView<const float> heights) {
 }
 
 Result<ReliefMaterial> completed(ReliefMaterial set, WrapMode border) {
-    if (auto fault = error_of(set)) {
-        return *fault;
+    if (auto error = error_of(set)) {
+        return *error;
     }
     if (set.normals.empty()) {
         set.normals = tile_normals(set.heights.view(), set.scale, border);

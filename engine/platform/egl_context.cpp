@@ -93,7 +93,7 @@ Result<std::unique_ptr<Context>> create_egl_context(const ContextOptions& option
     if (!egl) {
         return egl.error();
     }
-    std::string why = "there is no device";
+    std::string reason = "there is no device";
     for (const EglCandidate& candidate : egl_candidates(*egl)) {
         if (devices == EglDevices::hardware && !candidate.hardware) {
             continue;
@@ -103,9 +103,9 @@ Result<std::unique_ptr<Context>> create_egl_context(const ContextOptions& option
             return std::unique_ptr<Context>(
                 std::make_unique<EglContext>(*egl, candidate.display, *context));
         }
-        why = context.error().message;
+        reason = context.error().message;
     }
-    return Error{fmt::format("no EGL display without a window system: {}; {}", why, packages)};
+    return Error{fmt::format("no EGL display without a window system: {}; {}", reason, packages)};
 }
 
 } // namespace reljef::platform

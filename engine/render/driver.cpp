@@ -148,8 +148,8 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     }
     blocks_.begin_frame();
     write_frame_block(list, stats);
-    if (auto there = beam_target_.prepare(list); !there) {
-        return there;
+    if (auto prepared = beam_target_.prepare(list); !prepared) {
+        return prepared;
     }
     return residency_.prepare(list, !hits, stats);
 }

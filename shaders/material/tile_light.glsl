@@ -25,8 +25,8 @@ vec3 normal_of_slope(vec2 slope) {
 // From the map, rescaled to the actual height.
 vec3 mapped_normal(vec2 coordinate, float level) {
 #ifdef LAYERS
-    vec2 lean = vec2(textureLod(normal_map, coordinate, level)[met_layer],
-                     textureLod(normal_map_v, coordinate, level)[met_layer]);
+    vec2 lean = vec2(textureLod(normal_map, coordinate, level)[hit_layer],
+                     textureLod(normal_map_v, coordinate, level)[hit_layer]);
 #else
     vec2 lean = side * textureLod(normal_map, coordinate, level).rg;
 #endif

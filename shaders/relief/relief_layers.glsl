@@ -35,7 +35,7 @@ float part_within(vec3 start, vec3 span, float low, float high, vec2 over, vec2 
     return within;
 }
 
-// Between `part`, outside, and `inner`, inside. Sets met_layer.
+// Between `part`, outside, and `inner`, inside. Sets hit_layer.
 float entry_part(vec3 start, vec3 span, float part, float inner) {
     for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (part + inner);
@@ -50,7 +50,7 @@ float entry_part(vec3 start, vec3 span, float part, float inner) {
     vec2 depths = min(inner_layers.xz - inner_point.z, inner_point.z - inner_layers.yw);
     int solid = depths.x > depths.y ? 0 : 1;
     bool from_above = outer_point.z > middles_of(outer_layers)[solid];
-    met_layer = 2 * solid + (from_above ? 0 : 1);
+    hit_layer = 2 * solid + (from_above ? 0 : 1);
     float out_by = max(outer_point.z - outer_layers[2 * solid],
                        outer_layers[2 * solid + 1] - outer_point.z);
     float in_by = depths[solid];

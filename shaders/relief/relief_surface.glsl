@@ -23,10 +23,10 @@ float depth_between(vec4 layers, float height) {
     return max(depths.x, depths.y);
 }
 
-int met_layer = 0; // of the last hit
+int hit_layer = 0; // of the last hit
 
 float height_at(vec2 place) {
-    return layers_at(place)[met_layer];
+    return layers_at(place)[hit_layer];
 }
 
 float depth_in_surface(vec3 point) {
@@ -35,7 +35,7 @@ float depth_in_surface(vec3 point) {
 
 // 1 up, -1 down.
 float outward() {
-    return (met_layer & 1) == 0 ? 1.0 : -1.0;
+    return (hit_layer & 1) == 0 ? 1.0 : -1.0;
 }
 #else
 float height_at(vec2 place) {

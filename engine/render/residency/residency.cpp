@@ -201,12 +201,12 @@ Result<void> Residency::prepare_maps(const view::DrawList& list, const scene::Te
 Result<std::shared_ptr<const ResidentMaps>>
 Residency::maps_for(const scene::TerrainNode& terrain,
                     const std::optional<scene::TerrainLight>& light, view::FrameStats& stats) {
-    std::vector<LitMaps>& there = surface_of(terrain.surface).maps;
+    std::vector<LitMaps>& entries = surface_of(terrain.surface).maps;
     const bool in_parts = light && terrain.material.technique.options.shadow;
-    const auto found = std::find_if(there.begin(), there.end(), [&](const LitMaps& entry) {
+    const auto found = std::find_if(entries.begin(), entries.end(), [&](const LitMaps& entry) {
         return entry.light == light && entry.in_parts == in_parts;
     });
-    if (found != there.end()) {
+    if (found != entries.end()) {
         ++stats.skipped.uploads_unchanged;
         return found->maps;
     }
@@ -214,8 +214,8 @@ Residency::maps_for(const scene::TerrainNode& terrain,
     if (!maps) {
         return maps.error();
     }
-    there.push_back({light, in_parts, std::make_shared<const ResidentMaps>(std::move(*maps))});
-    return there.back().maps;
+    entries.push_back({light, in_parts, std::make_shared<const ResidentMaps>(std::move(*maps))});
+    return entries.back().maps;
 }
 
 Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::FrameStats& stats) {
