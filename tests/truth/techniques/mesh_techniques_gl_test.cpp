@@ -13,6 +13,7 @@
 
 #include "engine/render/driver.h"
 #include "engine/render/shaders/frame_block.h"
+#include "engine/truth/geometric_error.h"
 #include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 #include "tests/truth/techniques/tile_panel.h"
