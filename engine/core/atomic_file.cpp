@@ -25,7 +25,8 @@ Result<AtomicFile> AtomicFile::create(fs::path target) {
         return Error{fmt::format("{}: cannot be written: there is no folder {}", target.string(),
                                  folder.string())};
     }
-    if (fs::exists(target, code) && !fs::is_regular_file(target, code)) { // not over /dev/null
+    if (fs::exists(target, code) &&
+        !fs::is_regular_file(target, code)) { // never replaces /dev/null
         return Error{fmt::format("{}: cannot be written: it is a {}, a file was expected",
                                  target.string(),
                                  fs::is_directory(target, code) ? "folder" : "device")};
@@ -67,7 +68,7 @@ Result<void> AtomicFile::commit() {
     return {};
 }
 
-// A second name of the same file; a copy where the file system has none.
+// The backup is a hard link, or a copy if the file system has no hard links.
 Result<void> AtomicFile::commit_revertibly() {
     std::error_code code;
     if (fs::exists(target_, code)) {
@@ -95,9 +96,9 @@ void AtomicFile::revert() noexcept {
 
 void AtomicFile::remove() noexcept {
     std::error_code ignored;
-    for (const fs::path* const left : {&temporary_, &replaced_}) {
-        if (!left->empty()) {
-            fs::remove(*left, ignored);
+    for (const fs::path* const leftover : {&temporary_, &replaced_}) {
+        if (!leftover->empty()) {
+            fs::remove(*leftover, ignored);
         }
     }
 }

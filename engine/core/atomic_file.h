@@ -10,8 +10,8 @@
 
 namespace reljef {
 
-/// An output file that appears whole or not at all: write to `temporary()`, then `commit()`. What
-/// is not committed is removed.
+/// An output file that appears whole or not at all: write to `temporary()`, then `commit()`. The
+/// destructor removes a file that is not committed.
 class AtomicFile {
 public:
     /// Fails with one sentence when the folder of `target` does not exist or cannot be written.
@@ -29,10 +29,9 @@ public:
 
     /// Renames the temporary file to the target.
     Result<void> commit();
-    /// The same, and keeps what was at the target beside it until this is destroyed.
+    /// commit() that keeps a copy of the old target until the destructor.
     Result<void> commit_revertibly();
-    /// What is there now goes; what was there before comes back. Precondition: commit_revertibly()
-    /// was called and succeeded.
+    /// Restores the old target. Precondition: commit_revertibly() succeeded.
     void revert() noexcept;
 
 private:
@@ -42,19 +41,17 @@ private:
 
     std::filesystem::path target_;
     std::filesystem::path temporary_;
-    std::filesystem::path replaced_; // what the target was; empty: nothing was there
+    std::filesystem::path replaced_; // copy of the old target; empty: none
 };
 
-/// Commits all files; where one cannot be, those before it are put back as they were. A reader
-/// sees each as it was or as it is now, at any time.
+/// Commits all files or none. At any time a reader sees each file either old or new.
 Result<void> commit_all(std::span<AtomicFile> files);
 
-/// Writes `bytes` beside `path`; a commit() puts them there.
+/// Writes `bytes` to the temporary file of `path`, ready for commit().
 Result<AtomicFile> prepare_file(const std::filesystem::path& path,
                                 std::span<const std::byte> bytes);
-/// Writes `bytes` to `path`, whole or not at all.
+/// Writes a file whole or not at all.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
-/// The same of a text.
 Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// The content of a file of at most `limit` bytes.

@@ -5,9 +5,8 @@
 
 namespace reljef {
 
-/// When to try again what fails: after a pause, then after four times as long, and so on; what has
-/// failed `max_attempts` times is given up for half a minute, tried once more, and so on. Failures
-/// within one pause are one, however many threads meet them.
+/// Retry times: each pause is four times the one before. After `max_attempts` failures the pause
+/// is `long_pause`. All failures within one pause count as one.
 class BackOff {
 public:
     using Clock = std::chrono::steady_clock;
@@ -25,9 +24,9 @@ public:
             pause_ = attempts_ < max_attempts ? 4 * pause_ : pause_;
         }
     }
-    /// When the pause is over.
+    /// End of the pause.
     [[nodiscard]] Clock::time_point again() const { return again_; }
-    /// Whether it has failed `max_attempts` times, if it be tried once in a while since.
+    /// Whether it has failed `max_attempts` times; retries still happen every `long_pause`.
     [[nodiscard]] bool has_failed_for_good() const { return attempts_ >= max_attempts; }
     [[nodiscard]] bool is_given_up(Clock::time_point now) const {
         return has_failed_for_good() && now < again_;

@@ -7,8 +7,8 @@
 
 namespace reljef {
 
-/// Bilinear between the four samples around `place` (col, row; the caller keeps it inside the
-/// grid); `value(sample)` makes of a sample a float or vector that can be mixed.
+/// Bilinear interpolation at `place` (col, row). `value(sample)` converts a sample to a float or
+/// vector. Precondition: `place` lies inside the grid.
 template <class T, class Value>
 auto bilinear(const Grid<T>& grid, glm::dvec2 place, const Value& value) {
     const glm::ivec2 last(grid.cols() - 1, grid.rows() - 1);

@@ -6,7 +6,7 @@
 
 namespace reljef {
 
-/// Prints `what` and aborts: for broken preconditions, never for bad input.
+/// Prints `what` and aborts. For broken preconditions only, never for bad input.
 [[noreturn]] void abort_with(const char* what);
 
 inline void check(bool condition, const char* what) {

@@ -19,9 +19,9 @@ std::array<float, 256> linear_values() {
     return values;
 }
 
-// The least float in [0, 1] that is encoded as `byte` or more: encoding never falls.
+// The smallest float in [0, 1] that encodes to at least `byte`. Encoding is monotonic.
 float min_linear_of(int byte) {
-    std::uint32_t low = 0; // as bits, non-negative floats are in the order of their values
+    std::uint32_t low = 0; // bit patterns of non-negative floats are ordered like their values
     std::uint32_t high = std::bit_cast<std::uint32_t>(1.0F);
     while (low < high) {
         const std::uint32_t middle = low + (high - low) / 2;
@@ -34,12 +34,12 @@ float min_linear_of(int byte) {
     return std::bit_cast<float>(low);
 }
 
-// The same bytes as by the formula, whose power takes twenty times as long.
+// Table lookup with the same bytes as the formula, twenty times faster than its power.
 class SrgbBytes {
 public:
     SrgbBytes() {
-        for (std::size_t byte = 0; byte < least_.size(); ++byte) {
-            least_[byte] = min_linear_of(static_cast<int>(byte));
+        for (std::size_t byte = 0; byte < min_linear_.size(); ++byte) {
+            min_linear_[byte] = min_linear_of(static_cast<int>(byte));
         }
         for (std::size_t i = 0; i < first_.size(); ++i) {
             first_[i] = byte_from_unit(srgb_from_linear(static_cast<float>(i) / steps));
@@ -53,7 +53,7 @@ public:
             return 255;
         }
         std::uint8_t byte = first_[static_cast<std::size_t>(linear * steps)];
-        while (byte < 255 && linear >= least_[byte + 1U]) {
+        while (byte < 255 && linear >= min_linear_[byte + 1U]) {
             ++byte;
         }
         return byte;
@@ -61,7 +61,7 @@ public:
 
 private:
     static constexpr float steps = 4096.0F;
-    std::array<float, 256> least_{};
+    std::array<float, 256> min_linear_{};
     std::array<std::uint8_t, 4096> first_{};
 };
 

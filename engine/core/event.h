@@ -6,7 +6,7 @@
 
 namespace reljef {
 
-/// A key by what is printed on it (US layout), wherever it stands on the user's keyboard.
+/// A key, named by its label on the US layout.
 enum class Key {
     unknown,
     // clang-format off
@@ -27,7 +27,6 @@ enum class Key {
 
 enum class MouseButton { left, right, middle, other };
 
-/// Which modifier keys were down.
 struct Modifiers {
     bool shift = false;
     bool control = false;
@@ -37,12 +36,11 @@ struct Modifiers {
     friend bool operator==(const Modifiers&, const Modifiers&) = default;
 };
 
-/// Left and right shift, control, alt and super are one key each; the keypad's plus, minus, enter
-/// and digits are those of the main block, and `=` is plus.
+/// Left and right modifiers are the same key. Keypad keys are those of the main block. `=` is plus.
 struct KeyEvent {
     Key key = Key::unknown;
     bool pressed = false; ///< false: released
-    bool repeat = false;  ///< pressed again by holding it down
+    bool repeat = false;  ///< auto-repeat of a held key
     Modifiers modifiers{};
 };
 
@@ -63,8 +61,8 @@ struct ScrollEvent {
     glm::dvec2 offset{0.0, 0.0};
 };
 
-/// The new size in pixels, 0 by 0 while the window is minimized; or the old one, where the picture
-/// must be shown again because the window was covered.
+/// Framebuffer size in pixels; 0×0 while minimized. The size is unchanged if the window only needs
+/// a redraw.
 struct ResizeEvent {
     glm::ivec2 framebuffer{0, 0};
 };
@@ -72,7 +70,7 @@ struct ResizeEvent {
 /// The user asked to close the window.
 struct CloseEvent {};
 
-/// The window got or lost the keyboard.
+/// The window gained or lost keyboard focus.
 struct FocusEvent {
     bool focused = false;
 };

@@ -9,8 +9,8 @@
 namespace reljef {
 namespace {
 
-// The nearest float. Volatile: where g++ 12 vectorizes, it takes the way to float and back for none
-// at all, and the rest is 0.
+// The nearest float. Volatile because vectorized code of g++ 12 drops the conversion to float and
+// back.
 double rounded_to_float(double value) {
     const volatile float rounded = static_cast<float>(value);
     return rounded;
@@ -38,8 +38,8 @@ Box transformed(const glm::dmat4& to_from_local, const Box& box) {
     if (box.empty()) {
         return {};
     }
-    // Each axis moves the corners by itself (Arvo 1990). Summed up as a product of matrix and
-    // corner is, so that the sides are those of the outermost corners to the bit.
+    // Arvo 1990: each axis contributes separately. The order of the sums is that of a matrix-vector
+    // product, so the result equals the transformed corners bit for bit.
     std::array<Box, 3> moved;
     for (int axis = 0; axis < 3; ++axis) {
         const glm::dvec3 low = glm::dvec3(to_from_local[axis]) * box.low[axis];

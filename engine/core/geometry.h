@@ -11,11 +11,10 @@
 
 namespace reljef {
 
-/// How far from the origin anything may be placed, metres: there doubles still tell a
-/// ten-thousandth of a millimetre apart, and the whole Earth is well inside.
+/// Maximum coordinate, metres. Doubles still resolve 1e-7 m there, and the whole Earth fits.
 inline constexpr double world_reach = 1e9;
 
-/// A point as the nearest floats and what those leave of it, in floats: together twice the digits.
+/// A point as two floats per axis: the nearest float and the remainder, with twice the precision.
 struct SplitPoint {
     glm::vec3 rounded{0.0F};
     glm::vec3 rest{0.0F};
@@ -30,16 +29,15 @@ struct Box {
     [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
     [[nodiscard]] glm::dvec3 center() const { return 0.5 * (low + high); }
     [[nodiscard]] glm::dvec3 size() const { return high - low; }
-    /// Grows to hold the point.
+    /// Grows to contain the point or box.
     void add(glm::dvec3 point);
-    /// Grows to hold the box; an empty one changes nothing.
     void add(const Box& box);
 };
 
-/// The box around a box moved by an affine transform.
+/// Bounding box of a box under an affine transform.
 Box transformed(const glm::dmat4& to_from_local, const Box& box);
 
-/// Points origin + t·direction, t >= 0; the direction need not be of unit length.
+/// Points origin + t·direction, t >= 0; the direction may have any length.
 struct Ray {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0, 0.0, -1.0};
@@ -48,30 +46,25 @@ struct Ray {
 };
 bool is_finite(const Ray& ray);
 
-/// A range of t.
 struct Interval {
     double begin = 0.0;
     double end = 0.0;
 };
 
-/// The part of `range` (all t >= 0) in which a ray is inside a box, if any (slab method; a
-/// direction of 0 along an axis is allowed).
+/// The part of `range` in which a ray is inside a box (slab method). Direction components may be 0.
 std::optional<Interval> intersect(const Ray& ray, const Box& box,
                                   Interval range = {0.0, std::numeric_limits<double>::infinity()});
 
-/// The half-spaces a camera sees, each dot(normal, p) + offset >= 0. With an infinite far plane one
-/// of them always holds.
+/// The six half-spaces of a camera, each dot(normal, p) + offset >= 0.
 class Frustum {
 public:
     /// From a matrix with clip z in [0, w] (Gribb & Hartmann 2001).
     explicit Frustum(const glm::dmat4& clip_from_world);
 
-    /// False only for an empty box or one wholly outside one of the planes: conservative, never
-    /// drops a visible one.
+    /// Conservative: false only if the box is empty or wholly outside one plane.
     [[nodiscard]] bool may_see(const Box& box) const;
 
-    /// The same half-spaces in local coordinates: boxes there need not be transformed, and stay as
-    /// tight as they are.
+    /// The same half-spaces in local coordinates.
     [[nodiscard]] Frustum in_local(const glm::dmat4& world_from_local) const;
 
 private:

@@ -11,15 +11,14 @@
 
 namespace reljef {
 
-/// A borrowed rectangle of samples. `col` grows east, `row` grows south; rows lie `stride` elements
-/// apart. Valid as long as the grid it was taken from.
+/// A view of a rectangle of samples. `col` grows east, `row` grows south; rows lie `stride`
+/// elements apart.
 template <class T> class GridView {
 public:
     GridView() = default;
     GridView(T* data, int cols, int rows, std::ptrdiff_t stride)
         : data_(data), cols_(cols), rows_(rows), stride_(stride) {}
 
-    /// A view of mutable samples is a view of constant ones.
     operator GridView<const T>() const requires(!std::is_const_v<T>) {
         return {data_, cols_, rows_, stride_};
     }
@@ -33,8 +32,7 @@ public:
         return {data_ + index * stride_, static_cast<std::size_t>(cols_)};
     }
 
-    /// The sample at (col, row), each moved to the nearest one that exists. Precondition: not
-    /// empty.
+    /// The sample at (col, row) clamped to the grid. Precondition: not empty.
     T& clamped(int col, int row) const {
         return (*this)(std::clamp(col, 0, cols_ - 1), std::clamp(row, 0, rows_ - 1));
     }
@@ -66,12 +64,10 @@ public:
     [[nodiscard]] int cols() const { return cols_; }
     [[nodiscard]] int rows() const { return rows_; }
     [[nodiscard]] bool empty() const { return samples_.empty(); }
-    /// Number of samples.
     [[nodiscard]] std::size_t size() const { return samples_.size(); }
 
     T& operator()(int col, int row) { return samples_[index(col, row)]; }
     const T& operator()(int col, int row) const { return samples_[index(col, row)]; }
-    /// See GridView::clamped.
     [[nodiscard]] const T& clamped(int col, int row) const { return view().clamped(col, row); }
 
     [[nodiscard]] std::span<T> samples() { return samples_; }

@@ -6,9 +6,11 @@
 
 namespace reljef {
 
-/// What one pixel shows: a place on the heightfield (samples), its height (true metres) and its
-/// depth along the view axis (scene metres). On a mesh with a tile of detail: the place in the tile
-/// (texels) and its height there in [0,1]; on any other mesh −1, −1, 0. Sky: −1, −1, 0, infinity.
+/// Surface point of a pixel.
+/// - Terrain: (col, row) in samples, height in true metres, depth along the view axis in scene
+///   metres.
+/// - Mesh with surface detail: (col, row) in texels, height in [0,1]. Other mesh: −1, −1, 0.
+/// - Sky: −1, −1, 0, infinity.
 struct Hit {
     float col = -1.0F;
     float row = -1.0F;

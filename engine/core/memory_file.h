@@ -8,11 +8,10 @@
 
 namespace reljef {
 
-/// A file that lies in memory and has a name: for libraries that write to names and tell too little
-/// of what went wrong on a disk. It goes when the object goes.
+/// A file in memory with a path, for libraries that write to paths and report disk errors badly.
 class MemoryFile {
 public:
-    /// Fails where the system has no descriptor or memory left.
+    /// Fails without a free file descriptor or memory.
     static Result<MemoryFile> create();
 
     MemoryFile(MemoryFile&& other) noexcept;
@@ -21,7 +20,7 @@ public:
     MemoryFile& operator=(const MemoryFile&) = delete;
     ~MemoryFile();
 
-    /// Means this file in this process only.
+    /// Valid in this process only.
     [[nodiscard]] std::filesystem::path path() const;
     [[nodiscard]] int descriptor() const { return descriptor_; }
     [[nodiscard]] Result<std::vector<std::byte>> bytes() const;

@@ -11,8 +11,8 @@
 namespace reljef {
 namespace detail {
 
-// Two digits of the three of a float, whose bits have its order as it is not negative: the last
-// tells apart what differs by less than 2^-13 of it.
+// Radix sort by the upper two of a float's three 11-bit digits. Bit patterns of non-negative floats
+// are ordered like their values. The ignored digit is below 2^-13 of the value.
 constexpr unsigned digit_bits = 11;
 constexpr unsigned first_digit = 10;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
@@ -37,9 +37,8 @@ template <class Item> std::vector<Item> sorted_by_digit(std::vector<Item>&& item
 
 } // namespace detail
 
-/// From the least `distance` to the greatest, equal ones in their order. Takes time in proportion
-/// to how many there are where those are spread: by digits (radix sort), then what these leave.
-/// Precondition: no distance is negative or no number.
+/// Stable sort by `distance`, ascending: a radix sort, then an insertion sort. Linear time for
+/// spread distances. Precondition: distances are not negative and not NaN.
 template <class Item> std::vector<Item> nearest_first(std::vector<Item> items) {
     for (unsigned shift = detail::first_digit; shift < 32; shift += detail::digit_bits) {
         items = detail::sorted_by_digit(std::move(items), shift);

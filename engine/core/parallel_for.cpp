@@ -40,7 +40,7 @@ bool parallel_for(int count, const std::function<void(int index)>& body,
             try {
                 threads.emplace_back(work);
             } catch (const std::system_error&) {
-                break; // the system gives no more threads: those that run do all the work
+                break; // no more threads: the running ones do all the work
             }
         }
         work();

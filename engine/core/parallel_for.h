@@ -5,21 +5,20 @@
 
 namespace reljef {
 
-/// Told how far a long operation has come, in [0,1], from whichever thread did the work, one call
-/// at a time. Empty: nobody listens.
+/// Receives the progress in [0,1]. Called from any worker thread, one call at a time. May be empty.
 using Progress = std::function<void(double fraction)>;
 
-/// Worker threads to use when `requested` is 0: as many as the machine has, at least 1.
+/// `requested`, or the machine's number of threads if it is 0; at least 1.
 unsigned thread_count(unsigned requested);
 
 struct ParallelOptions {
-    unsigned threads = 0; ///< 0: as many as the machine has
-    std::stop_token stop; ///< no new item begins once a stop is asked for
-    Progress progress;    ///< see Progress
+    unsigned threads = 0; ///< 0: one per hardware thread
+    std::stop_token stop; ///< no new item starts after a stop request
+    Progress progress;
 };
 
-/// Calls `body(index)` once for every index in [0, count), from several threads at a time, and
-/// returns when all are done. `body` must not throw. Returns false when it was stopped early.
+/// Calls `body(index)` for every index in [0, count) from several threads and waits for all.
+/// Returns false if it was stopped early. `body` must not throw.
 bool parallel_for(int count, const std::function<void(int index)>& body,
                   const ParallelOptions& options = {});
 

@@ -4,11 +4,11 @@
 
 namespace reljef {
 
-/// What this process has of the machine's memory for itself, bytes; 0 where the system does not
-/// tell. Pages of programs and files are left out: the system takes them back when it needs them.
+/// Resident memory of this process without file pages, bytes; 0 if unknown. File pages do not count
+/// because the system can reclaim them.
 struct ProcessMemory {
     std::size_t now = 0;
-    std::size_t most = 0; ///< since it began, as far as the pages left out were never fewer
+    std::size_t most = 0; ///< peak, if file pages never were fewer than now
 };
 ProcessMemory process_memory();
 

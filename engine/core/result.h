@@ -9,11 +9,9 @@
 
 namespace reljef {
 
-/// Why something could not be done: one sentence that names the file or option, what was found and
-/// what was expected.
+/// One sentence that names the file or option, what was found and what was expected.
 struct Error {
-    /// Whose mistake it is: a file, the machine or an interruption; or the caller, whose options
-    /// are unknown or contradict each other or what they are used on.
+    /// usage: unknown or conflicting options. failure: everything else.
     enum class Kind { failure, usage };
 
     std::string message;
@@ -24,7 +22,7 @@ inline Error usage_error(std::string message) {
     return {std::move(message), Error::Kind::usage};
 }
 
-/// A value or the sentence that says why there is none. Nothing throws across rooms.
+/// A value or an error. Nothing throws across rooms.
 template <class T> class [[nodiscard]] Result {
 public:
     Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
@@ -58,7 +56,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-/// Success, or the sentence that says what failed.
+/// Success or an error.
 template <> class [[nodiscard]] Result<void> {
 public:
     Result() = default;

@@ -25,7 +25,7 @@ double quantile_of_sorted(std::span<const double> samples, double share) {
     return std::lerp(samples[below], samples[above], rank - std::floor(rank));
 }
 
-// The middle one, or the mean of the two in the middle; leaves the samples in another order.
+// Reorders the samples.
 double median_in_place(std::span<double> samples) {
     const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
     std::nth_element(samples.begin(), middle, samples.end());
@@ -33,8 +33,8 @@ double median_in_place(std::span<double> samples) {
                                    : 0.5 * (*middle + *std::max_element(samples.begin(), middle));
 }
 
-// The median of as many samples drawn with replacement, the same on every machine: the generator
-// is that of the standard, its distributions are not.
+// Median of a resample drawn with replacement. The same on every machine: the standard specifies
+// the generator but not the distributions.
 double median_of_resample(std::span<const double> samples, std::mt19937& random) {
     std::vector<double> drawn(samples.size());
     std::generate(drawn.begin(), drawn.end(),
@@ -44,13 +44,8 @@ double median_of_resample(std::span<const double> samples, std::mt19937& random)
 
 } // namespace
 
-double quantile(std::span<const double> samples, double share) {
-    check(share >= 0.0 && share <= 1.0, "a quantile outside [0,1]");
-    return quantile_of_sorted(sorted(samples), share);
-}
-
 double median(std::span<const double> samples) {
-    return quantile(samples, 0.5);
+    return quantile_of_sorted(sorted(samples), 0.5);
 }
 
 Summary summarize(std::span<const double> samples) {

@@ -5,7 +5,7 @@
 
 namespace reljef {
 
-/// The time since it was made, or since the last restart, by the steady clock.
+/// Time since construction or the last restart, by the steady clock.
 class Stopwatch {
 public:
     [[nodiscard]] double seconds() const {
@@ -13,7 +13,7 @@ public:
     }
     [[nodiscard]] double milliseconds() const { return 1000.0 * seconds(); }
 
-    /// Begins anew; returns the seconds until now.
+    /// Returns the elapsed seconds.
     double restart() {
         const Clock::time_point start = std::exchange(start_, Clock::now());
         return std::chrono::duration<double>(start_ - start).count();

@@ -6,15 +6,15 @@
 
 namespace reljef::geo {
 
-/// Four-point Lagrange interpolation along one axis: the first of four control points, the weights
-/// of the four and the weights' derivatives.
+/// Four-point Lagrange interpolation along one axis: first control point, weights and their
+/// derivatives.
 struct Cubic {
     int first = 0;
     std::array<double, 4> weights{};
     std::array<double, 4> slopes{};
 };
 
-/// At `position`, in control points, from the four that begin with `first`.
+/// At `position`, from four control points starting at `first`.
 inline Cubic cubic_from(double position, int first) {
     Cubic cubic;
     cubic.first = first;
@@ -28,7 +28,7 @@ inline Cubic cubic_from(double position, int first) {
     return cubic;
 }
 
-/// The same from the nearest four of `points` control points.
+/// From the nearest four of `points` control points.
 inline Cubic cubic_at(double position, int points) {
     const double last = static_cast<double>(points) - 4.0;
     return cubic_from(position,

@@ -83,7 +83,6 @@ GeodeticMap GeodeticMap::closed(const GlobalWrap& closing, int cols, int rows) c
     GeodeticMap map(*this);
     map.rows_ = ClosedRows(closing, rows);
     if (closing.east) {
-        // Longitudes lead into the columns from the first to the first again.
         map.middle_longitude_ = latitude_longitude({0.5 * cols, 0.5 * (rows - 1)}).y;
     }
     return map;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include <GeographicLib/Geoid.hpp>
@@ -15,29 +16,18 @@ namespace reljef::geo {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-// Of a control point: what steps such as 1/60 lose by rounding over a whole turn.
+// Control points: rounding error of steps such as 1/60 over 360 degrees.
 constexpr double rounding = 1e-6;
 
-} // namespace
-
-class Geoid::Source {
+class UndulationGrid {
 public:
-    Source() = default;
-    Source(const Source&) = delete;
-    Source& operator=(const Source&) = delete;
-    virtual ~Source() = default;
-    [[nodiscard]] virtual double undulation(double latitude, double longitude) const = 0;
-};
-
-class Geoid::GridSource : public Geoid::Source {
-public:
-    GridSource(Grid<float> undulation, glm::dvec2 first, glm::dvec2 step)
+    UndulationGrid(Grid<float> undulation, glm::dvec2 first, glm::dvec2 step)
         : undulation_(std::move(undulation)), first_(first), step_(step) {
         const double turn = std::abs(360.0 / step.y);
         around_ = undulation_.cols() >= turn - rounding ? static_cast<int>(std::lround(turn)) : 0;
     }
 
-    [[nodiscard]] double undulation(double latitude, double longitude) const override {
+    [[nodiscard]] double at(double latitude, double longitude) const {
         const double down = (latitude - first_.x) / step_.x;
         const double across = column_of(longitude);
         const double last = undulation_.cols() - 1.0;
@@ -53,7 +43,7 @@ public:
     }
 
 private:
-    /// Within one turn from the first column.
+    /// Within 360 degrees of the first column.
     [[nodiscard]] double column_of(double longitude) const {
         const double turn = std::abs(360.0 / step_.y);
         const double across = (longitude - first_.y) / step_.y;
@@ -75,38 +65,32 @@ private:
     Grid<float> undulation_;
     glm::dvec2 first_;
     glm::dvec2 step_;
-    int around_ = 0; ///< columns in a whole turn; 0: the grid does not go round
+    int around_ = 0; ///< columns in 360 degrees; 0: not a global grid
 };
 
-class Geoid::FileSource : public Geoid::Source {
-public:
-    FileSource(const std::string& name, const std::string& folder)
-        : geoid_(name, folder, true, true) {}
-    [[nodiscard]] double undulation(double latitude, double longitude) const override {
-        return geoid_(latitude, longitude);
-    }
+} // namespace
 
-private:
-    GeographicLib::Geoid geoid_; // reads the whole file, so that threads may share it
-};
-
-Geoid::Geoid(std::string name, std::shared_ptr<const Source> source)
+Geoid::Geoid(std::string name, Source source)
     : name_(std::move(name)), source_(std::move(source)) {}
 
 Geoid::Geoid(std::string name, Grid<float> undulation, glm::dvec2 first, glm::dvec2 step)
     : name_(std::move(name)) {
     check(undulation.cols() >= 4 && undulation.rows() >= 4, "Geoid needs 4×4 heights");
     check(step.x != 0.0 && step.y != 0.0, "Geoid needs a step");
-    source_ = std::make_shared<GridSource>(std::move(undulation), first, step);
+    auto grid = std::make_shared<const UndulationGrid>(std::move(undulation), first, step);
+    source_ = [grid](double latitude, double longitude) { return grid->at(latitude, longitude); };
 }
 
 Result<Geoid> Geoid::read_pgm(const std::filesystem::path& path) {
     try {
-        auto source = std::make_shared<FileSource>(
-            path.stem().string(),
-            path.parent_path().empty() ? std::string(".") : path.parent_path().string());
-        return Geoid(path.filename().string(), std::move(source));
-    } catch (const std::exception& error) { // GeographicLib's, and of too little memory
+        const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+        // Reads the whole file: thread-safe.
+        const auto geoid =
+            std::make_shared<const GeographicLib::Geoid>(path.stem().string(), folder, true, true);
+        return Geoid(path.filename().string(), [geoid](double latitude, double longitude) {
+            return (*geoid)(latitude, longitude);
+        });
+    } catch (const std::exception& error) { // also std::bad_alloc
         return Error{fmt::format("{}: cannot be read ({}), a geoid file of GeographicLib was "
                                  "expected",
                                  path.string(), error.what())};
@@ -119,7 +103,7 @@ std::filesystem::path Geoid::installed_folder() {
 
 double Geoid::undulation(double latitude, double longitude) const {
     check(std::abs(latitude) <= 90.0, "latitude outside [-90, 90]");
-    return source_->undulation(latitude, longitude);
+    return source_(latitude, longitude);
 }
 
 } // namespace reljef::geo

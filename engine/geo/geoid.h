@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <functional>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -11,36 +11,31 @@
 
 namespace reljef::geo {
 
-/// How far the geoid (mean sea level) lies above the WGS 84 ellipsoid. Cheap to copy, safe from
-/// several threads at a time.
+/// Height of the geoid (mean sea level) above the WGS 84 ellipsoid. Cheap to copy, thread-safe.
 class Geoid {
 public:
-    /// From heights on a grid of degrees: `undulation(i, j)` in metres lies at latitude
-    /// first.x + j·step.x, longitude first.y + i·step.y. Between them four-point Lagrange
-    /// interpolation. A grid that goes round the Earth has no seam; of another only what it covers
-    /// is known. Preconditions: at least 4×4 heights, step not 0.
+    /// `undulation(i, j)` in metres lies at latitude first.x + j·step.x, longitude
+    /// first.y + i·step.y, in degrees. Four-point Lagrange interpolation, seamless for a global
+    /// grid. Preconditions: at least 4×4 heights, step not 0.
     Geoid(std::string name, Grid<float> undulation, glm::dvec2 first, glm::dvec2 step);
 
-    /// A file of GeographicLib's own (egm96-15.pgm, …), through GeographicLib with its cubic
-    /// interpolation.
+    /// Reads a geoid file of GeographicLib (egm96-15.pgm, …); cubic interpolation.
     static Result<Geoid> read_pgm(const std::filesystem::path& path);
 
-    /// Where GeographicLib looks for its files on this machine; the folder may not exist.
+    /// GeographicLib's folder of geoid files; it may not exist.
     static std::filesystem::path installed_folder();
 
-    /// What the user knows it by: the file's name.
+    /// File name.
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// Metres above the ellipsoid; NaN where it is not known. Precondition: latitude in [-90, 90].
+    /// Metres above the ellipsoid; NaN outside the grid. Precondition: latitude in [-90, 90].
     [[nodiscard]] double undulation(double latitude, double longitude) const;
 
 private:
-    class Source;
-    class GridSource;
-    class FileSource;
-    Geoid(std::string name, std::shared_ptr<const Source> source);
+    using Source = std::function<double(double latitude, double longitude)>;
+    Geoid(std::string name, Source source);
 
     std::string name_;
-    std::shared_ptr<const Source> source_;
+    Source source_;
 };
 
 } // namespace reljef::geo

@@ -18,7 +18,7 @@ bool is_ellipsoidal(std::string_view vertical_datum) {
 
 LocalFrame::LocalFrame(Geodetic origin)
     : origin_(origin), center_(geocentric_from_geodetic(origin)) {
-    std::vector<double> rotation(9); // row by row; its columns are east, north and up
+    std::vector<double> rotation(9); // row-major; columns: east, north, up
     glm::dvec3 ignored{0.0};
     GeographicLib::Geocentric::WGS84().Forward(origin.latitude, origin.longitude, origin.height,
                                                ignored.x, ignored.y, ignored.z, rotation);

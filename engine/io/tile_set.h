@@ -14,7 +14,7 @@
 #include "engine/core/grid.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/geo/geodetic_area.h"
+#include "engine/geo/georeference.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/web_tiles.h"
 #include "engine/terrain/field/heightfield.h"

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
-#include "engine/geo/geodetic_area.h"
+#include "engine/geo/georeference.h"
 #include "engine/io/tile_set.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/motion/poses.h"

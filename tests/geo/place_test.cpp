@@ -62,68 +62,11 @@ TEST(Place, GeocentricAndBackIsTheSamePlace) {
     }
 }
 
-TEST(Place, UtmCoordinatesAreThoseOfProj) {
-    RELJEF_NEED_DATA("geodesy/proj_gie/builtins.gie");
-    int checked = 0;
-    for (const auto& [operation, zone] :
-         {std::pair("+proj=utm +ellps=GRS80 +zone=30", 30), std::pair("+proj=utm +zone=32", 32)}) {
-        for (const GiePoint& point : gie_points("builtins.gie", operation)) {
-            const auto found = utm_ups_in_zone({point.input[1], point.input[0], 0.0}, zone);
-            if (!found) {
-                EXPECT_TRUE(point.output[0] > 1e6 || std::abs(point.output[0]) < 1e3)
-                    << found.error().message;
-                continue;
-            }
-            const double false_northing = found->north ? 0.0 : 1e7;
-            EXPECT_NEAR(found->easting, point.output[0], millimetre) << point.line;
-            EXPECT_NEAR(found->northing - false_northing, point.output[1], millimetre)
-                << point.line;
-            ++checked;
-        }
-    }
-    EXPECT_GE(checked, 3);
-}
-
-TEST(Place, UtmAndUpsComeBackToTheSamePlace) {
-    std::mt19937 random(6);
-    for (int i = 0; i < 10000; ++i) {
-        const Geodetic from = anywhere(random);
-        const UtmUps grid = utm_ups_from_geodetic(from);
-        const bool polar = from.latitude >= 84.0 || from.latitude < -80.0;
-        ASSERT_EQ(grid.zone == 0, polar) << from.latitude;
-        ASSERT_EQ(grid.north, from.latitude >= 0.0);
-        const auto again = geodetic_from_utm_ups(grid);
-        ASSERT_TRUE(again);
-        ASSERT_LT(geodesic_distance(from, *again), 1e-7);
-    }
-}
-
-TEST(Place, MgrsSquareHoldsItsPositionAtEveryNumberOfDigits) {
-    std::mt19937 random(7);
-    for (int i = 0; i < 5000; ++i) {
-        const Geodetic from = anywhere(random);
-        const int digits = 1 + i % 8;
-        const auto middle = geodetic_from_mgrs(mgrs_text(from, digits));
-        ASSERT_TRUE(middle) << middle.error().message;
-        const double half_diagonal = 0.71 * std::pow(10.0, 5 - digits);
-        ASSERT_LT(geodesic_distance(from, *middle), 1.01 * half_diagonal + 1e-6);
-    }
-}
-
-// GeographicLib's manual (GeoConvert): 33.3N 44.4E is 38n 444140.54 3684706.36, 38SMB4414084706.
+// GeographicLib's manual (GeoConvert): 33.3N 44.4E is 38SMB4414084706.
 TEST(Place, ReadOutIsThatOfGeographicLibsManual) {
     const Geodetic baghdad{33.3, 44.4, 0.0};
-    EXPECT_EQ(utm_ups_text(utm_ups_from_geodetic(baghdad)), "38n 444141 3684706");
     EXPECT_EQ(mgrs_text(baghdad), "38SMB4414084706");
     EXPECT_EQ(mgrs_text({90.0, 0.0, 0.0}, 2), "ZAH0000");
-}
-
-TEST(Place, WhatIsNoPositionIsAnErrorInOneSentence) {
-    EXPECT_FALSE(geodetic_from_mgrs("38SMB441408470"));
-    EXPECT_FALSE(geodetic_from_mgrs(""));
-    EXPECT_FALSE(geodetic_from_utm_ups({.zone = 61, .north = true, .easting = 5e5}));
-    EXPECT_FALSE(geodetic_from_utm_ups({.zone = 31, .north = true, .easting = -5e6}));
-    EXPECT_FALSE(utm_ups_in_zone({46.0, 6.0, 0.0}, 55));
 }
 
 /// Geocentric in long double, by the ellipsoid's own formula.

@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/result.h"
-#include "engine/geo/geodetic_area.h"
+#include "engine/geo/georeference.h"
 
 namespace reljef::io {
 
