@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/cache/bisection_cache.h"
-#include "engine/io/cache/cone_cache.h"
+#include "engine/io/cache/disk_cache.h"
 #include "engine/material/tile_cones.h"
 
 namespace reljef::session {
@@ -50,7 +49,7 @@ Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& 
                                                              Log& log,
                                                              const std::stop_token& stop) {
     const auto task = log.start("cones of " + name);
-    io::ConeCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    io::CacheOptions options{.folder = io::cache_folder(), .min_seconds = 1.0, .parallel = {}};
     options.parallel = {static_cast<unsigned>(threads), stop, task->callback()};
     auto cached = io::cached_cones(heights.view(), options);
     if (!cached) {
@@ -59,7 +58,7 @@ Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& 
     if (!cached->note.empty()) {
         log.note(cached->note);
     }
-    return std::move(cached->cones);
+    return std::move(cached->value);
 }
 
 Result<void> add_side(material::ReliefMaterial& set, material::KnownCones side, int threads,
@@ -80,7 +79,7 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
                                                                const std::stop_token& stop) {
     const std::string& name = surface.terrain().name;
     const auto task = log.start("bounding the errors of " + name);
-    io::BisectionCacheOptions options{.folder = io::cache_folder(), .parallel = {}};
+    io::CacheOptions options{.folder = io::cache_folder(), .parallel = {}};
     options.parallel = {static_cast<unsigned>(threads), stop, task->callback()};
     auto cached = io::cached_bisection(surface.heightfield(), surface.placement(), options);
     if (!cached) {
@@ -89,7 +88,7 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
     if (!cached->note.empty()) {
         log.note(cached->note);
     }
-    return std::move(cached->bisection);
+    return std::move(cached->value);
 }
 
 void find_missing(MissingMaps& missing, const scene::TerrainNode& node,

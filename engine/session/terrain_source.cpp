@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/cache/cone_cache.h"
+#include "engine/io/cache/disk_cache.h"
 #include "engine/io/formats/geoid_file.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/web_tiles.h"

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/cache/cone_cache.h"
+#include "engine/io/cache/disk_cache.h"
 #include "tests/app/made_hill.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "engine/io/cache/bisection_cache.h"
+#include "engine/io/cache/disk_cache.h"
 
 #include <tuple>
 
@@ -35,22 +35,22 @@ void expect_same_splits(const terrain::Bisection& found, const terrain::Bisectio
 
 class BisectionCache : public testing::Test {
 protected:
-    [[nodiscard]] BisectionCacheOptions options() const {
+    [[nodiscard]] CacheOptions options() const {
         return {.folder = folder_.path() / "cache", .min_seconds = 0.0, .parallel = {}};
     }
-    [[nodiscard]] std::optional<CachedBisection> cached(const BisectionCacheOptions& with) const {
+    [[nodiscard]] std::optional<Cached<terrain::Bisection>> cached(const CacheOptions& with) const {
         return cached_bisection(terrain_.heightfield, terrain_.placement, with);
     }
-    [[nodiscard]] CachedBisection cached() const { return cached(options()).value(); }
+    [[nodiscard]] Cached<terrain::Bisection> cached() const { return cached(options()).value(); }
     [[nodiscard]] std::filesystem::path file() const {
         return bisection_file(folder_.path() / "cache", terrain_.heightfield, terrain_.placement);
     }
     // As made, and kept again after `bytes` were found.
     void expect_rebuilt_from(const std::string& bytes, const std::string& found) {
         static_cast<void>(folder_.write("cache/" + file().filename().string(), bytes));
-        const CachedBisection again = cached();
+        const Cached<terrain::Bisection> again = cached();
         EXPECT_THAT(again.note, HasSubstr(found));
-        EXPECT_EQ(again.bisection->bounds(), terrain_.bisection.bounds());
+        EXPECT_EQ(again.value->bounds(), terrain_.bisection.bounds());
         EXPECT_EQ(test::read_bytes(file()), good_);
         EXPECT_THAT(cached().note, IsEmpty());
     }
@@ -66,9 +66,9 @@ protected:
 };
 
 TEST_F(BisectionCache, WhatIsReadIsWhatWasMade) {
-    const CachedBisection again = cached();
+    const Cached<terrain::Bisection> again = cached();
     EXPECT_THAT(again.note, IsEmpty());
-    expect_same_splits(*again.bisection, terrain_.bisection);
+    expect_same_splits(*again.value, terrain_.bisection);
 }
 
 TEST_F(BisectionCache, OnTheEarthTheSame) {
@@ -77,7 +77,7 @@ TEST_F(BisectionCache, OnTheEarthTheSame) {
     for (int i = 0; i < 2; ++i) { // made, and read
         const auto made = cached_bisection(bent.heightfield, bent.placement, options());
         EXPECT_THAT(made->note, IsEmpty());
-        expect_same_splits(*made->bisection, bent.bisection);
+        expect_same_splits(*made->value, bent.bisection);
     }
 }
 
@@ -120,31 +120,31 @@ TEST_F(BisectionCache, ThatOfOtherHeightsOrPlacesIsNotTaken) {
 }
 
 TEST_F(BisectionCache, WithoutAPlaceToKeepItItIsMade) {
-    const CachedBisection in_no_folder = cached(BisectionCacheOptions{}).value();
-    expect_same_splits(*in_no_folder.bisection, terrain_.bisection);
+    const Cached<terrain::Bisection> in_no_folder = cached(CacheOptions{}).value();
+    expect_same_splits(*in_no_folder.value, terrain_.bisection);
     EXPECT_THAT(in_no_folder.note, IsEmpty());
     static_cast<void>(folder_.write("taken", "a file"));
-    BisectionCacheOptions in_a_file = options();
+    CacheOptions in_a_file = options();
     in_a_file.folder = folder_.path() / "taken";
     EXPECT_THAT(cached(in_a_file).value().note, HasSubstr("cannot be written"));
 }
 
 TEST_F(BisectionCache, WithoutRoomItIsMadeAndNothingIsLeft) {
     std::filesystem::remove(file());
-    std::optional<CachedBisection> made;
+    std::optional<Cached<terrain::Bisection>> made;
     {
         const test::FileSizeLimit limit(1000);
         made = cached(options());
     }
     EXPECT_THAT(made->note, HasSubstr("cannot be written"));
-    expect_same_splits(*made->bisection, terrain_.bisection);
+    expect_same_splits(*made->value, terrain_.bisection);
     EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "cache"));
 }
 
 TEST_F(BisectionCache, WhatIsStoppedLeavesNothing) {
     std::filesystem::remove(file());
     std::stop_source stopped;
-    BisectionCacheOptions stopping = options();
+    CacheOptions stopping = options();
     stopping.parallel.stop = stopped.get_token();
     stopping.parallel.progress = [&](double) { stopped.request_stop(); };
     EXPECT_FALSE(cached(stopping));
@@ -153,7 +153,7 @@ TEST_F(BisectionCache, WhatIsStoppedLeavesNothing) {
 
 TEST_F(BisectionCache, WhatIsMadeAtOnceIsNotKept) {
     std::filesystem::remove(file());
-    BisectionCacheOptions patient = options();
+    CacheOptions patient = options();
     patient.min_seconds = 1e9;
     EXPECT_TRUE(cached(patient));
     EXPECT_FALSE(std::filesystem::exists(file()));

@@ -1,4 +1,4 @@
-#include "engine/io/cache/cone_cache.h"
+#include "engine/io/cache/disk_cache.h"
 
 #include <cstdlib>
 
@@ -16,7 +16,7 @@ using testing::IsEmpty;
 
 class ConeCache : public testing::Test {
 protected:
-    CachedCones cones() {
+    Cached<material::ConeMaps> cones() {
         return cached_cones(
                    heights_.view(),
                    {.folder = folder_.path() / "cache", .min_seconds = 0.0, .parallel = {}})
@@ -28,14 +28,14 @@ protected:
     // As made, and kept again after `bytes` were found.
     void expect_rebuilt_from(const std::string& bytes, const std::string& found) {
         static_cast<void>(folder_.write("cache/" + file().filename().string(), bytes));
-        const CachedCones again = cones();
+        const Cached<material::ConeMaps> again = cones();
         EXPECT_THAT(again.note, HasSubstr(found));
-        EXPECT_EQ(again.cones->plain, made_->plain);
+        EXPECT_EQ(again.value->plain, made_->plain);
         EXPECT_EQ(test::read_bytes(file()), good_);
         EXPECT_THAT(cones().note, IsEmpty());
     }
     void SetUp() override {
-        made_ = cones().cones;
+        made_ = cones().value;
         good_ = test::read_bytes(file());
     }
 
@@ -46,10 +46,10 @@ protected:
 };
 
 TEST_F(ConeCache, WhatIsReadIsWhatWasMade) {
-    const CachedCones again = cones();
+    const Cached<material::ConeMaps> again = cones();
     EXPECT_THAT(again.note, IsEmpty());
-    EXPECT_EQ(again.cones->plain, made_->plain);
-    EXPECT_EQ(again.cones->relaxed, made_->relaxed);
+    EXPECT_EQ(again.value->plain, made_->plain);
+    EXPECT_EQ(again.value->relaxed, made_->relaxed);
 }
 
 TEST_F(ConeCache, ItIsReadAndNotMadeAgain) {
@@ -97,13 +97,13 @@ TEST_F(ConeCache, TheConesOfOtherHeightsAreNotTaken) {
 
 TEST_F(ConeCache, WithoutAPlaceToKeepThemTheyAreMade) {
     const auto in_no_folder = cached_cones(heights_.view(), {}).value();
-    EXPECT_EQ(in_no_folder.cones->plain, made_->plain);
+    EXPECT_EQ(in_no_folder.value->plain, made_->plain);
     static_cast<void>(folder_.write("taken", "a file"));
     const auto in_a_file =
         cached_cones(heights_.view(),
                      {.folder = folder_.path() / "taken", .min_seconds = 0.0, .parallel = {}})
             .value();
-    EXPECT_EQ(in_a_file.cones->plain, made_->plain);
+    EXPECT_EQ(in_a_file.value->plain, made_->plain);
     EXPECT_THAT(in_a_file.note, HasSubstr("cannot be written"));
 }
 
