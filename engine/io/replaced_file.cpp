@@ -14,7 +14,6 @@
 
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/georeferencing.h"
-#include "engine/io/raster/height_unit.h"
 #include "engine/io/raster/sample_decoder.h"
 
 namespace reljef::io {

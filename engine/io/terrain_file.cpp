@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,9 +9,6 @@
 #include "engine/io/imagery/imagery.h"
 #include "engine/io/raster/ascii_grid.h"
 #include "engine/io/raster/gdal_dataset.h"
-#include "engine/io/raster/georeferencing.h"
-#include "engine/io/raster/height_unit.h"
-#include "engine/io/raster/placed_heightfield.h"
 #include "engine/io/raster/sample_reader.h"
 
 namespace reljef::io {

@@ -8,7 +8,7 @@
 #include "engine/io/imagery/imagery.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/globe.h"
-#include "engine/io/raster/placed_heightfield.h"
+#include "engine/io/raster/sample_reader.h"
 #include "engine/io/raster/web_tiles.h"
 #include "engine/io/tile_set_state.h"
 

@@ -1,10 +1,15 @@
 #include "engine/io/raster/crs_transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 namespace reljef::io {
+
+DegreeBox united(const DegreeBox& a, const DegreeBox& b) {
+    return {std::min(a[0], b[0]), std::min(a[1], b[1]), std::max(a[2], b[2]), std::max(a[3], b[3])};
+}
 
 OGRSpatialReference crs_from_text(const std::string& text) {
     OGRSpatialReference crs;
@@ -13,17 +18,21 @@ OGRSpatialReference crs_from_text(const std::string& text) {
     return crs;
 }
 
-std::optional<CrsTransform> CrsTransform::create(const std::string& from, const std::string& to,
+std::optional<CrsTransform> CrsTransform::create(const OGRSpatialReference& from,
+                                                 const OGRSpatialReference& to,
                                                  const std::optional<DegreeBox>& area) {
-    const OGRSpatialReference source = crs_from_text(from);
-    const OGRSpatialReference target = crs_from_text(to);
     OGRCoordinateTransformationOptions options;
     if (area) {
         const auto& [west, south, east, north] = *area;
         options.SetAreaOfInterest(west, south, east, north);
     }
-    Transformation transform(OGRCreateCoordinateTransformation(&source, &target, options));
+    Transformation transform(OGRCreateCoordinateTransformation(&from, &to, options));
     return transform != nullptr ? std::optional(CrsTransform(std::move(transform))) : std::nullopt;
+}
+
+std::optional<CrsTransform> CrsTransform::create(const std::string& from, const std::string& to,
+                                                 const std::optional<DegreeBox>& area) {
+    return create(crs_from_text(from), crs_from_text(to), area);
 }
 
 void CrsTransform::apply(std::span<glm::dvec2> points) const {

@@ -12,23 +12,27 @@
 
 namespace reljef::io {
 
-/// West, south, east, north, degrees.
+/// West, south, east, north in degrees.
 using DegreeBox = std::array<double, 4>;
+DegreeBox united(const DegreeBox& a, const DegreeBox& b);
 
-/// WGS 84, longitude and latitude in degrees, as GDAL reads it.
+/// WGS 84: longitude and latitude in degrees.
 inline const std::string wgs84_degrees = "EPSG:4326";
 
-/// From text (WKT, "EPSG:…"), with x east and y north.
+/// Parses WKT or "EPSG:…"; axes x east, y north.
 OGRSpatialReference crs_from_text(const std::string& text);
 
-/// PROJ's way from one coordinate system to another. One thread at a time.
+/// PROJ's transform between two coordinate systems. One thread at a time.
 class CrsTransform {
 public:
-    /// The best operation for the area where one is given; absent where there is none.
+    /// The best operation, for an area if given; absent if there is none.
+    static std::optional<CrsTransform> create(const OGRSpatialReference& from,
+                                              const OGRSpatialReference& to,
+                                              const std::optional<DegreeBox>& area = {});
     static std::optional<CrsTransform> create(const std::string& from, const std::string& to,
                                               const std::optional<DegreeBox>& area = {});
 
-    /// (x, y), or (longitude, latitude), in place; NaN where a point has no place.
+    /// Transforms (x, y) or (longitude, latitude) in place; NaN where undefined.
     void apply(std::span<glm::dvec2> points) const;
 
 private:

@@ -12,7 +12,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/geo/place.h"
-#include "engine/io/raster/exact_transform.h"
 #include "engine/io/raster/geodetic_fit.h"
 #include "engine/io/raster/globe.h"
 
@@ -135,9 +134,7 @@ std::optional<geo::Georeference> georeference_of(GDALDataset& dataset,
                                                  const ExactTransform& exact, const Place& place,
                                                  std::vector<std::string>& notes) {
     const SampleGrid& grid = place.grid;
-    const auto fit = fit_geodetic_map(
-        [&](std::span<glm::dvec2> samples) { return exact.positions(grid, samples); }, grid.cols,
-        grid.rows);
+    const auto fit = fit_geodetic_map(exact, grid);
     const double spacing = std::min(place.spacing.x, place.spacing.y);
     if (!fit || !(fit->error <= std::max(map_tolerance, tolerated_map_error * spacing))) {
         notes.emplace_back("part of it lies where its coordinate system has no position on Earth: "
@@ -316,10 +313,7 @@ std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
     }
     notes.emplace_back(
         "no coordinate system, but its coordinates look like degrees: WGS 84 assumed");
-    OGRSpatialReference crs;
-    crs.importFromEPSG(4326);
-    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    return crs;
+    return crs_from_text(wgs84_degrees);
 }
 
 CrsWords words_of(const OGRSpatialReference& given) {

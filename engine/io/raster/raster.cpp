@@ -4,7 +4,7 @@
 
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
-#include "engine/io/raster/height_unit.h"
+#include "engine/io/raster/sample_decoder.h"
 
 namespace reljef::io {
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 
 #include <fmt/format.h>
@@ -39,7 +38,7 @@ Result<Window> window_of(GDALDataset& dataset, const std::string& name,
     return window;
 }
 
-/// A window in one of the raster's resolutions; `scale` full samples lie in one of its samples.
+/// A window of one resolution; `scale`: full-resolution samples per sample.
 struct Level {
     int overview = -1;
     glm::dvec2 scale{1.0};
@@ -69,7 +68,7 @@ Level level_of(GDALRasterBand& band, int overview, const Window& full) {
     return level;
 }
 
-/// `around`: samples of a whole turn, which the reduction is to divide; 0 or 1: any does.
+/// `around`: samples per 360 degrees, a multiple of the reduction; 0: any reduction.
 std::optional<int> smallest_reduction(const Window& window, std::size_t budget, int around) {
     const std::size_t samples = budget / bytes_per_sample;
     for (int k = 1; k <= largest_reduction; ++k) {
@@ -98,14 +97,16 @@ ReadPlan plan_of(const Level& level, int reduction) {
     return plan;
 }
 
-/// Samples of a window that goes all around the Earth, so that it stays whole at a reduction; 0
-/// where it does not.
+/// Samples per 360 degrees of a window that spans them all; else 0.
 int samples_to_divide(GDALDataset& dataset, const Window& window) {
-    const int around = samples_around(dataset);
+    std::vector<std::string> ignored;
+    const auto affine = affine_of(dataset);
+    const auto crs = affine ? horizontal_crs(dataset, ignored) : std::nullopt;
+    const int around = crs ? samples_around(*crs, *affine) : 0;
     return window.cols == around || window.cols == around + 1 ? around : 0;
 }
 
-/// Samples of an overview in a whole turn; nothing where they are no whole number.
+/// Samples of an overview per 360 degrees; absent if not a whole number.
 std::optional<int> around_on(const Level& level, int around) {
     const double samples = around / level.scale.x;
     const double whole = std::round(samples);
@@ -113,7 +114,7 @@ std::optional<int> around_on(const Level& level, int around) {
                                                    : std::nullopt;
 }
 
-/// `plan`, or the one of the coarsest overview that gives nearly as much.
+/// `plan`, or that of the coarsest overview with nearly its resolution.
 ReadPlan with_overview(GDALRasterBand& band, const Window& full, const RasterOptions& options,
                        int around, ReadPlan plan) {
     const double coarsest = plan.grid.step.x * coarser_for_overview;

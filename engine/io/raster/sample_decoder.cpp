@@ -1,12 +1,12 @@
 #include "engine/io/raster/sample_decoder.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include "engine/io/raster/height_unit.h"
 
 namespace reljef::io {
 namespace {
@@ -32,11 +32,11 @@ std::array<double, 256> palette_values(const GDALColorTable& table) {
     return values;
 }
 
-// Metres: nothing solid reaches further from its middle by far.
+// Metres.
 constexpr double highest_height = 1e8;
-// What many programs write for voids; but the sea is as deep, too. Metres.
+// Metres. Many programs write it for voids, but it is also a depth of the sea.
 constexpr double usual_void = -9999.0;
-// A void is alone: the slopes of ocean trenches lead down to heights like it.
+// A void has no other values near it; a depth on the slope of an ocean trench does.
 constexpr double min_drop_to_void = 1000.0;
 
 bool is_grey_ramp(const GDALColorTable& table) {
@@ -58,7 +58,7 @@ bool can_be_negative(GDALDataType type) {
     return GDALDataTypeIsFloating(type) != 0 || GDALDataTypeIsSigned(type) != 0;
 }
 
-/// The declared void as a value of the band's type reads back, absent where there is none.
+/// The declared void, rounded to the band's type.
 std::optional<double> declared_void(GDALRasterBand& band) {
     int has = 0;
     const double value = band.GetNoDataValue(&has);
@@ -89,7 +89,58 @@ void note_kind(ValueKind kind, GDALDataset& dataset, std::vector<std::string>& n
     }
 }
 
+struct UnitNames {
+    std::string_view unit;
+    double metres;
+    std::array<std::string_view, 6> names;
+};
+constexpr std::array unit_names{
+    UnitNames{"metre", 1.0, {"m", "metre", "meter", "metres", "meters"}},
+    UnitNames{"foot", 0.3048, {"ft", "foot", "feet", "international foot"}},
+    UnitNames{"US survey foot",
+              1200.0 / 3937.0,
+              {"us survey foot", "us survey feet", "us_survey_foot", "foot_us", "ftus", "us-ft"}},
+    UnitNames{"kilometre", 1000.0, {"km", "kilometre", "kilometer"}},
+    UnitNames{"decimetre", 0.1, {"dm", "decimetre", "decimeter"}},
+    UnitNames{"centimetre", 0.01, {"cm", "centimetre", "centimeter"}},
+    UnitNames{"millimetre", 0.001, {"mm", "millimetre", "millimeter"}},
+    UnitNames{"yard", 0.9144, {"yard"}},
+    UnitNames{"fathom", 1.8288, {"fathom"}},
+};
+
+std::optional<HeightUnit> height_unit_by_name(std::string_view name) {
+    std::string lower(name);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto* found = std::find_if(unit_names.begin(), unit_names.end(), [&](const auto& unit) {
+        return !lower.empty() &&
+               std::find(unit.names.begin(), unit.names.end(), lower) != unit.names.end();
+    });
+    return found != unit_names.end()
+               ? std::optional(HeightUnit{std::string(found->unit), found->metres, true, true})
+               : std::nullopt;
+}
+
 } // namespace
+
+HeightUnit height_unit_of(GDALDataset& dataset, GDALRasterBand& band) {
+    const std::string own = band.GetUnitType();
+    if (!own.empty()) {
+        const auto unit = height_unit_by_name(own);
+        return unit ? *unit : HeightUnit{own, 1.0, true, false};
+    }
+    const OGRSpatialReference* crs = dataset.GetSpatialRef();
+    if (crs == nullptr || crs->IsVertical() == 0) {
+        return {};
+    }
+    const char* name = nullptr;
+    const double metres = crs->GetTargetLinearUnits("VERT_CS", &name);
+    if (name == nullptr || !(metres > 0.0)) {
+        return {};
+    }
+    const auto unit = height_unit_by_name(name);
+    return unit ? *unit : HeightUnit{name, metres, true, true};
+}
 
 ValueKind kind_of_values(GDALDataset& dataset) {
     GDALRasterBand& first = *dataset.GetRasterBand(1);

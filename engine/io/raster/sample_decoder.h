@@ -16,41 +16,49 @@
 
 namespace reljef::io {
 
-/// What the values of a raster are: numbers, indices into a palette that is no grey ramp, or red,
-/// green and blue.
+/// Numbers (or a grey ramp), palette indices, or red, green and blue.
 enum class ValueKind { plain, palette, color };
 ValueKind kind_of_values(GDALDataset& dataset);
 
+struct HeightUnit {
+    std::string name = "metre";
+    double metres = 1.0;
+    bool named = false; ///< by the file
+    bool known = true;  ///< false: unknown `name`, metres are assumed
+};
+/// The unit of a band's heights: its own, else that of the CRS's vertical axis, else metres.
+HeightUnit height_unit_of(GDALDataset& dataset, GDALRasterBand& band);
+
 inline constexpr double void_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Turns stored values into metres, voids into void_value.
+/// Converts stored values to metres and voids to void_value.
 class SampleDecoder {
 public:
-    /// Fails for complex values. Adds notes on what is taken for heights.
+    /// Fails for complex values. Adds notes on the interpretation of values.
     static Result<SampleDecoder> create(GDALDataset& dataset, const std::string& name,
                                         const RasterOptions& options,
                                         std::vector<std::string>& notes);
 
-    /// Bands to read for one value: 1, or 3 for colours.
+    /// Bands to read: 1, or 3 for colours.
     [[nodiscard]] int bands() const { return kind_ == ValueKind::color ? 3 : 1; }
 
-    /// Whether stored values, as decode() takes them, can be what the raster is read as.
+    /// Whether colours can be encoded heights; arguments as for decode().
     [[nodiscard]] bool fits(std::span<const double> first, std::span<const double> others) const;
 
-    /// In place in `first`, which holds the stored values of the first band; `others` holds those
-    /// of the second and third after one another, or nothing. A mask value of 0 is a void. Values
-    /// of one call lie near each other: -9999 m is a void if all others are far above it.
+    /// Decodes the first band's values in place. `others`: the second band's values, then the
+    /// third's; or empty. A mask value of 0 is a void. Call it with neighbouring values: -9999 m is
+    /// a void if all others are far above it.
     void decode(std::span<double> first, std::span<const double> others,
                 std::span<const unsigned char> mask);
 
-    /// Whether a stored value can be a void that is not declared.
+    /// Whether the value type can hold undeclared voids.
     [[nodiscard]] bool can_find_voids() const { return sentinels_ || floating_; }
 
-    /// What was found without being declared; empty when nothing.
+    /// Undeclared voids found so far; may be empty.
     [[nodiscard]] std::string undeclared_voids_note() const;
-    /// What was taken for heights and may have been meant for voids; empty when nothing.
+    /// Values read as heights that may be voids; may be empty.
     [[nodiscard]] std::string doubtful_heights_note() const;
-    /// Both in few words each, without numbers: of parts that are read again and again.
+    /// Both as short notes without counts, for repeated reads of parts.
     [[nodiscard]] std::vector<std::string> found_words() const;
 
 private:
@@ -60,9 +68,9 @@ private:
     void find_usual_voids(std::span<double> heights);
 
     ValueKind kind_ = ValueKind::plain;
-    HeightEncoding encoding_ = HeightEncoding::none; ///< of colours; none: their luminance
+    HeightEncoding encoding_ = HeightEncoding::none; ///< of colours; none: luminance
     std::array<double, 256> palette_{};
-    std::optional<double> nodata_; ///< as the band's own type holds it
+    std::optional<double> nodata_; ///< rounded to the band's type
     bool sentinels_ = false;       ///< −32768 and −32767 are voids
     bool floating_ = false;
     bool not_finite_declared_ = false;
@@ -72,7 +80,7 @@ private:
     std::size_t found_not_finite_ = 0;
     std::size_t found_absurd_ = 0;
     std::size_t found_usual_voids_ = 0;
-    std::size_t found_usual_heights_ = 0; ///< the same value where heights reach down to it
+    std::size_t found_usual_heights_ = 0; ///< same value, with heights near it
 };
 
 } // namespace reljef::io

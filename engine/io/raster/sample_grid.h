@@ -4,9 +4,9 @@
 
 namespace reljef::io {
 
-/// Which places of a raster the samples of a heightfield are: sample (col, row) has its centre at
-/// origin + step·(col, row) in GDAL's pixel coordinates, whose (0, 0) is the OUTER corner of the
-/// first pixel. A negative step turns the raster over.
+/// Maps heightfield samples to raster pixels: the centre of sample (col, row) is
+/// origin + step·(col, row) in GDAL's pixel coordinates; (0, 0) is the OUTER corner of the first
+/// pixel. A negative step mirrors the raster.
 struct SampleGrid {
     glm::dvec2 origin{0.5};
     glm::dvec2 step{1.0};

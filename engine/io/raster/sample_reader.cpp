@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "engine/io/raster/globe.h"
 #include "engine/io/raster/sample_decoder.h"
 
 namespace reljef::io {
 namespace {
 
-constexpr int max_taps = 4; // stored samples a side that are averaged into one
-// Stored values read at a time: of a whole raster, by one thread, in rows as long as they come; of
-// a window, by many.
+constexpr int max_taps = 4; // stored samples per side that are averaged into one
+// Stored values per read: of a whole raster (one thread) and of a window (many threads).
 constexpr int samples_of_raster = 1 << 21;
 constexpr int samples_of_window = 1 << 18;
 
@@ -42,7 +42,7 @@ std::vector<Tile> tiles_of(const SampleGrid& grid, int taps, int tile_samples) {
 /// The bands and the mask at the planned resolution.
 struct Source {
     std::vector<GDALRasterBand*> bands;
-    GDALRasterBand* mask = nullptr; ///< null: none but a declared value
+    GDALRasterBand* mask = nullptr; ///< null: only a declared void
 };
 
 GDALRasterBand* at_level(GDALRasterBand* band, int overview) {
@@ -105,7 +105,7 @@ private:
     std::vector<unsigned char> mask_;
 };
 
-/// The mean of the taps that are no voids; void_value when there is none.
+/// Mean of the taps without voids; void_value if all are voids.
 double mean_of(GridView<const double> taps) {
     double sum = 0.0;
     int count = 0;
@@ -120,7 +120,7 @@ double mean_of(GridView<const double> taps) {
     return count == 0 ? void_value : sum / count;
 }
 
-/// Calls store(col, row, height) for every sample of the tile; void_value at voids.
+/// Calls store(col, row, height) for every sample of a tile.
 template <class Store>
 void store_tile(const Tile& tile, std::span<const double> values, int taps, const Store& store) {
     const int cols = tile.cols * taps;
@@ -139,8 +139,7 @@ Error reading_failed(const std::string& name, const Tile& tile, const ReadPlan& 
                         plan.row + tile.row * plan.reduction, messages.reason())};
 }
 
-/// Reads and decodes all of a plan, so many stored values at a time; store(col, row, height) gets
-/// each sample.
+/// Reads and decodes a plan in blocks of `at_a_time` stored values; see store_tile.
 template <class Store>
 Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time,
                        SampleDecoder& decoder, const std::string& name,
@@ -167,6 +166,83 @@ Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time
         }
     }
     return {};
+}
+
+template <class T> void flip(Grid<T>& grid, const Place& place) {
+    if (place.flipped_rows) {
+        for (int row = 0; row < grid.rows() / 2; ++row) {
+            std::swap_ranges(grid.row(row).begin(), grid.row(row).end(),
+                             grid.row(grid.rows() - 1 - row).begin());
+        }
+    }
+    for (int row = 0; place.flipped_cols && row < grid.rows(); ++row) {
+        std::reverse(grid.row(row).begin(), grid.row(row).end());
+    }
+}
+
+template <class T>
+Grid<T> with_closing_samples(const Grid<T>& grid, const geo::GlobalWrap& closing) {
+    Grid<T> result(grid.cols() + closing.cols(), grid.rows() + closing.rows());
+    for (int row = 0; row < grid.rows(); ++row) {
+        const auto target = result.row(row + closing.north_rows());
+        std::copy(grid.row(row).begin(), grid.row(row).end(), target.begin());
+        if (closing.east) {
+            target[target.size() - 1] = target[0];
+        }
+    }
+    return result;
+}
+
+template <class T> void fill_row(Grid<T>& grid, int row, T value) {
+    std::fill(grid.row(row).begin(), grid.row(row).end(), value);
+}
+
+/// Mean height of the first `cols` samples of a row without its voids.
+struct RowMean {
+    float height = 0.0F;
+    bool is_void = false;
+};
+
+RowMean mean_of_row(const Grid<float>& heights, const Grid<std::uint8_t>& voids, int row,
+                    int cols) {
+    double sum = 0.0;
+    double filled = 0.0;
+    int count = 0;
+    for (int col = 0; col < cols; ++col) {
+        filled += heights(col, row);
+        if (voids.empty() || voids(col, row) == 0) {
+            sum += heights(col, row);
+            ++count;
+        }
+    }
+    return {static_cast<float>(count > 0 ? sum / count : filled / cols), count == 0};
+}
+
+void close_pole(Grid<float>& heights, Grid<std::uint8_t>& voids, int pole_row, int outermost,
+                int cols) {
+    const RowMean mean = mean_of_row(heights, voids, outermost, cols);
+    fill_row(heights, pole_row, mean.height);
+    if (!voids.empty()) {
+        fill_row(voids, pole_row, static_cast<std::uint8_t>(mean.is_void ? 1 : 0));
+    }
+}
+
+/// Adds the samples of a closing. A pole gets the mean of its outermost row; it is a void if the
+/// whole row is.
+void close_samples(Grid<float>& heights, Grid<std::uint8_t>& void_mask,
+                   const geo::GlobalWrap& closing) {
+    if (closing.cols() == 0 && closing.rows() == 0) {
+        return;
+    }
+    const int cols = heights.cols();
+    heights = with_closing_samples(heights, closing);
+    void_mask = void_mask.empty() ? std::move(void_mask) : with_closing_samples(void_mask, closing);
+    if (closing.north > 0.0) {
+        close_pole(heights, void_mask, 0, 1, cols);
+    }
+    if (closing.south > 0.0) {
+        close_pole(heights, void_mask, heights.rows() - 1, heights.rows() - 2, cols);
+    }
 }
 
 } // namespace
@@ -221,6 +297,22 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
         notes.push_back(std::move(words));
     }
     return heights;
+}
+
+terrain::Heightfield heightfield_of(Samples samples, Place& place) {
+    flip(samples.heights, place);
+    flip(samples.void_mask, place);
+    terrain::Heightfield result;
+    result.range = terrain::height_range(samples.heights, samples.void_mask);
+    terrain::fill_voids(samples.heights, samples.void_mask);
+    close_samples(samples.heights, samples.void_mask, place.closing);
+    result.heights = std::move(samples.heights);
+    result.void_mask = std::move(samples.void_mask);
+    result.void_count = static_cast<std::size_t>(std::count(
+        result.void_mask.samples().begin(), result.void_mask.samples().end(), std::uint8_t{1}));
+    result.spacing = place.spacing;
+    result.georeference = std::move(place.georeference);
+    return result;
 }
 
 } // namespace reljef::io

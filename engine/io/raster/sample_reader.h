@@ -4,52 +4,49 @@
 #include <string>
 #include <vector>
 
-#include <gdal_priv.h>
-
-#include "engine/core/grid.h"
-#include "engine/core/result.h"
 #include "engine/io/raster/gdal_dataset.h"
-#include "engine/io/raster/height_unit.h"
-#include "engine/io/raster/raster.h"
-#include "engine/io/raster/sample_grid.h"
+#include "engine/io/raster/georeferencing.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::io {
 
-/// Where the samples come from: a window of the full raster or of one of its overviews, and how
-/// many of its samples a side are averaged into one.
+/// A window of the full raster or of an overview, and the reduction per side.
 struct ReadPlan {
-    int overview = -1; ///< index; −1: the raster itself
-    int col = 0;       ///< of the window, in the overview's samples
+    int overview = -1; ///< index; −1: full resolution
+    int col = 0;       ///< first sample of the window, in the overview
     int row = 0;
     int reduction = 1;
-    SampleGrid grid; ///< the samples in the full raster
+    SampleGrid grid; ///< in the full raster
 };
 
-/// The finest reading that fits the memory budget; of overviews the one that spares the most
-/// reading and is at most a third coarser. Adds a note when it reduces.
+/// The finest plan that fits the memory budget. Uses the overview that saves the most reading and
+/// is at most a third coarser. Adds a note on a reduction.
 Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
                               const RasterOptions& options, std::vector<std::string>& notes);
 
-/// Every `reduction`-th part of a window a side, from the coarsest overview that is fine enough;
-/// finer where the window is smaller. Precondition: the window lies inside and is not empty.
+/// Reduces a window by `reduction` per side, from the coarsest overview that is fine enough; less
+/// if the window is smaller. Precondition: the window lies inside and is not empty.
 ReadPlan plan_window(GDALDataset& dataset, const RasterOptions::Window& window, int reduction);
 
 struct Samples {
     Grid<float> heights;          ///< metres; 0 at voids
-    Grid<std::uint8_t> void_mask; ///< empty when there are none
+    Grid<std::uint8_t> void_mask; ///< 1: void; empty: no voids
     std::size_t void_count = 0;
 };
 
-/// Reads and decodes: palette or luminance of pictures, scale, offset, unit, voids. Adds notes on
-/// what it took for heights and on voids that are not declared.
+/// Reads and decodes (see SampleDecoder). Adds notes on the interpretation of values and on
+/// undeclared voids.
 Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const std::string& name,
                              const RasterOptions& options, const GdalMessages& messages,
                              std::vector<std::string>& notes);
 
-/// The same, with the digits of double: metres, void_value at voids. The notes are those on voids
-/// alone, without numbers (SampleDecoder::found_words).
+/// As read_samples in double precision; void_value at voids. Notes: SampleDecoder::found_words.
 Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const std::string& name, const RasterOptions& options,
                                   const GdalMessages& messages, std::vector<std::string>& notes);
+
+/// Mirrors the samples to their place, fills voids and closes a global raster. Moves the place's
+/// georeference.
+terrain::Heightfield heightfield_of(Samples samples, Place& place);
 
 } // namespace reljef::io
