@@ -17,7 +17,7 @@ DatasetPool::FileState state_of(const std::filesystem::path& path) {
             std::filesystem::file_size(path, ignored)};
 }
 
-// What GDAL keeps of a file on a server, that it is not there for one.
+// Clears GDAL's cache of a remote file, including "not found".
 void forget(const std::filesystem::path& path) {
     if (is_remote(path)) {
         const std::string name = path.string();
@@ -40,7 +40,7 @@ DatasetPool::Loan::~Loan() {
 
 Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
                                               const GdalMessages& messages, const Check& check) {
-    const FileState now = state_of(path); // before it is opened: what it may become then is newer
+    const FileState now = state_of(path); // before opening: later changes are detected
     {
         const std::lock_guard lock(mutex_);
         idle_.remove_if([&](const Idle& idle) { return idle.path == path && idle.opened != now; });

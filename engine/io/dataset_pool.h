@@ -1,39 +1,48 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <list>
+#include <map>
 #include <mutex>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "engine/core/back_off.h"
 #include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {
 
-/// Rasters that stay open from one reading to the next, a few at most, for any number of threads:
-/// what one has borrowed nobody else uses.
+// State that concurrent readers of files share. All classes are thread-safe.
+
+/// Keeps rasters open between reads; each loan is exclusive.
 class DatasetPool {
 public:
-    /// Rasters that stay open while nobody reads them, at most.
     static constexpr std::size_t max_idle = 32;
 
     using Opener =
         std::function<Result<Dataset>(const std::filesystem::path&, const GdalMessages&)>;
     explicit DatasetPool(Opener open = open_raster) : open_(std::move(open)) {}
 
-    /// Changes if a file is no longer the one that was opened; the same for all files on servers.
+    /// Changes when a local file is replaced; always the same for remote files.
     struct FileState {
         std::filesystem::file_time_type changed;
         std::uintmax_t bytes = 0;
         friend bool operator==(const FileState&, const FileState&) = default;
     };
 
-    /// An open raster, for the scope.
+    /// An open raster; the destructor returns it to the pool.
     class Loan {
     public:
-        /// `opened` is what the file was before it was opened.
+        /// `opened`: state of the file before it was opened.
         Loan(DatasetPool& pool, std::filesystem::path path, FileState opened, Dataset dataset)
             : pool_(&pool), path_(std::move(path)), opened_(opened), dataset_(std::move(dataset)) {}
         ~Loan();
@@ -42,7 +51,7 @@ public:
 
         GDALDataset& operator*() const { return *dataset_; }
         GDALDataset* operator->() const { return dataset_.get(); }
-        /// It is closed, and nothing of it kept: for one that failed.
+        /// Closes a raster that failed.
         void spoil();
 
     private:
@@ -52,11 +61,11 @@ public:
         Dataset dataset_;
     };
 
-    /// What is to be made of a file that was opened just now.
+    /// Checks or replaces a dataset that was just opened.
     using Check = std::function<Result<Dataset>(Dataset)>;
 
-    /// Opens the file where none of it is idle, or where it has changed since that was opened.
-    /// Fails as the opener, or `check`.
+    /// Opens the file unless an idle dataset of its current state exists. Fails like the opener or
+    /// `check`.
     Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages,
                         const Check& check = {});
 
@@ -70,7 +79,83 @@ private:
 
     const Opener open_;
     std::mutex mutex_;
-    std::list<Idle> idle_; // the latest first
+    std::list<Idle> idle_; // newest first
+};
+
+/// Files that failed repeatedly. Readers skip them for a while (BackOff).
+class FailingFiles {
+public:
+    explicit FailingFiles(std::chrono::milliseconds first_pause = BackOff::usual_first_pause)
+        : first_pause_(first_pause) {}
+
+    void note(const std::filesystem::path& path, std::string message) {
+        const std::lock_guard lock(mutex_);
+        Failures& failures =
+            failures_.try_emplace(path, Failures{BackOff(first_pause_), {}}).first->second;
+        failures.back_off.fail(BackOff::Clock::now());
+        failures.message = std::move(message);
+    }
+    void forget(const std::filesystem::path& path) {
+        const std::lock_guard lock(mutex_);
+        failures_.erase(path);
+    }
+    /// Whether it has failed since the last forget().
+    [[nodiscard]] bool has_failed(const std::filesystem::path& path) const {
+        const std::lock_guard lock(mutex_);
+        return failures_.contains(path);
+    }
+    /// The last error of a file to skip now; else absent.
+    [[nodiscard]] std::optional<std::string> given_up(const std::filesystem::path& path) const {
+        const std::lock_guard lock(mutex_);
+        const auto found = failures_.find(path);
+        const bool skipped =
+            found != failures_.end() && found->second.back_off.is_given_up(BackOff::Clock::now());
+        return skipped ? std::optional(found->second.message) : std::nullopt;
+    }
+
+private:
+    struct Failures {
+        BackOff back_off;
+        std::string message; // last error
+    };
+    const std::chrono::milliseconds first_pause_;
+    mutable std::mutex mutex_;
+    std::map<std::filesystem::path, Failures> failures_;
+};
+
+/// Notes of readers, each once.
+class NewNotes {
+public:
+    void add(const std::string& sentence) {
+        const std::lock_guard lock(mutex_);
+        if (known_.insert(sentence).second) {
+            notes_.push_back(sentence);
+        }
+    }
+    /// A note that follows the file's name. Files with the same note share a sentence.
+    void add(const std::filesystem::path& file, const std::string& words) {
+        const std::lock_guard lock(mutex_);
+        if (known_.insert(file.string() + ": " + words).second) {
+            files_by_words_[words].insert(file);
+        }
+    }
+    /// New notes since the last call.
+    [[nodiscard]] std::vector<std::string> take() {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [words, files] : std::exchange(files_by_words_, {})) {
+            const std::string first = files.begin()->string();
+            notes_.push_back(files.size() == 1 ? fmt::format("{}: {}", first, words)
+                                               : fmt::format("{} and {} more: {}", first,
+                                                             files.size() - 1, words));
+        }
+        return std::exchange(notes_, {});
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, std::set<std::filesystem::path>> files_by_words_;
+    std::set<std::string> known_;
+    std::vector<std::string> notes_;
 };
 
 } // namespace reljef::io

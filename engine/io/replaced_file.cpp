@@ -1,4 +1,4 @@
-#include "engine/io/replaced_file.h"
+#include "engine/io/tile_layer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,14 @@
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/sample_decoder.h"
 
 namespace reljef::io {
 namespace {
 
-constexpr double same_sample = 1e-3; // of a sample
+constexpr double same_sample = 1e-3; // samples
 
-/// Columns and rows of a raster and where they lie.
 struct RasterPlace {
     glm::dvec2 size{0.0};
     geo::PixelAffine crs_from_pixel; // (0,0) is the outer corner
@@ -60,7 +58,7 @@ bool is_same(const RasterPlace& now, const RasterPlace& before) {
                same_sample;
 }
 
-/// Whether all of the indexed samples, told by those along their border, lie on the raster.
+/// Whether the border of the indexed samples lies on the raster.
 bool covers(const RasterPlace& now, const RasterPlace& before) {
     constexpr int steps = 16;
     std::vector<glm::dvec2> points;
@@ -88,8 +86,7 @@ bool is_north_up(const geo::PixelAffine& affine) {
     return affine.x_row == 0.0 && affine.y_col == 0.0 && affine.x_col > 0.0 && affine.y_row < 0.0;
 }
 
-/// gdalwarp's. What is declared as void, or has the value that SRTM's tiles have there, is none of
-/// the samples between which there are heights.
+/// Options of gdalwarp. Without a declared void, SRTM's void value is excluded.
 CPLStringList warp_words(GDALRasterBand& band, const RasterPlace& before) {
     const glm::dvec2 low = before.crs_from_pixel.crs_from_pixel({0.0, before.size.y});
     const glm::dvec2 high = before.crs_from_pixel.crs_from_pixel({before.size.x, 0.0});
@@ -113,7 +110,7 @@ CPLStringList warp_words(GDALRasterBand& band, const RasterPlace& before) {
     return words;
 }
 
-/// Heights in metres at the indexed samples; null where GDAL cannot. It keeps `now` open.
+/// Heights in metres at the indexed samples; null if GDAL fails. Keeps `now` open.
 Dataset at_indexed_samples(Dataset now, const RasterPlace& before) {
     GDALRasterBand& band = *now->GetRasterBand(1);
     const double metres = height_unit_of(*now, band).metres;
@@ -131,19 +128,19 @@ Dataset at_indexed_samples(Dataset now, const RasterPlace& before) {
         heights.SetScale(band.GetScale() * metres);
         heights.SetOffset(band.GetOffset() * metres);
         heights.SetUnitType("m");
-        now.release()->ReleaseRef(); // the one made has its own
+        now.release()->ReleaseRef(); // `made` holds its own reference
     }
     return made;
 }
 
 } // namespace
 
-Result<FileNow> as_indexed(Dataset opened, const IndexedFile& indexed, const std::string& crs,
-                           const std::string& name) {
+Result<ReplacedFile> as_indexed(Dataset opened, const IndexedFile& indexed, const std::string& crs,
+                                const std::string& name) {
     const RasterPlace before{{indexed.cols, indexed.rows}, indexed.crs_from_pixel, crs};
     const auto now = place_of_raster(*opened, name);
     if (now && is_same(*now, before)) {
-        return FileNow{std::move(opened), {}};
+        return ReplacedFile{std::move(opened), {}};
     }
     const std::string found = fmt::format("{}: was replaced while it was open, by {}×{} samples",
                                           name, opened->GetRasterXSize(), opened->GetRasterYSize());
@@ -157,10 +154,11 @@ Result<FileNow> as_indexed(Dataset opened, const IndexedFile& indexed, const std
                                  "the same ground was expected, or a new start",
                                  found, indexed.cols, indexed.rows)};
     }
-    return FileNow{std::move(at_samples),
-                   fmt::format("{}: they are read at the places of the {}×{} before until the next "
-                               "start",
-                               found, indexed.cols, indexed.rows)};
+    return ReplacedFile{
+        std::move(at_samples),
+        fmt::format("{}: they are read at the places of the {}×{} before until the next "
+                    "start",
+                    found, indexed.cols, indexed.rows)};
 }
 
 } // namespace reljef::io

@@ -1,8 +1,11 @@
 #include "engine/io/tile_index.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <span>
 #include <system_error>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -12,7 +15,6 @@
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/sample_decoder.h"
-#include "engine/io/sidecar_files.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
@@ -21,7 +23,92 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_tiles = 1'000'000;
-constexpr std::size_t largest_index = std::size_t{1} << 30; // bytes
+constexpr std::size_t max_index_bytes = std::size_t{1} << 30;
+
+constexpr std::array<std::string_view, 18> side_extensions{
+    ".xml", ".prj", ".hdr",  ".ovr", ".msk", ".tfw", ".wld", ".txt",     ".toml",
+    ".md",  ".csv", ".json", ".gpx", ".kml", ".log", ".pdf", ".geojson", ".html"};
+constexpr std::array<std::string_view, 18> raster_extensions{
+    ".tif", ".tiff", ".vrt", ".hgt", ".dem", ".asc", ".dt0", ".dt1", ".dt2",
+    ".img", ".bil",  ".ter", ".hf2", ".flt", ".adf", ".xyz", ".zip", ".gz"};
+
+template <class List> bool holds(const List& list, std::string_view word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return text;
+}
+
+std::string lower_extension(const fs::path& path) {
+    return lower(path.extension().string());
+}
+
+/// By extension, even if the content is damaged.
+bool is_named_raster(const fs::path& path) {
+    return holds(raster_extensions, lower_extension(path));
+}
+
+/// Sidecar files and other files that are no rasters.
+bool is_named_side_file(const fs::path& path) {
+    return holds(side_extensions, lower_extension(path));
+}
+
+/// Checksums of sidecar files by the stem of their names.
+class Families {
+public:
+    void add(const IndexedFile& file) {
+        const fs::path path = lower(file.path);
+        const std::uint64_t hash =
+            fnv_hash(fmt::format("{}\n{}\n{}\n", file.path, file.bytes, file.modified));
+        if (path.extension() == ".adf") {
+            add_to(grid_in(path), hash);
+        } else if (!is_named_raster(path)) {
+            add_by_name(path.string(), hash);
+        }
+    }
+    [[nodiscard]] std::uint64_t of(const IndexedFile& file) const {
+        const fs::path path = lower(file.path);
+        const auto found =
+            hashes_.find(path.extension() == ".adf" ? grid_in(path)
+                                                    : fs::path(path).replace_extension().string());
+        return found != hashes_.end() ? found->second : 0;
+    }
+
+private:
+    static std::string grid_in(const fs::path& path) { return (path.parent_path() / "*").string(); }
+
+    /// "sub/a.tif.ovr" belongs to "sub/a.tif" and to "sub/a".
+    void add_by_name(const std::string& path, std::uint64_t hash) {
+        const std::size_t name = path.find_last_of('/') + 1; // npos + 1 is 0
+        for (auto end = path.find('.', name); end != std::string::npos;
+             end = path.find('.', end + 1)) {
+            add_to(path.substr(0, end), hash);
+        }
+        add_to(path, hash);
+    }
+    void add_to(const std::string& family, std::uint64_t hash) {
+        std::uint64_t& all = hashes_.try_emplace(family, fnv_start).first->second;
+        all = fnv_hash(fmt::format("{:x}", hash), all);
+    }
+
+    std::unordered_map<std::string, std::uint64_t> hashes_;
+};
+
+/// Sets `beside` of all files. The sidecar files of "a.tif" are named "a.…" and are no rasters
+/// ("a.prj", "a.tif.aux.xml"); those of an .adf are all .adf files of its folder. Ignores case.
+void set_beside(std::span<IndexedFile> files) {
+    Families families;
+    for (const IndexedFile& file : files) {
+        families.add(file);
+    }
+    for (IndexedFile& file : files) {
+        file.beside = families.of(file);
+    }
+}
 
 bool may_be_raster(const fs::path& path) {
     if (is_named_side_file(path) || path.filename().string().starts_with('.')) {
@@ -30,7 +117,7 @@ bool may_be_raster(const fs::path& path) {
     return is_named_raster(path) || GDALIdentifyDriver(path.string().c_str(), nullptr) != nullptr;
 }
 
-/// A file as it is now; nothing else of it is known yet.
+/// A file with its size and time only.
 IndexedFile found_file(const fs::path& path, std::string name) {
     IndexedFile file;
     std::error_code ignored;
@@ -65,7 +152,7 @@ Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::s
     return files;
 }
 
-/// A file's entry and the WKT that its number of a coordinate system will stand for.
+/// A file's entry and the WKT of its coordinate system.
 struct Described {
     IndexedFile file;
     std::string wkt;
@@ -78,7 +165,7 @@ Described with_error(Described described, std::string message) {
     return described;
 }
 
-/// Why the samples of a raster cannot be a tile; empty where they can, and then its place is set.
+/// Sets a tile's place, or returns why it cannot be a tile.
 std::string set_place(GDALDataset& dataset, const std::string& name, Described& described) {
     IndexedFile& file = described.file;
     if (file.cols < 2 || file.rows < 2) {
@@ -119,7 +206,7 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
     std::string fault = set_place(dataset, name, described);
     if (kind_of_values(dataset) != ValueKind::plain) {
         file.use = TileUse::picture;
-        file.fault = std::move(fault); // of use only where the picture is asked for as heights
+        file.fault = std::move(fault); // matters only if used as heights
         return described;
     }
     file.use = TileUse::heights;
@@ -140,7 +227,7 @@ Described describe_if_raster(const fs::path& path, IndexedFile file) {
                                : Described{std::move(file), {}, false};
 }
 
-/// Gives every distinct WKT its number.
+/// Numbers the distinct WKTs.
 TileIndex numbered(std::vector<Described> all) {
     TileIndex index;
     std::map<std::string, int> numbers;
@@ -172,7 +259,7 @@ TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
     if (!fs::exists(file, ignored)) {
         return {};
     }
-    const auto bytes = read_text_file(file, largest_index);
+    const auto bytes = read_text_file(file, max_index_bytes);
     auto index = bytes ? index_from_bytes(*bytes) : Result<TileIndex>(bytes.error());
     if (index) {
         return std::move(*index);
@@ -183,14 +270,14 @@ TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
     return {};
 }
 
-/// Without it the next time takes longer, which is no failure.
+/// A failure only costs time on the next start.
 void write_cache(const fs::path& file, const TileIndex& index) {
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
     static_cast<void>(write_text_file(file, bytes_of(index)));
 }
 
-/// What the cache knows of files that are still the same.
+/// Cached entries of unchanged files.
 class Known {
 public:
     explicit Known(const TileIndex& index) : index_(index) {
@@ -258,7 +345,7 @@ Result<TileIndex> index_tiles(const fs::path& path, const TileSetOptions& option
     if (!only.file.fault.empty()) {
         return Error{only.file.fault};
     }
-    only.file.use = TileUse::heights; // of a picture the luminance, as for any single raster
+    only.file.use = TileUse::heights; // the luminance of a single picture
     return numbered({std::move(only)});
 }
 

@@ -32,7 +32,7 @@ private:
     std::string bytes_;
 };
 
-/// Reads what IndexWriter wrote; past the end everything is 0 and good() false.
+/// Past the end all values are 0 and good() is false.
 class IndexReader {
 public:
     explicit IndexReader(std::string_view bytes) : rest_(bytes) {}
@@ -66,7 +66,7 @@ private:
     bool good_ = true;
 };
 
-/// Every field once, for reading and writing alike.
+/// Visits each field, for reading and writing.
 template <class File, class Visit> void visit_fields(File& file, const Visit& visit) {
     visit(file.path);
     visit(file.bytes);

@@ -10,7 +10,6 @@
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/sample_decoder.h"
 #include "engine/io/raster/sample_reader.h"
-#include "engine/io/replaced_file.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
@@ -86,8 +85,7 @@ void add_to(GrowingLayer& growing, const PlacedFile& file, const IndexedFile& in
     layer.tiles.push_back(
         {file.file, first.x, first.y, indexed.cols, indexed.rows, origin - glm::dvec2(first)});
     layer.modified = std::max(layer.modified, indexed.modified);
-    layer.box = {std::min(layer.box[0], file.box[0]), std::min(layer.box[1], file.box[1]),
-                 std::max(layer.box[2], file.box[2]), std::max(layer.box[3], file.box[3])};
+    layer.box = united(layer.box, file.box);
 }
 
 GrowingLayer layer_from(const PlacedFile& file, const IndexedFile& indexed) {

@@ -12,8 +12,6 @@
 
 #include "engine/core/grid.h"
 #include "engine/io/dataset_pool.h"
-#include "engine/io/failing_files.h"
-#include "engine/io/new_notes.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/tile_index.h"
 
@@ -99,5 +97,24 @@ struct TileContent {
 /// only those of its tiles that cannot be read.
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
                         const TileContent& reading, std::vector<FileError>& errors);
+
+/// Geodesic distance in metres between two (longitude, latitude) in degrees.
+double metres_between(glm::dvec2 a, glm::dvec2 b);
+
+/// Placed files of an index. Longitudes are continuous across the antimeridian, so that the set is
+/// as narrow as possible. Adds an error for each file without a position on Earth.
+std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
+                                    std::vector<FileError>& errors);
+
+struct ReplacedFile {
+    Dataset dataset;                 ///< size and place as in the index
+    std::optional<std::string> note; ///< set if the file was replaced
+};
+
+/// Makes a newly opened file match its index entry. A file of other size, place or CRS that covers
+/// the indexed samples is resampled to them (bilinear; averages finer samples). Fails if it does
+/// not cover them. `crs`: WKT of the indexed file.
+Result<ReplacedFile> as_indexed(Dataset opened, const IndexedFile& indexed, const std::string& crs,
+                                const std::string& name);
 
 } // namespace reljef::io

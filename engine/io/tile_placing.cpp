@@ -1,4 +1,4 @@
-#include "engine/io/tile_placing.h"
+#include "engine/io/tile_layer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@
 namespace reljef::io {
 namespace {
 
-/// A coordinate system of the index, and the way from it to degrees.
+/// A coordinate system of the index.
 struct IndexedCrs {
-    std::string wkt; ///< of the first that is the same
+    std::string wkt; ///< of the first equal system
     double period = 0.0;
     std::optional<CrsTransform> to_degrees;
 };
@@ -53,8 +53,8 @@ geo::PixelAffine at_sample_centres(geo::PixelAffine affine) {
     return affine;
 }
 
-/// Longitude and latitude of the corners and the middles between them, longitudes running on; then
-/// of the middle sample and its neighbours east and south.
+/// (longitude, latitude) of a 3×3 grid over the file, then of the middle sample's neighbours east
+/// and south. Longitudes are continuous.
 std::vector<glm::dvec2> degrees_of(const PlacedFile& file, const IndexedFile& indexed,
                                    const CrsTransform& to_degrees) {
     std::vector<glm::dvec2> points;
@@ -68,7 +68,6 @@ std::vector<glm::dvec2> degrees_of(const PlacedFile& file, const IndexedFile& in
     points.push_back(file.crs_from_sample.crs_from_pixel(middle + glm::dvec2(1.0, 0.0)));
     points.push_back(file.crs_from_sample.crs_from_pixel(middle + glm::dvec2(0.0, 1.0)));
     to_degrees.apply(points);
-    // A geographic file tells its own longitudes, a whole turn of the Earth included.
     for (glm::dvec2& point : points) {
         point.x += 360.0 * std::round((points[4].x - point.x) / 360.0);
     }
@@ -83,19 +82,13 @@ bool all_known(const std::vector<glm::dvec2>& points) {
     });
 }
 
-DegreeBox box_of(std::span<const glm::dvec2> points) {
-    DegreeBox box{points[0].x, points[0].y, points[0].x, points[0].y};
-    for (const glm::dvec2 point : points) {
-        box = {std::min(box[0], point.x), std::min(box[1], point.y), std::max(box[2], point.x),
-               std::max(box[3], point.y)};
-    }
-    return box;
-}
-
-/// Of degrees the box comes from the numbers themselves: a whole globe is 360 wide.
+/// A file in degrees keeps its own width: a whole globe is 360 wide.
 DegreeBox box_in_degrees(const PlacedFile& file, const IndexedFile& indexed,
                          std::span<const glm::dvec2> outline) {
-    DegreeBox box = box_of(outline);
+    DegreeBox box{outline[0].x, outline[0].y, outline[0].x, outline[0].y};
+    for (const glm::dvec2 point : outline) {
+        box = united(box, {point.x, point.y, point.x, point.y});
+    }
     if (file.period > 0.0) {
         const double half_width =
             0.5 * std::abs(file.crs_from_sample.x_col) * (indexed.cols - 1) * 360.0 / file.period;
@@ -124,7 +117,7 @@ std::optional<PlacedFile> placed(int number, const IndexedFile& indexed, const I
     return file;
 }
 
-/// The longitude at which the widest strip without a tile ends, going east.
+/// The east end of the widest strip of longitudes without a tile.
 double west_of_all(std::span<const PlacedFile> files) {
     std::vector<glm::dvec2> spans; // west in [-180, 180), east
     for (const PlacedFile& file : files) {
@@ -145,7 +138,8 @@ double west_of_all(std::span<const PlacedFile> files) {
     return spans.front().x + 360.0 - reached >= widest ? spans.front().x : start;
 }
 
-void run_on(std::vector<PlacedFile>& files, std::span<const IndexedFile> indexed) {
+/// Moves all files by multiples of 360 degrees to lie east of that strip.
+void make_continuous(std::vector<PlacedFile>& files, std::span<const IndexedFile> indexed) {
     constexpr double rounding = 1e-9; // degrees
     const double west = west_of_all(files);
     for (PlacedFile& file : files) {
@@ -156,7 +150,7 @@ void run_on(std::vector<PlacedFile>& files, std::span<const IndexedFile> indexed
             const double last = indexed[static_cast<std::size_t>(file.file)].cols - 1.0;
             const double x = std::min(file.crs_from_sample.crs_from_pixel({0.0, 0.0}).x,
                                       file.crs_from_sample.crs_from_pixel({last, 0.0}).x);
-            const double degrees = x * 360.0 / file.period; // from its own prime meridian
+            const double degrees = x * 360.0 / file.period; // from the CRS's prime meridian
             const double own_turns = std::round((file.box[0] - degrees) / 360.0);
             file.crs_from_sample.x0 += own_turns * file.period;
         }
@@ -193,7 +187,7 @@ std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesyste
         }
     }
     if (!files.empty()) {
-        run_on(files, index.files);
+        make_continuous(files, index.files);
     }
     return files;
 }

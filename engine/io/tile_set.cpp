@@ -12,7 +12,6 @@
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/globe.h"
-#include "engine/io/tile_placing.h"
 #include "engine/io/tile_set_state.h"
 #include "engine/terrain/tree/tile_tree.h"
 
@@ -95,8 +94,7 @@ TileGrid grid_in_degrees(std::span<const TileLayer> layers, const DegreeBox& box
 DegreeBox box_around(std::span<const TileLayer> layers) {
     DegreeBox box = layers.front().box;
     for (const TileLayer& layer : layers) {
-        box = {std::min(box[0], layer.box[0]), std::min(box[1], layer.box[1]),
-               std::max(box[2], layer.box[2]), std::max(box[3], layer.box[3])};
+        box = united(box, layer.box);
     }
     return box;
 }

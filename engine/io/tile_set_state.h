@@ -4,7 +4,6 @@
 #include <map>
 
 #include "engine/io/dataset_pool.h"
-#include "engine/io/failing_files.h"
 #include "engine/io/raster/ascii_grid.h"
 #include "engine/io/tile_layer.h"
 #include "engine/io/tile_set.h"

@@ -12,13 +12,12 @@
 
 #include "engine/core/parallel_for.h"
 #include "engine/io/dataset_pool.h"
-#include "engine/io/failing_files.h"
 #include "engine/io/imagery/degree_box.h"
 #include "engine/io/imagery/image_files.h"
 #include "engine/io/imagery/rgb_image.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/georeferencing.h"
-#include "engine/io/tile_placing.h"
+#include "engine/io/tile_layer.h"
 
 namespace reljef::io {
 /// What is known of an image without reading it.

@@ -26,7 +26,7 @@ bool is_space(char c) {
     return c == ' ' || c == '\n' || c == '\r' || c == '\t';
 }
 
-/// A word that no number begins with.
+/// Whether a word cannot start a number.
 bool is_name(std::string_view word) {
     const bool begins_with_letter =
         !word.empty() && ((word[0] >= 'a' && word[0] <= 'z') || (word[0] >= 'A' && word[0] <= 'Z'));
@@ -34,26 +34,24 @@ bool is_name(std::string_view word) {
            word != "Inf";
 }
 
-/// Counts the words of a text that comes in pieces, but for its header: names with a value each.
+/// Counts the words of a text in pieces, without its header of names with one value each.
 class ValueCount {
 public:
     void add(std::string_view piece) {
         for (const char c : piece) {
             if (!is_space(c)) {
-                begin_of_word_[std::min(length_, begin_of_word_.size() - 1)] = c;
+                word_start_[std::min(length_, word_start_.size() - 1)] = c;
                 ++length_;
             } else if (length_ > 0) {
                 end_word();
             }
         }
     }
-    /// With the word that the text ends with.
     [[nodiscard]] std::uint64_t values() const { return values_ + (length_ > 0 ? 1 : 0); }
 
 private:
     void end_word() {
-        const std::string_view word(begin_of_word_.data(),
-                                    std::min(length_, begin_of_word_.size()));
+        const std::string_view word(word_start_.data(), std::min(length_, word_start_.size()));
         length_ = 0;
         if (in_header_ && std::exchange(value_follows_, false)) {
             return;
@@ -63,7 +61,7 @@ private:
         values_ += in_header_ ? 0 : 1;
     }
 
-    std::array<char, 8> begin_of_word_{};
+    std::array<char, 8> word_start_{};
     std::size_t length_ = 0;
     bool in_header_ = true;
     bool value_follows_ = false;
@@ -76,7 +74,7 @@ bool is_ascii_grid(GDALDataset& dataset) {
     return std::find(drivers.begin(), drivers.end(), driver) != drivers.end();
 }
 
-/// Stops where there are `enough`.
+/// Stops at `enough` values.
 std::uint64_t count_values(const char* name, std::uint64_t enough) {
     const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(name, "rb"));
     ValueCount count;
@@ -101,11 +99,6 @@ Result<void> check_is_whole(GDALDataset& dataset, const std::filesystem::path& p
     return {};
 }
 
-std::filesystem::file_time_type time_of(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::last_write_time(path, ignored);
-}
-
 } // namespace
 
 Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
@@ -119,24 +112,30 @@ Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
             return whole.error();
         }
     }
-    return without_mixed_overviews(std::move(*dataset), path, messages);
+    const auto mixed = overviews_mix_voids(**dataset, path);
+    if (mixed.value_or(false)) {
+        dataset = open_without_overviews(path, messages);
+    }
+    return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), mixed})
+                   : dataset.error();
 }
 
 Result<CheckedRaster> WholeRasters::open(const std::filesystem::path& path,
                                          const GdalMessages& messages) {
-    const auto changed = time_of(path);
-    const auto known = [&]() -> std::optional<Known> {
+    std::error_code ignored;
+    const auto changed = std::filesystem::last_write_time(path, ignored);
+    std::optional<bool> mixed;
+    {
         const std::lock_guard lock(mutex_);
         const auto found = whole_.find(path);
-        return found != whole_.end() && found->second.changed == changed
-                   ? std::optional(found->second)
-                   : std::nullopt;
-    }();
-    if (known) {
-        auto dataset = known->mixed_overviews ? open_without_overviews(path, messages)
-                                              : open_raster(path, messages);
-        return dataset ? Result<CheckedRaster>(
-                             CheckedRaster{std::move(*dataset), known->mixed_overviews})
+        if (found != whole_.end() && found->second.changed == changed) {
+            mixed = found->second.mixed_overviews;
+        }
+    }
+    if (mixed) {
+        auto dataset =
+            *mixed ? open_without_overviews(path, messages) : open_raster(path, messages);
+        return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), mixed})
                        : dataset.error();
     }
     auto raster = open_whole_raster(path, messages);

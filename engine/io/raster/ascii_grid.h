@@ -4,32 +4,33 @@
 #include <map>
 #include <mutex>
 
-#include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/mixed_overviews.h"
 
 namespace reljef::io {
 
-/// Opens rasters as open_whole_raster, but reads of an ASCII grid all values, and looks at a file's
-/// overviews, only the first time.
-/// Safe from several threads at a time.
+struct CheckedRaster {
+    Dataset dataset;                     ///< without overviews if they mix voids with heights
+    std::optional<bool> mixed_overviews; ///< see overviews_mix_voids
+};
+
+/// As open_raster, but ignores overviews that mix voids with heights and fails for an ASCII grid
+/// with missing values. It reads the whole grid for that: GDAL would search each row after a
+/// missing one again, in exponential time.
+Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
+                                        const GdalMessages& messages);
+
+/// open_whole_raster that checks each version of a file only once. Thread-safe.
 class WholeRasters {
 public:
     Result<CheckedRaster> open(const std::filesystem::path& path, const GdalMessages& messages);
 
 private:
-    std::mutex mutex_;
     struct Known {
         std::filesystem::file_time_type changed;
         bool mixed_overviews = false;
     };
+    std::mutex mutex_;
     std::map<std::filesystem::path, Known> whole_;
 };
-
-/// As open_raster, without overviews that mix voids with heights, and fails where an ASCII grid has
-/// fewer values than its header says: GDAL finds a row from those before it, and behind one that is
-/// missing seeks all of these again for each, twice as long with every row. Reads all of such a
-/// file.
-Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
-                                        const GdalMessages& messages);
 
 } // namespace reljef::io

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,14 +13,14 @@
 namespace reljef::io {
 namespace {
 
-constexpr double max_overview_samples = 512.0 * 512.0;   // of the overview that is examined
+constexpr double max_overview_samples = 512.0 * 512.0;   // of the examined overview
 constexpr double max_remote_samples = 256.0 * 256.0;     // if the file is remote
 constexpr double max_coarsest_samples = 2048.0 * 2048.0; // if no overview is that small
 constexpr std::size_t max_suspects = 8;
 // An undeclared void lowers the sum of the samples behind an overview sample by at least this.
 constexpr double min_drop = 8192.0;
-constexpr int max_suspect_samples = 256; // along a side of what a suspect covers
-constexpr double rounding = 1.0;         // of an average that is stored as a whole number
+constexpr int max_suspect_samples = 256; // per side of the area of a suspect
+constexpr double rounding = 1.0;         // of averages stored as whole numbers
 
 double samples_of_band(GDALRasterBand& band) {
     return static_cast<double>(band.GetXSize()) * band.GetYSize();
@@ -46,7 +45,7 @@ GDALRasterBand* small_overview(GDALRasterBand& band, double max_samples) {
     return finest != nullptr ? finest : readable ? coarsest : nullptr;
 }
 
-/// The stored values of a part of a band; empty where it cannot be read.
+/// Stored values of a window; empty if unreadable.
 Grid<double> stored_values(GDALRasterBand& band, const RasterOptions::Window& part) {
     Grid<double> values(part.cols, part.rows);
     const bool read =
@@ -55,7 +54,7 @@ Grid<double> stored_values(GDALRasterBand& band, const RasterOptions::Window& pa
     return read ? std::move(values) : Grid<double>();
 }
 
-/// A sample of an overview that is lower than one beside it.
+/// An overview sample that is lower than a neighbour.
 struct Suspect {
     double drop = 0.0; ///< stored values
     int col = 0;
@@ -74,7 +73,7 @@ double drop_at(const Grid<double>& values, const Grid<double>& heights, int col,
     return drop;
 }
 
-/// The steepest drops of the overview, of at least `min`; `heights` are NaN at voids.
+/// The steepest drops of at least `min`; `heights` are NaN at voids.
 std::vector<Suspect> suspects_in(const Grid<double>& values, const Grid<double>& heights,
                                  double min) {
     std::vector<Suspect> suspects;
@@ -100,7 +99,7 @@ int full_samples(int full, int reduced) {
     return std::max(1, (full + reduced - 1) / reduced);
 }
 
-/// The full-resolution samples behind one overview sample, and half as many around them.
+/// The full-resolution samples behind an overview sample, and half as many around them.
 RasterOptions::Window covered_by(const Suspect& suspect, GDALRasterBand& band,
                                  GDALRasterBand& overview) {
     const auto side = [](int at, int full, int reduced) {
@@ -115,14 +114,7 @@ RasterOptions::Window covered_by(const Suspect& suspect, GDALRasterBand& band,
     return {col, row, cols, rows};
 }
 
-/// NaN at voids.
-Grid<double> decoded(Grid<double> values, SampleDecoder decoder) {
-    decoder.decode(values.samples(), {}, {});
-    return values;
-}
-
-/// Whether an overview value is below all heights behind it, and some of these are undeclared
-/// voids.
+/// Whether an overview value is below all heights behind it, which include undeclared voids.
 bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder) {
     Grid<double> heights = values;
     decoder.decode(heights.samples(), {}, {});
@@ -159,7 +151,8 @@ std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesys
         return std::nullopt;
     }
     const double share = samples_of_band(*overview) / samples_of_band(band);
-    const Grid<double> heights = decoded(values, *decoder);
+    Grid<double> heights = values; // NaN at voids
+    SampleDecoder(*decoder).decode(heights.samples(), {}, {});
     for (const Suspect& suspect : suspects_in(values, heights, min_drop * share)) {
         const Grid<double> below = stored_values(band, covered_by(suspect, band, *overview));
         if (below.empty()) {
@@ -170,15 +163,6 @@ std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesys
         }
     }
     return false;
-}
-
-Result<CheckedRaster> without_mixed_overviews(Dataset opened, const std::filesystem::path& path,
-                                              const GdalMessages& messages) {
-    const auto mixed = overviews_mix_voids(*opened, path);
-    auto dataset =
-        mixed.value_or(false) ? open_without_overviews(path, messages) : std::move(opened);
-    return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), mixed})
-                   : dataset.error();
 }
 
 } // namespace reljef::io
