@@ -14,7 +14,7 @@
 #include <malloc.h>
 #endif
 
-#include "engine/io/imagery/closed_picture.h"
+#include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tree_tile.h"
 
 namespace reljef::session {

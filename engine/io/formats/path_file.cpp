@@ -64,7 +64,7 @@ Result<GeodeticKey> geodetic_key_of(TomlTable& table) {
     return key;
 }
 
-/// All keys of a file, each later than the one before.
+/// All keys of a file; times must increase.
 template <class Key, class KeyOf>
 Result<std::vector<Key>> keys_of(std::vector<TomlTable>& tables, const std::string& name,
                                  const KeyOf& key_from) {
@@ -88,7 +88,7 @@ Result<std::vector<Key>> keys_of(std::vector<TomlTable>& tables, const std::stri
     return keys;
 }
 
-/// The document of a path file; its tables of keys point into it.
+/// A path file; `tables` point into the document.
 struct PathDocument {
     toml::table document;
     std::vector<TomlTable> tables;
@@ -118,11 +118,6 @@ template <class Key> Result<Flight> flight_of(Result<std::vector<Key>> keys) {
 }
 
 } // namespace
-
-Result<std::vector<PathKey>> read_path_file(const std::filesystem::path& path) {
-    auto file = open_path_file(path);
-    return file ? keys_of<PathKey>((*file)->tables, path.string(), key_of) : file.error();
-}
 
 Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_second) {
     if (path.extension() != ".toml") {

@@ -14,11 +14,10 @@ namespace reljef::io {
 namespace {
 
 constexpr std::size_t max_track_points = 100'000;
-constexpr double min_way = 1.0; // metres; nearer points are the same place to a camera
+constexpr double min_step = 1.0; // metres; skips nearer points
 
 using Segments = std::vector<const OGRLineString*>;
 
-/// All lines in a geometry, in order.
 Segments segments_in(const OGRGeometry* geometry) {
     if (geometry == nullptr) {
         return {};
@@ -46,21 +45,12 @@ std::size_t points_in(const Segments& segments) {
     return count;
 }
 
-/// A point of a line in degrees; the height where the line has heights.
 struct TrackPoint {
     glm::dvec2 place{0.0}; // longitude, latitude
     std::optional<double> height;
 };
 
-std::optional<CrsTransform> to_degrees(const OGRSpatialReference& crs) {
-    char* text = nullptr;
-    crs.exportToWkt(&text);
-    const std::string wkt = text != nullptr ? text : "";
-    CPLFree(text);
-    return CrsTransform::create(wkt, wgs84_degrees);
-}
-
-/// Nothing where their coordinate system, which they share, does not lead to WGS 84.
+/// Absent if the segments' CRS does not lead to WGS 84.
 std::optional<std::vector<TrackPoint>> points_of(const Segments& segments) {
     std::vector<TrackPoint> points;
     std::vector<glm::dvec2> places;
@@ -72,7 +62,7 @@ std::optional<std::vector<TrackPoint>> points_of(const Segments& segments) {
         }
     }
     if (const OGRSpatialReference* crs = segments.front()->getSpatialReference()) {
-        const auto transform = to_degrees(*crs);
+        const auto transform = CrsTransform::create(wkt_of(*crs, "FORMAT=DEFAULT"), wgs84_degrees);
         if (!transform) {
             return std::nullopt;
         }
@@ -105,7 +95,7 @@ Result<std::vector<GeodeticKey>> keys_along(const std::vector<TrackPoint>& point
             const double way =
                 geo::geodesic_distance({keys.back().latitude, keys.back().longitude, 0.0},
                                        {key.latitude, key.longitude, 0.0});
-            if (way < min_way) {
+            if (way < min_step) {
                 continue;
             }
             key.time = keys.back().time + way / metres_a_second;
@@ -115,11 +105,11 @@ Result<std::vector<GeodeticKey>> keys_along(const std::vector<TrackPoint>& point
     return keys;
 }
 
-/// The first feature of a file with a line of two points or more.
+/// The first feature with at least two points.
 struct FoundTrack {
-    OGRFeatureUniquePtr feature; ///< the segments are parts of it
+    OGRFeatureUniquePtr feature; ///< owns the segments
     Segments segments;
-    int tracks = 0; ///< so many such features are in the file
+    int tracks = 0; ///< number of such features in the file
 };
 
 FoundTrack find_track(GDALDataset& dataset) {

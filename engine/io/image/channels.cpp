@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "engine/io/image/image_encoder.h"
-#include "engine/io/image/image_limits.h"
 #include "engine/io/image/picture_file.h"
 
 namespace reljef::io {
@@ -21,9 +20,6 @@ namespace fs = std::filesystem;
 
 Result<Channels> read_open_channels(OIIO::ImageInput& input, const fs::path& path) {
     const OIIO::ImageSpec& spec = input.spec();
-    if (auto size = check_image_size(path, spec); !size) {
-        return size.error();
-    }
     Channels channels = make_channels(spec.width, spec.height, spec.nchannels);
     channels.bits = static_cast<int>(8 * spec.format.basesize());
     if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data())) {
@@ -86,6 +82,32 @@ Grid<float> channel_of(const Channels& channels, int channel) {
         }
     }
     return grid;
+}
+
+Result<Grid<float>> unit_channel(const Channels& channels, int channel, const fs::path& path) {
+    Grid<float> heights = channel_of(channels, channel);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            if (!(heights(col, row) >= 0.0F && heights(col, row) <= 1.0F)) {
+                return Error{fmt::format("{}: a height of {} found at column {}, row {}, heights "
+                                         "in [0, 1] were expected",
+                                         path.string(), heights(col, row), col, row)};
+            }
+        }
+    }
+    return heights;
+}
+
+Grid<glm::vec3> decoded_normals(const Channels& channels) {
+    Grid<glm::vec3> normals(channels.cols, channels.rows);
+    for (int row = 0; row < normals.rows(); ++row) {
+        for (int col = 0; col < normals.cols(); ++col) {
+            const glm::vec3 stored(channels.at(col, row, 0), channels.at(col, row, 1),
+                                   channels.at(col, row, 2));
+            normals(col, row) = 2.0F * stored - 1.0F;
+        }
+    }
+    return normals;
 }
 
 Result<void> check_finite(const Channels& channels, int count, const fs::path& path,

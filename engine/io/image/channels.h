@@ -5,13 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
 
 namespace reljef::io {
 
-/// A picture's channels as numbers, row after row: what is stored as whole numbers in [0,1] of what
-/// its type can hold, floats as they are.
+/// A picture's channels, row-major. Integer values are scaled to [0,1]; floats are unchanged.
 struct Channels {
     int cols = 0;
     int rows = 0;
@@ -40,20 +41,25 @@ Channels make_channels(int cols, int rows, int count);
 
 /// Any picture OpenImageIO opens.
 Result<Channels> read_channels(const std::filesystem::path& path);
-/// One of them. Precondition: it is there.
+/// Precondition: the channel exists.
 Grid<float> channel_of(const Channels& channels, int channel);
 
-/// Whether the first `count` channels hold no NaN and no infinity; fails with the first place that
-/// does, and `what` they are.
+/// A channel of heights; fails outside [0,1].
+Result<Grid<float>> unit_channel(const Channels& channels, int channel,
+                                 const std::filesystem::path& path);
+/// Decodes r, g, b from [0,1] to [-1,1]; y as stored. Precondition: at least 3 channels.
+Grid<glm::vec3> decoded_normals(const Channels& channels);
+
+/// Fails if one of the first `count` channels holds a value that is not finite. `what` names it.
 Result<void> check_finite(const Channels& channels, int count, const std::filesystem::path& path,
                           std::string_view what);
 
-/// The bytes of a map's file, by its extension: .png and .tif of 16 bits a channel, which hold
-/// [0,1] and cut off what is beyond, .exr of 32-bit floats. Fails on another extension.
+/// Encodes a map by extension: .png and .tif with 16 bits per channel, clamped to [0,1]; .exr with
+/// 32-bit floats. Fails for other extensions.
 Result<std::vector<std::byte>> encode_channels(const std::filesystem::path& path,
                                                const Channels& channels);
 
-/// Whether a file of that name can hold a map: by its extension.
+/// Fails if the extension is none of these.
 Result<void> check_map_name(const std::filesystem::path& path);
 
 } // namespace reljef::io

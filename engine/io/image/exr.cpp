@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +10,7 @@
 
 #include "engine/io/image/image.h"
 #include "engine/io/image/image_encoder.h"
-#include "engine/io/image/image_limits.h"
+#include "engine/io/image/picture_file.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -25,15 +24,12 @@ OIIO::ImageSpec spec_of(const HitBuffer& hits) {
     OIIO::ImageSpec spec(hits.cols(), hits.rows(), 4, OIIO::TypeDesc::FLOAT);
     spec.channelnames.assign(channel_names.begin(), channel_names.end());
     spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "1970:01:01 00:00:00"); // else today's: two runs would differ
+    spec.attribute("DateTime", "1970:01:01 00:00:00"); // fixed: the same bytes each time
     return spec;
 }
 
 Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& path) {
     const OIIO::ImageSpec& spec = input.spec();
-    if (auto size = check_image_size(path, spec); !size) {
-        return size.error();
-    }
     HitBuffer hits(spec.width, spec.height);
     auto* bytes = reinterpret_cast<std::byte*>(hits.samples().data());
     for (std::size_t i = 0; i < channel_names.size(); ++i) {
@@ -85,20 +81,8 @@ Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
 }
 
 Result<HitBuffer> read_hits(const fs::path& path) {
-    if (auto file = check_image_file(path); !file) {
-        return file.error();
-    }
-    try {
-        const auto input = OIIO::ImageInput::open(path.string());
-        if (input == nullptr) {
-            return Error{fmt::format("{}: cannot be read ({}), an OpenEXR file was expected",
-                                     path.string(), OIIO::geterror())};
-        }
-        return read_hit_channels(*input, path);
-    } catch (const std::exception& problem) {
-        return Error{fmt::format("{}: cannot be read ({}), an OpenEXR file was expected",
-                                 path.string(), problem.what())};
-    }
+    return read_picture<HitBuffer>(
+        path, [&](OIIO::ImageInput& input) { return read_hit_channels(input, path); });
 }
 
 } // namespace reljef::io

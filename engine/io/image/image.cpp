@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include "engine/io/image/image_encoder.h"
-#include "engine/io/image/image_limits.h"
 #include "engine/io/image/picture_file.h"
 
 namespace reljef::io {
@@ -29,7 +28,7 @@ std::uint8_t rounded(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
 }
 
-/// A row of `channels` values in [0,1] each pixel: grey, grey and alpha, RGB, or RGBA and more.
+/// `values`: per pixel `channels` values in [0,1]: grey, grey and alpha, RGB, or RGBA and more.
 void store_row(std::span<const float> values, int channels, bool linear, std::span<Rgba8> row) {
     const auto stride = static_cast<std::size_t>(channels);
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -46,9 +45,6 @@ void store_row(std::span<const float> values, int channels, bool linear, std::sp
 
 Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
     const OIIO::ImageSpec& spec = input.spec();
-    if (auto size = check_image_size(path, spec); !size) {
-        return size.error();
-    }
     Image image(spec.width, spec.height);
     const bool linear = spec.format.is_floating_point();
     const int channels = std::min(spec.nchannels, 4);
@@ -75,7 +71,7 @@ Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
 std::unique_ptr<OIIO::ImageOutput> output_for(const fs::path& path) {
     auto output = OIIO::ImageOutput::create(path.string());
     static_cast<void>(OIIO::geterror());
-    // Its encoder goes by the extension of the file it writes to, and one in memory has none.
+    // The JPEG 2000 encoder needs a file extension; files in memory have none.
     if (output != nullptr && std::string_view(output->format_name()) == "jpeg2000") {
         output.reset();
     }
@@ -106,7 +102,7 @@ Image resized(const Image& picture, int width) {
     Image result(width, std::max(1, static_cast<int>(std::lround(picture.rows() * scale))));
     const OIIO::ImageSpec from(picture.cols(), picture.rows(), 4, OIIO::TypeDesc::UINT8);
     const OIIO::ImageSpec to(result.cols(), result.rows(), 4, OIIO::TypeDesc::UINT8);
-    // OpenImageIO only reads what is behind this pointer
+    // OpenImageIO only reads from this pointer.
     const OIIO::ImageBuf source(from, const_cast<Rgba8*>(picture.samples().data()));
     OIIO::ImageBuf target(to, result.samples().data());
     OIIO::ImageBufAlgo::resize(target, source);

@@ -12,16 +12,16 @@
 
 namespace reljef::io {
 
-/// Any picture OpenImageIO opens, as 8-bit sRGB.
+/// Reads any picture that OpenImageIO opens, as 8-bit sRGB.
 Result<Image> read_image(const std::filesystem::path& path);
 
-/// Writes a picture, opaque, whole or not at all; the extension chooses the format (.png, .jpg, …).
+/// Writes an opaque picture whole or not at all. The extension selects the format (.png, .jpg, …).
 Result<void> write_image(const std::filesystem::path& path, const Image& image);
 
-/// The bytes that write_image() would put into a file of that extension (".png", ".jpg", …).
+/// Encodes like write_image() for an extension (".png", ".jpg", …).
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image);
 
-/// Whether a file of that name can hold a picture, or the hits: by its extension.
+/// Fails if the extension is no format of pictures, or of hits.
 Result<void> check_image_name(const std::filesystem::path& path);
 Result<void> check_hits_name(const std::filesystem::path& path);
 
@@ -29,8 +29,7 @@ Result<void> check_hits_name(const std::filesystem::path& path);
 Result<void> write_hits(const std::filesystem::path& path, const HitBuffer& hits);
 Result<HitBuffer> read_hits(const std::filesystem::path& path);
 
-/// Small copies of the pictures side by side, `columns` a row, each `width` pixels wide, with a
-/// gap.
+/// Thumbnails in rows of `columns`, each `width` pixels wide.
 Image contact_sheet(std::span<const Image> pictures, int columns, int width);
 
 } // namespace reljef::io

@@ -15,7 +15,6 @@
 namespace reljef::io {
 namespace {
 
-// True when all of it was taken.
 bool encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const void* pixels,
             std::size_t stride, const std::string& name) {
     return output.open(name, spec) &&
@@ -23,7 +22,6 @@ bool encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const void* 
            output.close();
 }
 
-// Where the encoder writes to memory nothing can go wrong that it does not report.
 Result<std::vector<std::byte>> encoded_in_memory(std::unique_ptr<OIIO::ImageOutput> output,
                                                  const OIIO::ImageSpec& spec, const void* pixels,
                                                  std::size_t stride) {
@@ -33,7 +31,7 @@ Result<std::vector<std::byte>> encoded_in_memory(std::unique_ptr<OIIO::ImageOutp
         !encode(*output, spec, pixels, stride, output->format_name())) {
         return Error{output->geterror()};
     }
-    output.reset(); // what it held back is written now
+    output.reset(); // flushes
     const auto span = std::as_bytes(std::span(bytes));
     return std::vector<std::byte>(span.begin(), span.end());
 }
@@ -57,7 +55,7 @@ Result<std::vector<std::byte>> encoded_in_file(std::unique_ptr<OIIO::ImageOutput
 Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output,
                                        const OIIO::ImageSpec& spec, const void* pixels,
                                        std::size_t stride) {
-    const GdalMessages unprinted; // the TIFF library tells GDAL of tags that it does not know
+    const GdalMessages unprinted; // of the TIFF library, about unknown tags
     const bool in_memory = output->supports("ioproxy") != 0;
     try {
         auto bytes = in_memory ? encoded_in_memory(std::move(output), spec, pixels, stride)

@@ -11,14 +11,13 @@
 
 namespace reljef::io {
 
-/// The bytes of a file that holds pixels of `spec`'s type, `stride` bytes from one to the next.
-/// Fails with the encoder's reason.
+/// Encodes pixels of `spec`'s type, `stride` bytes apart. Fails with the encoder's reason.
 Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output,
                                        const OIIO::ImageSpec& spec, const void* pixels,
                                        std::size_t stride);
 
-/// Writes encoded() to `path`, whole or not at all. Encoded in memory: the encoders do not tell of
-/// a full disk, and some end the program.
+/// Writes encoded() whole or not at all. Encodes in memory because encoders do not report a full
+/// disk and some end the program.
 Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
                            const void* pixels, std::size_t stride,
                            const std::filesystem::path& path);

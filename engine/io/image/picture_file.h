@@ -7,12 +7,16 @@
 #include <fmt/format.h>
 
 #include "engine/core/result.h"
-#include "engine/io/image/image_limits.h"
 
 namespace reljef::io {
 
-/// What `read(input)` makes of a picture that OpenImageIO opens, alpha as it is stored. Fails where
-/// there is no such file or it is no picture, and as `read` does.
+/// Fails unless the path is a file, not empty and not a truncated PNG: libpng would print errors.
+Result<void> check_image_file(const std::filesystem::path& path);
+
+/// Fails if the size in a picture's header is impossible for its file size or exceeds the limits.
+Result<void> check_image_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec);
+
+/// Opens a picture with OpenImageIO, unassociated alpha, and returns `read(input)`.
 template <class T, class Read>
 Result<T> read_picture(const std::filesystem::path& path, const Read& read) {
     if (auto file = check_image_file(path); !file) {
@@ -26,7 +30,8 @@ Result<T> read_picture(const std::filesystem::path& path, const Read& read) {
             return Error{fmt::format("{}: cannot be read ({}), a picture was expected",
                                      path.string(), OIIO::geterror())};
         }
-        return read(*input);
+        const auto size = check_image_size(path, input->spec());
+        return size ? read(*input) : Result<T>(size.error());
     } catch (const std::exception& problem) {
         return Error{fmt::format("{}: cannot be read ({}), a picture was expected", path.string(),
                                  problem.what())};

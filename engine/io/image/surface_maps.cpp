@@ -14,7 +14,7 @@
 namespace reljef::io {
 namespace {
 
-// Steps between texels, of a height of 1.
+// Distance between texels, in units of the maximum height.
 glm::dvec2 texel_spacing(const SurfaceMapOptions& options, int cols, int rows) {
     return 1.0 / (options.scale * glm::dvec2(cols, rows));
 }
@@ -32,7 +32,6 @@ bool is_grey(const Channels& channels) {
     return true;
 }
 
-// What is odd about a file of heights that are all in [0,1].
 std::vector<std::string> notes_on(const SurfaceMapOptions& options, const std::string& file,
                                   const Channels& channels, const Grid<float>& heights) {
     std::vector<std::string> notes;
@@ -59,22 +58,15 @@ Result<PictureHeights> read_heights(const SurfaceMapOptions& options, const std:
     if (!channels) {
         return channels.error();
     }
-    Grid<float> heights = channel_of(*channels, 0);
-    for (int row = 0; row < heights.rows(); ++row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            if (!(heights(col, row) >= 0.0F && heights(col, row) <= 1.0F)) {
-                return Error{fmt::format("{}: a height of {} found at column {}, row {}, heights "
-                                         "in [0, 1] were expected",
-                                         file, heights(col, row), col, row)};
-            }
-        }
+    auto heights = unit_channel(*channels, 0, file);
+    if (!heights) {
+        return heights.error();
     }
-    auto notes = notes_on(options, file, *channels, heights);
-    return PictureHeights{std::move(heights), std::move(notes)};
+    auto notes = notes_on(options, file, *channels, *heights);
+    return PictureHeights{std::move(*heights), std::move(notes)};
 }
 
-// Of normals that are zero, infinite or point into the surface: they are integrated as if they
-// stood upright.
+// Reports invalid normals; integration replaces them with (0, 0, 1).
 std::vector<std::string> notes_on(const std::string& file, const Grid<glm::vec3>& normals) {
     const auto is_bad = [](const glm::vec3& normal) {
         const float length = glm::length(normal);
@@ -92,7 +84,6 @@ std::vector<std::string> notes_on(const std::string& file, const Grid<glm::vec3>
                         first / normals.cols())};
 }
 
-// y as it is stored: along the rows. What is none stands upright.
 Result<Grid<glm::vec3>> read_normals(const std::string& file) {
     const auto channels = read_channels(file);
     if (!channels) {
@@ -102,18 +93,10 @@ Result<Grid<glm::vec3>> read_normals(const std::string& file) {
         return Error{
             fmt::format("{}: {} channels found, 3 were expected: a normal", file, channels->count)};
     }
-    Grid<glm::vec3> normals(channels->cols, channels->rows);
-    for (int row = 0; row < normals.rows(); ++row) {
-        for (int col = 0; col < normals.cols(); ++col) {
-            const glm::vec3 stored(channels->at(col, row, 0), channels->at(col, row, 1),
-                                   channels->at(col, row, 2));
-            normals(col, row) = 2.0F * stored - 1.0F;
-        }
-    }
-    return normals;
+    return decoded_normals(*channels);
 }
 
-// Lowest 0, highest 1; level ones 0.
+// Scales heights to [0,1]; constant heights become 0.
 void spread_heights(Grid<float>& heights) {
     const auto samples = heights.samples();
     const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
@@ -131,7 +114,7 @@ Result<PictureHeights> integrated(const SurfaceMapOptions& options, const std::s
     }
     auto notes = notes_on(file, *normals);
     for (glm::vec3& normal : normals->samples()) {
-        normal.y *= options.green_up ? 1.0F : -1.0F; // north is against the rows
+        normal.y *= options.green_up ? 1.0F : -1.0F; // north is against the row order
     }
     material::IntegrationOptions integration;
     integration.spacing = texel_spacing(options, normals->cols(), normals->rows());
@@ -151,7 +134,7 @@ Channels height_channels(const Grid<float>& heights) {
     return channels;
 }
 
-// Normals as (n + 1) / 2, y along the rows or against them; and the heights.
+// Normals as (n + 1) / 2; `combined` adds the heights.
 Channels normal_channels(const SurfaceMapOptions& options, const Grid<float>& heights,
                          bool combined) {
     material::NormalOptions filter;
@@ -176,7 +159,7 @@ Channels normal_channels(const SurfaceMapOptions& options, const Grid<float>& he
     return channels;
 }
 
-// Floats hold the ratios, whole numbers the root of their share of the widest, rounded down.
+// Floats store ratios; integers store sqrt(ratio / widest cone), rounded down.
 Channels cone_channels(const Grid<float>& cones, bool as_floats) {
     constexpr int highest = 65535;
     if (as_floats) {
@@ -204,7 +187,6 @@ Result<Channels> made_cones(const Grid<float>& heights, material::ConeKind kind,
         as_floats);
 }
 
-// Depths of the layers of a sheet.
 Channels layer_channels(const Grid<float>& heights, const Grid<float>& back) {
     const auto layers = back.empty()
                             ? Result<material::LayerMap>(material::symmetric_layers(heights.view()))

@@ -13,21 +13,18 @@
 
 namespace reljef::io {
 
-/// What a map holds.
 enum class MapKind { heights, normals, combined, cones, relaxed_cones, layers };
-/// What a picture shows that maps are made from.
 enum class MapInput { heights, normals, colors };
 
-/// How maps of surface detail are made.
 struct SurfaceMapOptions {
     MapInput input = MapInput::heights;
     material::WrapMode border = material::WrapMode::wrap;
-    double scale = 0.05;       ///< height of 1, in widths; > 0
-    bool green_up = false;     ///< y of stored normals grows against the rows
-    bool sobel = false;        ///< normals by Sobel's filter
-    bool dark_is_high = false; ///< of colours
+    double scale = 0.05;       ///< maximum height in widths; > 0
+    bool green_up = false;     ///< y of stored normals grows upwards
+    bool sobel = false;        ///< Sobel filter for normals
+    bool dark_is_high = false; ///< colours only
     int octaves = material::ColorReliefOptions{}.octaves;
-    ParallelOptions parallel; ///< progress: of cones
+    ParallelOptions parallel; ///< progress of cones only
 };
 
 struct PictureHeights {
@@ -35,15 +32,13 @@ struct PictureHeights {
     std::vector<std::string> notes;
 };
 
-/// The heights of a picture: its own, or made from its normals or colours. Notes say what is odd
-/// about them. Fails where the picture cannot be read or is not what it should be, and when it is
-/// stopped.
+/// Reads the heights of a picture, or derives them from its normals or colours. Fails for an
+/// unreadable or unsuitable picture and if stopped.
 Result<PictureHeights> heights_of_picture(const std::filesystem::path& picture,
                                           const SurfaceMapOptions& options);
 
-/// A map of these heights as its file holds it. `back`: heights off the back of a sheet, of the
-/// same size, for layers; empty: symmetric. `as_floats`: cones are ratios; else the root of their
-/// share of the widest. Fails when it is stopped.
+/// A map as stored in its file. `back`: heights of the back of a sheet for layers, same size;
+/// empty: symmetric. `as_floats`: see encode_channels; for cones only. Fails if stopped.
 Result<Channels> make_map(const Grid<float>& heights, MapKind kind, const Grid<float>& back,
                           bool as_floats, const SurfaceMapOptions& options);
 

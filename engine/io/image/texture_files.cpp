@@ -3,35 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "engine/io/image/channels.h"
 #include "engine/io/image/image.h"
-#include "engine/io/image/texture_role.h"
 
 namespace reljef::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-// First channel of a file, or another.
-Result<Grid<float>> heights_in(const Channels& channels, int channel, const fs::path& path) {
-    Grid<float> heights = channel_of(channels, channel);
-    for (int row = 0; row < heights.rows(); ++row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            if (!(heights(col, row) >= 0.0F && heights(col, row) <= 1.0F)) {
-                return Error{fmt::format("{}: a height of {} found at column {}, row {}, heights "
-                                         "in [0, 1] were expected",
-                                         path.string(), heights(col, row), col, row)};
-            }
-        }
-    }
-    return heights;
-}
-
-// Once a set.
+// At most one note per set.
 void note_quantum(const Channels& channels, const TextureOptions& options,
                   material::ReliefMaterial& set) {
     if (channels.bits == 8 && set.notes.empty()) {
@@ -45,7 +31,7 @@ void note_quantum(const Channels& channels, const TextureOptions& options,
 
 Result<void> take_heights(const Channels& channels, int channel, const fs::path& path,
                           const TextureOptions& options, material::ReliefMaterial& set) {
-    auto heights = heights_in(channels, channel, path);
+    auto heights = unit_channel(channels, channel, path);
     if (!heights) {
         return heights.error();
     }
@@ -54,13 +40,7 @@ Result<void> take_heights(const Channels& channels, int channel, const fs::path&
     return {};
 }
 
-glm::vec3 decoded_normal(const Channels& channels, int col, int row) {
-    const glm::vec3 stored(channels.at(col, row, 0), channels.at(col, row, 1),
-                           channels.at(col, row, 2));
-    return 2.0F * stored - 1.0F;
-}
-
-// The two conventions differ in the sign of y, and files do not say which is theirs.
+// Files do not declare the sign of y; the heights decide.
 bool is_against_rows(const Grid<glm::vec3>& normals, const material::ReliefMaterial& set,
                      material::WrapMode border) {
     const auto from_heights = material::tile_normals(set.heights.view(), set.scale, border);
@@ -76,12 +56,7 @@ bool is_against_rows(const Grid<glm::vec3>& normals, const material::ReliefMater
 
 void take_normals(const Channels& channels, const TextureOptions& options,
                   material::ReliefMaterial& set) {
-    set.normals = Grid<glm::vec3>(channels.cols, channels.rows);
-    for (int row = 0; row < channels.rows; ++row) {
-        for (int col = 0; col < channels.cols; ++col) {
-            set.normals(col, row) = decoded_normal(channels, col, row);
-        }
-    }
+    set.normals = decoded_normals(channels);
     if (!set.heights.empty() && is_against_rows(set.normals, set, options.border)) {
         for (glm::vec3& normal : set.normals.samples()) {
             normal.y = -normal.y;
@@ -89,7 +64,7 @@ void take_normals(const Channels& channels, const TextureOptions& options,
     }
 }
 
-// A file of normals, with heights where there is no other file of them.
+// Needs a fourth channel if there is no other file of heights.
 Result<Channels> read_normal_file(const TextureFiles& files) {
     auto normals = read_channels(files.normals);
     const int needed = files.heights.empty() ? 4 : 3;
@@ -172,7 +147,7 @@ Result<void> punch_holes(const fs::path& path, material::ReliefMaterial& set) {
     return {};
 }
 
-// What sheets and layers have besides.
+// Layers, back of a sheet and mask.
 Result<void> read_sides(const TextureFiles& files, const TextureOptions& options,
                         material::ReliefMaterial& set) {
     if (!files.layers.empty()) {
@@ -188,7 +163,7 @@ Result<void> read_sides(const TextureFiles& files, const TextureOptions& options
         if (!back) {
             return back.error();
         }
-        auto heights = heights_in(*back, 0, files.back_heights);
+        auto heights = unit_channel(*back, 0, files.back_heights);
         if (!heights) {
             return heights.error();
         }
@@ -197,6 +172,70 @@ Result<void> read_sides(const TextureFiles& files, const TextureOptions& options
     }
     return files.mask.empty() || set.heights.empty() ? Result<void>()
                                                      : punch_holes(files.mask, set);
+}
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool is_letter(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0;
+}
+
+bool is_capital(char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+
+// Lower-case words. A word ends at a non-letter and before a capital after a small letter.
+std::vector<std::string> name_words(std::string_view stem) {
+    std::vector<std::string> words;
+    char last = ' ';
+    for (const char c : stem) {
+        const bool starts_word = !is_letter(last) || (is_capital(c) && !is_capital(last));
+        if (is_letter(c) && starts_word) {
+            words.emplace_back();
+        }
+        if (is_letter(c)) {
+            words.back() += c;
+        }
+        last = c;
+    }
+    std::transform(words.begin(), words.end(), words.begin(), lower_case);
+    return words;
+}
+
+using Words = std::span<const std::string>;
+
+bool is_one_of(std::string_view word, std::span<const std::string_view> known) {
+    return std::find(known.begin(), known.end(), word) != known.end();
+}
+
+bool has_one_of(Words words, std::span<const std::string_view> known) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return is_one_of(word, known); });
+}
+
+constexpr std::array<std::string_view, 1> layer_words{"layers"};
+constexpr std::array<std::string_view, 3> mask_words{"mask", "alpha", "opacity"};
+constexpr std::array<std::string_view, 7> normal_words{"normal", "normals",   "norm",      "nor",
+                                                       "nrm",    "normalmap", "normheight"};
+constexpr std::array<std::string_view, 5> height_words{"height", "heights", "heightmap", "disp",
+                                                       "displacement"};
+constexpr std::array<std::string_view, 8> color_words{"color", "colour",  "col",      "clr",
+                                                      "diff",  "diffuse", "diffspec", "albedo"};
+
+// "sheet_back", "sheet_back_height", "height_back_1", but not "back_wall".
+bool is_back(Words words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool is_last = i + 1 == words.size();
+        if (words[i] == "back" && (is_last || is_one_of(words[i + 1], height_words) ||
+                                   (i > 0 && is_one_of(words[i - 1], height_words)))) {
+            return true;
+        }
+    }
+    return false;
 }
 
 fs::path& file_of(TextureFiles& files, TextureRole role) {
@@ -236,13 +275,10 @@ Result<void> sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::
 bool is_picture(const fs::path& file) {
     constexpr std::array<std::string_view, 9> extensions{".png", ".jpg", ".jpeg", ".bmp", ".dds",
                                                          ".tga", ".tif", ".tiff", ".exr"};
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+    return is_one_of(lower_case(file.extension().string()), extensions);
 }
 
-// Floats may hold what no colour is, and a picture of 8 bits would not tell.
+// Rejects floats that are not finite; 8-bit colours would hide them.
 Result<Image> read_color(const fs::path& path) {
     auto image = read_image(path);
     if (!image) {
@@ -273,6 +309,32 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder) {
 }
 
 } // namespace
+
+std::string_view to_string(TextureRole role) {
+    constexpr std::array<std::string_view, 6> names{
+        "colours", "heights", "normals", "layers", "heights of the back", "a mask"};
+    return names[static_cast<std::size_t>(role)];
+}
+
+std::optional<TextureRole> texture_role(std::string_view stem) {
+    const std::vector<std::string> words = name_words(stem);
+    if (has_one_of(words, layer_words)) {
+        return TextureRole::layers;
+    }
+    if (has_one_of(words, mask_words)) {
+        return TextureRole::mask;
+    }
+    if (is_back(words)) {
+        return TextureRole::back_heights;
+    }
+    if (has_one_of(words, normal_words)) {
+        return TextureRole::normals;
+    }
+    if (has_one_of(words, height_words)) {
+        return TextureRole::heights;
+    }
+    return has_one_of(words, color_words) ? std::optional(TextureRole::color) : std::nullopt;
+}
 
 Result<TextureFiles> find_texture_files(const fs::path& folder) {
     const auto pictures = pictures_in(folder);

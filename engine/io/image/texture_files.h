@@ -1,42 +1,50 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include "engine/core/result.h"
 #include "engine/material/relief_material.h"
 
 namespace reljef::io {
 
-/// The files of one tile of surface detail. Any picture OpenImageIO opens.
+/// Which map of a texture set a file is.
+enum class TextureRole { color, heights, normals, layers, back_heights, mask };
+
+/// Plural noun for messages: "colours".
+std::string_view to_string(TextureRole role);
+
+/// The role that a file's name (without extension) states; absent if none. The first match among
+/// whole words: layers; mask, alpha, opacity; back (last, or beside a word for height); normal(s),
+/// norm, nor, nrm; height(s), disp(lacement); col(our), clr, diff(use), albedo. Words end at
+/// non-letters and before a capital after a small letter.
+std::optional<TextureRole> texture_role(std::string_view stem);
+
+/// The files of one detail texture. Empty paths are absent.
 struct TextureFiles {
     std::filesystem::path color;
-    std::filesystem::path heights; ///< first channel; empty: the alpha channel of `normals`
-    std::filesystem::path normals; ///< r, g, b for x, y, z; empty: made from the heights
-    /// r, g, b, a: how deep below the highest the four layers lie, each no less than the one
-    /// before; empty: none.
-    std::filesystem::path layers = {};
-    std::filesystem::path back_heights =
-        {};                          ///< off the back of a sheet, first channel; empty: none
-    std::filesystem::path mask = {}; ///< first channel; where it is below a half there is a hole:
-                                     ///< height 0; empty: none
+    std::filesystem::path heights;     ///< first channel; empty: the alpha channel of `normals`
+    std::filesystem::path normals;     ///< r, g, b for x, y, z; empty: derived from the heights
+    std::filesystem::path layers = {}; ///< r, g, b, a: increasing depths of four layers
+    std::filesystem::path back_heights = {}; ///< back of a sheet, first channel
+    std::filesystem::path mask = {};         ///< first channel; below 0.5 a hole of height 0
 };
 
 struct TextureOptions {
-    float scale = 0.05F; ///< height of 1, in tile widths; > 0
-    double width = 1.0;  ///< metres that the tile covers, for the notes; > 0
+    float scale = 0.05F; ///< maximum height in tile widths; > 0
+    double width = 1.0;  ///< tile width in metres, for the notes; > 0
     material::WrapMode border = material::WrapMode::wrap;
 };
 
-/// The pictures in a folder by what their names say (texture_role.h); of colours, where no name
-/// says it, the one that is left. Fails where no colour or no heights are found, and where two
-/// files are the same map.
+/// Finds the pictures of a folder by their roles. A single picture without a role is the colour.
+/// Fails if colours or heights are missing or a role is ambiguous.
 Result<TextureFiles> find_texture_files(const std::filesystem::path& folder);
 
-/// Heights in [0,1] of the values the file can hold; those of 8 bits get one note that tells their
-/// quantum in metres. Normals whose green points against the rows are turned, when the heights say
-/// so. Layers without heights are seen from above. Fails as terrain::completed and
-/// terrain::LayerMap::create, and where a file cannot be read, lacks a channel, or holds a height
-/// outside [0,1] or a colour or mask that is not finite, with the first such place.
+/// Reads a texture set. Heights are in [0,1]; 8-bit heights add a note on their resolution. Flips
+/// normals whose y contradicts the heights. Layers without heights use the top layer's. Fails as
+/// material::completed and material::LayerMap::create, and for a file that is unreadable, lacks a
+/// channel, or has a height outside [0,1] or a colour or mask that is not finite.
 Result<material::ReliefMaterial> read_texture_set(const TextureFiles& files,
                                                   const TextureOptions& options = {});
 

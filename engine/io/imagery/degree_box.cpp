@@ -4,19 +4,9 @@
 
 #include <glm/common.hpp>
 
+#include "engine/io/raster/georeferencing.h"
+
 namespace reljef::io {
-namespace {
-
-/// Longitudes run on from that of the middle place.
-void run_on(std::span<glm::dvec2> degrees) {
-    const double middle = degrees[middle_of_places].x;
-    for (glm::dvec2& point : degrees) {
-        point.x += 360.0 * std::round((middle - point.x) / 360.0);
-    }
-}
-
-} // namespace
-
 std::vector<glm::dvec2> places_over(const PlaceAt& place_at, const std::string& crs) {
     constexpr int side = 8;
     std::vector<glm::dvec2> places;
@@ -32,8 +22,23 @@ std::vector<glm::dvec2> places_over(const PlaceAt& place_at, const std::string& 
         }
         transform->apply(places);
     }
-    run_on(places);
-    return places;
+    const double middle = places[middle_of_places].x;
+    for (glm::dvec2& place : places) {
+        place.x += 360.0 * std::round((middle - place.x) / 360.0);
+    }
+    return std::isnan(middle) ? std::vector<glm::dvec2>() : places;
+}
+
+std::vector<glm::dvec2> places_over(GDALDataset& image) {
+    std::vector<std::string> ignored;
+    const auto affine = affine_of(image);
+    const auto crs = affine ? horizontal_crs(image, ignored) : std::nullopt;
+    if (!crs || crs->IsLocal() != 0) {
+        return {};
+    }
+    const glm::dvec2 size(image.GetRasterXSize(), image.GetRasterYSize());
+    return places_over([&](glm::dvec2 part) { return affine->crs_from_pixel(part * size); },
+                       wkt_of(*crs));
 }
 
 DegreeBox padded_box(std::span<const glm::dvec2> degrees) {

@@ -6,25 +6,28 @@
 #include <string>
 #include <vector>
 
+#include <gdal_priv.h>
 #include <glm/vec2.hpp>
 
 #include "engine/io/raster/crs_transform.h"
 
 namespace reljef::io {
 
-/// From parts of a rectangle's sides, 0 to 1, to places.
+/// Maps fractions of a rectangle's sides, 0 to 1, to CRS coordinates.
 using PlaceAt = std::function<glm::dvec2(glm::dvec2)>;
 
-/// Places from edge to edge of a rectangle, 9×9, longitude and latitude, longitudes running on from
-/// the middle one's; NaN where there is none. `crs`: what `place_at` gives places in. Empty where
-/// there is no way from it to degrees.
+/// (longitude, latitude) of 9×9 points from edge to edge of a rectangle; NaN where undefined.
+/// Longitudes are continuous around the middle point. `crs` is the CRS of `place_at`. Empty if it
+/// does not lead to degrees or the middle point has no position.
 std::vector<glm::dvec2> places_over(const PlaceAt& place_at, const std::string& crs);
 inline constexpr std::size_t middle_of_places = 40;
+/// places_over() an image; empty if it has no place on Earth.
+std::vector<glm::dvec2> places_over(GDALDataset& image);
 
-/// Around places, with a margin: between those that make it the outline may bulge.
+/// Bounding box with a margin for the curved outline between the points.
 DegreeBox padded_box(std::span<const glm::dvec2> degrees);
 
-/// By how many degrees a box is to be moved so that it meets another, for each whole turn.
+/// The multiples of 360 degrees that move a box onto another.
 std::vector<double> turns_to_meet(const DegreeBox& box, const DegreeBox& other);
 
 } // namespace reljef::io

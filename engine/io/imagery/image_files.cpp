@@ -35,7 +35,7 @@ void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
     }
 }
 
-/// One band of what only heights are stored as is no grey picture.
+/// A single band of a type other than Byte and UInt16 holds heights.
 bool is_image(GDALDataset& dataset) {
     const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
     return dataset.GetRasterCount() >= 3 || kind_of_values(dataset) != ValueKind::plain ||

@@ -9,16 +9,14 @@
 
 namespace reljef::io {
 
-/// Images that are shown together.
 struct ImageFiles {
     std::vector<std::filesystem::path> paths; ///< files and addresses, newest first
-    double white = 0.0; ///< of all whose colours are wider than 8 bits: see white_of
+    double white = 0.0;                       ///< highest white_of()
 };
 
-/// The images that `names` stand for: files, addresses, and folders, whose pictures and 8-bit
-/// and unsigned 16-bit rasters are meant. What cannot be opened, or holds heights, is told in
-/// `faults`, one sentence each, and left out. `white`, where given, is not looked for anew. Once a
-/// stop is asked for no more are looked at.
+/// Resolves files, addresses and folders (their pictures and Byte or UInt16 rasters) to images.
+/// Adds an error for each file that cannot be opened or holds heights. `white`: known white, if
+/// any.
 ImageFiles image_files(std::span<const std::filesystem::path> names,
                        std::vector<std::string>& errors, const std::stop_token& stop = {},
                        std::optional<double> white = {});

@@ -14,9 +14,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/io/imagery/closed_picture.h"
 #include "engine/io/imagery/degree_box.h"
 #include "engine/io/imagery/image_files.h"
+#include "engine/io/imagery/imagery_set.h"
 #include "engine/io/imagery/rgb_image.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
@@ -28,33 +28,33 @@ namespace {
 
 constexpr double bytes_per_pixel = 16.0 / 3.0; // with mipmaps
 constexpr double min_budget_share = 0.25;
-constexpr std::size_t reading_part = 8; // of the budget, for what is read at a time
+constexpr std::size_t reading_part = 8; // divides the budget for reading
 
-/// Where the heights and the image meet: a space both have an affine to. `crs` absent: the heights'
-/// own pixels, y upwards.
-struct Meeting {
-    geo::PixelAffine from_heights; ///< from the heights' GDAL pixel coordinates
+/// A coordinate system of both heights and image: `crs`, or the heights' pixels with y upwards.
+struct CommonSpace {
+    geo::PixelAffine from_heights; ///< from GDAL's pixel coordinates
     std::optional<OGRSpatialReference> crs;
-    bool stretched = false; ///< the image has no place of its own
+    bool stretched = false; ///< the image has no place
 };
 
 std::array<double, 6> geotransform(const geo::PixelAffine& affine) {
     return {affine.x0, affine.x_col, affine.x_row, affine.y0, affine.y_col, affine.y_row};
 }
 
-/// Some offset: GDAL takes an affine without one for none.
+/// GDAL ignores an identity affine, so this one has an offset.
 constexpr double pixel_space_origin = 1000.0;
 constexpr geo::PixelAffine pixel_space{pixel_space_origin, 1.0, 0.0, pixel_space_origin, 0.0, -1.0};
 
-bool says_place(GDALDataset& image) {
+bool has_place(GDALDataset& image) {
     return affine_of(image) || image.GetGCPCount() > 0;
 }
 
-Meeting meeting_of(GDALDataset& heights, GDALDataset& image, std::vector<std::string>& notes) {
+CommonSpace common_space_of(GDALDataset& heights, GDALDataset& image,
+                            std::vector<std::string>& notes) {
     const auto affine = affine_of(heights);
     std::vector<std::string> ignored;
     auto crs = affine ? horizontal_crs(heights, ignored) : std::nullopt;
-    const bool image_placed = says_place(image);
+    const bool image_placed = has_place(image);
     if (image_placed && affine && crs && crs->IsLocal() == 0) {
         return {*affine, std::move(crs), false};
     }
@@ -65,7 +65,7 @@ Meeting meeting_of(GDALDataset& heights, GDALDataset& image, std::vector<std::st
     return {pixel_space, std::nullopt, true};
 }
 
-/// Corner pixels on the heights' corner samples.
+/// Maps corner pixels to corner samples.
 geo::PixelAffine stretched(GDALDataset& heights, GDALDataset& image) {
     const glm::dvec2 samples(heights.GetRasterXSize() - 1, heights.GetRasterYSize() - 1);
     const glm::dvec2 pixels(std::max(image.GetRasterXSize() - 1, 1),
@@ -79,14 +79,14 @@ bool names_crs(GDALDataset& image) {
     return image.GetSpatialRef() != nullptr || image.GetGCPSpatialRef() != nullptr;
 }
 
-Result<void> place_image(GDALDataset& heights, GDALDataset& image, const Meeting& meeting,
+Result<void> place_image(GDALDataset& heights, GDALDataset& image, const CommonSpace& space,
                          const std::string& name) {
-    if (meeting.stretched) {
+    if (space.stretched) {
         std::array<double, 6> affine = geotransform(stretched(heights, image));
         image.SetSpatialRef(nullptr);
         image.SetGeoTransform(affine.data());
     } else if (!names_crs(image)) {
-        if (image.SetSpatialRef(&*meeting.crs) != CE_None) {
+        if (image.SetSpatialRef(&*space.crs) != CE_None) {
             return Error{fmt::format(
                 "{}: its place cannot be read, a georeferenced image was expected", name)};
         }
@@ -94,19 +94,16 @@ Result<void> place_image(GDALDataset& heights, GDALDataset& image, const Meeting
     return {};
 }
 
-/// Side lengths of the image's pixels in the meeting space.
-std::optional<glm::dvec2> pixel_size(GDALDataset& image, const Meeting& meeting) {
+/// Size of the image's pixels in the common space.
+std::optional<glm::dvec2> pixel_size(GDALDataset& image, const CommonSpace& space) {
     std::array<double, 6> t{};
     const bool has_affine = image.GetGeoTransform(t.data()) == CE_None;
     const OGRSpatialReference* crs = image.GetSpatialRef();
-    if (has_affine && (!meeting.crs || (crs != nullptr && crs->IsSame(&*meeting.crs) != 0))) {
+    if (has_affine && (!space.crs || (crs != nullptr && crs->IsSame(&*space.crs) != 0))) {
         return glm::dvec2(std::hypot(t[1], t[4]), std::hypot(t[2], t[5]));
     }
-    char* wkt = nullptr;
-    meeting.crs->exportToWkt(&wkt);
     CPLStringList options;
-    options.SetNameValue("DST_SRS", wkt);
-    CPLFree(wkt);
+    options.SetNameValue("DST_SRS", wkt_of(*space.crs, "FORMAT=DEFAULT").c_str());
     const std::unique_ptr<void, decltype(&GDALDestroyGenImgProjTransformer)> transformer(
         GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&image), nullptr, options.List()),
         &GDALDestroyGenImgProjTransformer);
@@ -120,27 +117,19 @@ std::optional<glm::dvec2> pixel_size(GDALDataset& image, const Meeting& meeting)
     return glm::dvec2(std::abs(t[1]), std::abs(t[5]));
 }
 
-/// An image where it lies, on disk and not open: there may be more of them than the system opens.
+/// A placed image. It is not open: there may be too many.
 struct KnownPicture {
     std::filesystem::path path;
-    Meeting meeting;
-    glm::dvec2 pixel{1.0}; ///< of the meeting space
+    CommonSpace space;
+    glm::dvec2 pixel{1.0}; ///< size in the common space
     bool has_place = true;
-    /// By how many degrees it is moved to lie over the heights, for each whole turn; none: it lies
-    /// elsewhere.
+    /// Multiples of 360 degrees that move it onto the heights; empty: no overlap.
     std::vector<double> turns{0.0};
 };
 
-Error unreadable(const std::string& name, const GdalMessages& messages) {
-    return {fmt::format("{}: cannot be read as an image{}, a whole grey, palette or RGB(A) image "
-                        "was expected",
-                        name, messages.reason())};
-}
-
-/// The image as RGB, thinned where it is vast, and in its place.
+/// The placed image as RGB, subsampled if it is huge.
 Result<Dataset> open_colors(const std::filesystem::path& path, double white, GDALDataset& heights,
-                            const Meeting& meeting, const GdalMessages& messages) {
-    const std::string name = path.string();
+                            const CommonSpace& space, const GdalMessages& messages) {
     auto image = open_raster(path, messages);
     if (!image) {
         return image.error();
@@ -151,9 +140,9 @@ Result<Dataset> open_colors(const std::filesystem::path& path, double white, GDA
         colors = subsampled(std::move(colors), subsampling);
     }
     if (colors == nullptr) {
-        return unreadable(name, messages);
+        return unreadable_image(path, messages);
     }
-    if (auto good = place_image(heights, *colors, meeting, name); !good) {
+    if (auto good = place_image(heights, *colors, space, path.string()); !good) {
         return good.error();
     }
     return colors;
@@ -164,10 +153,10 @@ struct Size {
     int rows = 0;
 };
 
-/// As many pixels as the image has over the samples, within the limits.
-Size target_size(const SampleGrid& grid, const Meeting& meeting, glm::dvec2 pixel,
+/// The image's own resolution over the samples, within the limits.
+Size target_size(const SampleGrid& grid, const CommonSpace& space, glm::dvec2 pixel,
                  std::size_t budget) {
-    const geo::PixelAffine& affine = meeting.from_heights;
+    const geo::PixelAffine& affine = space.from_heights;
     const glm::dvec2 sample(std::hypot(affine.x_col, affine.y_col) * std::abs(grid.step.x),
                             std::hypot(affine.x_row, affine.y_row) * std::abs(grid.step.y));
     const glm::dvec2 intervals = glm::dvec2(grid.cols - 1, grid.rows - 1) * sample / pixel;
@@ -181,34 +170,33 @@ Size target_size(const SampleGrid& grid, const Meeting& meeting, glm::dvec2 pixe
     return {static_cast<int>(size.x), static_cast<int>(size.y)};
 }
 
-/// Of x in the meeting space, for degrees.
-double units_of(double degrees, const Meeting& meeting) {
-    const bool in_degrees = meeting.crs && meeting.crs->IsGeographic() != 0;
-    return in_degrees ? degrees / glm::degrees(meeting.crs->GetAngularUnits()) : 0.0;
+/// Units of x in the common space; 0 if it is not in degrees.
+double units_of(double degrees, const CommonSpace& space) {
+    const bool in_degrees = space.crs && space.crs->IsGeographic() != 0;
+    return in_degrees ? degrees / glm::degrees(space.crs->GetAngularUnits()) : 0.0;
 }
 
-/// A raster over the samples, edge to edge, as seen by a picture that is moved by `turn` degrees.
-Dataset target_of(Image& image, const SampleGrid& grid, const Meeting& meeting, double turn) {
+/// A raster over the samples, edge to edge, moved by −`turn` degrees.
+Dataset target_of(Image& image, const SampleGrid& grid, const CommonSpace& space, double turn) {
     Dataset target = raster_over(image);
     if (target == nullptr) {
         return target;
     }
-    // image pixel X (outer corner 0) is sample (X − 0.5)·q, and that is a place in the meeting
-    // space
+    // Pixel X (outer corner 0) is sample (X − 0.5)·q.
     const glm::dvec2 q =
         glm::dvec2(grid.cols - 1, grid.rows - 1) / glm::dvec2(image.cols() - 1, image.rows() - 1);
-    const geo::PixelAffine& from = meeting.from_heights;
+    const geo::PixelAffine& from = space.from_heights;
     const glm::dvec2 step = grid.step * q;
     const glm::dvec2 corner = from.crs_from_pixel(grid.pixel_from_sample(-0.5 * q));
-    std::array<double, 6> t{corner.x - units_of(turn, meeting),
+    std::array<double, 6> t{corner.x - units_of(turn, space),
                             from.x_col * step.x,
                             from.x_row * step.y,
                             corner.y,
                             from.y_col * step.x,
                             from.y_row * step.y};
     target->SetGeoTransform(t.data());
-    if (meeting.crs) {
-        target->SetSpatialRef(&*meeting.crs);
+    if (space.crs) {
+        target->SetSpatialRef(&*space.crs);
     }
     return target;
 }
@@ -220,7 +208,7 @@ double covered_share(const Image& image) {
     return static_cast<double>(covered) / static_cast<double>(pixels.size());
 }
 
-/// Draws the pictures beneath one another.
+/// Composites pictures; the first one is on top.
 class Drape {
 public:
     Drape(GDALDataset& heights, const SampleGrid& grid, const RasterOptions& options, double white,
@@ -228,10 +216,10 @@ public:
         : heights_(heights), grid_(grid), options_(options), white_(white),
           image_(std::move(image)) {}
 
-    /// The `index`-th of `count`, open as long as it is drawn. Fails where it cannot be read.
+    /// Draws the `index`-th of `count` pictures; fails if it is unreadable.
     Result<void> add(const KnownPicture& picture, std::size_t index, std::size_t count) {
         const GdalMessages messages;
-        const auto colors = open_colors(picture.path, white_, heights_, picture.meeting, messages);
+        const auto colors = open_colors(picture.path, white_, heights_, picture.space, messages);
         if (!colors) {
             return colors.error();
         }
@@ -246,24 +234,20 @@ public:
             };
         }
         for (const double turn : picture.turns) {
-            if (!draw(**colors, picture.meeting, turn, warping) || messages.has_lost_blocks()) {
-                return unreadable(picture.path.string(), messages);
+            if (!draw(**colors, picture.space, turn, warping) || messages.has_lost_blocks()) {
+                return unreadable_image(picture.path, messages);
             }
         }
         return {};
     }
-    [[nodiscard]] bool is_full() const {
-        const auto pixels = image_.samples();
-        return std::all_of(pixels.begin(), pixels.end(),
-                           [](Rgba8 pixel) { return pixel.a == 255; });
-    }
+    [[nodiscard]] bool is_full() const { return is_opaque(image_); }
     Image take() && { return std::move(image_); }
 
 private:
-    bool draw(GDALDataset& colors, const Meeting& meeting, double turn,
+    bool draw(GDALDataset& colors, const CommonSpace& space, double turn,
               const WarpOptions& warping) {
         Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
-        const Dataset target = target_of(drawn, grid_, meeting, turn);
+        const Dataset target = target_of(drawn, grid_, space, turn);
         const bool done = target != nullptr && warp(colors, *target, warping);
         if (done) {
             lay_under(image_, drawn);
@@ -278,48 +262,32 @@ private:
     Image image_;
 };
 
-void note_thinning(GDALDataset& image, std::vector<std::string>& notes) {
+void note_subsampling(GDALDataset& image, std::vector<std::string>& notes) {
     if (const int subsampling = subsampling_of(image); subsampling > 1) {
         notes.push_back(fmt::format("imagery: one of {} pixels a side is read of its {}×{}",
                                     subsampling, image.GetRasterXSize(), image.GetRasterYSize()));
     }
 }
 
-/// Around the samples; nothing where they have no place on Earth.
-std::optional<DegreeBox> box_of(const SampleGrid& grid, const Meeting& meeting) {
+std::optional<DegreeBox> box_of(const SampleGrid& grid, const CommonSpace& space) {
     const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
     const auto degrees = places_over(
         [&](glm::dvec2 part) {
-            return meeting.from_heights.crs_from_pixel(grid.pixel_from_sample(part * last));
+            return space.from_heights.crs_from_pixel(grid.pixel_from_sample(part * last));
         },
-        wkt_of(*meeting.crs));
-    const bool placed = !degrees.empty() && !std::isnan(degrees[middle_of_places].x);
-    return placed ? std::optional(padded_box(degrees)) : std::nullopt;
+        wkt_of(*space.crs));
+    return degrees.empty() ? std::nullopt : std::optional(padded_box(degrees));
 }
 
-std::optional<DegreeBox> box_of(GDALDataset& image) {
-    std::vector<std::string> ignored;
-    const auto affine = affine_of(image);
-    const auto crs = affine ? horizontal_crs(image, ignored) : std::nullopt;
-    if (!crs || crs->IsLocal() != 0) {
-        return std::nullopt;
-    }
-    const glm::dvec2 size(image.GetRasterXSize(), image.GetRasterYSize());
-    const auto degrees = places_over(
-        [&](glm::dvec2 part) { return affine->crs_from_pixel(part * size); }, wkt_of(*crs));
-    const bool placed = !degrees.empty() && !std::isnan(degrees[middle_of_places].x);
-    return placed ? std::optional(padded_box(degrees)) : std::nullopt;
-}
-
-/// None only where both are known to lie apart.
-std::vector<double> turns_of(const SampleGrid& grid, GDALDataset& image, const Meeting& meeting) {
-    const auto ground = meeting.crs ? box_of(grid, meeting) : std::nullopt;
-    const auto shown = ground ? box_of(image) : std::nullopt;
-    if (!shown) {
+/// Empty only if both are known not to overlap.
+std::vector<double> turns_of(const SampleGrid& grid, GDALDataset& image, const CommonSpace& space) {
+    const auto ground = space.crs ? box_of(grid, space) : std::nullopt;
+    const auto shown = ground ? places_over(image) : std::vector<glm::dvec2>();
+    if (shown.empty()) {
         return {0.0};
     }
-    const std::vector<double> turns = turns_to_meet(*shown, *ground);
-    const bool in_degrees = meeting.crs->IsGeographic() != 0;
+    const std::vector<double> turns = turns_to_meet(padded_box(shown), *ground);
+    const bool in_degrees = space.crs->IsGeographic() != 0;
     return turns.empty() || in_degrees ? turns : std::vector{0.0};
 }
 
@@ -327,43 +295,41 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
                                    GDALDataset& heights, const SampleGrid& grid,
                                    std::vector<std::string>& notes) {
     const GdalMessages messages;
-    const std::string name = path.string();
     auto image = open_raster(path, messages);
     if (!image) {
         return image.error();
     }
-    if (auto good = check_affine(**image, name); !good) {
+    if (auto good = check_affine(**image, path.string()); !good) {
         return good.error();
     }
-    KnownPicture picture{path, meeting_of(heights, **image, notes), {}, says_place(**image)};
-    if (!picture.meeting.stretched && !names_crs(**image)) {
+    KnownPicture picture{path, common_space_of(heights, **image, notes), {}, has_place(**image)};
+    if (!picture.space.stretched && !names_crs(**image)) {
         notes.push_back(fmt::format("imagery: {} names no coordinate system, so that of the "
                                     "terrain is taken",
                                     path.filename().string()));
     }
-    auto colors = open_colors(path, white, heights, picture.meeting, messages);
+    auto colors = open_colors(path, white, heights, picture.space, messages);
     if (!colors) {
         return colors.error();
     }
-    note_thinning(**image, notes);
-    const auto pixel = pixel_size(**colors, picture.meeting);
+    note_subsampling(**image, notes);
+    const auto pixel = pixel_size(**colors, picture.space);
     if (!pixel) {
-        return unreadable(name, messages);
+        return unreadable_image(path, messages);
     }
     picture.pixel = *pixel;
-    picture.turns = turns_of(grid, **colors, picture.meeting);
+    picture.turns = turns_of(grid, **colors, picture.space);
     return picture;
 }
 
-/// How fine it is over the heights: see fineness().
-double fineness_over_heights(const KnownPicture& picture) {
-    const geo::PixelAffine& from = picture.meeting.from_heights;
+/// See resolution().
+double resolution_over_heights(const KnownPicture& picture) {
+    const geo::PixelAffine& from = picture.space.from_heights;
     return resolution(picture.pixel /
                       std::sqrt(std::abs(from.x_col * from.y_row - from.x_row * from.y_col)));
 }
 
-/// Those that can be read, finest first, of equally fine ones the newer; what is wrong with the
-/// others is told in `faults`.
+/// Readable pictures: finest first, then newest. Adds errors for the others.
 std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& heights,
                                          const SampleGrid& grid, std::vector<std::string>& notes,
                                          std::vector<std::string>& errors) {
@@ -378,14 +344,14 @@ std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& h
     }
     std::stable_sort(pictures.begin(), pictures.end(),
                      [](const KnownPicture& a, const KnownPicture& b) {
-                         return fineness_over_heights(a) < fineness_over_heights(b);
+                         return resolution_over_heights(a) < resolution_over_heights(b);
                      });
     return pictures;
 }
 
-/// One alone is stretched over the terrain, but not among those that have a place.
+/// Images without a place are stretched over the terrain only if no image has a place.
 void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::string>& notes) {
-    const auto stretched = [](const KnownPicture& picture) { return picture.meeting.stretched; };
+    const auto stretched = [](const KnownPicture& picture) { return picture.space.stretched; };
     if (std::all_of(pictures.begin(), pictures.end(), stretched)) {
         return;
     }
@@ -450,7 +416,7 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
         return shows_nothing(options);
     }
     const Size size =
-        target_size(grid, pictures.front().meeting, pictures.front().pixel, options.memory_budget);
+        target_size(grid, pictures.front().space, pictures.front().pixel, options.memory_budget);
     Drape drape(heights, grid, options, files.white,
                 Image(size.cols, size.rows, Rgba8{0, 0, 0, 0}));
     bool any = false;

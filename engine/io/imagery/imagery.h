@@ -12,9 +12,8 @@
 
 namespace reljef::io {
 
-/// RasterOptions::imagery over the samples at `place` of the raster `heights`, with those that
-/// close it, edge sample to edge sample; see read_terrain. Images that cannot be read are told in
-/// `faults`; fails where that is so of all.
+/// Drapes RasterOptions::imagery over the closed samples at `place` of the raster `heights`, edge
+/// sample to edge sample. Adds an error for each unreadable image; fails if all are unreadable.
 Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
                            std::vector<std::string>& notes, std::vector<std::string>& errors);
 

@@ -20,22 +20,22 @@
 #include "engine/io/tile_layer.h"
 
 namespace reljef::io {
-/// What is known of an image without reading it.
+/// Metadata of an image.
 struct KnownImage {
     std::filesystem::path path;
     glm::ivec2 size{0};
     glm::dvec2 pixel{1.0}; ///< metres
-    DegreeBox box{};       ///< around it
+    DegreeBox box{};
     struct Overview {
         int index = 0;
-        double factor = 1.0; ///< pixels a side in one of its
+        double factor = 1.0; ///< full-resolution pixels per pixel and side
     };
-    std::vector<Overview> overviews; ///< that can be read
+    std::vector<Overview> overviews;
 };
 
 namespace {
 
-/// Metres a pixel at the middle of (8+1)² places over `size` pixels.
+/// Metres per pixel at the middle of 9×9 places over `size` pixels.
 glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
     constexpr std::size_t middle = middle_of_places;
     const double across = metres_between(degrees[middle - 1], degrees[middle + 1]);
@@ -56,11 +56,7 @@ std::vector<KnownImage::Overview> overviews_of(GDALDataset& rgb) {
     return found;
 }
 
-bool has_place(GDALDataset& image) {
-    return affine_of(image).has_value();
-}
-
-/// Opens an image as RGB, in `crs` where it names no coordinate system of its own.
+/// Opens an image as RGB; `crs` is its CRS if it names none.
 Result<Dataset> open_rgb(const std::filesystem::path& path, double white, const std::string& crs,
                          const GdalMessages& messages) {
     auto image = open_raster(path, messages);
@@ -69,9 +65,7 @@ Result<Dataset> open_rgb(const std::filesystem::path& path, double white, const 
     }
     Dataset rgb = as_rgb(std::move(*image), white);
     if (rgb == nullptr) {
-        return Error{fmt::format("{}: cannot be read as an image{}, a whole grey, palette or "
-                                 "RGB(A) image was expected",
-                                 path.string(), messages.reason())};
+        return unreadable_image(path, messages);
     }
     if (rgb->GetSpatialRef() == nullptr) {
         const OGRSpatialReference own = crs_from_text(crs);
@@ -81,19 +75,11 @@ Result<Dataset> open_rgb(const std::filesystem::path& path, double white, const 
 }
 
 std::optional<KnownImage> known(const std::filesystem::path& path, GDALDataset& rgb) {
-    std::vector<std::string> ignored;
-    const auto affine = has_place(rgb) ? affine_of(rgb) : std::nullopt;
-    const auto crs = affine ? horizontal_crs(rgb, ignored) : std::nullopt;
-    if (!crs || crs->IsLocal() != 0) {
+    const auto degrees = places_over(rgb);
+    if (degrees.empty()) {
         return std::nullopt;
     }
     KnownImage image{path, {rgb.GetRasterXSize(), rgb.GetRasterYSize()}, {}, {}, overviews_of(rgb)};
-    const auto degrees = places_over(
-        [&](glm::dvec2 part) { return affine->crs_from_pixel(part * glm::dvec2(image.size)); },
-        wkt_of(*crs));
-    if (degrees.empty() || std::isnan(degrees[middle_of_places].x)) {
-        return std::nullopt;
-    }
     image.box = padded_box(degrees);
     image.pixel = pixel_size(degrees, image.size);
     return std::isfinite(image.pixel.x * image.pixel.y) ? std::optional(image) : std::nullopt;
@@ -103,11 +89,11 @@ double side_of(const KnownImage& image) {
     return std::sqrt(image.pixel.x * image.pixel.y);
 }
 
-/// Which of an image is read for texels so far apart, and how many of its pixels, each way.
+/// The overview to read for a spacing of texels.
 struct Choice {
-    int overview = -1; ///< -1: the image itself
-    double pixels = 0.0;
-    double scale = 1.0; ///< texels to a pixel that is read
+    int overview = -1;   ///< -1: full resolution
+    double pixels = 0.0; ///< to read
+    double scale = 1.0;  ///< texels per pixel read
 };
 
 Choice choice_for(const KnownImage& image, double spacing, double texels) {
@@ -133,18 +119,13 @@ bool shows_something(std::span<const Rgba8> texels) {
     return std::any_of(texels.begin(), texels.end(), [](Rgba8 texel) { return texel.a != 0; });
 }
 
-/// So small that it may lie between the texels.
+/// Whether an image may lie between the texels.
 bool is_tiny(const KnownImage& image, double spacing) {
     const glm::dvec2 sides = image.pixel * glm::dvec2(image.size);
     return std::min(sides.x, sides.y) < 2.0 * spacing;
 }
 
-bool is_full(const Image& image) {
-    const auto texels = image.samples();
-    return std::all_of(texels.begin(), texels.end(), [](Rgba8 texel) { return texel.a == 255; });
-}
-
-/// Centres of texels on the places of the grid.
+/// Places the centres of texels on the grid.
 bool place_raster(GDALDataset& raster, const TileGrid& grid, const OGRSpatialReference& crs) {
     const glm::dvec2 corner = grid.first - 0.5 * grid.step;
     std::array<double, 6> affine{corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
@@ -155,6 +136,10 @@ bool place_raster(GDALDataset& raster, const TileGrid& grid, const OGRSpatialRef
 double units_in_degree(const std::string& crs) {
     const OGRSpatialReference reference = crs_from_text(crs);
     return reference.IsGeographic() != 0 ? 1.0 / glm::degrees(reference.GetAngularUnits()) : 0.0;
+}
+
+void copy_row(Image& picture, int from, int to) {
+    std::copy(picture.row(from).begin(), picture.row(from).end(), picture.row(to).begin());
 }
 
 } // namespace
@@ -168,16 +153,16 @@ struct ImagerySet::State {
           }),
           failing(options.first_pause) {}
 
-    std::string crs;                ///< WKT of what is asked for
-    double turn;                    ///< units of x in a degree; 0: no degrees
-    std::size_t reading_memory;     ///< bytes, for each that reads
+    std::string crs;                ///< WKT of the grids
+    double turn;                    ///< units of x per degree; 0: not in degrees
+    std::size_t reading_memory;     ///< bytes per thread
     double white;                   ///< see white_of
     std::vector<KnownImage> images; ///< finest first
-    bool complete = true;           ///< all that could be opened are among them
+    bool complete = true;           ///< all images could be opened
     mutable DatasetPool pool;
     mutable FailingFiles failing;
 
-    /// Draws what an image shows into an empty picture. Fails where it cannot be read.
+    /// Draws an image into an empty picture.
     Result<void> draw(const KnownImage& image, const Choice& choice, const TileGrid& grid,
                       Image& texels, const std::stop_token& stop) const {
         const GdalMessages messages;
@@ -191,8 +176,7 @@ struct ImagerySet::State {
                                   .memory = reading_memory,
                                   .progress = {},
                                   .stop = stop};
-        // Its own: these objects are not for several threads at a time.
-        const OGRSpatialReference reference = crs_from_text(crs);
+        const OGRSpatialReference reference = crs_from_text(crs); // not thread-safe
         if (raster == nullptr || !place_raster(*raster, grid, reference) ||
             !warp(**rgb, *raster, options) || messages.has_lost_blocks()) {
             if (!stop.stop_requested()) {
@@ -204,8 +188,8 @@ struct ImagerySet::State {
         return {};
     }
 
-    /// Adds what an image shows beneath the others; `turns`: see turns_to_meet. Whether there is
-    /// something of it, or may be.
+    /// Draws an image beneath the others; `turns`: see turns_to_meet. Returns whether it
+    /// contributes or may contribute.
     bool add(const KnownImage& image, const Choice& choice, const TileGrid& grid,
              std::span<const double> turns, ImageryWindow& window,
              const std::stop_token& stop) const {
@@ -230,7 +214,7 @@ struct ImagerySet::State {
             shows = shows || shows_something(drawn.samples());
             lay_under(window.texels, drawn);
             if (turn == 0.0) {
-                break; // a turn more is the same place
+                break; // all turns are the same place
             }
         }
         failing.forget(image.path);
@@ -244,13 +228,13 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
     const ImageFiles files = image_files(names, errors, options.stop);
     auto state = std::make_shared<State>(crs, files.white, options);
     std::vector<std::optional<KnownImage>> found(files.paths.size());
-    const auto look = [&](int i) {
+    const auto inspect = [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         const GdalMessages messages;
         const auto rgb = open_rgb(files.paths[index], files.white, crs, messages);
         found[index] = rgb ? known(files.paths[index], **rgb) : std::nullopt;
     };
-    parallel_for(static_cast<int>(found.size()), look,
+    parallel_for(static_cast<int>(found.size()), inspect,
                  {.threads = 0, .stop = options.stop, .progress = {}});
     if (options.stop.stop_requested()) {
         return Error{"the images: reading was stopped"};
@@ -290,7 +274,7 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
     check(grid.cols >= 1 && grid.rows >= 1, "ImagerySet::read of an empty grid");
     ImageryWindow window{
         Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), state_->complete, false, {}};
-    const GdalMessages unheard; // of places that a projection does not have
+    const GdalMessages ignored_messages; // projections are undefined at some places
     const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
     const auto degrees = places_over(
         [&](glm::dvec2 part) { return grid.first + grid.step * (part * last); }, state_->crs);
@@ -300,7 +284,7 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
     const DegreeBox box = padded_box(degrees);
     const double texels = static_cast<double>(grid.cols) * grid.rows;
     for (const KnownImage& image : state_->images) {
-        if (is_full(window.texels) || stop.stop_requested()) {
+        if (is_opaque(window.texels) || stop.stop_requested()) {
             break;
         }
         const std::vector<double> turns = turns_to_meet(box, image.box);
@@ -326,6 +310,23 @@ std::optional<std::string> ImagerySet::missing_overviews() const {
         }
     }
     return std::nullopt;
+}
+
+void close_picture(Image& picture, const geo::ClosedRows& rows, double first, double samples) {
+    constexpr double same_row = 1e-6;
+    const double step = samples / (picture.rows() - 1);
+    const int last = picture.rows() - 1;
+    const auto texel_of = [&](int row) {
+        const double source = rows.source_row(first + row * step);
+        return (source + rows.closing().north_rows() - first) / step;
+    };
+    for (int row = 0; row <= last && texel_of(row) > row + same_row; ++row) {
+        copy_row(picture, std::min(static_cast<int>(std::ceil(texel_of(row) - same_row)), last),
+                 row);
+    }
+    for (int row = last; row >= 0 && texel_of(row) < row - same_row; --row) {
+        copy_row(picture, std::max(static_cast<int>(std::floor(texel_of(row) + same_row)), 0), row);
+    }
 }
 
 } // namespace reljef::io

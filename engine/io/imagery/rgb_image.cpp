@@ -13,8 +13,7 @@
 #include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal_utils.h>
-
-#include "engine/io/imagery/sampled_windows.h"
+#include <glm/common.hpp>
 
 namespace reljef::io {
 namespace {
@@ -59,7 +58,7 @@ void add(CPLStringList& list, std::initializer_list<std::string> words) {
     }
 }
 
-// A file cut short is found by its last block, before all the others are read.
+// Detects a truncated file before all other blocks are read.
 bool has_last_block(GDALDataset& image) {
     GDALRasterBand& band = *image.GetRasterBand(1);
     int cols = 0;
@@ -73,7 +72,7 @@ bool has_last_block(GDALDataset& image) {
     return block != nullptr;
 }
 
-/// At least 0; 0 where it cannot be read.
+/// At least 0; 0 if unreadable.
 double highest_in(GDALRasterBand& band, const PixelWindow& window) {
     std::vector<double> values(static_cast<std::size_t>(window.size.x) *
                                static_cast<std::size_t>(window.size.y));
@@ -145,7 +144,7 @@ Dataset translated(GDALDataset& image, CPLStringList words) {
         GDALTranslate("", GDALDataset::ToHandle(&image), options.get(), nullptr)));
 }
 
-// The VRT made of a dataset holds a reference to it: ours goes, the dataset stays.
+// The VRT holds its own reference to the source dataset.
 Dataset keeping_open(Dataset made, Dataset source) {
     if (made != nullptr) {
         source.release()->ReleaseRef();
@@ -182,7 +181,31 @@ Rgba8 over(Rgba8 top, Rgba8 beneath) {
             mixed(top.b, beneath.b, share), static_cast<std::uint8_t>(std::lround(255.0 * alpha))};
 }
 
+constexpr int min_window_cols = 64; // limits the number of windows
+
+/// A block, some rows of it, or several narrow blocks.
+glm::ivec2 sampled_window_for(glm::ivec2 block, glm::ivec2 size) {
+    const int cols = std::min(std::clamp(block.x, min_window_cols, max_window_pixels), size.x);
+    return {cols, std::clamp(std::min(block.y, size.y), 1, max_window_pixels / cols)};
+}
+
 } // namespace
+
+std::vector<PixelWindow> sampled_windows(glm::ivec2 size, glm::ivec2 block) {
+    const glm::ivec2 window = sampled_window_for(block, size);
+    const std::int64_t across = (size.x - 1) / window.x + 1;
+    const std::int64_t count = across * ((size.y - 1) / window.y + 1);
+    const std::int64_t desired = max_sampled_pixels / (window.x * window.y) + 1;
+    std::int64_t step = std::max<std::int64_t>(1, (count + desired - 1) / desired);
+    step += step > 1 && step % across == 0 ? 1 : 0; // avoids sampling one column only
+    std::vector<PixelWindow> windows;
+    for (std::int64_t i = 0; i < count; i += step) {
+        const glm::ivec2 first(static_cast<int>(i % across) * window.x,
+                               static_cast<int>(i / across) * window.y);
+        windows.push_back({first, glm::min(window, size - first)});
+    }
+    return windows;
+}
 
 double white_of(GDALDataset& image, const std::stop_token& stop) {
     const ColorBands bands = color_bands(image);
@@ -256,7 +279,7 @@ bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
     }
     if (options.memory > 0) {
         constexpr std::size_t least = std::size_t{1}
-                                      << 20U; // what is small GDAL takes for megabytes
+                                      << 20U; // GDAL takes small numbers as megabytes
         add(words, {"-wm", std::to_string(std::max(options.memory, least))});
     }
     const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> warping(
@@ -273,6 +296,17 @@ bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
                        misused == FALSE;
     target.FlushCache();
     return drawn;
+}
+
+Error unreadable_image(const std::filesystem::path& path, const GdalMessages& messages) {
+    return {fmt::format("{}: cannot be read as an image{}, a whole grey, palette or RGB(A) image "
+                        "was expected",
+                        path.string(), messages.reason())};
+}
+
+bool is_opaque(const Image& image) {
+    const auto pixels = image.samples();
+    return std::all_of(pixels.begin(), pixels.end(), [](Rgba8 pixel) { return pixel.a == 255; });
 }
 
 void lay_under(Image& top, const Image& beneath) {

@@ -3,6 +3,9 @@
 #include <functional>
 #include <stop_token>
 #include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "engine/core/color.h"
 #include "engine/core/parallel_for.h"
@@ -10,44 +13,54 @@
 
 namespace reljef::io {
 
-/// The value of an image's colours that is to be white where they are wider than 8 bits: 1 for
-/// fractions, else the highest found; 0 for 8 bits, whose white is 255. Of huge images only a part
-/// is looked at.
+/// The colour value to display as white, for more than 8 bits: 1 for fractions, else the highest
+/// value found in sampled_windows(). 0 for 8 bits, whose white is 255.
 double white_of(GDALDataset& image, const std::stop_token& stop = {});
 
-/// An image of any bands and type as 8-bit red, green, blue and perhaps alpha, still on disk, with
-/// its overviews; it keeps `image` open. Values of more than 8 bits are divided by `white`. Null
-/// where it has no whole last block, or cannot be taken for an image.
+/// A part of an image, pixels.
+struct PixelWindow {
+    glm::ivec2 first{0};
+    glm::ivec2 size{0};
+};
+/// Windows over an image of `size` pixels in blocks of `block`: all of it, or evenly spread ones
+/// with about `max_sampled_pixels` in total. A window has at most `max_window_pixels`.
+std::vector<PixelWindow> sampled_windows(glm::ivec2 size, glm::ivec2 block);
+inline constexpr int max_sampled_pixels = 1 << 22;
+inline constexpr int max_window_pixels = 1 << 18;
+
+/// An image of any bands and type as 8-bit RGB(A) on disk, with its overviews. Values of more than
+/// 8 bits are divided by `white`. Keeps `image` open. Null for a truncated or unsuitable image.
 Dataset as_rgb(Dataset image, double white);
 
-/// Of an image so large that reading all of it would take minutes every how-manieth pixel a side.
+/// Subsampling per side that keeps the reading time of a huge image short; 1 for others.
 int subsampling_of(GDALDataset& image);
-/// The same with only these pixels.
 Dataset subsampled(Dataset rgb, int subsampling);
 
-/// A GDAL raster of four bands whose pixels are those of `image`, which outlives it.
+/// A GDAL raster of four bands over the pixels of `image`, which must outlive it.
 Dataset raster_over(Image& image);
 
-/// How the pixels of a warp are found.
 struct WarpOptions {
-    int overview = -1; ///< the one to read; -1: the image itself; automatic_overview: by the size
-    /// Pixels of the target in one of what is read, so that all parts of a picture are averaged
-    /// over as much; 0: as GDAL finds it for each.
+    int overview = -1; ///< index; -1: full resolution; automatic_overview: by size
+    /// Target pixels per source pixel, for the same filter in all parts of a picture; 0: automatic.
     double scale = 0.0;
-    /// Bytes for what is read and drawn at a time; 0: as many as GDAL takes.
-    std::size_t memory = 0;
+    std::size_t memory = 0; ///< bytes for warping; 0: GDAL's default
     Progress progress;
     std::stop_token stop;
 };
 inline constexpr int automatic_overview = -2;
 
-/// Draws an image into a raster over the same ground, in their own coordinate systems, bilinear;
-/// where it shows nothing alpha is 0. Places are right to `max_warp_error`, those of the first and
-/// the last column exactly. False where it could not be read, or was stopped.
+/// Reprojects an image into `target`, bilinear; alpha is 0 outside the image. The error of
+/// positions is at most `max_warp_error`, and 0 in the first and last column. False if unreadable
+/// or stopped.
 bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options);
-inline constexpr double max_warp_error = 0.05; // pixels of the target
+inline constexpr double max_warp_error = 0.05; // target pixels
 
-/// Puts an image of the same size beneath one that is transparent in places.
+/// "cannot be read as an image" with GDAL's reason.
+Error unreadable_image(const std::filesystem::path& path, const GdalMessages& messages);
+
+bool is_opaque(const Image& image);
+
+/// Composites `top` over an image of the same size.
 void lay_under(Image& top, const Image& beneath);
 
 } // namespace reljef::io

@@ -18,6 +18,15 @@ OGRSpatialReference crs_from_text(const std::string& text) {
     return crs;
 }
 
+std::string wkt_of(const OGRSpatialReference& crs, const char* format) {
+    char* text = nullptr;
+    const std::array<const char*, 2> options{format, nullptr};
+    crs.exportToWkt(&text, options.data());
+    std::string wkt = text != nullptr ? text : "";
+    CPLFree(text);
+    return wkt;
+}
+
 std::optional<CrsTransform> CrsTransform::create(const OGRSpatialReference& from,
                                                  const OGRSpatialReference& to,
                                                  const std::optional<DegreeBox>& area) {

@@ -21,6 +21,7 @@ inline const std::string wgs84_degrees = "EPSG:4326";
 
 /// Parses WKT or "EPSG:…"; axes x east, y north.
 OGRSpatialReference crs_from_text(const std::string& text);
+std::string wkt_of(const OGRSpatialReference& crs, const char* format = "FORMAT=WKT2_2019");
 
 /// PROJ's transform between two coordinate systems. One thread at a time.
 class CrsTransform {

@@ -274,15 +274,6 @@ std::string vertical_datum_of(GDALDataset& dataset) {
     return is_egm96 ? "EGM96 height" : "";
 }
 
-std::string wkt_of(const OGRSpatialReference& crs) {
-    char* text = nullptr;
-    const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
-    crs.exportToWkt(&text, options.data());
-    std::string wkt = text != nullptr ? text : "";
-    CPLFree(text);
-    return wkt;
-}
-
 Result<void> check_affine(GDALDataset& dataset, const std::string& name) {
     std::array<double, 6> t{};
     if (dataset.GetGeoTransform(t.data()) != CE_None) {

@@ -26,9 +26,6 @@ Result<void> check_affine(GDALDataset& dataset, const std::string& name);
 std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
                                                   std::vector<std::string>& notes);
 
-/// The CRS in WKT 2 (2019).
-std::string wkt_of(const OGRSpatialReference& crs);
-
 /// What a raster's heights are counted from ("EGM96 height"), by its CRS or its format; empty where
 /// neither tells.
 std::string vertical_datum_of(GDALDataset& dataset);

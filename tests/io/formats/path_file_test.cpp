@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/formats/scene_file.h"
+#include "engine/io/formats/flight_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::io {
@@ -11,7 +11,9 @@ using ::testing::HasSubstr;
 
 Result<std::vector<PathKey>> read(const std::string& text) {
     const test::TemporaryFolder folder;
-    return read_path_file(folder.write("path.toml", text));
+    auto flight = read_flight(folder.write("path.toml", text));
+    return flight ? Result<std::vector<PathKey>>(std::get<std::vector<PathKey>>(flight->keys))
+                  : flight.error();
 }
 
 std::string key(double time, const std::string& rest = "eye = [1, 2, 3]\nlook = [0, 0, 0]\n") {
@@ -60,7 +62,7 @@ TEST(PathFile, MoreThanAHundredThousandKeysAreRefused) {
 }
 
 TEST(PathFile, MissingIsAnError) {
-    EXPECT_FALSE(read_path_file("none/path.toml"));
+    EXPECT_FALSE(read_flight("none/path.toml"));
 }
 
 } // namespace

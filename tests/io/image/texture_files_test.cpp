@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/image/image.h"
-#include "engine/io/image/texture_role.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 

@@ -246,7 +246,7 @@ TEST_F(ImagerySets, AFileThatFailsAgainAndAgainIsPassedOverWithoutAFault) {
         open({"coarse.tif", "fine.tif"}, utm_31, {.first_pause = std::chrono::milliseconds(0)});
     std::filesystem::remove(folder_.path() / "fine.tif");
     const TileGrid grid{{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9};
-    for (int i = 0; i < ImagerySet::max_failures; ++i) {
+    for (int i = 0; i < BackOff::max_attempts; ++i) {
         ASSERT_EQ(set.read(grid, 20.0).errors.size(), 1U);
     }
     const ImageryWindow window = set.read(grid, 20.0);

@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/imagery/rgb_image.h"
-#include "engine/io/imagery/sampled_windows.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/terrain_file.h"
 #include "tests/io/made_raster.h"

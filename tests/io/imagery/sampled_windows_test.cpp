@@ -1,4 +1,4 @@
-#include "engine/io/imagery/sampled_windows.h"
+#include "engine/io/imagery/rgb_image.h"
 
 #include <algorithm>
 #include <filesystem>

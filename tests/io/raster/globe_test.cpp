@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/imagery/closed_picture.h"
+#include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tree_tile.h"
 #include "engine/terrain/field/gradient.h"
 #include "engine/terrain/field/placement.h"

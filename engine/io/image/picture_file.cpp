@@ -1,4 +1,4 @@
-#include "engine/io/image/image_limits.h"
+#include "engine/io/image/picture_file.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,10 @@ namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int longest_side = 1 << 16;
+constexpr int max_side = 1 << 16;
 constexpr double max_pixels = 1 << 28;
 constexpr double always_allowed = 1 << 24; // pixels
-constexpr double pixels_per_byte = 2000.0; // no format of ours packs tighter
+constexpr double pixels_per_byte = 2000.0; // above the densest format
 
 constexpr std::array<unsigned char, 8> png_signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
@@ -27,7 +27,7 @@ bool is_png(std::istream& stream) {
                       [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-/// Whether a PNG's chunks lead to its last one, IEND (PNG specification, 5.3).
+/// Whether a PNG's chunks end with IEND (PNG specification, 5.3).
 bool has_all_chunks(std::istream& stream) {
     constexpr std::streamoff checksum = 4;
     std::array<char, 8> head{};
@@ -73,8 +73,8 @@ Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec)
     const double bytes = static_cast<double>(fs::file_size(path, code));
     const double pixels = static_cast<double>(spec.width) * spec.height;
     const double most = std::min(max_pixels, std::max(always_allowed, bytes * pixels_per_byte));
-    const bool good = spec.width > 0 && spec.height > 0 && spec.width <= longest_side &&
-                      spec.height <= longest_side && spec.depth <= 1 && spec.nchannels > 0 &&
+    const bool good = spec.width > 0 && spec.height > 0 && spec.width <= max_side &&
+                      spec.height <= max_side && spec.depth <= 1 && spec.nchannels > 0 &&
                       pixels <= most;
     if (!good) {
         return Error{
