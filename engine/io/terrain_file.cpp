@@ -35,8 +35,8 @@ Result<void> check_options(const RasterOptions& options, const std::string& name
     return {};
 }
 
-// Samples that nobody says how far apart they are: 1 m, or where the relief would then be higher
-// than half the width, what makes it a tenth, to two digits.
+// Spacing for samples without one: 1 m, or if the relief would exceed half the width, the spacing
+// that makes it a tenth of the width, rounded to two digits.
 double assumed_spacing(const terrain::Heightfield& heightfield, glm::dvec2 step,
                        std::vector<std::string>& notes) {
     const double relief = heightfield.range.high - heightfield.range.low;

@@ -16,16 +16,14 @@
 namespace reljef::io {
 namespace {
 
-constexpr int block_side = 1024; // lattice points read at a time
-constexpr int min_chunk = 16384; // places that are worth a transform of their own
-// Of a sample: degrees in double tell a ten-thousandth of it, and a place that was computed to be
-// on a sample should have that sample's very value.
+constexpr int block_side = 1024; // lattice points per read
+constexpr int min_chunk = 16384; // places per transform
+// Samples: rounding error of places that are computed to be on a sample.
 constexpr double on_sample = 1e-7;
 
 using Kind = HeightAnswer::Kind;
 
-// Degrees: a micrometre. PROJ's way back through a grid of datum shifts is iterated, and ends some
-// tens of micrometres from where its way there begins.
+// Degrees: 1 µm. PROJ's inverse of a datum shift grid is iterative and errs by tens of µm.
 constexpr double inexact = 1e-11;
 constexpr std::size_t probed_places = 64;
 
@@ -42,8 +40,8 @@ bool is_exact_inverse(std::span<const glm::dvec2> places, std::span<const glm::d
     return true;
 }
 
-/// Longitudes and latitudes to the CRS of a layer, in place, so that PROJ's way back from there
-/// leads to them: where it does not, one step of correction by what is missing.
+/// Transforms (longitude, latitude) to a layer's CRS in place. Corrects them by the round-trip
+/// error if PROJ's inverse is not exact.
 void to_crs(const TileLayer& layer, const CrsTransform& transform, std::span<glm::dvec2> places) {
     std::vector<glm::dvec2> points(places.begin(), places.end());
     transform.apply(points);
@@ -60,14 +58,14 @@ void to_crs(const TileLayer& layer, const CrsTransform& transform, std::span<glm
     std::copy(points.begin(), points.end(), places.begin());
 }
 
-/// Where places lie on the lattice of a layer; NaN where they have none.
+/// Lattice points of places; NaN if undefined.
 std::vector<glm::dvec2> lattice_points(const TileLayer& layer, std::span<const glm::dvec2> places,
                                        std::span<const int> requested, unsigned threads) {
     std::vector<glm::dvec2> points(requested.size());
     const auto count = static_cast<int>(requested.size());
     const int size = std::max(min_chunk, count / static_cast<int>(thread_count(threads)) + 1);
     const auto transform_part = [&](int chunk) {
-        const GdalMessages unheard; // of places that a projection does not have
+        const GdalMessages ignored_messages; // projections are undefined at some places
         const auto begin = static_cast<std::size_t>(chunk) * static_cast<std::size_t>(size);
         const auto part = std::span(points).subspan(
             begin, std::min(static_cast<std::size_t>(size), points.size() - begin));
@@ -90,18 +88,17 @@ std::vector<glm::dvec2> lattice_points(const TileLayer& layer, std::span<const g
     return points;
 }
 
-/// The tile whose own samples are all around a point; else the one that reaches within half a step
-/// of it, with the point moved to its edge; nothing where no tile is so near.
+/// The tile that contains a point, or the nearest one within half a step.
 struct OnTile {
     const LayerTile* tile = nullptr;
-    glm::dvec2 point{0.0}; // on the layer's lattice, as the tile's own corners place it
+    glm::dvec2 point{0.0}; // on the layer's lattice, shifted by the tile's offset
 };
 
 double snapped(double value) {
     return std::abs(value - std::round(value)) <= on_sample ? std::round(value) : value;
 }
 
-/// How far a point is outside a tile's outermost samples, in steps; 0 inside.
+/// Distance of a point from a tile's samples, in steps; 0 inside.
 double outside_by(const LayerTile& tile, glm::dvec2 point) {
     const glm::dvec2 low = glm::dvec2(tile.col, tile.row) - point;
     const glm::dvec2 high = point - glm::dvec2(tile.col + tile.cols - 1, tile.row + tile.rows - 1);
@@ -113,13 +110,13 @@ glm::dvec2 moved_into(const LayerTile& tile, glm::dvec2 point) {
                       glm::dvec2(tile.col + tile.cols - 1, tile.row + tile.rows - 1));
 }
 
-/// Points in one block of a layer's lattice, by their index.
+/// Indexes of points in a block of the lattice.
 struct Block {
     glm::ivec2 first{0};
     std::vector<int> points;
 };
 
-/// Of a point on the way to a pole that a layer is closed by, the nearest that its cells reach.
+/// Clamps a point between the outermost row and a pole to the layer's cells.
 glm::dvec2 in_reach(const TileLayer& layer, const geo::GlobalWrap& closing, glm::dvec2 point) {
     const double north = -point.y;
     const double south = point.y - (layer.rows - 1.0);
@@ -153,18 +150,17 @@ std::vector<Block> blocks_of(const TileLayer& layer, const geo::GlobalWrap& clos
     return blocks;
 }
 
-/// Whether a tile answers only between its samples and its neighbours', or to the edge of its
-/// cells.
+/// Extent of a tile: between samples only, or to the edge of its cells.
 enum class Reach { samples, half_a_cell };
 
-/// The heights of the poles that a layer goes around, metres; NaN where no point needs them.
+/// Heights of the poles of a global layer, metres; NaN if unused.
 struct Poles {
     geo::GlobalWrap closing;
     double north = void_value;
     double south = void_value;
 };
 
-/// The mean of a row; NaN where it has no height.
+/// NaN for a row without heights.
 double mean_of_row(const TileLayer& layer, int row, const TileContent& reading,
                    std::vector<FileError>& errors) {
     const CellWindow window{1, glm::ivec2(0), {0, row}, layer.cols, 1};
@@ -201,7 +197,7 @@ Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
     return poles;
 }
 
-/// One layer's answers for the points of one block.
+/// A layer's heights at the points of a block.
 class BlockHeights {
 public:
     BlockHeights(const TileLayer& layer, const Block& block, std::span<const glm::dvec2> points,
@@ -218,7 +214,7 @@ public:
         }
     }
 
-    /// Reads what the points need, then calls answer(index, answer).
+    /// Calls answer(index, answer) for each point on a tile.
     template <class Answer>
     void find(const TileContent& reading, std::vector<FileError>& errors, const Answer& answer) {
         std::vector<OnTile> found;
@@ -264,7 +260,7 @@ private:
         }
         return nearest;
     }
-    /// Whether all four samples around a point are some tile's.
+    /// Whether tiles contain all four samples around a point.
     [[nodiscard]] bool between_tiles(glm::dvec2 point) const {
         const glm::dvec2 low = glm::floor(point);
         const glm::dvec2 high = glm::ceil(point);
@@ -275,7 +271,7 @@ private:
             });
         });
     }
-    /// From the outermost row's height to the pole's.
+    /// Interpolates between the outermost row and a pole.
     [[nodiscard]] HeightAnswer towards_pole(HeightAnswer answer, int index) const {
         const double row = points_[static_cast<std::size_t>(index)].y;
         const bool north = row < 0.0;
@@ -288,19 +284,15 @@ private:
         return answer;
     }
     static CellWindow window_of(std::span<const OnTile> found) {
-        glm::dvec2 low(std::numeric_limits<double>::infinity());
-        glm::dvec2 high = -low;
+        PointBounds bounds;
         for (const OnTile& place : found) {
             if (place.tile != nullptr) {
-                low = glm::min(low, glm::floor(place.point));
-                high = glm::max(high, glm::ceil(place.point));
+                bounds.add(place.point);
             }
         }
         CellWindow window;
-        if (low.x <= high.x) {
-            window.first = glm::ivec2(low);
-            window.cols = static_cast<int>(high.x - low.x) + 1;
-            window.rows = static_cast<int>(high.y - low.y) + 1;
+        if (bounds.low.x <= bounds.high.x) {
+            window.set_range(glm::floor(bounds.low), glm::ceil(bounds.high));
         }
         return window;
     }
@@ -323,8 +315,7 @@ private:
     std::vector<const LayerTile*> near_;
 };
 
-/// The places that a layer may still answer: at first all without a height, to the edges of cells
-/// only those that no tile has.
+/// Places without an answer so far. At the edges of cells, voids count as answers.
 std::vector<int> unanswered(std::span<const HeightAnswer> answers, Reach reach) {
     std::vector<int> requested;
     for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -365,9 +356,11 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
 TileSet::Heights TileSet::heights(std::span<const glm::dvec2> places) const {
     Heights result;
     result.answers.resize(places.size());
+    std::atomic<std::size_t> ignored_bytes{0};
     for (const Reach reach : {Reach::samples, Reach::half_a_cell}) {
         for (const TileLayer& layer : state_->layers) {
-            ask_layer(layer, places, reach, state_->reading({}), state_->options.threads, result);
+            ask_layer(layer, places, reach, state_->reading(ignored_bytes, {}),
+                      state_->options.threads, result);
         }
     }
     keep_each_once(result.errors);

@@ -15,32 +15,30 @@
 namespace reljef::io {
 namespace {
 
-// In samples. Tiles whose corners are written with few digits still share a lattice; their offset
-// from it is kept.
-constexpr double same_phase = 1e-2;
-// Over a whole tile, in samples: what a size of pixel written with 12 digits may be wrong by.
+constexpr double same_phase = 1e-2; // samples; for tile corners written with few digits
+// Samples over a whole tile: error of pixel sizes written with 12 digits.
 constexpr double same_step = 1e-5;
-constexpr int taps_a_side = 4;         // values that a cell is averaged from, at least
-constexpr double closing_share = 0.75; // of a cell: no older tile adds to it
-constexpr double same_fineness = 1.01; // ratio of spacings
+constexpr int min_taps = 4;              // values per cell and side
+constexpr double closing_share = 0.75;   // of a cell: then older tiles do not add to it
+constexpr double same_resolution = 1.01; // ratio of spacings
 
 glm::dmat2 steps_matrix(const geo::PixelAffine& affine) {
     return {affine.x_col, affine.y_col, affine.x_row, affine.y_row};
 }
 
-/// Lattice points, in whole numbers that may be too large for an int.
+/// Whole numbers that may exceed int.
 struct LatticeBounds {
     glm::dvec2 low{0.0};
-    glm::dvec2 high{0.0}; ///< past the last
+    glm::dvec2 high{0.0}; ///< exclusive
 };
 
-/// A layer to which tiles are added; its lattice begins at the first one's first sample.
+/// A layer under construction; its lattice starts at the first tile.
 struct GrowingLayer {
     TileLayer layer;
     LatticeBounds bounds;
 };
 
-/// Where a file's first sample lies in a layer's lattice.
+/// A file's first sample on a layer's lattice.
 glm::dvec2 origin_in(const TileLayer& layer, const PlacedFile& file) {
     return layer.lattice_from_crs(file.crs_from_sample.crs_from_pixel(glm::dvec2(0.0)));
 }
@@ -67,7 +65,7 @@ LatticeBounds bounds_with(const GrowingLayer& growing, const PlacedFile& file,
             glm::max(growing.bounds.high, first + glm::dvec2(indexed.cols, indexed.rows))};
 }
 
-/// What lies farther away than a tree of tiles reaches is a layer of its own.
+/// Tiles farther apart than max_tree_samples belong to different layers.
 bool belongs_to(const GrowingLayer& growing, const PlacedFile& file, const IndexedFile& indexed) {
     if (!on_lattice(growing.layer, file, indexed)) {
         return false;
@@ -101,8 +99,8 @@ GrowingLayer layer_from(const PlacedFile& file, const IndexedFile& indexed) {
     return growing;
 }
 
-/// Lattice points in a whole turn, where the layer has just so many columns; else 0.
-int around(const TileLayer& layer) {
+/// The number of columns if the layer spans 360 degrees; else 0.
+int global_cols(const TileLayer& layer) {
     const double step = std::abs(layer.crs_from_lattice.x_col);
     const double miss = std::abs(layer.period / step - layer.cols);
     return layer.period > 0.0 && layer.crs_from_lattice.x_row == 0.0 && miss <= same_phase
@@ -110,9 +108,9 @@ int around(const TileLayer& layer) {
                : 0;
 }
 
-/// Before the first column come the last ones again, and after the last the first.
+/// Repeats tiles of a global layer on both sides.
 void add_turned_tiles(TileLayer& layer) {
-    const int turn = around(layer);
+    const int turn = global_cols(layer);
     const std::size_t count = turn > 0 ? layer.tiles.size() : 0;
     for (std::size_t i = 0; i < count; ++i) {
         LayerTile tile = layer.tiles[i];
@@ -128,7 +126,7 @@ void add_turned_tiles(TileLayer& layer) {
     }
 }
 
-/// Moves the lattice's origin to the first sample of all.
+/// Moves the lattice's origin to the first sample and sorts the tiles.
 TileLayer finished(GrowingLayer growing, std::span<const IndexedFile> files) {
     TileLayer& layer = growing.layer;
     const glm::ivec2 low(growing.bounds.low);
@@ -165,14 +163,14 @@ Rectangle overlap(const LayerTile& tile, const CellWindow& window) {
     return {glm::max(low, corner), glm::min(high, corner + glm::ivec2(tile.cols, tile.rows))};
 }
 
-/// Sums over cells, and the number of samples they rest on.
+/// Sums and sample counts of cells.
 class CellSums {
 public:
     explicit CellSums(const CellWindow& window)
         : window_(window), sum_(window.cols, window.rows), weight_(window.cols, window.rows),
           closed_(window.cols, window.rows) {}
 
-    /// `values` lie at plan.grid in the tile's own pixels.
+    /// `values` are at plan.grid in the tile's pixels.
     void add(const LayerTile& tile, const ReadPlan& plan, const Grid<double>& values) {
         const double weight = plan.grid.step.x * plan.grid.step.y;
         const glm::dvec2 corner(tile.col, tile.row);
@@ -188,7 +186,7 @@ public:
             }
         }
     }
-    /// No other tile adds to what is well covered now.
+    /// Closes well-covered cells to further tiles.
     void close_covered() {
         const double full = static_cast<double>(window_.reduction) * window_.reduction;
         for (std::size_t i = 0; i < weight_.size(); ++i) {
@@ -223,7 +221,6 @@ std::filesystem::path path_of(const LayerTile& tile, const TileContent& reading)
     return reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path;
 }
 
-/// As the index knows it, also where it was replaced.
 Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileContent& reading,
                                             const GdalMessages& messages) {
     const std::filesystem::path path = path_of(tile, reading);
@@ -241,9 +238,9 @@ Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileCon
     });
 }
 
-constexpr std::chrono::seconds longest_answer{5}; // of a server that does not hang
+constexpr std::chrono::seconds max_response_time{5}; // longer: the server hangs
 
-/// Nobody waits for a server that does not answer again and again.
+/// Skips remote files that fail repeatedly.
 Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileContent& reading,
                                  const GdalMessages& messages) {
     const std::filesystem::path path = path_of(tile, reading);
@@ -262,7 +259,7 @@ struct TileValues {
     Grid<double> values;
 };
 
-/// The part of a tile that lies in `part`, lattice points.
+/// Reads a part of a tile, in lattice points.
 Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int reduction,
                              const TileContent& reading) {
     const std::filesystem::path path = path_of(tile, reading);
@@ -274,7 +271,7 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
     const RasterOptions::Window window{part.low.x - tile.col, part.low.y - tile.row,
                                        part.high.x - part.low.x, part.high.y - part.low.y};
     TileValues result;
-    result.plan = plan_window(**dataset, window, std::max(1, reduction / taps_a_side));
+    result.plan = plan_window(**dataset, window, std::max(1, reduction / min_taps));
     std::vector<std::string> found;
     auto values =
         read_heights(**dataset, result.plan, path.string(), reading.options, messages, found);
@@ -292,23 +289,23 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
         reading.new_notes->add(path, words);
     }
     result.values = std::move(*values);
-    // Blocks come whole, however few of their samples are of use.
-    const auto passed_over = static_cast<std::size_t>(result.plan.reduction);
-    *reading.bytes_read += result.values.size() * passed_over * passed_over *
+    // Counts all samples, because blocks are read as a whole.
+    const auto reduction_of_plan = static_cast<std::size_t>(result.plan.reduction);
+    *reading.bytes_read += result.values.size() * reduction_of_plan * reduction_of_plan *
                            static_cast<std::size_t>(GDALGetDataTypeSizeBytes(
                                (*dataset)->GetRasterBand(1)->GetRasterDataType()));
     return result;
 }
 
-/// Samples of the finest level along a tile of the level that is read for a reduction.
-int side_of_pyramid_tile(int reduction) {
-    return web_tiles_side << std::max(0, std::ilogb(std::max(1, reduction / taps_a_side)));
+/// Finest samples along a web tile of the level to read.
+int web_tile_side(int reduction) {
+    return web_tiles_side << std::max(0, std::ilogb(std::max(1, reduction / min_taps)));
 }
 
-/// One by one, so that one that is damaged takes no other with it.
-void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reduction,
-                       const TileContent& reading, CellSums& sums, std::vector<FileError>& errors) {
-    const int side = side_of_pyramid_tile(reduction);
+/// Reads web tiles one by one to skip damaged ones only.
+void add_web_tiles(const LayerTile& tile, const Rectangle& part, int reduction,
+                   const TileContent& reading, CellSums& sums, std::vector<FileError>& errors) {
+    const int side = web_tile_side(reduction);
     const glm::ivec2 corner(tile.col, tile.row);
     const glm::ivec2 first = (part.low - corner) / side;
     const glm::ivec2 last = (part.high - 1 - corner) / side;
@@ -327,7 +324,7 @@ void add_pyramid_tiles(const LayerTile& tile, const Rectangle& part, int reducti
     }
 }
 
-/// Adds the part of a tile to sums over cells, or tells what fails.
+/// Adds a part of a tile to the sums, or adds its errors.
 void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
               const TileContent& reading, CellSums& sums, std::vector<FileError>& errors) {
     const auto begin = BackOff::Clock::now();
@@ -341,21 +338,21 @@ void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
         errors.push_back({path, read.error().message});
         return;
     }
-    // A server that hangs would hang for each of the tiles again.
-    if (BackOff::Clock::now() - begin > longest_answer) {
+    // A server that hangs is not asked for single tiles.
+    if (BackOff::Clock::now() - begin > max_response_time) {
         reading.failing->note(path, read.error().message);
     }
     if (reading.failing->has_failed(path)) {
         errors.push_back({path, read.error().message});
     } else {
-        add_pyramid_tiles(tile, part, reduction, reading, sums, errors);
+        add_web_tiles(tile, part, reduction, reading, sums, errors);
     }
 }
 
 } // namespace
 
 double resolution(glm::dvec2 spacing) {
-    return std::round(0.5 * std::log(spacing.x * spacing.y) / std::log(same_fineness));
+    return std::round(0.5 * std::log(spacing.x * spacing.y) / std::log(same_resolution));
 }
 
 glm::dvec2 TileLayer::lattice_from_turned(glm::dvec2 point) const {

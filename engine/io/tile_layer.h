@@ -20,81 +20,85 @@ namespace reljef::io {
 /// A tile on its layer's lattice.
 struct LayerTile {
     int file = 0; ///< index into the indexed files
-    int col = 0;  ///< of its first sample, in the layer's lattice
+    int col = 0;  ///< first sample on the lattice
     int row = 0;
     int cols = 0;
     int rows = 0;
-    glm::dvec2 offset{0.0}; ///< its samples lie so far from the lattice's points, in lattice steps
-    bool is_turned = false; ///< the same tile again, a whole turn around the Earth away
+    glm::dvec2 offset{0.0}; ///< of its samples from the lattice points, in steps
+    bool is_turned = false; ///< a copy 360 degrees away
 };
 
-/// Tiles of one coordinate system whose samples lie on one lattice: together one raster with gaps.
+/// Tiles in one CRS with samples on one lattice: one raster with gaps.
 struct TileLayer {
     std::string crs;                   ///< WKT
-    geo::PixelAffine crs_from_lattice; ///< whole numbers are samples; (0,0) is the first of all
-    glm::dmat2 lattice_steps{1.0};     ///< lattice steps for one unit of x and of y
+    geo::PixelAffine crs_from_lattice; ///< lattice points are samples; (0,0) is the first
+    glm::dmat2 lattice_steps{1.0};     ///< lattice steps per unit of x and y
     int cols = 0;
     int rows = 0;
-    glm::dvec2 spacing{1.0};      ///< metres at its middle
-    std::int64_t modified = 0;    ///< of the newest tile
-    double period = 0.0;          ///< of x: 360 degrees in its unit; 0: no degrees
-    DegreeBox box{};              ///< around all tiles
-    std::vector<LayerTile> tiles; ///< newest first; turned ones lie outside cols
+    glm::dvec2 spacing{1.0};   ///< metres, at the middle
+    std::int64_t modified = 0; ///< time of the newest tile
+    double period = 0.0;       ///< 360 degrees in units of x; 0: not in degrees
+    DegreeBox box{};
+    std::vector<LayerTile> tiles; ///< newest first; turned ones lie outside [0, cols)
 
     [[nodiscard]] glm::dvec2 lattice_from_crs(glm::dvec2 point) const {
         return lattice_steps * (point - glm::dvec2(crs_from_lattice.x0, crs_from_lattice.y0));
     }
-    /// The same where x may be whole turns away.
+    /// As lattice_from_crs, modulo 360 degrees.
     [[nodiscard]] glm::dvec2 lattice_from_turned(glm::dvec2 point) const;
 };
 
-/// A usable file: where it lies, with x moved by whole turns so that the set hangs together.
+/// Position of a usable file. Multiples of 360 degrees are added to x to keep the set together.
 struct PlacedFile {
     int file = 0;                     ///< index into the indexed files
-    std::string crs;                  ///< WKT; the same text for the same system
+    std::string crs;                  ///< WKT; equal systems have equal text
     geo::PixelAffine crs_from_sample; ///< (0,0) is the centre of the first sample
     glm::dvec2 spacing{1.0};
     DegreeBox box{};
     double period = 0.0;
 };
 
-/// Whole steps of about 1 %, smaller where samples or pixels are closer together: those of one step
-/// are equally fine.
+/// Logarithmic resolution class in steps of 1 %; smaller is finer.
 double resolution(glm::dvec2 spacing);
 
-/// The layers of a set, the finest first; of equally fine ones the newer.
+/// The layers of a set: finest first, then newest.
 std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
                                  std::span<const IndexedFile> files);
 
-/// Square cells of `reduction` samples a side: cell (0,0) begins at lattice point `anchor`.
+/// Cells of `reduction`×`reduction` samples; cell (0,0) starts at lattice point `anchor`.
 struct CellWindow {
     int reduction = 1;
     glm::ivec2 anchor{0};
-    glm::ivec2 first{0}; ///< cell
+    glm::ivec2 first{0}; ///< first cell
     int cols = 0;
     int rows = 0;
 
+    /// Covers all cells between two cells.
+    void set_range(glm::dvec2 low, glm::dvec2 high) {
+        first = glm::ivec2(low);
+        cols = static_cast<int>(high.x - low.x) + 1;
+        rows = static_cast<int>(high.y - low.y) + 1;
+    }
     [[nodiscard]] glm::dvec2 cell_from_lattice(glm::dvec2 point) const {
         const double middle = 0.5 * (reduction - 1);
         return (point - glm::dvec2(anchor) - middle) / static_cast<double>(reduction);
     }
 };
 
-/// Where and how files are read.
+/// Input of read_cells().
 struct TileContent {
     std::span<const IndexedFile> files;
     std::span<const std::string> crs;               ///< WKT, by IndexedFile::crs
-    std::filesystem::path folder;                   ///< the files' paths begin here
-    RasterOptions options;                          ///< scale, offset, stop
-    std::atomic<std::size_t>* bytes_read = nullptr; ///< counts them
-    DatasetPool* pool = nullptr;                    ///< where the files are open
-    FailingFiles* failing = nullptr;                ///< on servers
-    NewNotes* new_notes = nullptr;                  ///< on files: replaced, or with voids
+    std::filesystem::path folder;                   ///< base of the files' paths
+    RasterOptions options;                          ///< uses scale, offset and stop
+    std::atomic<std::size_t>* bytes_read = nullptr; ///< counter
+    DatasetPool* pool = nullptr;
+    FailingFiles* failing = nullptr; ///< remote files
+    NewNotes* new_notes = nullptr;   ///< replaced files and voids
 };
 
-/// The averages of a layer's samples over cells, of the newest tile where there are several; NaN
-/// where there is none. What fails is added to the faults and left out: a file, of a tile pyramid
-/// only those of its tiles that cannot be read.
+/// Averages a layer's samples over cells; the newest tile wins; NaN without samples. Adds an error
+/// for each unreadable file, or for each unreadable web tile.
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
                         const TileContent& reading, std::vector<FileError>& errors);
 

@@ -18,19 +18,8 @@
 namespace reljef::io {
 namespace {
 
-/// x and y of all samples, in the coordinate system of the layers.
-struct CrsBox {
-    glm::dvec2 low{std::numeric_limits<double>::infinity()};
-    glm::dvec2 high{-std::numeric_limits<double>::infinity()};
-
-    void add(glm::dvec2 point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-};
-
-CrsBox box_of_layers(std::span<const TileLayer> layers) {
-    CrsBox box;
+PointBounds bounds_of_layers(std::span<const TileLayer> layers) {
+    PointBounds box;
     for (const TileLayer& layer : layers) {
         for (const int i : {0, layer.cols - 1}) {
             for (const int j : {0, layer.rows - 1}) {
@@ -41,15 +30,14 @@ CrsBox box_of_layers(std::span<const TileLayer> layers) {
     return box;
 }
 
-/// Of at most terrain::max_tree_samples: see grid_step.
+/// At most terrain::max_tree_samples; see grid_step.
 int count_of(double low, double high, double step) {
     return static_cast<int>(std::floor((high - low) / step + near_sample)) + 1;
 }
 
-/// The finest step, or so many of them that no more samples lie along `extent` than a tree of tiles
-/// reaches.
+/// The finest step, or the smallest multiple with at most max_tree_samples along `extent`.
 glm::dvec2 grid_step(glm::dvec2 extent, glm::dvec2 finest, std::vector<std::string>& notes) {
-    constexpr double most = terrain::max_tree_samples - 2; // whatever is rounded
+    constexpr double most = terrain::max_tree_samples - 2; // margin for rounding
     const glm::dvec2 samples = extent / finest;
     const double steps = std::ceil(std::max(samples.x, samples.y) / most);
     if (steps > 1.0) {
@@ -60,10 +48,10 @@ glm::dvec2 grid_step(glm::dvec2 extent, glm::dvec2 finest, std::vector<std::stri
     return finest * std::max(1.0, steps);
 }
 
-/// On the samples of the finest layer where it is not turned, else with its step.
+/// Aligned to the samples of the finest layer unless it is rotated.
 TileGrid grid_in_shared_crs(std::span<const TileLayer> layers, std::vector<std::string>& notes) {
     const geo::PixelAffine& finest = layers.front().crs_from_lattice;
-    const CrsBox box = box_of_layers(layers);
+    const PointBounds box = bounds_of_layers(layers);
     TileGrid grid;
     const glm::dvec2 step = grid_step(
         box.high - box.low,
@@ -77,7 +65,7 @@ TileGrid grid_in_shared_crs(std::span<const TileLayer> layers, std::vector<std::
     return grid;
 }
 
-/// Degrees, in steps of the finest spacing at the middle.
+/// In degrees; the finest spacing at the middle.
 TileGrid grid_in_degrees(std::span<const TileLayer> layers, const DegreeBox& box,
                          std::vector<std::string>& notes) {
     const auto& [west, south, east, north] = box;
@@ -162,7 +150,7 @@ Error nothing_usable(const std::string& name, std::span<const FileError> errors)
                               name, errors.size(), errors.front().message)};
 }
 
-/// The outline of an area, longitude and latitude.
+/// (longitude, latitude) along the outline of an area.
 std::vector<glm::dvec2> outline_of(const geo::GeodeticArea& area) {
     constexpr int steps = 32;
     std::vector<glm::dvec2> points;
@@ -176,7 +164,7 @@ std::vector<glm::dvec2> outline_of(const geo::GeodeticArea& area) {
     return points;
 }
 
-// An outline as a whole to where a layer's longitudes are, however far it goes around.
+// Moves an outline by multiples of 360 degrees onto a layer.
 void turn_together(std::vector<glm::dvec2>& outline, glm::dvec2 centre, const TileLayer& layer) {
     if (layer.period <= 0.0) {
         return;
@@ -206,7 +194,8 @@ void keep_each_once(std::vector<FileError>& errors) {
     errors.erase(std::unique(errors.begin(), errors.end(), same), errors.end());
 }
 
-TileContent TileSet::State::reading(const std::stop_token& stop) const {
+TileContent TileSet::State::reading(std::atomic<std::size_t>& bytes_read,
+                                    const std::stop_token& stop) const {
     TileContent reading{indexed, indexed_crs, folder, {}, &bytes_read, &pool, &failing, &new_notes};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
@@ -236,7 +225,7 @@ Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOp
     }
     std::error_code ignored;
     state->folder = std::filesystem::is_directory(path, ignored) ? path : std::filesystem::path();
-    const GdalMessages unheard; // what is wrong is told as a fault
+    const GdalMessages ignored_messages; // becomes errors
     const std::vector<PlacedFile> placed = place_files(*index, state->folder, state->errors);
     if (placed.empty()) {
         return nothing_usable(state->name, state->errors);
@@ -279,9 +268,6 @@ const std::string& TileSet::crs_name() const {
 const std::string& TileSet::crs() const {
     return state_->crs;
 }
-std::size_t TileSet::bytes_read() const {
-    return state_->bytes_read;
-}
 TileGrid TileSet::grid() const {
     return state_->grid;
 }
@@ -292,7 +278,7 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const geo::GeodeticArea& ar
                                  "overlaps its tiles was expected",
                                  state_->name, area.south, area.north, area.west, area.east)};
     };
-    const GdalMessages unheard;
+    const GdalMessages ignored_messages;
     std::vector<glm::dvec2> points = outline_of(area);
     const double middle = 0.5 * (state_->box[0] + state_->box[2]);
     const double turns = std::round((middle - 0.5 * (area.west + area.east)) / 360.0);
@@ -312,7 +298,7 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const geo::GeodeticArea& ar
         points.pop_back();
         turn_together(points, at_centre, state_->layers.front());
     }
-    CrsBox box;
+    PointBounds box;
     for (const glm::dvec2 point : points) {
         box.add((point - grid.first) / grid.step);
     }

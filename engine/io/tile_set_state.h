@@ -1,7 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <map>
+
+#include <glm/common.hpp>
 
 #include "engine/io/dataset_pool.h"
 #include "engine/io/raster/ascii_grid.h"
@@ -10,13 +13,24 @@
 
 namespace reljef::io {
 
-/// Of a sample: what coordinates of millions of metres lose by rounding.
+/// Samples: rounding error of coordinates of millions of metres.
 inline constexpr double near_sample = 1e-6;
 
-/// What a tile set knows; never changed once it is open.
+/// Bounds of points; ignores NaN.
+struct PointBounds {
+    glm::dvec2 low{std::numeric_limits<double>::infinity()};
+    glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+    void add(glm::dvec2 point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+};
+
+/// Constant after open(), except for the mutable members.
 struct TileSet::State {
     std::string name;
-    std::filesystem::path folder; ///< the files' paths begin here; empty for a single raster
+    std::filesystem::path folder; ///< base of the files' paths; empty for a single raster
     TileSetOptions options;
     std::vector<IndexedFile> indexed;
     std::vector<std::string> indexed_crs; ///< WKT, by IndexedFile::crs
@@ -24,32 +38,32 @@ struct TileSet::State {
     std::vector<TileFile> files;
     std::vector<FileError> errors;
     std::vector<std::string> notes;
-    std::string crs; ///< of the grid: WKT, or WGS 84
+    std::string crs; ///< of the grid: WKT or wgs84_degrees
     std::string crs_name;
-    std::string vertical_datum; ///< empty where the tiles differ
+    std::string vertical_datum; ///< empty if the files differ
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
-    mutable std::atomic<std::size_t> bytes_read{0};
     mutable WholeRasters whole;
     mutable DatasetPool pool{
         [this](const std::filesystem::path& path, const GdalMessages& messages) {
             return open_raster_of_set(path, messages);
         }};
-    mutable FailingFiles failing; ///< what a server does not give is not asked for by every tile
+    mutable FailingFiles failing; ///< remote files
     mutable NewNotes new_notes;
 
-    [[nodiscard]] TileContent reading(const std::stop_token& stop) const;
-    /// With a note where its overviews are of no use.
+    /// `bytes_read` counts the bytes of samples.
+    [[nodiscard]] TileContent reading(std::atomic<std::size_t>& bytes_read,
+                                      const std::stop_token& stop) const;
+    /// Adds a note if the overviews are unusable.
     [[nodiscard]] Result<Dataset> open_raster_of_set(const std::filesystem::path& path,
                                                      const GdalMessages& messages) const;
 };
 
-/// Of the samples of a grid.
 inline geo::PixelAffine affine_of(const TileGrid& grid) {
     return {grid.first.x, grid.step.x, 0.0, grid.first.y, 0.0, grid.step.y};
 }
 
-/// Sorted by file, of each file the first.
+/// Sorts by file and keeps the first error of each file.
 void keep_each_once(std::vector<FileError>& errors);
 
 } // namespace reljef::io

@@ -15,11 +15,11 @@
 namespace reljef::io {
 namespace {
 
-// Samples a side that one thread reads at a time, and where each is the average of many.
+// Samples per side of a read, without and with averaging.
 constexpr int read_block = 512;
 constexpr int reduced_block = 256;
 
-/// The last word of a path, which may end with a slash.
+/// The last component of a path, which may end with a slash.
 std::string name_of(const std::filesystem::path& path) {
     return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
@@ -28,7 +28,7 @@ double samples_of(const TileGrid& grid) {
     return static_cast<double>(grid.cols) * grid.rows;
 }
 
-/// The least divisor of `around` that is no less than a reduction, up to twice that; else that.
+/// The smallest divisor of `around` in [reduction, 2·reduction]; else `reduction`.
 int dividing_reduction(int around, int reduction) {
     for (int divisor = reduction; divisor <= 2 * reduction; ++divisor) {
         if (around % divisor == 0) {
@@ -38,7 +38,7 @@ int dividing_reduction(int around, int reduction) {
     return reduction;
 }
 
-/// `around`: samples of a whole turn, which stays whole; 0: the grid goes not all around.
+/// `around`: samples per 360 degrees of a global grid, a multiple of the result; else 0.
 Result<int> fitting_reduction(const TileGrid& grid, int around, const std::string& name,
                               std::size_t budget) {
     const double most = static_cast<double>(budget) / bytes_per_sample;
@@ -56,7 +56,7 @@ Result<int> fitting_reduction(const TileGrid& grid, int around, const std::strin
     return reduction;
 }
 
-/// A raster without values that lies where the grid does.
+/// A raster without bands at the grid's place.
 Dataset frame_of(const TileGrid& grid, const std::string& crs) {
     auto* driver = GetGDALDriverManager()->GetDriverByName("MEM");
     Dataset frame(driver->Create("", grid.cols, grid.rows, 0, GDT_Float32, nullptr));
@@ -70,7 +70,7 @@ Dataset frame_of(const TileGrid& grid, const std::string& crs) {
     return frame;
 }
 
-/// The blocks of a grid, each a grid of its own.
+/// A part of a grid.
 struct GridBlock {
     int col = 0;
     int row = 0;

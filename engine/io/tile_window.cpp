@@ -11,10 +11,10 @@
 namespace reljef::io {
 namespace {
 
-/// From the layers' point of view: where the samples of a grid lie.
+/// The samples of a grid on a layer's lattice.
 class LayerPoints {
 public:
-    /// Absent where PROJ knows no way between the two coordinate systems.
+    /// Absent if PROJ has no transform between the two systems.
     static std::optional<LayerPoints> create(const std::string& grid_crs, const TileGrid& grid,
                                              const TileLayer& layer) {
         LayerPoints points(grid, layer);
@@ -31,7 +31,18 @@ public:
         return points;
     }
 
-    /// In the layer's lattice; NaN where there is no such place.
+    /// Bounds of all samples on the lattice.
+    [[nodiscard]] PointBounds bounds() const {
+        PointBounds bounds;
+        for (int row = 0; row < grid_.rows; ++row) {
+            for (int col = 0; col < grid_.cols; ++col) {
+                bounds.add(at(col, row));
+            }
+        }
+        return bounds;
+    }
+
+    /// Lattice position of a sample; NaN if undefined.
     [[nodiscard]] glm::dvec2 at(int col, int row) const {
         if (controls_.empty()) {
             return layer_->lattice_from_crs(grid_.first + grid_.step * glm::dvec2(col, row));
@@ -47,8 +58,8 @@ public:
     }
 
 private:
-    // Over s samples of spacing d a straight line leaves a projection's curve by (s·d)²/8R with the
-    // Earth's radius R: for 8 samples a millionth of a sample for each metre of spacing.
+    // Over s samples of spacing d a chord deviates from a projection's curve by (s·d)²/8R with the
+    // Earth's radius R: for 8 samples 1e-6 samples per metre of spacing.
     static constexpr int control_step = 8;
 
     LayerPoints(const TileGrid& grid, const TileLayer& layer) : grid_(grid), layer_(&layer) {}
@@ -71,7 +82,7 @@ private:
     Grid<glm::dvec2> controls_;
 };
 
-/// Samples of the layer in a step of the grid, at least 1.
+/// Samples of the layer per step of the grid, at least 1.
 int reduction_for(const LayerPoints& points, const TileGrid& grid) {
     const int col = grid.cols / 2;
     const int row = grid.rows / 2;
@@ -82,7 +93,7 @@ int reduction_for(const LayerPoints& points, const TileGrid& grid) {
     return least >= 2.0 - near_sample ? static_cast<int>(std::min(least + near_sample, 1e6)) : 1;
 }
 
-/// The cells that the samples of a grid need, within the layer; empty where there are none.
+/// The layer's cells that a grid needs; may be empty.
 CellWindow window_for(const LayerPoints& points, const TileGrid& grid, const TileLayer& layer) {
     CellWindow window;
     window.reduction = reduction_for(points, grid);
@@ -92,37 +103,26 @@ CellWindow window_for(const LayerPoints& points, const TileGrid& grid, const Til
     window.anchor = glm::all(glm::lessThan(glm::abs(anchor), glm::dvec2(1e9)))
                         ? glm::ivec2(glm::round(anchor))
                         : glm::ivec2(0);
-    glm::dvec2 low(std::numeric_limits<double>::infinity());
-    glm::dvec2 high = -low;
-    for (int row = 0; row < grid.rows; ++row) {
-        for (int col = 0; col < grid.cols; ++col) {
-            const glm::dvec2 cell = window.cell_from_lattice(points.at(col, row));
-            if (!std::isnan(cell.x)) {
-                low = glm::min(low, cell);
-                high = glm::max(high, cell);
-            }
-        }
-    }
+    const PointBounds bounds = points.bounds();
     const glm::dvec2 first = window.cell_from_lattice(glm::dvec2(0.0)) - 1.0;
     const glm::dvec2 last =
         window.cell_from_lattice(glm::dvec2(layer.cols - 1, layer.rows - 1)) + 1.0;
-    low = glm::max(glm::floor(low), glm::floor(first));
-    high = glm::min(glm::ceil(high), glm::ceil(last));
+    const glm::dvec2 low =
+        glm::max(glm::floor(window.cell_from_lattice(bounds.low)), glm::floor(first));
+    const glm::dvec2 high =
+        glm::min(glm::ceil(window.cell_from_lattice(bounds.high)), glm::ceil(last));
     if (low.x <= high.x && low.y <= high.y) {
-        window.first = glm::ivec2(low);
-        window.cols = static_cast<int>(high.x - low.x) + 1;
-        window.rows = static_cast<int>(high.y - low.y) + 1;
+        window.set_range(low, high);
     }
     return window;
 }
 
-/// A height, and whether all the cells that it rests on have one.
 struct HeightBetween {
     double height = std::numeric_limits<double>::quiet_NaN();
-    bool whole = false;
+    bool whole = false; ///< all its cells have a height
 };
 
-/// Bilinear between the cells that have a height, where the nearest one has; exact on a cell.
+/// Bilinear between cells with a height; NaN if the nearest cell has none; exact on a cell.
 HeightBetween height_between(const Grid<double>& cells, glm::dvec2 cell) {
     const glm::dvec2 nearest = glm::round(cell);
     if (glm::all(glm::lessThan(glm::abs(cell - nearest), glm::dvec2(near_sample)))) {
@@ -159,7 +159,7 @@ bool has_gaps(const Grid<double>& heights) {
                        [](double height) { return std::isnan(height); });
 }
 
-/// `edges` are heights for where no layer has all the cells around: half a cell from a tile's edge.
+/// `edges`: heights for samples near a tile's edge, where no layer has all surrounding cells.
 void fill_from(const TileLayer& layer, const LayerPoints& points, const TileContent& reading,
                const TileGrid& grid, TileWindow& result, Grid<double>& edges) {
     const CellWindow window = window_for(points, grid, layer);
@@ -188,20 +188,11 @@ void fill_from_edges(const Grid<double>& edges, Grid<double>& heights) {
     }
 }
 
-/// The tiles of a layer that the samples of a grid may lie on.
+/// The tiles of a layer that may contain samples of a grid.
 class NearTiles {
 public:
-    NearTiles(const TileLayer& layer, const LayerPoints& points, const TileGrid& grid)
-        : points_(points) {
-        glm::dvec2 low(std::numeric_limits<double>::infinity());
-        glm::dvec2 high = -low;
-        for (int row = 0; row < grid.rows; ++row) {
-            for (int col = 0; col < grid.cols; ++col) {
-                const glm::dvec2 point = points.at(col, row);
-                low = std::isnan(point.x) ? low : glm::min(low, point);
-                high = std::isnan(point.x) ? high : glm::max(high, point);
-            }
-        }
+    NearTiles(const TileLayer& layer, const LayerPoints& points) : points_(points) {
+        const auto [low, high] = points.bounds();
         for (const LayerTile& tile : layer.tiles) {
             if (tile.col - 1 <= high.x && tile.row - 1 <= high.y && tile.col + tile.cols >= low.x &&
                 tile.row + tile.rows >= low.y) {
@@ -210,7 +201,7 @@ public:
         }
     }
 
-    /// Whether a sample of the grid lies on one, to the edge of its cells.
+    /// Whether a sample lies on a tile, including half a cell at its edge.
     [[nodiscard]] bool cover(int col, int row) const {
         const glm::dvec2 point = points_.at(col, row);
         return std::any_of(tiles_.begin(), tiles_.end(), [&](const LayerTile* tile) {
@@ -225,13 +216,13 @@ private:
     std::vector<const LayerTile*> tiles_;
 };
 
-/// 0 m where no tile lies; voids of tiles stay voids.
+/// Sets 0 m outside all tiles; voids of tiles stay voids.
 void fill_sea(std::span<const TileLayer> layers, std::span<const std::optional<LayerPoints>> points,
-              const TileGrid& grid, Grid<double>& heights) {
+              Grid<double>& heights) {
     std::vector<NearTiles> near;
     for (std::size_t i = 0; i < layers.size(); ++i) {
         if (points[i]) {
-            near.emplace_back(layers[i], *points[i], grid);
+            near.emplace_back(layers[i], *points[i]);
         }
     }
     for (int row = 0; row < heights.rows(); ++row) {
@@ -245,14 +236,14 @@ void fill_sea(std::span<const TileLayer> layers, std::span<const std::optional<L
     }
 }
 
-/// Whether a layer can have anything of a grid; only told for sure of degrees.
+/// False only if a layer cannot overlap a grid in degrees.
 bool may_meet(const std::string& grid_crs, const TileGrid& grid, const TileLayer& layer) {
     if (grid_crs != wgs84_degrees) {
         return true;
     }
     const glm::dvec2 last = grid.first + grid.step * glm::dvec2(grid.cols - 1, grid.rows - 1);
     const auto& [west, south, east, north] = layer.box;
-    // Between the nine places that make the box a side may bulge, and cells reach beyond samples.
+    // For sides that are curved between the box's nine points, and for cells beyond samples.
     const glm::dvec2 margin =
         0.1 * glm::dvec2(east - west, north - south) + glm::abs(grid.step) + glm::dvec2(1e-3);
     return grid.first.x <= east + margin.x && last.x >= west - margin.x &&
@@ -265,10 +256,9 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
     check(grid.cols >= 1 && grid.rows >= 1, "TileSet::read of an empty grid");
     Grid<double> edges(grid.cols, grid.rows, std::numeric_limits<double>::quiet_NaN());
     TileWindow result{edges, {}, 0};
-    const GdalMessages unheard; // of places that a projection does not have
+    const GdalMessages ignored_messages; // projections are undefined at some places
     std::atomic<std::size_t> bytes_read{0};
-    TileContent reading = state_->reading(stop);
-    reading.bytes_read = &bytes_read;
+    const TileContent reading = state_->reading(bytes_read, stop);
     std::vector<std::optional<LayerPoints>> points;
     for (const TileLayer& layer : state_->layers) {
         points.push_back(may_meet(state_->crs, grid, layer)
@@ -280,11 +270,10 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
     }
     fill_from_edges(edges, result.heights);
     if (gaps == Gaps::sea && has_gaps(result.heights)) {
-        fill_sea(state_->layers, points, grid, result.heights);
+        fill_sea(state_->layers, points, result.heights);
     }
     keep_each_once(result.errors);
     result.bytes_read = bytes_read;
-    state_->bytes_read += result.bytes_read;
     return result;
 }
 

@@ -12,11 +12,10 @@
 namespace reljef::io {
 namespace {
 
-// Of a side, samples: below that, all of a file is read in less than a second.
-constexpr int needs_overviews = 8192;
-constexpr std::size_t max_files_looked_at = 16;
+constexpr int needs_overviews = 8192; // samples per side; smaller files take under a second
+constexpr std::size_t max_checked_files = 16;
 
-// Along one axis: the values of a tile with one around that lie on the raster.
+// Along one axis: the values of a tile and its border that lie on the raster.
 struct Inside {
     int first = 0;
     int last = 0;
@@ -36,8 +35,7 @@ void repeat_border(Grid<double>& heights, Inside cols, Inside rows) {
     }
 }
 
-/// The heights of the first column and of the next, at the rows of a tile, for the last one and
-/// beyond; faults are added.
+/// Copies the heights of the first two columns to the columns from `last`.
 void close_east(const TileSet& tiles, const ClosedGrid& ground, const TileGrid& part, int last,
                 Gaps gaps, const std::stop_token& stop, TileWindow& window) {
     TileGrid first = part;
@@ -52,7 +50,7 @@ void close_east(const TileSet& tiles, const ClosedGrid& ground, const TileGrid& 
     window.bytes_read += again.bytes_read;
 }
 
-/// Rows from a pole to the outermost of the source: from one height to its heights.
+/// Interpolates between a pole's height and the outermost row of the source.
 class PolarCap {
 public:
     PolarCap(const TileSet& tiles, const TileGrid& part, double outermost_y, double height,
@@ -73,7 +71,7 @@ private:
     TileWindow outermost_;
 };
 
-/// `from_pole`: of a row of the window, in samples of the source.
+/// `from_pole(row)`: distance of a window's row from the pole, in samples of the source.
 template <class FromPole>
 void close_pole(const PolarCap& cap, const FromPole& from_pole, TileWindow& window) {
     for (int row = 0; row < window.heights.rows(); ++row) {
@@ -133,11 +131,6 @@ TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
     return window;
 }
 
-TileWindow read_tree_tile(const TileSet& tiles, const TileGrid& grid, const terrain::TileTree& tree,
-                          terrain::TreeTile tile, Gaps gaps, std::stop_token stop) {
-    return read_tree_tile(tiles, ClosedGrid{grid, {}}, tree, tile, gaps, std::move(stop));
-}
-
 TileGrid picture_grid(const TileGrid& grid, terrain::TreeTile tile, glm::ivec2 cells,
                       glm::ivec2 size) {
     const glm::dvec2 first = grid.first + grid.step * glm::dvec2(terrain::TileTree::first(tile));
@@ -148,7 +141,7 @@ TileGrid picture_grid(const TileGrid& grid, terrain::TreeTile tile, glm::ivec2 c
 
 std::optional<std::string> missing_overviews(const TileSet& tiles) {
     const GdalMessages messages;
-    const std::size_t count = std::min(tiles.files().size(), max_files_looked_at);
+    const std::size_t count = std::min(tiles.files().size(), max_checked_files);
     for (const TileFile& file : tiles.files().first(count)) {
         if (std::max(file.cols, file.rows) < needs_overviews) {
             continue;

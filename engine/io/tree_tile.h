@@ -9,35 +9,29 @@
 
 namespace reljef::io {
 
-/// The heights of a tile of a tree over `grid`, of a set: its vertices and one step around them,
-/// beyond the grid's border those of the border. Above level 0 they are averages over a step. NaN
-/// at voids and holes; files that failed are faults.
-TileWindow read_tree_tile(const TileSet& tiles, const TileGrid& grid, const terrain::TileTree& tree,
-                          terrain::TreeTile tile, Gaps gaps, std::stop_token stop = {});
-
-/// A grid and what closes it where it goes all around the Earth.
+/// A grid with the samples that close it around the Earth.
 struct ClosedGrid {
-    TileGrid grid; ///< with the samples of the closing: at a pole they lie on beyond it
-    geo::GlobalWrap closing;
-    int refinement = 1;        ///< samples of the grid in one of the source's
-    double north_height = 0.0; ///< of the poles, metres
+    TileGrid grid; ///< pole rows lie one step outside
+    geo::GlobalWrap closing{};
+    int refinement = 1;        ///< samples per sample of the source
+    double north_height = 0.0; ///< poles, metres
     double south_height = 0.0;
 };
 
-/// `refinement` samples for one of `grid`, which has no closing yet.
+/// Refines a grid and adds the samples of its closing.
 ClosedGrid closed_grid(const TileGrid& grid, const geo::GlobalWrap& closing, int refinement);
 
-/// The same where the last column is the first again, and poles have one height.
+/// Heights at the vertices of a tree's tile and one step around them; repeats the border outside
+/// the grid. Averages over a step above level 0. NaN at voids and holes.
 TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
                           const terrain::TileTree& tree, terrain::TreeTile tile, Gaps gaps,
                           std::stop_token stop = {});
 
-/// The places of `size` texels edge to edge over the `cells` of a tile of a tree over `grid`.
+/// Positions of `size` texels, edge to edge over the `cells` of a tree's tile.
 TileGrid picture_grid(const TileGrid& grid, terrain::TreeTile tile, glm::ivec2 cells,
                       glm::ivec2 size);
 
-/// Where a file of the set is so large that coarse views of it take long, because it has no
-/// overviews: a sentence that names the first such file and the command that makes them.
+/// A warning for the first large file without usable overviews, with the command that adds them.
 std::optional<std::string> missing_overviews(const TileSet& tiles);
 
 } // namespace reljef::io

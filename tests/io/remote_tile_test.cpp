@@ -49,7 +49,7 @@ protected:
         return std::move(*tiles);
     }
     [[nodiscard]] TileWindow read(const TileSet& tiles, terrain::TreeTile tile) const {
-        return read_tree_tile(tiles, tiles.grid(), tree_, tile, Gaps::holes);
+        return read_tree_tile(tiles, {tiles.grid()}, tree_, tile, Gaps::holes);
     }
     void expect_good(const TileSet& tiles) const {
         const auto window = read(tiles, {0, 5, 5});

@@ -40,7 +40,7 @@ TEST(TreeTiles, AreTheSamplesThemselvesAtTheFinestLevel) {
     const TileSet tiles = open_set(folder.path() / "a.tif");
     const TileTree tree(300, 200);
     for (const TreeTile tile : {TreeTile{0, 0, 0}, {0, 1, 1}, {0, 2, 1}}) {
-        const auto heights = read_tree_tile(tiles, tiles.grid(), tree, tile, Gaps::holes).heights;
+        const auto heights = read_tree_tile(tiles, {tiles.grid()}, tree, tile, Gaps::holes).heights;
         for (int row = 0; row < heights.rows(); ++row) {
             for (int col = 0; col < heights.cols(); ++col) {
                 const glm::ivec2 sample = tree.sample(tile, {col - 1, row - 1});
@@ -62,9 +62,9 @@ TEST(TreeTiles, OfALevelAgreeToTheLastBitWhereTheyMeet) {
     const TileTree tree(1100, 1100);
     for (int level = 0; level < 3; ++level) {
         const auto west =
-            read_tree_tile(tiles, tiles.grid(), tree, {level, 0, 1}, Gaps::holes).heights;
+            read_tree_tile(tiles, {tiles.grid()}, tree, {level, 0, 1}, Gaps::holes).heights;
         const auto east =
-            read_tree_tile(tiles, tiles.grid(), tree, {level, 1, 1}, Gaps::holes).heights;
+            read_tree_tile(tiles, {tiles.grid()}, tree, {level, 1, 1}, Gaps::holes).heights;
         for (int row = 0; row < std::min(west.rows(), east.rows()); ++row) {
             for (int col = 0; col < 3; ++col) {
                 const auto a = static_cast<float>(west(128 + col, row));
@@ -112,7 +112,7 @@ TEST(TreeTiles, LeaveNoFileOpenAndSpareTheRestOfAHugeRaster) {
         const TileTree tree(65536, 65536);
         for (int level = tree.root().level; level >= 0; --level) {
             const TreeTile tile{level, (1 << (tree.root().level - level)) / 3, 0};
-            const auto window = read_tree_tile(tiles, tiles.grid(), tree, tile, Gaps::holes);
+            const auto window = read_tree_tile(tiles, {tiles.grid()}, tree, tile, Gaps::holes);
             ASSERT_TRUE(window.errors.empty());
             ASSERT_FALSE(std::isnan(window.heights(60, 60)));
         }
@@ -144,7 +144,7 @@ TEST(TreeTiles, AFileReplacedWhileItIsOpenIsReadAnew) {
     const TileSet tiles = open_set(file);
     const TileTree tree(100, 100);
     const auto height = [&] {
-        return read_tree_tile(tiles, tiles.grid(), tree, {0, 0, 0}, Gaps::holes).heights(50, 50);
+        return read_tree_tile(tiles, {tiles.grid()}, tree, {0, 0, 0}, Gaps::holes).heights(50, 50);
     };
     EXPECT_EQ(height(), 1.0);
     write(2.0);
@@ -154,7 +154,7 @@ TEST(TreeTiles, AFileReplacedWhileItIsOpenIsReadAnew) {
     std::filesystem::resize_file(file, 200);
     std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) +
                                                std::chrono::seconds(4));
-    const auto cut = read_tree_tile(tiles, tiles.grid(), tree, {0, 0, 0}, Gaps::holes);
+    const auto cut = read_tree_tile(tiles, {tiles.grid()}, tree, {0, 0, 0}, Gaps::holes);
     ASSERT_EQ(cut.errors.size(), 1U);
     EXPECT_THAT(cut.errors.front().message, ::testing::HasSubstr("a.tif"));
 }
@@ -187,7 +187,7 @@ protected:
         return file;
     }
     [[nodiscard]] TileWindow read() const {
-        return read_tree_tile(tiles_, tiles_.grid(), TileTree(100, 100), {0, 0, 0}, Gaps::holes);
+        return read_tree_tile(tiles_, {tiles_.grid()}, TileTree(100, 100), {0, 0, 0}, Gaps::holes);
     }
     /// Without those along the border, where samples beyond are missing.
     void expect_plane(double most) const {
@@ -293,7 +293,7 @@ TEST(TreeTiles, AFileThatIsGoneIsAFaultAndBackAgainWhenItIs) {
         placed(test::made_raster(100, 100, [](int col, int) { return col; }), 10.0), file));
     const TileSet tiles = open_set(file);
     const auto read = [&] {
-        return read_tree_tile(tiles, tiles.grid(), TileTree(100, 100), {0, 0, 0}, Gaps::holes);
+        return read_tree_tile(tiles, {tiles.grid()}, TileTree(100, 100), {0, 0, 0}, Gaps::holes);
     };
     ASSERT_TRUE(read().errors.empty());
     std::filesystem::rename(file, folder.path() / "b.tif");

@@ -17,7 +17,7 @@ struct Channels {
     int cols = 0;
     int rows = 0;
     int count = 0; ///< channels
-    int bits = 0;  ///< of a channel
+    int bits = 0;  ///< per channel
     std::vector<float> values;
 
     [[nodiscard]] float at(int col, int row, int channel) const {

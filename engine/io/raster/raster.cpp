@@ -4,7 +4,6 @@
 
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
-#include "engine/io/raster/sample_decoder.h"
 
 namespace reljef::io {
 
@@ -21,13 +20,9 @@ Result<RasterInfo> read_raster_info(const std::filesystem::path& path) {
     info.rows = dataset.GetRasterYSize();
     info.format = dataset.GetDriver()->GetDescription();
     info.type = GDALGetDataTypeName(band.GetRasterDataType());
-    info.vertical_unit = height_unit_of(dataset, band).name;
     std::vector<std::string> ignored;
     if (const auto crs = horizontal_crs(dataset, ignored)) {
-        CrsWords words = words_of(*crs);
-        info.crs_name = std::move(words.name);
-        info.crs_code = std::move(words.code);
-        info.horizontal_unit = std::move(words.horizontal_unit);
+        info.crs_name = words_of(*crs).name;
     }
     return info;
 }

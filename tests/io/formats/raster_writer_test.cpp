@@ -40,7 +40,7 @@ TEST(RasterWriter, WhatIsWrittenIsReadBitByBit) {
             ASSERT_EQ(terrain->heightfield.heights(col, row), height_at(col, row));
         }
     }
-    EXPECT_THAT(read_raster_info(path)->crs_code, testing::HasSubstr("32632"));
+    EXPECT_THAT(read_raster_info(path)->crs_name, testing::HasSubstr("UTM zone 32N"));
     EXPECT_THAT(folder.names(), testing::ElementsAre("ground.tif"));
 }
 

@@ -121,8 +121,8 @@ TEST_F(MixedOverviews, MakeNoPitsInTilesOfAnyLevel) {
     const terrain::TileTree tree(holed_side, holed_side);
     for (int level = 0; level <= tree.root().level; ++level) {
         const terrain::TreeTile tile{level, 0, 0};
-        const auto a = read_tree_tile(*with, with->grid(), tree, tile, Gaps::holes).heights;
-        const auto b = read_tree_tile(*without, without->grid(), tree, tile, Gaps::holes).heights;
+        const auto a = read_tree_tile(*with, {with->grid()}, tree, tile, Gaps::holes).heights;
+        const auto b = read_tree_tile(*without, {without->grid()}, tree, tile, Gaps::holes).heights;
         std::size_t heights = 0;
         for (std::size_t i = 0; i < a.size(); ++i) {
             const double height = a.samples()[i];
