@@ -7,7 +7,6 @@
 
 #include <GeographicLib/Geoid.hpp>
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "engine/core/check.h"
 #include "engine/geo/cubic.h"

@@ -1,7 +1,6 @@
 #include "engine/io/dataset_pool.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <cpl_vsi.h>
 

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 #include <gdal_utils.h>
-#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 

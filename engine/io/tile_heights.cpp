@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <numeric>
 #include <unordered_map>
 
 #include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"

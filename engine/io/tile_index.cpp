@@ -7,6 +7,7 @@
 #include <system_error>
 #include <unordered_map>
 
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
@@ -32,36 +33,26 @@ constexpr std::array<std::string_view, 18> raster_extensions{
     ".tif", ".tiff", ".vrt", ".hgt", ".dem", ".asc", ".dt0", ".dt1", ".dt2",
     ".img", ".bil",  ".ter", ".hf2", ".flt", ".adf", ".xyz", ".zip", ".gz"};
 
-template <class List> bool holds(const List& list, std::string_view word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return text;
-}
-
-std::string lower_extension(const fs::path& path) {
-    return lower(path.extension().string());
+template <class List> bool has_extension_in(const List& extensions, const fs::path& path) {
+    const std::string extension = OIIO::Strutil::lower(path.extension().string());
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
 /// By extension, even if the content is damaged.
 bool is_named_raster(const fs::path& path) {
-    return holds(raster_extensions, lower_extension(path));
+    return has_extension_in(raster_extensions, path);
 }
 
 /// Sidecar files and other files that are no rasters.
 bool is_named_side_file(const fs::path& path) {
-    return holds(side_extensions, lower_extension(path));
+    return has_extension_in(side_extensions, path);
 }
 
 /// Checksums of sidecar files by the stem of their names.
 class Families {
 public:
     void add(const IndexedFile& file) {
-        const fs::path path = lower(file.path);
+        const fs::path path = OIIO::Strutil::lower(file.path);
         const std::uint64_t hash =
             fnv_hash(fmt::format("{}\n{}\n{}\n", file.path, file.bytes, file.modified));
         if (path.extension() == ".adf") {
@@ -71,7 +62,7 @@ public:
         }
     }
     [[nodiscard]] std::uint64_t of(const IndexedFile& file) const {
-        const fs::path path = lower(file.path);
+        const fs::path path = OIIO::Strutil::lower(file.path);
         const auto found =
             hashes_.find(path.extension() == ".adf" ? grid_in(path)
                                                     : fs::path(path).replace_extension().string());

@@ -2,8 +2,6 @@
 #include <array>
 #include <cstring>
 
-#include <fmt/format.h>
-
 #include "engine/io/cache/fnv_hash.h"
 #include "engine/io/tile_index.h"
 #include "engine/terrain/tree/tile_tree.h"

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <limits>
-#include <map>
 
 #include <glm/common.hpp>
 

@@ -1,7 +1,6 @@
 #include "engine/io/tree_tile.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

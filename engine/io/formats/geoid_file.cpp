@@ -1,7 +1,6 @@
 #include "engine/io/formats/geoid_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -20,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float max_undulation = 150.0F; // metres: the Earth's is -107 to 86
-constexpr int max_geoid_side = 1 << 15;  // samples: EGM2008 at 1′ has 21,600
+constexpr float max_undulation = 150.0F; // metres; the Earth has -107 to 86
+constexpr int max_geoid_side = 1 << 15;  // samples; EGM2008 at 1′ has 21,600
 
 Result<geo::Geoid> unfit(const std::string& name, const std::string& found) {
     return Error{
@@ -43,15 +42,6 @@ std::optional<Grid<float>> undulation_of(GDALRasterBand& band) {
                      std::numeric_limits<float>::quiet_NaN());
     }
     return heights;
-}
-
-/// The farthest from the ellipsoid.
-float max_of(const Grid<float>& undulation) {
-    float most = 0.0F;
-    for (const float height : undulation.samples()) {
-        most = std::abs(height) > std::abs(most) ? height : most;
-    }
-    return most;
 }
 
 } // namespace
@@ -82,8 +72,12 @@ Result<geo::Geoid> read_geoid(const fs::path& path) {
     if (!undulation) {
         return unfit(name, "cannot be read" + messages.reason());
     }
-    if (const float most = max_of(*undulation); std::abs(most) > max_undulation) {
-        return unfit(name, fmt::format("{:.0f} m from the ellipsoid found", most));
+    float extreme = 0.0F;
+    for (const float height : undulation->samples()) {
+        extreme = std::abs(height) > std::abs(extreme) ? height : extreme;
+    }
+    if (std::abs(extreme) > max_undulation) {
+        return unfit(name, fmt::format("{:.0f} m from the ellipsoid found", extreme));
     }
     const glm::dvec2 first = affine->crs_from_pixel(glm::dvec2(0.5));
     return geo::Geoid(path.filename().string(), std::move(*undulation), {first.y, first.x},

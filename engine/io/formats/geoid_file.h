@@ -8,12 +8,11 @@
 
 namespace reljef::io {
 
-/// A geoid: a .pgm of GeographicLib, or a raster in degrees that GDAL opens and whose values are
-/// metres above the ellipsoid (egm96_15.gtx, …). Errors name the file, what was found and what was
-/// expected.
+/// Reads a geoid: a .pgm of GeographicLib, or a raster in degrees with metres above the ellipsoid
+/// (egm96_15.gtx, …).
 Result<geo::Geoid> read_geoid(const std::filesystem::path& path);
 
-/// The EGM96 geoid that PROJ or GeographicLib have installed on this machine, where there is one.
+/// The EGM96 geoid of the installed PROJ or GeographicLib.
 std::optional<std::filesystem::path> installed_geoid();
 
 } // namespace reljef::io

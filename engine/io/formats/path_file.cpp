@@ -22,11 +22,7 @@ Result<PathKey> key_of(TomlTable& table) {
     table.read("time", time, any_time);
     table.read("eye", eye);
     table.read("look", look);
-    for (const char* key : {"time", "eye", "look"}) {
-        if (!table.has(key)) {
-            table.fail(key, "is missing, time, eye and look were expected");
-        }
-    }
+    table.require({"time", "eye", "look"});
     if (eye && look && *eye == *look) {
         table.fail("look", "is where eye is, another point was expected");
     }
@@ -50,11 +46,7 @@ Result<GeodeticKey> geodetic_key_of(TomlTable& table) {
     table.read("height", key.height, any_height);
     table.read("heading", key.heading, any_heading);
     table.read("pitch", key.pitch, any_pitch);
-    for (const char* name : {"time", "latitude", "longitude", "height"}) {
-        if (!table.has(name)) {
-            table.fail(name, "is missing, time, latitude, longitude and height were expected");
-        }
-    }
+    table.require({"time", "latitude", "longitude", "height"});
     if (key.pitch && !key.heading) {
         table.fail("pitch", "stands without heading, both or neither were expected");
     }

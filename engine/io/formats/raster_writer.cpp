@@ -15,9 +15,9 @@ namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int written_block = 256;     // samples of a side
-constexpr int min_overview = 256;      // samples of a side
-constexpr double writing_share = 0.75; // of the time; the rest for the overviews
+constexpr int written_block = 256;     // samples per side
+constexpr int min_overview = 256;      // samples per side
+constexpr double writing_share = 0.75; // of the progress; the rest is for the overviews
 constexpr int utm_zone_32_north = 32632;
 
 Error cannot_write(const fs::path& path, const GdalMessages& messages) {
@@ -46,7 +46,7 @@ bool place(GDALDataset& dataset, const HeightRaster& raster) {
            dataset.SetGeoTransform(transform.data()) == CE_None;
 }
 
-// False where it could not be written or was stopped.
+// False if unwritable or stopped.
 bool write_bands(GDALDataset& dataset, const FillHeights& fill, const ParallelOptions& parallel) {
     const int cols = dataset.GetRasterXSize();
     const int rows = dataset.GetRasterYSize();
@@ -108,7 +108,7 @@ Result<void> write_heights(const fs::path& path, const HeightRaster& raster,
         return cannot_write(path, messages);
     }
     const CPLErr before = CPLGetLastErrorType();
-    dataset.reset(); // writes the rest
+    dataset.reset(); // flushes
     if (before < CE_Failure && CPLGetLastErrorType() >= CE_Failure) {
         return cannot_write(path, messages);
     }

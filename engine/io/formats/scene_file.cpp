@@ -17,7 +17,6 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr NumberRange positive{0.0, unlimited, true};
 constexpr NumberRange any_number{-unlimited, unlimited, false};
-// Metres a stored value, and metres: no raster of the Earth needs more.
 constexpr NumberRange height_scales{-1e6, 1e6, false};
 constexpr NumberRange height_offsets{-1e6, 1e6, false};
 constexpr NumberRange spacings{terrain::min_spacing, terrain::max_spacing, false};
@@ -34,7 +33,7 @@ constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
 constexpr std::array<std::string_view, 2> placements{"plane", "ellipsoid"};
 
-/// Keys that only one of the two sources of heights has a use for.
+/// Rejects keys that do not apply to the source of heights.
 void fail_usage(TomlTable& table, std::initializer_list<std::string_view> keys,
                 std::string_view owner) {
     for (const std::string_view key : keys) {
@@ -93,11 +92,7 @@ void read_area_keys(TomlTable& table, SceneDescription& scene) {
     table.read("west", area.west, longitudes);
     table.read("north", area.north, latitudes);
     table.read("east", area.east, longitudes);
-    for (const char* key : keys) {
-        if (!table.has(key)) {
-            table.fail(key, "is missing, south, west, north and east were expected");
-        }
-    }
+    table.require({"south", "west", "north", "east"});
     if (!(area.south < area.north)) {
         table.fail("north", "is not above south, a latitude north of it was expected");
     }
@@ -118,7 +113,7 @@ void read_camera_keys(TomlTable& table, SceneDescription& scene) {
     }
 }
 
-// The name of what is built in, or a folder beside the scene file; where that is to be.
+// Reads the name of a built-in set or of a folder; returns the folder's path.
 std::filesystem::path read_textures(TomlTable& table, const std::filesystem::path& folder,
                                     std::string& textures) {
     table.read("textures", textures);

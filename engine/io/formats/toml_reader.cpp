@@ -1,11 +1,9 @@
 #include "engine/io/formats/toml_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -74,7 +72,7 @@ bool within(double value, const NumberRange& range) {
 
 constexpr int max_name_parts = 64;
 
-// Where the string that begins at `begin` ends; the end of the text where it does not.
+// The end of a string; the end of the text if it is not closed.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
     const char quote = text[begin];
     const std::string three(3, quote);
@@ -92,8 +90,8 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
     return text.size();
 }
 
-// The line of the first dotted name of so many parts that the parser, which goes one call deeper
-// for each, would run out of stack.
+// The line of the first dotted name with too many parts: the parser is recursive and would overflow
+// the stack.
 std::optional<std::ptrdiff_t> line_of_endless_name(std::string_view text) {
     constexpr std::string_view between_names = "=,[]{}\n";
     int parts = 1;
@@ -118,11 +116,11 @@ std::optional<std::ptrdiff_t> line_of_endless_name(std::string_view text) {
     return std::nullopt;
 }
 
-// Addresses lie where they say; of tiles of heights in colours the folder follows a '+'.
-std::filesystem::path beside(const std::filesystem::path& folder, const std::string& name) {
+// Addresses are absolute. The folder of web tiles follows a '+'.
+std::filesystem::path path_in(const std::filesystem::path& folder, const std::string& name) {
     if (is_web_tiles(name)) {
         const auto address = name.find('+') + 1;
-        const std::filesystem::path rest = beside(folder, name.substr(address));
+        const std::filesystem::path rest = path_in(folder, name.substr(address));
         return name.substr(0, address) + rest.string();
     }
     return is_remote(name) || name.find("://") != std::string::npos ? std::filesystem::path(name)
@@ -170,32 +168,31 @@ const toml::node* TomlTable::find(std::string_view key) {
     return table_->get(key);
 }
 
-std::optional<double> TomlTable::number(std::string_view key, const NumberRange& range) {
+void TomlTable::require(std::initializer_list<std::string_view> keys) {
+    const std::string all_but_last =
+        fmt::format("{}", fmt::join(keys.begin(), keys.end() - 1, ", "));
+    for (const std::string_view key : keys) {
+        if (!has(key)) {
+            fail(key, fmt::format("is missing, {} and {} were expected", all_but_last,
+                                  *(keys.end() - 1)));
+        }
+    }
+}
+
+std::optional<double> TomlTable::number(std::string_view key, const NumberRange& range,
+                                        bool is_whole) {
     const toml::node* node = find(key);
     if (node == nullptr) {
         return std::nullopt;
     }
-    const std::optional<double> value =
-        node->is_number() ? node->value<double>() : std::optional<double>();
+    const bool is_number = is_whole ? node->is_integer() : node->is_number();
+    const auto value = is_number ? node->value<double>() : std::optional<double>();
     if (!value || !within(*value, range)) {
-        fail(key, fmt::format("is {}, a number {} was expected", text_of(*node), text_of(range)));
+        fail(key, fmt::format("is {}, a {}number {} was expected", text_of(*node),
+                              is_whole ? "whole " : "", text_of(range)));
         return std::nullopt;
     }
     return value;
-}
-
-std::optional<std::int64_t> TomlTable::integer(std::string_view key, const NumberRange& range) {
-    const toml::node* node = find(key);
-    if (node == nullptr) {
-        return std::nullopt;
-    }
-    const auto* value = node->as_integer();
-    if (value == nullptr || !within(static_cast<double>(value->get()), range)) {
-        fail(key,
-             fmt::format("is {}, a whole number {} was expected", text_of(*node), text_of(range)));
-        return std::nullopt;
-    }
-    return value->get();
 }
 
 void TomlTable::read(std::string_view key, double& value, const NumberRange& range) {
@@ -209,11 +206,11 @@ void TomlTable::read(std::string_view key, std::optional<double>& value, const N
 }
 
 void TomlTable::read(std::string_view key, int& value, const NumberRange& range) {
-    value = static_cast<int>(integer(key, range).value_or(value));
+    value = static_cast<int>(number(key, range, true).value_or(value));
 }
 
 void TomlTable::read(std::string_view key, std::uint32_t& value, const NumberRange& range) {
-    value = static_cast<std::uint32_t>(integer(key, range).value_or(value));
+    value = static_cast<std::uint32_t>(number(key, range, true).value_or(value));
 }
 
 void TomlTable::read(std::string_view key, bool& value) {
@@ -256,7 +253,7 @@ void TomlTable::read(std::string_view key, std::filesystem::path& value,
     std::string found;
     read(key, found);
     if (!found.empty()) {
-        value = beside(folder, found);
+        value = path_in(folder, found);
     }
 }
 
@@ -279,7 +276,7 @@ void TomlTable::read(std::string_view key, std::vector<std::filesystem::path>& v
                                   text_of(element)));
             return;
         }
-        values.push_back(beside(folder, element.as_string()->get()));
+        values.push_back(path_in(folder, element.as_string()->get()));
     }
     if (values.empty()) {
         fail(key, "is an empty list, at least one text was expected");

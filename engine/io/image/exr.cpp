@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
-#include <system_error>
-#include <vector>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

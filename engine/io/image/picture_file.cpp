@@ -6,8 +6,6 @@
 #include <string_view>
 #include <system_error>
 
-#include <fmt/format.h>
-
 namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {

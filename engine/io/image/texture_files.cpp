@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include "engine/io/image/channels.h"
@@ -174,12 +175,6 @@ Result<void> read_sides(const TextureFiles& files, const TextureOptions& options
                                                      : punch_holes(files.mask, set);
 }
 
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool is_letter(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
@@ -202,7 +197,7 @@ std::vector<std::string> name_words(std::string_view stem) {
         }
         last = c;
     }
-    std::transform(words.begin(), words.end(), words.begin(), lower_case);
+    std::transform(words.begin(), words.end(), words.begin(), OIIO::Strutil::lower);
     return words;
 }
 
@@ -275,7 +270,7 @@ Result<void> sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::
 bool is_picture(const fs::path& file) {
     constexpr std::array<std::string_view, 9> extensions{".png", ".jpg", ".jpeg", ".bmp", ".dds",
                                                          ".tga", ".tif", ".tiff", ".exr"};
-    return is_one_of(lower_case(file.extension().string()), extensions);
+    return is_one_of(OIIO::Strutil::lower(file.extension().string()), extensions);
 }
 
 // Rejects floats that are not finite; 8-bit colours would hide them.

@@ -12,7 +12,6 @@
 #include <gdal_alg.h>
 #include <gdalwarper.h>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "engine/io/imagery/degree_box.h"
 #include "engine/io/imagery/image_files.h"
@@ -148,14 +147,9 @@ Result<Dataset> open_colors(const std::filesystem::path& path, double white, GDA
     return colors;
 }
 
-struct Size {
-    int cols = 0;
-    int rows = 0;
-};
-
 /// The image's own resolution over the samples, within the limits.
-Size target_size(const SampleGrid& grid, const CommonSpace& space, glm::dvec2 pixel,
-                 std::size_t budget) {
+glm::ivec2 target_size(const SampleGrid& grid, const CommonSpace& space, glm::dvec2 pixel,
+                       std::size_t budget) {
     const geo::PixelAffine& affine = space.from_heights;
     const glm::dvec2 sample(std::hypot(affine.x_col, affine.y_col) * std::abs(grid.step.x),
                             std::hypot(affine.x_row, affine.y_row) * std::abs(grid.step.y));
@@ -166,8 +160,7 @@ Size target_size(const SampleGrid& grid, const CommonSpace& space, glm::dvec2 pi
     const double pixels = std::max(whole - used, whole * min_budget_share) / bytes_per_pixel;
     const double shrink = std::min({1.0, longest_image_side / std::max(desired.x, desired.y),
                                     std::sqrt(pixels / (desired.x * desired.y))});
-    const glm::dvec2 size = glm::max(glm::floor(desired * shrink + 1e-6), 2.0);
-    return {static_cast<int>(size.x), static_cast<int>(size.y)};
+    return glm::ivec2(glm::max(glm::floor(desired * shrink + 1e-6), 2.0));
 }
 
 /// Units of x in the common space; 0 if it is not in degrees.
@@ -415,10 +408,9 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
     if (pictures.empty()) {
         return shows_nothing(options);
     }
-    const Size size =
+    const glm::ivec2 size =
         target_size(grid, pictures.front().space, pictures.front().pixel, options.memory_budget);
-    Drape drape(heights, grid, options, files.white,
-                Image(size.cols, size.rows, Rgba8{0, 0, 0, 0}));
+    Drape drape(heights, grid, options, files.white, Image(size.x, size.y, Rgba8{0, 0, 0, 0}));
     bool any = false;
     for (std::size_t i = 0; i < pictures.size() && !drape.is_full(); ++i) {
         const auto drawn = drape.add(pictures[i], i, pictures.size());

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>

@@ -25,9 +25,9 @@ namespace {
 
 constexpr GIntBig max_cached_bytes = GIntBig{1} << 28;
 constexpr std::size_t max_messages = 10;
-constexpr std::size_t longest_message = 200;
+constexpr std::size_t max_message_length = 200;
 constexpr int max_archive_entries = 1000;
-constexpr std::size_t largest_block = std::size_t{1} << 28; // bytes
+constexpr std::size_t max_block_bytes = std::size_t{1} << 28;
 
 std::string one_line(std::string text) {
     std::replace_if(
@@ -35,19 +35,11 @@ std::string one_line(std::string text) {
     while (!text.empty() && (text.back() == '.' || text.back() == ' ')) {
         text.pop_back();
     }
-    if (text.size() > longest_message) {
-        text.resize(longest_message);
+    if (text.size() > max_message_length) {
+        text.resize(max_message_length);
         text += "…";
     }
     return text;
-}
-
-std::string extension_of(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return extension;
 }
 
 std::string raster_in_zip(const fs::path& path) {
@@ -70,15 +62,14 @@ Result<std::string> name_for_gdal(const fs::path& path) {
         const std::string name = path.string();
         return name.starts_with("/vsi") ? name : "/vsicurl/" + name;
     }
-    const std::string extension = extension_of(path);
+    const std::string extension = OIIO::Strutil::lower(path.extension().string());
     if (extension == ".zip") {
         return raster_in_zip(path);
     }
     return extension == ".gz" ? "/vsigzip/" + fs::absolute(path).string() : path.string();
 }
 
-/// Drivers of GDAL 3.6 for formats that files are named by (SRTMHGT) crash where one cannot be
-/// read.
+/// Prevents crashes of GDAL 3.6: SRTMHGT crashes on unreadable files.
 Result<void> check_file(const fs::path& path) {
     const std::string name = path.string();
     std::error_code code;
@@ -102,7 +93,7 @@ Result<void> check_file(const fs::path& path) {
     return {};
 }
 
-// A block is read as a whole, whatever part of it is wanted.
+// GDAL always reads whole blocks.
 Result<void> check_blocks(GDALDataset& dataset, const fs::path& path) {
     for (int index = 1; index <= dataset.GetRasterCount(); ++index) {
         GDALRasterBand& band = *dataset.GetRasterBand(index);
@@ -111,21 +102,53 @@ Result<void> check_blocks(GDALDataset& dataset, const fs::path& path) {
         band.GetBlockSize(&cols, &rows);
         const double bytes =
             static_cast<double>(cols) * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
-        if (bytes > static_cast<double>(largest_block)) {
+        if (bytes > static_cast<double>(max_block_bytes)) {
             return Error{fmt::format("{}: is stored in blocks of {}×{} samples, which take {} "
                                      "each, blocks of at most {} were expected",
                                      path.string(), cols, rows, size_text(bytes),
-                                     size_text(static_cast<double>(largest_block)))};
+                                     size_text(static_cast<double>(max_block_bytes)))};
         }
     }
     return {};
 }
 
-/// Unless the user has set it.
+/// Sets an option unless the user has set it.
 void set_default(const char* option, const char* value) {
     if (CPLGetConfigOption(option, nullptr) == nullptr) {
         CPLSetConfigOption(option, value);
     }
+}
+
+Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
+                          const char* const* options) {
+    register_drivers();
+    const bool remote = is_remote(path);
+    if (auto file = remote ? Result<void>() : check_file(path); !file) {
+        return file.error();
+    }
+    const auto name = name_for_gdal(path);
+    if (!name) {
+        return name.error();
+    }
+    constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+    // Remote files: no requests for sidecar files.
+    constexpr std::array<const char*, 1> no_siblings{nullptr};
+    Dataset dataset(GDALDataset::Open(name->c_str(), flags, nullptr, options,
+                                      remote ? no_siblings.data() : nullptr));
+    if (dataset == nullptr) {
+        return Error{
+            fmt::format("{}: cannot be opened as a raster{}, a whole file in one of GDAL's "
+                        "formats was expected",
+                        path.string(), messages.reason())};
+    }
+    if (dataset->GetRasterCount() == 0) {
+        return Error{fmt::format(
+            "{}: holds no raster of its own, a file with one raster was expected", path.string())};
+    }
+    if (auto blocks = check_blocks(*dataset, path); !blocks) {
+        return blocks.error();
+    }
+    return dataset;
 }
 
 } // namespace
@@ -141,15 +164,15 @@ bool is_remote(const fs::path& path) {
 void register_drivers() {
     static std::once_flag once;
     std::call_once(once, [] {
-        // At the first TIFF of each, OpenImageIO and GDAL take the TIFF library's errors for
-        // themselves: GDAL, which comes later now, hears them.
+        // OpenImageIO and GDAL both install an error handler for libtiff at their first TIFF.
+        // GDAL must be the last one.
         static_cast<void>(OIIO::ImageInput::create("a.tif"));
         GDALAllRegister();
-        // Of larger folders not each file's opening lists the whole.
+        // Avoids listing a large folder for each file.
         set_default("GDAL_READDIR_LIMIT_ON_OPEN", "50");
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds
         set_default("GDAL_HTTP_TIMEOUT", "60");
-        // What hangs holds up a thread, and the program's end, no longer than this.
+        // A stalled transfer blocks a thread and the program's exit no longer than this.
         set_default("GDAL_HTTP_LOW_SPEED_TIME", "10");
         set_default("GDAL_HTTP_LOW_SPEED_LIMIT", "100"); // bytes a second
         set_default("GDAL_HTTP_MAX_RETRY", "2");
@@ -204,42 +227,6 @@ std::string size_text(double bytes) {
     return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
                         : fmt::format("{:.1f} MB", bytes / 1e6);
 }
-
-namespace {
-
-Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
-                          const char* const* options) {
-    register_drivers();
-    const bool remote = is_remote(path);
-    if (auto file = remote ? Result<void>() : check_file(path); !file) {
-        return file.error();
-    }
-    const auto name = name_for_gdal(path);
-    if (!name) {
-        return name.error();
-    }
-    constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
-    // What lies beside a file on a server is not asked for: it would cost a request for each name.
-    constexpr std::array<const char*, 1> nothing_beside{nullptr};
-    Dataset dataset(GDALDataset::Open(name->c_str(), flags, nullptr, options,
-                                      remote ? nothing_beside.data() : nullptr));
-    if (dataset == nullptr) {
-        return Error{
-            fmt::format("{}: cannot be opened as a raster{}, a whole file in one of GDAL's "
-                        "formats was expected",
-                        path.string(), messages.reason())};
-    }
-    if (dataset->GetRasterCount() == 0) {
-        return Error{fmt::format(
-            "{}: holds no raster of its own, a file with one raster was expected", path.string())};
-    }
-    if (auto blocks = check_blocks(*dataset, path); !blocks) {
-        return blocks.error();
-    }
-    return dataset;
-}
-
-} // namespace
 
 Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {
     return open_with(path, messages, nullptr);

@@ -13,8 +13,8 @@
 
 namespace reljef::io {
 
-/// Keeps what GDAL says in the current thread, instead of letting it print, until the end of scope.
-/// Meanwhile a JPEG cut short is an error, not a grey rest.
+/// Collects GDAL's messages in the current thread instead of printing them. Meanwhile a truncated
+/// JPEG is an error.
 class GdalMessages {
 public:
     GdalMessages();
@@ -22,15 +22,13 @@ public:
     GdalMessages(const GdalMessages&) = delete;
     GdalMessages& operator=(const GdalMessages&) = delete;
 
-    /// GDAL's last error in one line of at most 200 characters, ready to follow a sentence:
-    /// " (GDAL: …)"; empty when there was none.
+    /// The last error as " (GDAL: …)", at most 200 characters in one line; empty without errors.
     [[nodiscard]] std::string reason() const;
-    /// How many errors there were: what GDAL returns as read need not be.
+    /// Number of errors. GDAL may report success after an error.
     [[nodiscard]] std::size_t errors() const { return errors_; }
-    /// Whether GDAL took blocks of a TIFF whose place it could not read for blocks without values:
-    /// nothing else tells.
+    /// Whether GDAL silently returned empty blocks of a damaged TIFF.
     [[nodiscard]] bool has_lost_blocks() const { return has_lost_blocks_; }
-    /// Each different warning and error once, in order, at most ten.
+    /// Distinct warnings and errors in order, at most ten.
     [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
     void clear();
 
@@ -49,21 +47,20 @@ struct DatasetCloser {
 };
 using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 
-/// "1.5 GB", for sentences.
+/// "1.5 GB" or "1.5 MB".
 std::string size_text(double bytes);
 
-/// Whether GDAL reads it from a server ("https://…") or another of its file systems ("/vsi…").
+/// Whether GDAL reads the path from a server ("https://…") or a virtual file system ("/vsi…").
 bool is_remote(const std::filesystem::path& path);
 
-/// A file's raster, read-only; inside a .zip the first that GDAL opens. At least one band; no band
-/// is stored in blocks so large that reading one would take more than 256 MB.
+/// Opens a file's raster read-only; of a .zip the first raster. It has at least one band and blocks
+/// of at most 256 MB.
 Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);
-/// The same, as if the file had no overviews.
+/// Ignores overviews.
 Result<Dataset> open_without_overviews(const std::filesystem::path& path,
                                        const GdalMessages& messages);
 
-/// The drivers are registered once, however many threads ask, and GDAL's cache of blocks, which all
-/// readers share, is kept to 256 MB.
+/// Registers GDAL's drivers once and limits its block cache to 256 MB. Thread-safe.
 void register_drivers();
 
 } // namespace reljef::io

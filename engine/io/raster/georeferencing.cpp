@@ -18,11 +18,11 @@
 namespace reljef::io {
 namespace {
 
-constexpr double farthest_crs_place = 1e12; // in any unit: the Earth is far smaller
+constexpr double max_crs_coordinate = 1e12; // any unit
 constexpr double wgs84_radius = 6378137.0;
-constexpr double near_pole = 85.0; // degrees; east and north are of no use beyond
+constexpr double near_pole = 85.0; // degrees
 constexpr double tolerated_distortion = 0.01;
-constexpr double told_rotation = 10.0;      // degrees; less is a projection's own convergence
+constexpr double noted_rotation = 10.0;     // degrees; above usual grid convergence
 constexpr double tolerated_map_error = 0.1; // samples
 
 /// One step along the columns and one along the rows.
@@ -40,8 +40,8 @@ glm::dvec2 middle_of(const SampleGrid& grid) {
     return 0.5 * glm::dvec2(grid.cols - 1, grid.rows - 1);
 }
 
-/// Turns the grid so that col grows along +x and row along −y where the steps tell which that is.
-void turn(const Steps& steps, Place& place) {
+/// Mirrors the grid so that col grows along +x and row along −y, if the steps are not diagonal.
+void orient(const Steps& steps, Place& place) {
     if (std::abs(steps.col.x) > std::abs(steps.col.y) && steps.col.x < 0.0) {
         place.grid.flip_cols();
         place.flipped_cols = true;
@@ -54,7 +54,7 @@ void turn(const Steps& steps, Place& place) {
 
 void note_rotation(const Steps& steps, std::vector<std::string>& notes) {
     const double angle = glm::degrees(std::atan2(steps.col.y, steps.col.x));
-    if (std::abs(angle) > told_rotation) {
+    if (std::abs(angle) > noted_rotation) {
         notes.push_back(fmt::format("its rows run {:.1f}° from east: placement plane draws it "
                                     "unturned, ellipsoid as it lies",
                                     angle));
@@ -66,8 +66,7 @@ double straight_metres(glm::dvec2 a, glm::dvec2 b) {
                          geo::geocentric_from_geodetic({b.x, b.y, 0.0}));
 }
 
-/// Steps on the ground at the middle of the grid, metres east and north; near a pole, where east
-/// turns within a step, only as long as they are.
+/// Steps at the middle of the grid in metres east and north. Near a pole only their lengths.
 std::optional<Steps> ground_steps(const ExactTransform& exact, const SampleGrid& grid) {
     const glm::dvec2 middle = middle_of(grid);
     std::array<glm::dvec2, 4> points{middle - glm::dvec2(0.5, 0.0), middle + glm::dvec2(0.5, 0.0),
@@ -87,7 +86,7 @@ std::optional<Steps> ground_steps(const ExactTransform& exact, const SampleGrid&
     return Steps{step(points[0], points[1]), step(points[2], points[3])};
 }
 
-/// Metres between samples in the CRS's own units, at the middle of the grid.
+/// Spacing by the CRS's units at the middle of the grid, metres.
 glm::dvec2 spacing_in_crs(const OGRSpatialReference& crs, const geo::PixelAffine& affine,
                           const SampleGrid& grid) {
     const Steps steps = crs_steps(affine, grid);
@@ -103,7 +102,7 @@ glm::dvec2 spacing_in_crs(const OGRSpatialReference& crs, const geo::PixelAffine
     return {glm::length(steps.col * metres), glm::length(steps.row * metres)};
 }
 
-/// Projections that enlarge (Web Mercator far from the equator) give way to the true distance.
+/// The true spacing if the projection distorts it (Web Mercator far from the equator).
 glm::dvec2 checked_spacing(glm::dvec2 in_crs, const std::optional<Steps>& ground,
                            std::vector<std::string>& notes) {
     if (!ground) {
@@ -166,7 +165,7 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
     const auto exact = ExactTransform::create(crs, affine, grid);
     auto ground = exact ? ground_steps(*exact, grid) : std::nullopt;
     if (!ground) {
-        turn(crs_steps(affine, grid), place);
+        orient(crs_steps(affine, grid), place);
         notes.push_back(
             fmt::format("its coordinate system \"{}\" does not lead to WGS 84: treated as "
                         "without a place",
@@ -175,7 +174,7 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
     }
     std::array<glm::dvec2, 1> middle{middle_of(grid)};
     const bool polar = exact->positions(grid, middle) && std::abs(middle[0].x) > near_pole;
-    turn(polar ? crs_steps(affine, grid) : *ground, place);
+    orient(polar ? crs_steps(affine, grid) : *ground, place);
     place.spacing = checked_spacing(place.spacing, ground, notes);
     ground = ground_steps(*exact, place.grid);
     if (!polar && ground) {
@@ -188,7 +187,7 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
     return place;
 }
 
-/// "unnamed" UTM zones get the name that EPSG gives them.
+/// Gives unnamed UTM zones their EPSG name.
 OGRSpatialReference with_name(const OGRSpatialReference& crs) {
     int north = 0;
     const int zone = crs.GetUTMZone(&north);
@@ -201,10 +200,10 @@ OGRSpatialReference with_name(const OGRSpatialReference& crs) {
     return named;
 }
 
-/// Without a CRS, or with a local one, whose axes mean nothing outside (Terragen's point south).
-Place placed_nowhere(const std::optional<OGRSpatialReference>& local,
-                     const std::optional<geo::PixelAffine>& affine, const SampleGrid& grid,
-                     const RasterOptions& options, std::vector<std::string>& notes) {
+/// For rasters without a CRS or with a local one.
+Place place_without_crs(const std::optional<OGRSpatialReference>& local,
+                        const std::optional<geo::PixelAffine>& affine, const SampleGrid& grid,
+                        const RasterOptions& options, std::vector<std::string>& notes) {
     Place place;
     place.grid = grid;
     const bool has_own = affine.has_value();
@@ -213,7 +212,7 @@ Place placed_nowhere(const std::optional<OGRSpatialReference>& local,
         const double unit = local ? local->GetLinearUnits() : 1.0;
         place.spacing = glm::dvec2(glm::length(steps.col), glm::length(steps.row)) * unit;
         if (!local) {
-            turn(steps, place);
+            orient(steps, place);
         }
     } else {
         place.spacing = glm::abs(grid.step);
@@ -233,8 +232,7 @@ Place placed_nowhere(const std::optional<OGRSpatialReference>& local,
     return place;
 }
 
-/// Whether coordinates without a CRS can only be degrees: within the globe, in small steps, and not
-/// just counted from 0.
+/// Coordinates on the globe in small steps that do not start at 0.
 bool look_like_degrees(const geo::PixelAffine& affine, glm::dvec2 size) {
     const glm::dvec2 first = affine.crs_from_pixel(glm::dvec2(0.0));
     const glm::dvec2 last = affine.crs_from_pixel(size);
@@ -243,6 +241,18 @@ bool look_like_degrees(const geo::PixelAffine& affine, glm::dvec2 size) {
                           std::max(std::abs(first.y), std::abs(last.y)) <= 90.5;
     const bool from_zero = first.x == 0.0 && (first.y == 0.0 || last.y == 0.0);
     return small && on_globe && !from_zero;
+}
+
+Result<Place> with_good_spacing(Place place, const std::string& name) {
+    const glm::dvec2 spacing = place.spacing;
+    const auto fits = [](double side) {
+        return side >= terrain::min_spacing && side <= terrain::max_spacing;
+    };
+    if (fits(spacing.x) && fits(spacing.y)) {
+        return place;
+    }
+    return Error{fmt::format("{}: its samples are {} × {} m apart, {} to {} m were expected", name,
+                             spacing.x, spacing.y, terrain::min_spacing, terrain::max_spacing)};
 }
 
 } // namespace
@@ -261,7 +271,7 @@ std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset) {
 std::string vertical_datum_of(GDALDataset& dataset) {
     const OGRSpatialReference* crs = dataset.GetSpatialRef();
     if (crs != nullptr && crs->GetAxesCount() == 3 && crs->IsCompound() == 0) {
-        return "ellipsoidal height"; // as EPSG:4979 has it
+        return "ellipsoidal height"; // EPSG:4979
     }
     if (crs != nullptr && crs->IsVertical() != 0) {
         const char* name = crs->GetAttrValue("VERT_CS");
@@ -280,13 +290,13 @@ Result<void> check_affine(GDALDataset& dataset, const std::string& name) {
         return {};
     }
     const bool within =
-        std::all_of(t.begin(), t.end(), [](double v) { return std::abs(v) <= farthest_crs_place; });
+        std::all_of(t.begin(), t.end(), [](double v) { return std::abs(v) <= max_crs_coordinate; });
     if (within && t[1] * t[5] - t[2] * t[4] != 0.0) {
         return {};
     }
     return Error{fmt::format("{}: its geotransform is {}, numbers of at most {} and pixels with an "
                              "area were expected",
-                             name, fmt::join(t, ", "), farthest_crs_place)};
+                             name, fmt::join(t, ", "), max_crs_coordinate)};
 }
 
 std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
@@ -333,22 +343,6 @@ CrsWords words_of(const OGRSpatialReference& given) {
     return words;
 }
 
-namespace {
-
-Result<Place> with_good_spacing(Place place, const std::string& name) {
-    const glm::dvec2 spacing = place.spacing;
-    const auto fits = [](double side) {
-        return side >= terrain::min_spacing && side <= terrain::max_spacing;
-    };
-    if (fits(spacing.x) && fits(spacing.y)) {
-        return place;
-    }
-    return Error{fmt::format("{}: its samples are {} × {} m apart, {} to {} m were expected", name,
-                             spacing.x, spacing.y, terrain::min_spacing, terrain::max_spacing)};
-}
-
-} // namespace
-
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes) {
     using terrain::max_spacing;
@@ -368,7 +362,7 @@ Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::
         notes.emplace_back("is placed by ground control points, which are not used for heights");
     }
     if (!crs || crs->IsLocal() != 0) {
-        return with_good_spacing(placed_nowhere(crs, affine, grid, options, notes), name);
+        return with_good_spacing(place_without_crs(crs, affine, grid, options, notes), name);
     }
     if (options.spacing) {
         return Error{

@@ -14,45 +14,41 @@
 
 namespace reljef::io {
 
-/// Once check_affine() has passed: GDAL's geotransform as an affine over its pixel coordinates,
-/// (0,0) at the outer corner of the first pixel; absent where the raster has none.
+/// GDAL's geotransform; (0,0) is the outer corner of the first pixel. Absent if the raster has
+/// none. Precondition: check_affine() passed.
 std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset);
 
-/// Fails where a raster has a geotransform that places nothing: not finite, or without area.
+/// Fails for a geotransform that is not finite or has no area.
 Result<void> check_affine(GDALDataset& dataset, const std::string& name);
 
-/// The horizontal part of a raster's CRS with x east and y north; absent where it names none.
-/// Degrees without a CRS are taken for WGS 84, with a note.
+/// The horizontal part of a raster's CRS, x east and y north; absent without a CRS. Assumes WGS 84
+/// for coordinates that look like degrees, with a note.
 std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
                                                   std::vector<std::string>& notes);
 
-/// What a raster's heights are counted from ("EGM96 height"), by its CRS or its format; empty where
-/// neither tells.
+/// Vertical datum ("EGM96 height") by CRS or format; empty if unknown.
 std::string vertical_datum_of(GDALDataset& dataset);
 
-/// What a CRS is called: its name, its code ("EPSG:4326", empty where it has none) and its unit.
 struct CrsWords {
     std::string name;
-    std::string code;
+    std::string code; ///< "EPSG:4326", or empty
     std::string horizontal_unit;
 };
 CrsWords words_of(const OGRSpatialReference& crs);
 
-/// Where the samples of a raster lie.
+/// Position of a raster's samples.
 struct Place {
     SampleGrid grid; ///< col grows east and row south
     bool flipped_cols = false;
     bool flipped_rows = false;
     glm::dvec2 spacing{1.0};      ///< metres
-    bool spacing_assumed = false; ///< neither the file nor the options tell it
+    bool spacing_assumed = false; ///< unknown
     std::optional<geo::Georeference> georeference;
-    /// What is to be added to the samples of a raster that goes all around the Earth; the
-    /// georeference has it already, the grid has not.
-    geo::GlobalWrap closing;
+    geo::GlobalWrap closing; ///< applied to `georeference`, but not to `grid`
 };
 
-/// Fails where the file places its samples nowhere, absurdly close or far, and where
-/// RasterOptions::spacing contradicts it; all else that is odd is noted.
+/// Fails for an invalid geotransform, an absurd spacing, and a RasterOptions::spacing that
+/// conflicts with the file. Notes other oddities.
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes);
 

@@ -1,7 +1,5 @@
 #include "engine/io/raster/raster.h"
 
-#include <vector>
-
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
 

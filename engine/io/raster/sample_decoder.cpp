@@ -1,10 +1,10 @@
 #include "engine/io/raster/sample_decoder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -109,9 +109,7 @@ constexpr std::array unit_names{
 };
 
 std::optional<HeightUnit> height_unit_by_name(std::string_view name) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string lower = OIIO::Strutil::lower(std::string(name));
     const auto* found = std::find_if(unit_names.begin(), unit_names.end(), [&](const auto& unit) {
         return !lower.empty() &&
                std::find(unit.names.begin(), unit.names.end(), lower) != unit.names.end();

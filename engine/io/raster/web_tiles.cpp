@@ -18,12 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view terrarium_name = "terrarium+";
 constexpr std::string_view terrain_rgb_name = "terrain-rgb+";
-constexpr int usual_levels = 15; // of the public sets
-constexpr int max_levels = 22;   // 2^30 samples a side
-// Half the side of web mercator's square, metres: π times the equator's radius.
+constexpr int usual_levels = 15; // public tile sets
+constexpr int max_levels = 22;   // 2^30 samples per side
+// Half the side of the web mercator square, metres.
 constexpr double half_side = std::numbers::pi * 6378137.0;
 
-/// What follows the name of the encoding.
 std::string address_of(const fs::path& path) {
     const std::string name = path.string();
     return name.substr(name.find('+') + 1);
@@ -40,7 +39,6 @@ std::optional<int> whole_number(const std::string& text) {
     return whole ? std::optional<int>(number) : std::nullopt;
 }
 
-/// The least and greatest numbers of tiles.
 struct TileNumbers {
     int low = std::numeric_limits<int>::max();
     int high = -1;
@@ -51,13 +49,13 @@ struct TileNumbers {
     }
 };
 
-/// An entry of a folder whose name, without its extension, is a number.
+/// A folder entry whose stem is a number.
 struct NumberedEntry {
     int number = 0;
     fs::path path;
 };
 
-/// Those with numbers under `end`, in any order; none where there is no such folder.
+/// Entries with numbers below `end`, unordered.
 std::vector<NumberedEntry> numbered_entries(const fs::path& folder, int end) {
     std::vector<NumberedEntry> entries;
     std::error_code code;
@@ -79,7 +77,6 @@ TileNumbers numbers_in(const fs::path& folder, int end) {
     return range;
 }
 
-/// The tiles that a folder has of a level.
 struct FolderLevel {
     int level = -1; ///< −1: none
     TileNumbers x;
@@ -102,7 +99,7 @@ FolderLevel finest_level(const fs::path& folder) {
     return found;
 }
 
-/// A text with one part of it replaced; nothing where it has no such part.
+/// Replaces a part of a text; absent if it lacks the part.
 std::optional<std::string> with(std::string text, std::string_view part, std::string_view by) {
     const auto at = text.find(part);
     if (at == std::string::npos) {
@@ -111,7 +108,7 @@ std::optional<std::string> with(std::string text, std::string_view part, std::st
     return text.replace(at, part.size(), by);
 }
 
-/// The address with the placeholders of GDAL, and the finest level.
+/// URL with GDAL's placeholders, and the finest level.
 struct TileSource {
     std::string url;
     int level = usual_levels;
@@ -165,7 +162,7 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-/// Degrees north of a place in tiles from the north, of `count` tiles.
+/// Latitude in degrees at `y` of `count` tiles from the north.
 double latitude_at(double y, double count) {
     return std::atan(std::sinh(std::numbers::pi * (1.0 - 2.0 * y / count))) * 180.0 /
            std::numbers::pi;
@@ -184,7 +181,7 @@ double encoded_height(HeightEncoding encoding, double red, double green, double 
 
 bool may_be_heights(std::span<const double> red, std::span<const double> green,
                     std::span<const double> blue) {
-    // Heights of so many neighbours are grey only where the ground is level.
+    // So many encoded heights in a row are grey only on level ground.
     constexpr int max_grey = 32;
     constexpr int max_steps = 2;
     int grey = 0;

@@ -13,49 +13,47 @@
 
 namespace reljef::io {
 
-/// A file that could not be read, and why: one sentence that names it.
+/// A file that could not be read; the message names it.
 struct FileError {
     std::filesystem::path file;
     std::string message;
     friend bool operator==(const FileError&, const FileError&) = default;
 };
 
-// Heights as pictures: square tiles z/x/y.png of 256 pixels in web mercator (EPSG:3857), a level z
-// of 2^z tiles a side, x from the antimeridian on east, y from the north. Named by how colours
-// stand for heights, and where they are: "terrarium+FOLDER" or
+// Web tiles of heights encoded as colours: z/x/y.png with 256×256 pixels in web mercator
+// (EPSG:3857). Level z has 2^z tiles per side; x counts from the antimeridian, y from the north.
+// The name is the encoding and the location: "terrarium+FOLDER" or
 // "terrain-rgb+https://host/{z}/{x}/{y}.png".
 
 enum class HeightEncoding { none, terrarium, terrain_rgb };
 
-/// Metres; NaN for black, which stands for nothing. Precondition: an encoding.
+/// Metres; NaN for black (no data). Precondition: not HeightEncoding::none.
 /// Terrarium: Tilezen, "joerd", docs/formats.md. Terrain-RGB: Mapbox, "Access elevation data".
 double encoded_height(HeightEncoding encoding, double red, double green, double blue);
 
-/// Whether colours can be heights: not where they are grey, along many pixels of several shades.
-/// Channels 0 to 255, of the same size.
+/// False for a grey picture: many neighbouring grey pixels of several shades. Channels are 0 to
+/// 255.
 bool may_be_heights(std::span<const double> red, std::span<const double> green,
                     std::span<const double> blue);
 
-/// Pixels along a tile.
-inline constexpr int web_tiles_side = 256;
+inline constexpr int web_tiles_side = 256; // pixels
 
-/// Of one tile (x, y) of a level that cannot be read.
+/// The error of one unreadable tile (x, y).
 FileError web_tiles_error(const std::filesystem::path& path, glm::ivec2 tile, int level);
 
-/// By how the name begins; none: it names no such tiles.
+/// The encoding in a name; none: not web tiles.
 HeightEncoding height_encoding_of(std::string_view name);
 inline bool is_web_tiles(const std::filesystem::path& path) {
     return height_encoding_of(path.string()) != HeightEncoding::none;
 }
 
-/// What GDAL's driver for tiles on servers (WMS, service TMS) opens: a raster of all the Earth with
-/// each level as an overview. Levels go to that of `{z:12}`, else 15; in a folder to the highest
-/// that is there. Black where there is no tile. Fails where a folder has no tiles, or an address
-/// lacks {z}, {x} or {y}. Precondition: is_web_tiles.
+/// Description for GDAL's WMS driver (service TMS): a global raster with each level as an overview,
+/// black without a tile. The finest level is that of `{z:12}`, else 15, or the highest one in a
+/// folder. Fails for a folder without tiles or an address without {z}, {x} and {y}. Precondition:
+/// is_web_tiles.
 Result<std::string> web_tiles_description(const std::filesystem::path& path);
 
-/// Where a folder has tiles of its finest level, from their outermost pixels' middles on; nothing
-/// for addresses.
+/// The area of a folder's finest level, between the outermost pixel centres; absent for addresses.
 std::optional<geo::GeodeticArea> web_tiles_area(const std::filesystem::path& path);
 
 } // namespace reljef::io
