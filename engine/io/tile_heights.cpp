@@ -354,14 +354,15 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
 TileSet::Heights TileSet::heights(std::span<const glm::dvec2> places) const {
     Heights result;
     result.answers.resize(places.size());
-    std::atomic<std::size_t> ignored_bytes{0};
+    std::atomic<std::size_t> bytes_read{0};
     for (const Reach reach : {Reach::samples, Reach::half_a_cell}) {
         for (const TileLayer& layer : state_->layers) {
-            ask_layer(layer, places, reach, state_->reading(ignored_bytes, {}),
+            ask_layer(layer, places, reach, state_->reading(bytes_read, {}),
                       state_->options.threads, result);
         }
     }
     keep_each_once(result.errors);
+    result.bytes_read = bytes_read;
     return result;
 }
 

@@ -147,7 +147,6 @@ Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::s
 struct Described {
     IndexedFile file;
     std::string wkt;
-    bool is_raster = true;
 };
 
 Described with_error(Described described, std::string message) {
@@ -205,36 +204,35 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
 }
 
 Described describe_file(const fs::path& path, IndexedFile file) {
-    Described described{std::move(file), {}, true};
+    Described described{std::move(file), {}};
     const GdalMessages messages;
     const auto dataset = open_raster(path, messages);
     return dataset ? describe_dataset(**dataset, path.string(), std::move(described))
                    : with_error(std::move(described), dataset.error().message);
 }
 
-Described describe_if_raster(const fs::path& path, IndexedFile file) {
-    const GdalMessages unheard;
-    return may_be_raster(path) ? describe_file(path, std::move(file))
-                               : Described{std::move(file), {}, false};
+std::optional<Described> describe_if_raster(const fs::path& path, IndexedFile file) {
+    const GdalMessages ignored_messages;
+    return may_be_raster(path) ? std::optional(describe_file(path, std::move(file))) : std::nullopt;
 }
 
 /// Numbers the distinct WKTs.
-TileIndex numbered(std::vector<Described> all) {
+TileIndex numbered(std::vector<std::optional<Described>> all) {
     TileIndex index;
     std::map<std::string, int> numbers;
-    for (Described& described : all) {
-        if (!described.is_raster) {
+    for (auto& described : all) {
+        if (!described) {
             continue;
         }
-        if (described.file.use == TileUse::heights) {
+        if (described->file.use == TileUse::heights) {
             const auto [entry, is_new] =
-                numbers.try_emplace(described.wkt, static_cast<int>(index.crs.size()));
+                numbers.try_emplace(described->wkt, static_cast<int>(index.crs.size()));
             if (is_new) {
-                index.crs.push_back(described.wkt);
+                index.crs.push_back(described->wkt);
             }
-            described.file.crs = entry->second;
+            described->file.crs = entry->second;
         }
-        index.files.push_back(std::move(described.file));
+        index.files.push_back(std::move(described->file));
     }
     return index;
 }
@@ -268,32 +266,19 @@ void write_cache(const fs::path& file, const TileIndex& index) {
     static_cast<void>(write_text_file(file, bytes_of(index)));
 }
 
-/// Cached entries of unchanged files.
-class Known {
-public:
-    explicit Known(const TileIndex& index) : index_(index) {
-        for (const IndexedFile& file : index.files) {
-            files_.emplace(file.path, &file);
-        }
+/// The entry of an unchanged file; absent for others.
+std::optional<Described> find_unchanged(const TileIndex& index, const IndexedFile& now) {
+    const auto found = std::lower_bound(
+        index.files.begin(), index.files.end(), now.path,
+        [](const IndexedFile& file, const std::string& path) { return file.path < path; });
+    if (found == index.files.end() || found->path != now.path || !found->opened ||
+        found->bytes != now.bytes || found->modified != now.modified ||
+        found->beside != now.beside) {
+        return std::nullopt;
     }
-    [[nodiscard]] std::optional<Described> find(const IndexedFile& now) const {
-        const auto entry = files_.find(now.path);
-        if (entry == files_.end() || !entry->second->opened || !is_same(*entry->second, now)) {
-            return std::nullopt;
-        }
-        const IndexedFile& file = *entry->second;
-        const bool placed = file.use == TileUse::heights;
-        return Described{file, placed ? index_.crs[static_cast<std::size_t>(file.crs)] : "", true};
-    }
-
-private:
-    static bool is_same(const IndexedFile& a, const IndexedFile& b) {
-        return a.bytes == b.bytes && a.modified == b.modified && a.beside == b.beside;
-    }
-
-    const TileIndex& index_;
-    std::map<std::string_view, const IndexedFile*> files_;
-};
+    const bool placed = found->use == TileUse::heights;
+    return Described{*found, placed ? index.crs[static_cast<std::size_t>(found->crs)] : ""};
+}
 
 Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& options,
                                std::vector<std::string>& notes) {
@@ -303,14 +288,13 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
     }
     const bool cached = !options.cache_folder.empty();
     const TileIndex old = cached ? read_cache(cache_file(folder, options), notes) : TileIndex{};
-    const Known known(old);
-    std::vector<Described> all(files->size());
+    std::vector<std::optional<Described>> all(files->size());
     const auto describe = [&](int i) {
         IndexedFile& file = (*files)[static_cast<std::size_t>(i)];
-        auto same = known.find(file);
+        auto same = find_unchanged(old, file);
         const fs::path path = folder / file.path;
         all[static_cast<std::size_t>(i)] =
-            same ? std::move(*same) : describe_if_raster(path, std::move(file));
+            same ? std::move(same) : describe_if_raster(path, std::move(file));
     };
     if (!parallel_for(static_cast<int>(files->size()), describe,
                       {.threads = options.threads, .stop = options.stop, .progress = {}})) {

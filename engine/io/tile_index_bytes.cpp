@@ -66,21 +66,10 @@ private:
 
 /// Visits each field, for reading and writing.
 template <class File, class Visit> void visit_fields(File& file, const Visit& visit) {
-    visit(file.path);
-    visit(file.bytes);
-    visit(file.modified);
-    visit(file.beside);
-    visit(file.opened);
-    visit(file.use);
-    visit(file.fault);
-    visit(file.cols);
-    visit(file.rows);
-    visit(file.crs_from_pixel);
-    visit(file.crs);
-    visit(file.format);
-    visit(file.type);
-    visit(file.vertical_datum);
-    visit(file.declares_voids);
+    const auto visit_all = [&](auto&... fields) { (visit(fields), ...); };
+    visit_all(file.path, file.bytes, file.modified, file.beside, file.opened, file.use, file.fault,
+              file.cols, file.rows, file.crs_from_pixel, file.crs, file.format, file.type,
+              file.vertical_datum, file.declares_voids);
 }
 
 bool is_consistent(const TileIndex& index) {

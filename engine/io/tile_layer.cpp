@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/io/raster/gdal_dataset.h"
@@ -26,16 +25,10 @@ glm::dmat2 steps_matrix(const geo::PixelAffine& affine) {
     return {affine.x_col, affine.y_col, affine.x_row, affine.y_row};
 }
 
-/// Whole numbers that may exceed int.
-struct LatticeBounds {
-    glm::dvec2 low{0.0};
-    glm::dvec2 high{0.0}; ///< exclusive
-};
-
 /// A layer under construction; its lattice starts at the first tile.
 struct GrowingLayer {
     TileLayer layer;
-    LatticeBounds bounds;
+    PointBounds bounds; ///< lattice points, whole numbers that may exceed int
 };
 
 /// A file's first sample on a layer's lattice.
@@ -58,11 +51,13 @@ bool on_lattice(const TileLayer& layer, const PlacedFile& file, const IndexedFil
            std::abs(phase.y) <= same_phase;
 }
 
-LatticeBounds bounds_with(const GrowingLayer& growing, const PlacedFile& file,
-                          const IndexedFile& indexed) {
+PointBounds bounds_with(const GrowingLayer& growing, const PlacedFile& file,
+                        const IndexedFile& indexed) {
     const glm::dvec2 first = glm::round(origin_in(growing.layer, file));
-    return {glm::min(growing.bounds.low, first),
-            glm::max(growing.bounds.high, first + glm::dvec2(indexed.cols, indexed.rows))};
+    PointBounds bounds = growing.bounds;
+    bounds.add(first);
+    bounds.add(first + glm::dvec2(indexed.cols, indexed.rows)); // exclusive
+    return bounds;
 }
 
 /// Tiles farther apart than max_tree_samples belong to different layers.
@@ -70,7 +65,7 @@ bool belongs_to(const GrowingLayer& growing, const PlacedFile& file, const Index
     if (!on_lattice(growing.layer, file, indexed)) {
         return false;
     }
-    const LatticeBounds bounds = bounds_with(growing, file, indexed);
+    const PointBounds bounds = bounds_with(growing, file, indexed);
     const glm::dvec2 size = bounds.high - bounds.low;
     return std::max(size.x, size.y) <= terrain::max_tree_samples;
 }
@@ -221,33 +216,25 @@ std::filesystem::path path_of(const LayerTile& tile, const TileContent& reading)
     return reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path;
 }
 
-Result<DatasetPool::Loan> borrow_as_indexed(const LayerTile& tile, const TileContent& reading,
-                                            const GdalMessages& messages) {
-    const std::filesystem::path path = path_of(tile, reading);
-    const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
-    return reading.pool->borrow(path, messages, [&](Dataset opened) -> Result<Dataset> {
-        const std::string& crs = reading.crs[static_cast<std::size_t>(file.crs)];
-        auto now = as_indexed(std::move(opened), file, crs, path.string());
-        if (!now) {
-            return now.error();
-        }
-        if (now->note) {
-            reading.new_notes->add(*now->note);
-        }
-        return std::move(now->dataset);
-    });
-}
-
 constexpr std::chrono::seconds max_response_time{5}; // longer: the server hangs
 
-/// Skips remote files that fail repeatedly.
+/// Opens a tile as in the index. Skips remote files that fail repeatedly.
 Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileContent& reading,
                                  const GdalMessages& messages) {
     const std::filesystem::path path = path_of(tile, reading);
     if (auto wrong = reading.failing->given_up(path)) {
         return Error{std::move(*wrong)};
     }
-    auto dataset = borrow_as_indexed(tile, reading, messages);
+    const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
+    const auto match_index = [&](Dataset opened) -> Result<Dataset> {
+        const std::string& crs = reading.crs[static_cast<std::size_t>(file.crs)];
+        auto now = as_indexed(std::move(opened), file, crs, path.string());
+        if (now && now->note) {
+            reading.new_notes->add(*now->note);
+        }
+        return now ? Result<Dataset>(std::move(now->dataset)) : now.error();
+    };
+    auto dataset = reading.pool->borrow(path, messages, match_index);
     if (!dataset && is_remote(path)) {
         reading.failing->note(path, dataset.error().message);
     }

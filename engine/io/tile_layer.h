@@ -1,11 +1,13 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 
@@ -15,6 +17,17 @@
 #include "engine/io/tile_index.h"
 
 namespace reljef::io {
+
+/// Bounds of points; ignores NaN.
+struct PointBounds {
+    glm::dvec2 low{std::numeric_limits<double>::infinity()};
+    glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+    void add(glm::dvec2 point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+};
 
 /// A tile on its layer's lattice.
 struct LayerTile {

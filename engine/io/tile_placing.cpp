@@ -14,34 +14,23 @@ namespace {
 
 /// A coordinate system of the index.
 struct IndexedCrs {
+    OGRSpatialReference crs;
     std::string wkt; ///< of the first equal system
     double period = 0.0;
     std::optional<CrsTransform> to_degrees;
 };
 
-IndexedCrs indexed_crs(const std::string& wkt, std::vector<OGRSpatialReference>& known,
-                       std::vector<std::string>& texts) {
-    OGRSpatialReference crs = crs_from_text(wkt);
-    const auto same = std::find_if(known.begin(), known.end(),
-                                   [&](const auto& other) { return crs.IsSame(&other) != 0; });
-    IndexedCrs result;
-    result.wkt = same == known.end() ? wkt : texts[static_cast<std::size_t>(same - known.begin())];
-    result.period = crs.IsGeographic() != 0 ? 360.0 / glm::degrees(crs.GetAngularUnits()) : 0.0;
-    result.to_degrees = CrsTransform::create(wkt, wgs84_degrees);
-    if (same == known.end()) {
-        known.push_back(std::move(crs));
-        texts.push_back(wkt);
-    }
-    return result;
-}
-
 std::vector<IndexedCrs> indexed_systems(const TileIndex& index) {
-    std::vector<OGRSpatialReference> known;
-    std::vector<std::string> texts;
     std::vector<IndexedCrs> systems;
-    systems.reserve(index.crs.size());
     for (const std::string& wkt : index.crs) {
-        systems.push_back(indexed_crs(wkt, known, texts));
+        const OGRSpatialReference crs = crs_from_text(wkt);
+        const auto same =
+            std::find_if(systems.begin(), systems.end(),
+                         [&](const IndexedCrs& other) { return crs.IsSame(&other.crs) != 0; });
+        const double period =
+            crs.IsGeographic() != 0 ? 360.0 / glm::degrees(crs.GetAngularUnits()) : 0.0;
+        const std::string first_wkt = same == systems.end() ? wkt : same->wkt;
+        systems.push_back({crs, first_wkt, period, CrsTransform::create(wkt, wgs84_degrees)});
     }
     return systems;
 }

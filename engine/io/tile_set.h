@@ -110,6 +110,7 @@ public:
     struct Heights {
         std::vector<HeightAnswer> answers;
         std::vector<FileError> errors;
+        std::size_t bytes_read = 0; ///< as in TileWindow
     };
     /// Bilinear full-resolution heights at (latitude, longitude) in degrees, from the best file of
     /// each place.

@@ -1,9 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <limits>
-
-#include <glm/common.hpp>
 
 #include "engine/io/dataset_pool.h"
 #include "engine/io/raster/ascii_grid.h"
@@ -14,17 +11,6 @@ namespace reljef::io {
 
 /// Samples: rounding error of coordinates of millions of metres.
 inline constexpr double near_sample = 1e-6;
-
-/// Bounds of points; ignores NaN.
-struct PointBounds {
-    glm::dvec2 low{std::numeric_limits<double>::infinity()};
-    glm::dvec2 high{-std::numeric_limits<double>::infinity()};
-
-    void add(glm::dvec2 point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-};
 
 /// Constant after open(), except for the mutable members.
 struct TileSet::State {

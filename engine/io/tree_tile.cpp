@@ -34,6 +34,12 @@ void repeat_border(Grid<double>& heights, Inside cols, Inside rows) {
     }
 }
 
+/// Adds the errors and bytes of another read.
+void add_read(const TileWindow& other, TileWindow& window) {
+    window.errors.insert(window.errors.end(), other.errors.begin(), other.errors.end());
+    window.bytes_read += other.bytes_read;
+}
+
 /// Copies the heights of the first two columns to the columns from `last`.
 void close_east(const TileSet& tiles, const ClosedGrid& ground, const TileGrid& part, int last,
                 Gaps gaps, const std::stop_token& stop, TileWindow& window) {
@@ -45,43 +51,23 @@ void close_east(const TileSet& tiles, const ClosedGrid& ground, const TileGrid& 
         window.heights(last, row) = again.heights(1, row);
         window.heights(last + 1, row) = again.heights(2, row);
     }
-    window.errors.insert(window.errors.end(), again.errors.begin(), again.errors.end());
-    window.bytes_read += again.bytes_read;
+    add_read(again, window);
 }
 
-/// Interpolates between a pole's height and the outermost row of the source.
-class PolarCap {
-public:
-    PolarCap(const TileSet& tiles, const TileGrid& part, double outermost_y, double height,
-             Gaps gaps, const std::stop_token& stop)
-        : height_(height) {
-        TileGrid row = part;
-        row.first.y = outermost_y;
-        row.rows = 1;
-        outermost_ = tiles.read(row, gaps, stop);
-    }
-    [[nodiscard]] double at(int col, double share) const {
-        return share <= 0.0 ? height_ : glm::mix(height_, outermost_.heights(col, 0), share);
-    }
-    [[nodiscard]] const TileWindow& outermost() const { return outermost_; }
-
-private:
-    double height_;
-    TileWindow outermost_;
-};
-
-/// `from_pole(row)`: distance of a window's row from the pole, in samples of the source.
+/// Interpolates between a pole and the outermost row of the source. `from_pole(row)`: distance of a
+/// window's row from the pole, in rows of the source.
 template <class FromPole>
-void close_pole(const PolarCap& cap, const FromPole& from_pole, TileWindow& window) {
+void close_pole(const TileWindow& outermost, double pole_height, const FromPole& from_pole,
+                TileWindow& window) {
     for (int row = 0; row < window.heights.rows(); ++row) {
         const double share = from_pole(row);
         for (int col = 0; share < 1.0 && col < window.heights.cols(); ++col) {
-            window.heights(col, row) = cap.at(col, share);
+            window.heights(col, row) =
+                share <= 0.0 ? pole_height
+                             : glm::mix(pole_height, outermost.heights(col, 0), share);
         }
     }
-    window.errors.insert(window.errors.end(), cap.outermost().errors.begin(),
-                         cap.outermost().errors.end());
-    window.bytes_read += cap.outermost().bytes_read;
+    add_read(outermost, window);
 }
 
 } // namespace
@@ -114,18 +100,20 @@ TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
         close_east(tiles, ground, part, end.x + 1, gaps, stop, window);
     }
     const double refinement = ground.refinement;
+    const auto read_row = [&](double y) {
+        return tiles.read({{part.first.x, y}, part.step, part.cols, 1}, gaps, stop);
+    };
     if (ground.closing.north > 0.0 && first.y == 0) {
-        const PolarCap cap(tiles, part, grid.first.y + refinement * grid.step.y,
-                           ground.north_height, gaps, stop);
+        const double outermost_y = grid.first.y + refinement * grid.step.y;
         close_pole(
-            cap, [&](int row) { return (row - 1) * step / refinement; }, window);
+            read_row(outermost_y), ground.north_height,
+            [&](int row) { return (row - 1) * step / refinement; }, window);
     }
     if (ground.closing.south > 0.0 && first.y + end.y * step >= last.y) {
-        const PolarCap cap(tiles, part, grid.first.y + (last.y - refinement) * grid.step.y,
-                           ground.south_height, gaps, stop);
+        const double outermost_y = grid.first.y + (last.y - refinement) * grid.step.y;
         close_pole(
-            cap, [&](int row) { return (last.y - first.y - (row - 1) * step) / refinement; },
-            window);
+            read_row(outermost_y), ground.south_height,
+            [&](int row) { return (last.y - first.y - (row - 1) * step) / refinement; }, window);
     }
     return window;
 }

@@ -1,5 +1,4 @@
 #include <limits>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -56,10 +55,10 @@ Result<GeodeticKey> geodetic_key_of(TomlTable& table) {
     return key;
 }
 
-/// All keys of a file; times must increase.
+/// A flight along all keys; times must increase.
 template <class Key, class KeyOf>
-Result<std::vector<Key>> keys_of(std::vector<TomlTable>& tables, const std::string& name,
-                                 const KeyOf& key_from) {
+Result<Flight> flight_along(std::vector<TomlTable>& tables, const std::string& name,
+                            const KeyOf& key_from) {
     if (tables.empty() || tables.size() > max_keys) {
         return Error{fmt::format("{}: has {} tables [[key]], 1 to {} were expected", name,
                                  tables.size(), max_keys)};
@@ -77,36 +76,7 @@ Result<std::vector<Key>> keys_of(std::vector<TomlTable>& tables, const std::stri
         }
         keys.push_back(*key);
     }
-    return keys;
-}
-
-/// A path file; `tables` point into the document.
-struct PathDocument {
-    toml::table document;
-    std::vector<TomlTable> tables;
-};
-
-Result<std::unique_ptr<PathDocument>> open_path_file(const std::filesystem::path& path) {
-    const std::string name = path.string();
-    const auto text = read_text_file(path);
-    if (!text) {
-        return text.error();
-    }
-    auto document = parse_toml(*text, name);
-    if (!document) {
-        return document.error();
-    }
-    auto result = std::make_unique<PathDocument>(PathDocument{std::move(*document), {}});
-    TomlTable root(result->document, name, "");
-    result->tables = root.tables("key");
-    if (auto good = root.finish(); !good) {
-        return good.error();
-    }
-    return result;
-}
-
-template <class Key> Result<Flight> flight_of(Result<std::vector<Key>> keys) {
-    return keys ? Result<Flight>(Flight{std::move(*keys), {}}) : keys.error();
+    return Flight{std::move(keys), {}};
 }
 
 } // namespace
@@ -115,15 +85,24 @@ Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_se
     if (path.extension() != ".toml") {
         return read_track(path, metres_a_second);
     }
-    auto file = open_path_file(path);
-    if (!file) {
-        return file.error();
+    const std::string name = path.string();
+    const auto text = read_text_file(path);
+    if (!text) {
+        return text.error();
     }
-    std::vector<TomlTable>& tables = (*file)->tables;
+    const auto document = parse_toml(*text, name);
+    if (!document) {
+        return document.error();
+    }
+    TomlTable root(*document, name, "");
+    std::vector<TomlTable> tables = root.tables("key");
+    if (auto good = root.finish(); !good) {
+        return good.error();
+    }
     const bool on_earth =
         !tables.empty() && (tables.front().has("latitude") || tables.front().has("longitude"));
-    return on_earth ? flight_of(keys_of<GeodeticKey>(tables, path.string(), geodetic_key_of))
-                    : flight_of(keys_of<PathKey>(tables, path.string(), key_of));
+    return on_earth ? flight_along<GeodeticKey>(tables, name, geodetic_key_of)
+                    : flight_along<PathKey>(tables, name, key_of);
 }
 
 } // namespace reljef::io

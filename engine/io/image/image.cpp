@@ -81,10 +81,15 @@ Error unknown_format(const fs::path& path) {
                         path.string(), path.extension().string())};
 }
 
-Error no_pixels(const fs::path& path, const Image& image) {
-    return {fmt::format("{}: cannot be written: a picture of {}×{} pixels was given, at least "
-                        "1×1 was expected",
-                        path.string(), image.cols(), image.rows())};
+Result<std::unique_ptr<OIIO::ImageOutput>> output_for(const fs::path& path, const Image& image) {
+    if (image.empty()) {
+        return Error{fmt::format("{}: cannot be written: a picture of {}×{} pixels was given, at "
+                                 "least 1×1 was expected",
+                                 path.string(), image.cols(), image.rows())};
+    }
+    auto output = output_for(path);
+    return output ? Result<std::unique_ptr<OIIO::ImageOutput>>(std::move(output))
+                  : unknown_format(path);
 }
 
 OIIO::ImageSpec spec_of(const Image& image) {
@@ -125,27 +130,18 @@ Result<void> check_image_name(const fs::path& path) {
 }
 
 Result<void> write_image(const fs::path& path, const Image& image) {
-    if (image.empty()) {
-        return no_pixels(path, image);
-    }
-    auto output = output_for(path);
-    if (output == nullptr) {
-        return unknown_format(path);
-    }
-    return write_encoded(std::move(output), spec_of(image), image.samples().data(), sizeof(Rgba8),
-                         path);
+    auto output = output_for(path, image);
+    return output ? write_encoded(std::move(*output), spec_of(image), image.samples().data(),
+                                  sizeof(Rgba8), path)
+                  : output.error();
 }
 
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image) {
     const fs::path path = "a picture in memory" + extension;
-    if (image.empty()) {
-        return no_pixels(path, image);
-    }
-    auto output = output_for(path);
-    if (output == nullptr) {
-        return unknown_format(path);
-    }
-    return encoded(std::move(output), spec_of(image), image.samples().data(), sizeof(Rgba8));
+    auto output = output_for(path, image);
+    return output
+               ? encoded(std::move(*output), spec_of(image), image.samples().data(), sizeof(Rgba8))
+               : output.error();
 }
 
 Image contact_sheet(std::span<const Image> pictures, int columns, int width) {

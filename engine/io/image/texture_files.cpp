@@ -233,23 +233,10 @@ bool is_back(Words words) {
     return false;
 }
 
-fs::path& file_of(TextureFiles& files, TextureRole role) {
-    switch (role) {
-    case TextureRole::color:
-        return files.color;
-    case TextureRole::heights:
-        return files.heights;
-    case TextureRole::normals:
-        return files.normals;
-    case TextureRole::layers:
-        return files.layers;
-    case TextureRole::back_heights:
-        return files.back_heights;
-    case TextureRole::mask:
-        return files.mask;
-    }
-    abort_with("a texture without a role");
-}
+// By TextureRole.
+constexpr std::array files_by_role{&TextureFiles::color,        &TextureFiles::heights,
+                                   &TextureFiles::normals,      &TextureFiles::layers,
+                                   &TextureFiles::back_heights, &TextureFiles::mask};
 
 Result<void> sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::path>& others) {
     const auto role = texture_role(file.stem().string());
@@ -257,7 +244,7 @@ Result<void> sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::
         others.push_back(file);
         return {};
     }
-    fs::path& place = file_of(files, *role);
+    fs::path& place = files.*files_by_role[static_cast<std::size_t>(*role)];
     if (!place.empty()) {
         return Error{fmt::format("{}: {} and {} found, which both name {}, one was expected",
                                  file.parent_path().string(), place.filename().string(),

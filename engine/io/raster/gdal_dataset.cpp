@@ -216,13 +216,6 @@ std::string GdalMessages::reason() const {
     return last_error_.empty() ? "" : fmt::format(" (GDAL: {})", last_error_);
 }
 
-void GdalMessages::clear() {
-    all_.clear();
-    last_error_.clear();
-    errors_ = 0;
-    has_lost_blocks_ = false;
-}
-
 std::string size_text(double bytes) {
     return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
                         : fmt::format("{:.1f} MB", bytes / 1e6);

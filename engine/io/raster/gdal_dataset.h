@@ -30,7 +30,6 @@ public:
     [[nodiscard]] bool has_lost_blocks() const { return has_lost_blocks_; }
     /// Distinct warnings and errors in order, at most ten.
     [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
-    void clear();
 
 private:
     static void handle(CPLErr kind, CPLErrorNum number, const char* text);

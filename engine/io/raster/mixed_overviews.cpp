@@ -94,16 +94,11 @@ std::vector<Suspect> suspects_in(const Grid<double>& values, const Grid<double>&
     return suspects;
 }
 
-/// Full-resolution samples per overview sample, along one axis.
-int full_samples(int full, int reduced) {
-    return std::max(1, (full + reduced - 1) / reduced);
-}
-
 /// The full-resolution samples behind an overview sample, and half as many around them.
 RasterOptions::Window covered_by(const Suspect& suspect, GDALRasterBand& band,
                                  GDALRasterBand& overview) {
     const auto side = [](int at, int full, int reduced) {
-        const int step = full_samples(full, reduced);
+        const int step = std::max(1, (full + reduced - 1) / reduced); // rounded up
         const int begin = static_cast<int>(static_cast<std::int64_t>(at) * full / reduced);
         const int first = std::clamp(begin - step / 2, 0, full - 1);
         const int end = std::clamp(begin + step + step / 2 + 1, first + 1, full);
@@ -137,7 +132,7 @@ std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesys
         band.GetOverviewCount() == 0) {
         return false;
     }
-    const GdalMessages unheard;
+    const GdalMessages ignored_messages;
     std::vector<std::string> ignored;
     const auto decoder = SampleDecoder::create(dataset, path.string(), {}, ignored);
     GDALRasterBand* overview =

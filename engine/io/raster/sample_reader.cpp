@@ -17,13 +17,8 @@ constexpr int max_taps = 4; // stored samples per side that are averaged into on
 constexpr int samples_of_raster = 1 << 21;
 constexpr int samples_of_window = 1 << 18;
 
-/// A part of the result, in its own samples.
-struct Tile {
-    int col = 0;
-    int row = 0;
-    int cols = 0;
-    int rows = 0;
-};
+/// A part of the result.
+using Tile = RasterOptions::Window;
 
 std::vector<Tile> tiles_of(const SampleGrid& grid, int taps, int tile_samples) {
     const int cols = std::clamp(tile_samples / (taps * taps), 1, grid.cols);
