@@ -61,8 +61,7 @@ struct ScrollEvent {
     glm::dvec2 offset{0.0, 0.0};
 };
 
-/// Framebuffer size in pixels; 0×0 while minimized. The size is unchanged if the window only needs
-/// a redraw.
+/// Framebuffer size in pixels; 0×0 while minimized. Same size: the window needs a redraw.
 struct ResizeEvent {
     glm::ivec2 framebuffer{0, 0};
 };

@@ -9,8 +9,7 @@
 namespace reljef {
 namespace {
 
-// The nearest float. Volatile because vectorized code of g++ 12 drops the conversion to float and
-// back.
+// The nearest float. Volatile: vectorized code of g++ 12 skips the conversion.
 double rounded_to_float(double value) {
     const volatile float rounded = static_cast<float>(value);
     return rounded;

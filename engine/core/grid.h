@@ -10,8 +10,7 @@
 
 namespace reljef {
 
-/// A view of a rectangle of samples. `col` grows east, `row` grows south; rows lie `stride`
-/// elements apart.
+/// A view of a rectangle of samples, like Grid; rows lie `stride` elements apart.
 template <class T> class GridView {
 public:
     GridView() = default;
@@ -51,8 +50,7 @@ private:
     std::ptrdiff_t stride_ = 0;
 };
 
-/// An owned rectangle of samples, row after row. `col` grows east, `row` grows south; (0,0) is the
-/// centre of the north-west sample.
+/// A rectangle of samples, row-major. `col` grows east, `row` grows south.
 template <class T> class Grid {
 public:
     Grid() = default;

@@ -37,7 +37,7 @@ template <class Item> std::vector<Item> sorted_by_digit(std::vector<Item>&& item
 
 } // namespace detail
 
-/// Stable sort by `distance`, ascending: a radix sort, then an insertion sort. Linear time for
+/// Stable sort by ascending `distance`: a radix sort, then an insertion sort. Linear time for
 /// spread distances. Precondition: distances are not negative and not NaN.
 template <class Item> std::vector<Item> nearest_first(std::vector<Item> items) {
     for (unsigned shift = detail::first_digit; shift < 32; shift += detail::digit_bits) {

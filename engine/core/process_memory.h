@@ -4,8 +4,7 @@
 
 namespace reljef {
 
-/// Resident memory of this process without file pages, bytes; 0 if unknown. File pages do not count
-/// because the system can reclaim them.
+/// Resident bytes without file pages, which the system can reclaim; 0 if unknown.
 struct ProcessMemory {
     std::size_t now = 0;
     std::size_t most = 0; ///< peak, if file pages never were fewer than now

@@ -30,8 +30,7 @@ struct BootstrapOptions {
 };
 
 /// Bootstrap confidence interval of the median by the percentile method (Efron and Tibshirani 1993,
-/// "An Introduction to the Bootstrap", ch. 13). Deterministic. With fewer than 5 samples it is too
-/// narrow.
+/// "An Introduction to the Bootstrap", ch. 13). Deterministic. Too narrow for under 5 samples.
 ConfidenceInterval median_interval(std::span<const double> samples,
                                    const BootstrapOptions& options = {});
 

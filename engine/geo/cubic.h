@@ -6,8 +6,7 @@
 
 namespace reljef::geo {
 
-/// Four-point Lagrange interpolation along one axis: first control point, weights and their
-/// derivatives.
+/// Four-point Lagrange interpolation: first control point, weights and their derivatives.
 struct Cubic {
     int first = 0;
     std::array<double, 4> weights{};

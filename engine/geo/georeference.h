@@ -147,8 +147,7 @@ struct Georeference {
 /// Whether this vertical datum is the ellipsoid.
 bool is_ellipsoidal(std::string_view vertical_datum);
 
-/// A local east-north-up frame tangent to WGS 84. Round trips are exact to 1e-8 m near the origin
-/// (the resolution of degrees in double).
+/// A local east-north-up frame tangent to WGS 84. Round trips near the origin err by up to 1e-8 m.
 class LocalFrame {
 public:
     /// x east, y north, z up, metres.
@@ -169,8 +168,7 @@ private:
 /// Geocentric unit normal of the ellipsoid at a latitude and longitude in degrees.
 glm::dvec3 normal_from_geodetic(double latitude, double longitude);
 
-/// Geocentric unit vector to the north at a latitude and longitude in degrees. At a pole the
-/// longitude defines it.
+/// Geocentric unit vector to the north, in degrees; the longitude defines it at a pole.
 glm::dvec3 north_from_geodetic(double latitude, double longitude);
 
 /// Metres per degree on WGS 84: (of longitude, of latitude).

@@ -15,8 +15,7 @@ namespace reljef::geo {
 glm::dvec3 geocentric_from_geodetic(const Geodetic& position);
 Geodetic geodetic_from_geocentric(glm::dvec3 geocentric);
 
-/// Square of the Military Grid Reference System. `digits` per coordinate: 0 (100 km) to 11 (1 µm);
-/// 5 are metres.
+/// MGRS square. `digits` per coordinate: 0 (100 km) to 11 (1 µm); 5 are metres.
 std::string mgrs_text(const Geodetic& position, int digits = 5);
 
 /// The shortest path between two positions; ignores heights.
@@ -26,8 +25,7 @@ struct Geodesic {
     double azimuth_end = 0.0;   ///< direction at the end
 };
 Geodesic geodesic_between(const Geodetic& from, const Geodetic& to);
-/// End of the geodesic that starts at `from` with an azimuth in degrees and has a length in metres.
-/// Keeps the height.
+/// End of a geodesic from an azimuth in degrees and a distance in metres; keeps the height.
 Geodetic geodesic_end(const Geodetic& from, double azimuth, double distance);
 
 } // namespace reljef::geo

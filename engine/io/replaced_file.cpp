@@ -90,21 +90,16 @@ CPLStringList warp_words(GDALRasterBand& band, const RasterPlace& before) {
     const glm::dvec2 low = before.crs_from_pixel.crs_from_pixel({0.0, before.size.y});
     const glm::dvec2 high = before.crs_from_pixel.crs_from_pixel({before.size.x, 0.0});
     CPLStringList words;
-    const auto add = [&](const std::vector<std::string>& more) {
-        for (const std::string& word : more) {
-            words.AddString(word.c_str());
-        }
-    };
     const auto exact = [](double value) { return fmt::format("{:.17g}", value); };
-    add({"-of", "VRT", "-ot", "Float64", "-r", "bilinear", "-et", "0", "-novshift", "-t_srs",
-         before.crs, "-te", exact(low.x), exact(low.y), exact(high.x), exact(high.y), "-ts",
-         exact(before.size.x), exact(before.size.y)});
+    add_options(words, {"-of", "VRT", "-ot", "Float64", "-r", "bilinear", "-et", "0", "-novshift",
+                        "-t_srs", before.crs, "-te", exact(low.x), exact(low.y), exact(high.x),
+                        exact(high.y), "-ts", exact(before.size.x), exact(before.size.y)});
     int declared = 0;
     band.GetNoDataValue(&declared);
     if ((band.GetMaskFlags() & GMF_PER_DATASET) != 0) {
-        add({"-dstalpha"});
+        add_options(words, {"-dstalpha"});
     } else if (declared == 0) {
-        add({"-srcnodata", "-32768", "-dstnodata", "-32768"});
+        add_options(words, {"-srcnodata", "-32768", "-dstnodata", "-32768"});
     }
     return words;
 }

@@ -9,8 +9,7 @@
 namespace reljef::io {
 
 /// Reads any raster that GDAL opens, also inside a .zip or .gz, as a terrain:
-/// - heights in metres: the first band, or the luminance of a picture; south-up rasters are
-/// flipped;
+/// - heights in metres, north up: the first band, or the luminance of a picture;
 /// - voids masked and filled: the declared value, a mask or alpha of 0, NaN, infinity, −32768 and
 ///   −32767 even if undeclared, and isolated −9999;
 /// - a georeference if there is one, exact to 1e-4 m;

@@ -38,8 +38,7 @@ bool is_exact_inverse(std::span<const glm::dvec2> places, std::span<const glm::d
     return true;
 }
 
-/// Transforms (longitude, latitude) to a layer's CRS in place. Corrects them by the round-trip
-/// error if PROJ's inverse is not exact.
+/// Transforms (longitude, latitude) to a layer's CRS in place; corrects an inexact PROJ inverse.
 void to_crs(const TileLayer& layer, const CrsTransform& transform, std::span<glm::dvec2> places) {
     std::vector<glm::dvec2> points(places.begin(), places.end());
     transform.apply(points);
@@ -238,14 +237,14 @@ public:
 private:
     [[nodiscard]] OnTile locate(glm::dvec2 point) const {
         OnTile nearest;
-        double least = 0.5 + on_sample;
+        double min_outside = 0.5 + on_sample;
         for (const LayerTile* tile : near_) {
             glm::dvec2 own = point - tile->offset;
             own = {snapped(own.x), snapped(own.y)};
             const double outside = outside_by(*tile, own);
-            if (outside < least) {
+            if (outside < min_outside) {
                 nearest = {tile, own};
-                least = outside;
+                min_outside = outside;
             }
             if (outside == 0.0) {
                 return nearest;

@@ -150,8 +150,8 @@ struct Described {
 };
 
 Described with_error(Described described, std::string message) {
-    described.file.use = TileUse::fault;
-    described.file.fault = std::move(message);
+    described.file.use = TileUse::error;
+    described.file.error = std::move(message);
     return described;
 }
 
@@ -193,14 +193,14 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
     int declares = 0;
     band.GetNoDataValue(&declares);
     file.declares_voids = declares != 0;
-    std::string fault = set_place(dataset, name, described);
+    std::string error = set_place(dataset, name, described);
     if (kind_of_values(dataset) != ValueKind::plain) {
         file.use = TileUse::picture;
-        file.fault = std::move(fault); // matters only if used as heights
+        file.error = std::move(error); // matters only if used as heights
         return described;
     }
     file.use = TileUse::heights;
-    return fault.empty() ? described : with_error(std::move(described), std::move(fault));
+    return error.empty() ? described : with_error(std::move(described), std::move(error));
 }
 
 Described describe_file(const fs::path& path, IndexedFile file) {
@@ -317,8 +317,8 @@ Result<TileIndex> index_tiles(const fs::path& path, const TileSetOptions& option
         return index_folder(path, options, notes);
     }
     Described only = describe_file(path, found_file(path, path.string()));
-    if (!only.file.fault.empty()) {
-        return Error{only.file.fault};
+    if (!only.file.error.empty()) {
+        return Error{only.file.error};
     }
     only.file.use = TileUse::heights; // the luminance of a single picture
     return numbered({std::move(only)});

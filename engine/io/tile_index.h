@@ -12,7 +12,7 @@
 
 namespace reljef::io {
 
-enum class TileUse : std::uint8_t { heights, picture, fault };
+enum class TileUse : std::uint8_t { heights, picture, error };
 
 struct IndexedFile {
     std::string path;          ///< relative to the folder, with '/'
@@ -20,8 +20,8 @@ struct IndexedFile {
     std::int64_t modified = 0; ///< ticks of the file system's clock
     std::uint64_t beside = 0;  ///< checksum of its sidecar files' names, sizes and times
     bool opened = false;       ///< false: try again next time
-    TileUse use = TileUse::fault;
-    std::string fault; ///< why it cannot be used
+    TileUse use = TileUse::error;
+    std::string error; ///< why it cannot be used
     int cols = 0;
     int rows = 0;
     geo::PixelAffine crs_from_pixel; ///< (0,0) is the outer corner
@@ -41,9 +41,8 @@ struct TileIndex {
     friend bool operator==(const TileIndex&, const TileIndex&) = default;
 };
 
-/// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files; adds
-/// a note if the cache is unusable. Unusable files become entries with a fault. Fails if the folder
-/// cannot be read.
+/// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files. Adds
+/// a note on an unusable cache. Fails if the folder cannot be read.
 Result<TileIndex> index_tiles(const std::filesystem::path& path, const TileSetOptions& options,
                               std::vector<std::string>& notes);
 

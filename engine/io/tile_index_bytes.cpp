@@ -67,7 +67,7 @@ private:
 /// Visits each field, for reading and writing.
 template <class File, class Visit> void visit_fields(File& file, const Visit& visit) {
     const auto visit_all = [&](auto&... fields) { (visit(fields), ...); };
-    visit_all(file.path, file.bytes, file.modified, file.beside, file.opened, file.use, file.fault,
+    visit_all(file.path, file.bytes, file.modified, file.beside, file.opened, file.use, file.error,
               file.cols, file.rows, file.crs_from_pixel, file.crs, file.format, file.type,
               file.vertical_datum, file.declares_voids);
 }

@@ -114,6 +114,12 @@ struct TileContent {
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
                         const TileContent& reading, std::vector<FileError>& errors);
 
+/// Affine of a grid's pixels around its samples; (0,0) is the outer corner.
+inline geo::PixelAffine outer_affine_of(const TileGrid& grid) {
+    const glm::dvec2 corner = grid.first - 0.5 * grid.step;
+    return {corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
+}
+
 /// Geodesic distance in metres between two (longitude, latitude) in degrees.
 double metres_between(glm::dvec2 a, glm::dvec2 b);
 
@@ -127,9 +133,8 @@ struct ReplacedFile {
     std::optional<std::string> note; ///< set if the file was replaced
 };
 
-/// Makes a newly opened file match its index entry. A file of other size, place or CRS that covers
-/// the indexed samples is resampled to them (bilinear; averages finer samples). Fails if it does
-/// not cover them. `crs`: WKT of the indexed file.
+/// Makes a newly opened file match its index entry: resamples a file of other size, place or CRS
+/// (bilinear; averages finer samples). Fails if it does not cover the indexed samples. `crs`: WKT.
 Result<ReplacedFile> as_indexed(Dataset opened, const IndexedFile& indexed, const std::string& crs,
                                 const std::string& name);
 

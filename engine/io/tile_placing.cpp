@@ -42,8 +42,7 @@ geo::PixelAffine at_sample_centres(geo::PixelAffine affine) {
     return affine;
 }
 
-/// (longitude, latitude) of a 3×3 grid over the file, then of the middle sample's neighbours east
-/// and south. Longitudes are continuous.
+/// (longitude, latitude) of 3×3 points, then of the middle sample's neighbours east and south.
 std::vector<glm::dvec2> degrees_of(const PlacedFile& file, const IndexedFile& indexed,
                                    const CrsTransform& to_degrees) {
     std::vector<glm::dvec2> points;
@@ -160,8 +159,8 @@ std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesyste
     for (std::size_t i = 0; i < index.files.size(); ++i) {
         const IndexedFile& file = index.files[i];
         const std::filesystem::path path = folder / file.path;
-        if (file.use == TileUse::fault) {
-            errors.push_back({path, file.fault});
+        if (file.use == TileUse::error) {
+            errors.push_back({path, file.error});
         }
         if (file.use != TileUse::heights) {
             continue;

@@ -36,9 +36,9 @@ int count_of(double low, double high, double step) {
 
 /// The finest step, or the smallest multiple with at most max_tree_samples along `extent`.
 glm::dvec2 grid_step(glm::dvec2 extent, glm::dvec2 finest, std::vector<std::string>& notes) {
-    constexpr double most = terrain::max_tree_samples - 2; // margin for rounding
+    constexpr double max_samples = terrain::max_tree_samples - 2; // margin for rounding
     const glm::dvec2 samples = extent / finest;
-    const double steps = std::ceil(std::max(samples.x, samples.y) / most);
+    const double steps = std::ceil(std::max(samples.x, samples.y) / max_samples);
     if (steps > 1.0) {
         notes.push_back(fmt::format("{:.0f}×{:.0f} samples of the finest tile lie along the whole: "
                                     "it is seen in steps of {:.0f}",

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -41,9 +40,9 @@ int dividing_reduction(int around, int reduction) {
 /// `around`: samples per 360 degrees of a global grid, a multiple of the result; else 0.
 Result<int> fitting_reduction(const TileGrid& grid, int around, const std::string& name,
                               std::size_t budget) {
-    const double most = static_cast<double>(budget) / bytes_per_sample;
-    int reduction = std::max(1, static_cast<int>(std::sqrt(samples_of(grid) / most)));
-    while (samples_of(TileSet::reduced(grid, reduction)) > most) {
+    const double max_samples = static_cast<double>(budget) / bytes_per_sample;
+    int reduction = std::max(1, static_cast<int>(std::sqrt(samples_of(grid) / max_samples)));
+    while (samples_of(TileSet::reduced(grid, reduction)) > max_samples) {
         ++reduction;
     }
     reduction = dividing_reduction(around, reduction);
@@ -61,11 +60,8 @@ Dataset frame_of(const TileGrid& grid, const std::string& crs) {
     auto* driver = GetGDALDriverManager()->GetDriverByName("MEM");
     Dataset frame(driver->Create("", grid.cols, grid.rows, 0, GDT_Float32, nullptr));
     if (frame != nullptr) {
-        const glm::dvec2 corner = grid.first - 0.5 * grid.step;
-        std::array<double, 6> t{corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
-        frame->SetGeoTransform(t.data());
         const OGRSpatialReference system = crs_from_text(crs);
-        frame->SetSpatialRef(&system);
+        place_raster(*frame, outer_affine_of(grid), &system);
     }
     return frame;
 }
@@ -158,8 +154,8 @@ void note_grid(const TileSet& tiles, const TileGrid& grid, int reduction, glm::d
 void note_errors(const TileSet& tiles, std::span<const FileError> errors,
                  terrain::Terrain& terrain) {
     for (const auto& some : {tiles.errors(), errors}) {
-        for (const FileError& fault : some) {
-            terrain.errors.push_back(fault.message);
+        for (const FileError& error : some) {
+            terrain.errors.push_back(error.message);
         }
     }
 }

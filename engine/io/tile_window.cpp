@@ -89,8 +89,8 @@ int reduction_for(const LayerPoints& points, const TileGrid& grid) {
     const glm::dvec2 at = points.at(col, row);
     const double across = glm::distance(points.at(col + (col + 1 < grid.cols ? 1 : -1), row), at);
     const double down = glm::distance(points.at(col, row + (row + 1 < grid.rows ? 1 : -1)), at);
-    const double least = std::min(across, down);
-    return least >= 2.0 - near_sample ? static_cast<int>(std::min(least + near_sample, 1e6)) : 1;
+    const double step = std::min(across, down);
+    return step >= 2.0 - near_sample ? static_cast<int>(std::min(step + near_sample, 1e6)) : 1;
 }
 
 /// The layer's cells that a grid needs; may be empty.

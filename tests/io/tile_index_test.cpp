@@ -45,10 +45,10 @@ protected:
         return found ? std::move(*found) : TileIndex{};
     }
     /// Of the only file; empty where it is usable.
-    [[nodiscard]] std::string fault() const {
+    [[nodiscard]] std::string error() const {
         const TileIndex found = index();
         EXPECT_EQ(found.files.size(), 1U);
-        return found.files.empty() ? "no file" : found.files.front().fault;
+        return found.files.empty() ? "no file" : found.files.front().error;
     }
     /// The index that is kept says of every file that its format is "kept".
     void mark_what_is_kept() const {

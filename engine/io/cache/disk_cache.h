@@ -33,8 +33,7 @@ std::filesystem::path bisection_file(const std::filesystem::path& folder,
                                      const terrain::Heightfield& heightfield,
                                      const terrain::Placement& placement);
 
-/// Reads a value from its cache file, or computes and stores it. Verifies the file's version, key,
-/// length and checksum. A folder that cannot be written only adds a note. Absent if stopped.
+/// Reads and verifies a cache file, or computes and stores the value. Absent if stopped.
 /// Precondition: at least 2×2 heights in [0,1].
 std::optional<Cached<material::ConeMaps>> cached_cones(GridView<const float> unit_heights,
                                                        const CacheOptions& options);

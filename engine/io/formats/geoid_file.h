@@ -8,8 +8,7 @@
 
 namespace reljef::io {
 
-/// Reads a geoid: a .pgm of GeographicLib, or a raster in degrees with metres above the ellipsoid
-/// (egm96_15.gtx, …).
+/// Reads a .pgm of GeographicLib, or a raster in degrees with metres above the ellipsoid.
 Result<geo::Geoid> read_geoid(const std::filesystem::path& path);
 
 /// The EGM96 geoid of the installed PROJ or GeographicLib.

@@ -1,15 +1,13 @@
 #include "engine/io/formats/raster_writer.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <fmt/format.h>
-#include <gdal_priv.h>
-#include <ogr_spatialref.h>
 
 #include "engine/core/atomic_file.h"
 #include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/georeferencing.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -29,10 +27,8 @@ Dataset create_geotiff(const fs::path& path, const HeightRaster& raster) {
     GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
     const std::string side = fmt::format("={}", written_block);
     CPLStringList options;
-    options.AddString("TILED=YES");
-    options.AddString(("BLOCKXSIZE" + side).c_str());
-    options.AddString(("BLOCKYSIZE" + side).c_str());
-    options.AddString("BIGTIFF=IF_SAFER");
+    add_options(options,
+                {"TILED=YES", "BLOCKXSIZE" + side, "BLOCKYSIZE" + side, "BIGTIFF=IF_SAFER"});
     return Dataset(
         driver->Create(path.c_str(), raster.cols, raster.rows, 1, GDT_Float32, options.List()));
 }
@@ -40,10 +36,9 @@ Dataset create_geotiff(const fs::path& path, const HeightRaster& raster) {
 bool place(GDALDataset& dataset, const HeightRaster& raster) {
     OGRSpatialReference crs;
     const glm::dvec2 corner = raster.first + raster.spacing * glm::dvec2(-0.5, 0.5);
-    std::array<double, 6> transform{corner.x, raster.spacing, 0.0, corner.y, 0.0, -raster.spacing};
     return crs.importFromEPSG(utm_zone_32_north) == OGRERR_NONE &&
-           dataset.SetSpatialRef(&crs) == CE_None &&
-           dataset.SetGeoTransform(transform.data()) == CE_None;
+           place_raster(dataset, {corner.x, raster.spacing, 0.0, corner.y, 0.0, -raster.spacing},
+                        &crs);
 }
 
 // False if unwritable or stopped.
@@ -66,8 +61,8 @@ bool write_bands(GDALDataset& dataset, const FillHeights& fill, const ParallelOp
     return true;
 }
 
-int CPL_STDCALL overview_progress(double fraction, const char* /*message*/, void* told) {
-    const auto& parallel = *static_cast<const ParallelOptions*>(told);
+int CPL_STDCALL overview_progress(double fraction, const char* /*message*/, void* context) {
+    const auto& parallel = *static_cast<const ParallelOptions*>(context);
     if (parallel.progress) {
         parallel.progress(writing_share + (1.0 - writing_share) * fraction);
     }
@@ -81,10 +76,10 @@ bool write_overviews(GDALDataset& dataset, const HeightRaster& raster,
          std::max(raster.cols, raster.rows) / factor >= min_overview; factor *= 4) {
         factors.push_back(factor);
     }
-    ParallelOptions told = parallel;
+    ParallelOptions context = parallel;
     return factors.empty() ||
            dataset.BuildOverviews("AVERAGE", static_cast<int>(factors.size()), factors.data(), 0,
-                                  nullptr, overview_progress, &told) == CE_None;
+                                  nullptr, overview_progress, &context) == CE_None;
 }
 
 } // namespace

@@ -55,11 +55,11 @@ std::string text_of(const toml::node& node) {
 }
 
 std::string text_of(const NumberRange& range) {
-    const double most = std::numeric_limits<double>::max();
+    const double max_double = std::numeric_limits<double>::max();
     const std::string low = range.above_low ? fmt::format("above {}", range.low)
                                             : fmt::format("of at least {}", range.low);
-    if (range.high >= most) {
-        return range.low <= -most ? "finite" : low;
+    if (range.high >= max_double) {
+        return range.low <= -max_double ? "finite" : low;
     }
     return range.above_low ? fmt::format("above {} and at most {}", range.low, range.high)
                            : fmt::format("from {} to {}", range.low, range.high);
@@ -90,8 +90,7 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
     return text.size();
 }
 
-// The line of the first dotted name with too many parts: the parser is recursive and would overflow
-// the stack.
+// The line of the first dotted name with too many parts for the recursive parser's stack.
 std::optional<std::ptrdiff_t> line_of_endless_name(std::string_view text) {
     constexpr std::string_view between_names = "=,[]{}\n";
     int parts = 1;

@@ -41,12 +41,12 @@ Error no_map_file(const fs::path& path) {
 }
 
 std::vector<std::uint16_t> whole_numbers(const std::vector<float>& values) {
-    constexpr float most = 65535.0F;
+    constexpr float max_value = 65535.0F;
     std::vector<std::uint16_t> whole;
     whole.reserve(values.size());
     for (const float value : values) {
         whole.push_back(
-            static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * most)));
+            static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * max_value)));
     }
     return whole;
 }

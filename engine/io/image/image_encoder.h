@@ -16,8 +16,7 @@ Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output
                                        const OIIO::ImageSpec& spec, const void* pixels,
                                        std::size_t stride);
 
-/// Writes encoded() whole or not at all. Encodes in memory because encoders do not report a full
-/// disk and some end the program.
+/// Writes encoded() whole or not at all. On a full disk, encoders report nothing or exit.
 Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
                            const void* pixels, std::size_t stride,
                            const std::filesystem::path& path);

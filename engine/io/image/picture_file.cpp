@@ -70,15 +70,16 @@ Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec)
     std::error_code code;
     const double bytes = static_cast<double>(fs::file_size(path, code));
     const double pixels = static_cast<double>(spec.width) * spec.height;
-    const double most = std::min(max_pixels, std::max(always_allowed, bytes * pixels_per_byte));
+    const double max_allowed =
+        std::min(max_pixels, std::max(always_allowed, bytes * pixels_per_byte));
     const bool good = spec.width > 0 && spec.height > 0 && spec.width <= max_side &&
                       spec.height <= max_side && spec.depth <= 1 && spec.nchannels > 0 &&
-                      pixels <= most;
+                      pixels <= max_allowed;
     if (!good) {
-        return Error{
-            fmt::format("{}: claims {}×{} pixels of {} channels in {} bytes, at most {:.0f} "
-                        "pixels were expected",
-                        path.string(), spec.width, spec.height, spec.nchannels, bytes, most)};
+        return Error{fmt::format(
+            "{}: claims {}×{} pixels of {} channels in {} bytes, at most {:.0f} "
+            "pixels were expected",
+            path.string(), spec.width, spec.height, spec.nchannels, bytes, max_allowed)};
     }
     return {};
 }

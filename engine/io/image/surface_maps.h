@@ -37,8 +37,8 @@ struct PictureHeights {
 Result<PictureHeights> heights_of_picture(const std::filesystem::path& picture,
                                           const SurfaceMapOptions& options);
 
-/// A map as stored in its file. `back`: heights of the back of a sheet for layers, same size;
-/// empty: symmetric. `as_floats`: see encode_channels; for cones only. Fails if stopped.
+/// A map as stored in its file. `back`: heights of a sheet's back for layers; empty: symmetric.
+/// `as_floats`: cones as ratios, else as sqrt(ratio / widest cone). Fails if stopped.
 Result<Channels> make_map(const Grid<float>& heights, MapKind kind, const Grid<float>& back,
                           bool as_floats, const SurfaceMapOptions& options);
 

@@ -23,8 +23,8 @@ void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
     }
     const std::size_t before = paths.size();
     for (const IndexedFile& file : index->files) {
-        if (file.use == TileUse::fault) {
-            errors.push_back(file.fault);
+        if (file.use == TileUse::error) {
+            errors.push_back(file.error);
         } else if (file.use == TileUse::picture || file.type == "Byte" || file.type == "UInt16") {
             paths.push_back(folder / file.path);
         }
@@ -47,11 +47,6 @@ Error no_image(const fs::path& path, GDALDataset& dataset) {
     return {fmt::format("{}: holds {}, as heights are stored, an image (grey of Byte or UInt16, "
                         "palette or RGB(A)) was expected",
                         path.string(), GDALGetDataTypeName(type))};
-}
-
-fs::file_time_type changed_at(const fs::path& path) {
-    std::error_code ignored;
-    return fs::last_write_time(path, ignored);
 }
 
 } // namespace
@@ -87,9 +82,11 @@ ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>
             files.paths.push_back(std::move(path));
         }
     }
-    std::stable_sort(
-        files.paths.begin(), files.paths.end(),
-        [](const fs::path& a, const fs::path& b) { return changed_at(a) > changed_at(b); });
+    std::stable_sort(files.paths.begin(), files.paths.end(),
+                     [](const fs::path& a, const fs::path& b) {
+                         std::error_code ignored;
+                         return fs::last_write_time(a, ignored) > fs::last_write_time(b, ignored);
+                     });
     return files;
 }
 

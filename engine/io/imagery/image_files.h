@@ -15,8 +15,7 @@ struct ImageFiles {
 };
 
 /// Resolves files, addresses and folders (their pictures and Byte or UInt16 rasters) to images.
-/// Adds an error for each file that cannot be opened or holds heights. `white`: known white, if
-/// any.
+/// Adds an error for each unreadable file and each file of heights. `white`: if known.
 ImageFiles image_files(std::span<const std::filesystem::path> names,
                        std::vector<std::string>& errors, const std::stop_token& stop = {},
                        std::optional<double> white = {});

@@ -33,12 +33,8 @@ constexpr std::size_t reading_part = 8; // divides the budget for reading
 struct CommonSpace {
     geo::PixelAffine from_heights; ///< from GDAL's pixel coordinates
     std::optional<OGRSpatialReference> crs;
-    bool stretched = false; ///< the image has no place
+    [[nodiscard]] bool stretched() const { return !crs; } ///< the image has no place
 };
-
-std::array<double, 6> geotransform(const geo::PixelAffine& affine) {
-    return {affine.x0, affine.x_col, affine.x_row, affine.y0, affine.y_col, affine.y_row};
-}
 
 /// GDAL ignores an identity affine, so this one has an offset.
 constexpr double pixel_space_origin = 1000.0;
@@ -55,13 +51,13 @@ CommonSpace common_space_of(GDALDataset& heights, GDALDataset& image,
     auto crs = affine ? horizontal_crs(heights, ignored) : std::nullopt;
     const bool image_placed = has_place(image);
     if (image_placed && affine && crs && crs->IsLocal() == 0) {
-        return {*affine, std::move(crs), false};
+        return {*affine, std::move(crs)};
     }
     if (image_placed) {
         notes.emplace_back(
             "imagery: the terrain names no place, so the image is stretched over it");
     }
-    return {pixel_space, std::nullopt, true};
+    return {pixel_space, std::nullopt};
 }
 
 /// Maps corner pixels to corner samples.
@@ -80,10 +76,8 @@ bool names_crs(GDALDataset& image) {
 
 Result<void> place_image(GDALDataset& heights, GDALDataset& image, const CommonSpace& space,
                          const std::string& name) {
-    if (space.stretched) {
-        std::array<double, 6> affine = geotransform(stretched(heights, image));
-        image.SetSpatialRef(nullptr);
-        image.SetGeoTransform(affine.data());
+    if (space.stretched()) {
+        place_raster(image, stretched(heights, image), nullptr);
     } else if (!names_crs(image)) {
         if (image.SetSpatialRef(&*space.crs) != CE_None) {
             return Error{fmt::format(
@@ -181,16 +175,13 @@ Dataset target_of(Image& image, const SampleGrid& grid, const CommonSpace& space
     const geo::PixelAffine& from = space.from_heights;
     const glm::dvec2 step = grid.step * q;
     const glm::dvec2 corner = from.crs_from_pixel(grid.pixel_from_sample(-0.5 * q));
-    std::array<double, 6> t{corner.x - units_of(turn, space),
-                            from.x_col * step.x,
-                            from.x_row * step.y,
-                            corner.y,
-                            from.y_col * step.x,
-                            from.y_row * step.y};
-    target->SetGeoTransform(t.data());
-    if (space.crs) {
-        target->SetSpatialRef(&*space.crs);
-    }
+    const geo::PixelAffine affine{corner.x - units_of(turn, space),
+                                  from.x_col * step.x,
+                                  from.x_row * step.y,
+                                  corner.y,
+                                  from.y_col * step.x,
+                                  from.y_row * step.y};
+    place_raster(*target, affine, space.crs ? &*space.crs : nullptr);
     return target;
 }
 
@@ -296,7 +287,7 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
         return good.error();
     }
     KnownPicture picture{path, common_space_of(heights, **image, notes), {}, has_place(**image)};
-    if (!picture.space.stretched && !names_crs(**image)) {
+    if (!picture.space.stretched() && !names_crs(**image)) {
         notes.push_back(fmt::format("imagery: {} names no coordinate system, so that of the "
                                     "terrain is taken",
                                     path.filename().string()));
@@ -344,7 +335,7 @@ std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& h
 
 /// Images without a place are stretched over the terrain only if no image has a place.
 void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::string>& notes) {
-    const auto stretched = [](const KnownPicture& picture) { return picture.space.stretched; };
+    const auto stretched = [](const KnownPicture& picture) { return picture.space.stretched(); };
     if (std::all_of(pictures.begin(), pictures.end(), stretched)) {
         return;
     }

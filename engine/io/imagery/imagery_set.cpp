@@ -1,7 +1,6 @@
 #include "engine/io/imagery/imagery_set.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -123,14 +122,6 @@ bool is_tiny(const KnownImage& image, double spacing) {
     return std::min(sides.x, sides.y) < 2.0 * spacing;
 }
 
-/// Places the centres of texels on the grid.
-bool place_raster(GDALDataset& raster, const TileGrid& grid, const OGRSpatialReference& crs) {
-    const glm::dvec2 corner = grid.first - 0.5 * grid.step;
-    std::array<double, 6> affine{corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
-    return raster.SetSpatialRef(&crs) == CE_None &&
-           raster.SetGeoTransform(affine.data()) == CE_None;
-}
-
 double units_in_degree(const std::string& crs) {
     const OGRSpatialReference reference = crs_from_text(crs);
     return reference.IsGeographic() != 0 ? 1.0 / glm::degrees(reference.GetAngularUnits()) : 0.0;
@@ -175,7 +166,7 @@ struct ImagerySet::State {
                                   .progress = {},
                                   .stop = stop};
         const OGRSpatialReference reference = crs_from_text(crs); // not thread-safe
-        if (raster == nullptr || !place_raster(*raster, grid, reference) ||
+        if (raster == nullptr || !place_raster(*raster, outer_affine_of(grid), &reference) ||
             !warp(**rgb, *raster, options) || messages.has_lost_blocks()) {
             if (!stop.stop_requested()) {
                 rgb->spoil();

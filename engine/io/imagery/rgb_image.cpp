@@ -4,12 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal_utils.h>
 #include <glm/common.hpp>
@@ -51,12 +49,6 @@ double opaque_of(GDALDataType type) {
     return type == GDT_Byte ? 255.0 : type == GDT_UInt16 ? 65535.0 : 1.0;
 }
 
-void add(CPLStringList& list, std::initializer_list<std::string> words) {
-    for (const std::string& word : words) {
-        list.AddString(word.c_str());
-    }
-}
-
 // Detects a truncated file before all other blocks are read.
 bool has_last_block(GDALDataset& image) {
     GDALRasterBand& band = *image.GetRasterBand(1);
@@ -71,7 +63,7 @@ bool has_last_block(GDALDataset& image) {
     return block != nullptr;
 }
 
-/// At least 0; 0 if unreadable.
+/// At min_memory 0; 0 if unreadable.
 double highest_in(GDALRasterBand& band, const PixelWindow& window) {
     std::vector<double> values(static_cast<std::size_t>(window.size.x) *
                                static_cast<std::size_t>(window.size.y));
@@ -106,29 +98,29 @@ double highest_of(GDALRasterBand& band, const std::stop_token& stop) {
 CPLStringList words_for_rgb(GDALDataset& image, double white) {
     const ColorBands bands = color_bands(image);
     CPLStringList words;
-    add(words, {"-of", "VRT"});
+    add_options(words, {"-of", "VRT"});
     if (bands.palette) {
-        add(words, {"-b", "1", "-expand", "rgba"});
+        add_options(words, {"-b", "1", "-expand", "rgba"});
         return words;
     }
     for (const int band : bands.color) {
-        add(words, {"-b", std::to_string(band)});
+        add_options(words, {"-b", std::to_string(band)});
     }
     if (bands.alpha) {
-        add(words, {"-b", std::to_string(*bands.alpha)});
+        add_options(words, {"-b", std::to_string(*bands.alpha)});
     }
-    add(words, {"-colorinterp", bands.alpha ? "red,green,blue,alpha" : "red,green,blue"});
+    add_options(words, {"-colorinterp", bands.alpha ? "red,green,blue,alpha" : "red,green,blue"});
     const GDALDataType type = image.GetRasterBand(bands.color[0])->GetRasterDataType();
     if (type == GDT_Byte) {
         return words;
     }
-    add(words, {"-ot", "Byte"});
-    const std::string most = fmt::format("{}", white > 0.0 ? white : 1.0);
+    add_options(words, {"-ot", "Byte"});
+    const std::string max_value = fmt::format("{}", white > 0.0 ? white : 1.0);
     for (const char* option : {"-scale_1", "-scale_2", "-scale_3"}) {
-        add(words, {option, "0", most, "0", "255"});
+        add_options(words, {option, "0", max_value, "0", "255"});
     }
     if (bands.alpha) {
-        add(words, {"-scale_4", "0", fmt::format("{}", opaque_of(type)), "0", "255"});
+        add_options(words, {"-scale_4", "0", fmt::format("{}", opaque_of(type)), "0", "255"});
     }
     return words;
 }
@@ -238,8 +230,9 @@ int subsampling_of(GDALDataset& image) {
 
 Dataset subsampled(Dataset rgb, int subsampling) {
     CPLStringList words;
-    add(words, {"-of", "VRT", "-outsize", std::to_string(rgb->GetRasterXSize() / subsampling),
-                std::to_string(rgb->GetRasterYSize() / subsampling)});
+    add_options(words,
+                {"-of", "VRT", "-outsize", std::to_string(rgb->GetRasterXSize() / subsampling),
+                 std::to_string(rgb->GetRasterYSize() / subsampling)});
     Dataset made = translated(*rgb, std::move(words));
     return keeping_open(std::move(made), std::move(rgb));
 }
@@ -270,16 +263,16 @@ Dataset raster_over(Image& image) {
 
 bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
     CPLStringList words;
-    add(words, {"-r", "bilinear", "-et", fmt::format("{}", max_warp_error), "-ovr",
-                overview_word(options.overview)});
+    add_options(words, {"-r", "bilinear", "-et", fmt::format("{}", max_warp_error), "-ovr",
+                        overview_word(options.overview)});
     if (options.scale > 0.0) {
-        add(words, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",
-                    fmt::format("YSCALE={}", options.scale)});
+        add_options(words, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",
+                            fmt::format("YSCALE={}", options.scale)});
     }
     if (options.memory > 0) {
-        constexpr std::size_t least = std::size_t{1}
-                                      << 20U; // GDAL takes small numbers as megabytes
-        add(words, {"-wm", std::to_string(std::max(options.memory, least))});
+        constexpr std::size_t min_memory = std::size_t{1}
+                                           << 20U; // GDAL takes small numbers as megabytes
+        add_options(words, {"-wm", std::to_string(std::max(options.memory, min_memory))});
     }
     const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> warping(
         GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);

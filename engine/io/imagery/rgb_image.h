@@ -47,9 +47,8 @@ struct WarpOptions {
 };
 inline constexpr int automatic_overview = -2;
 
-/// Reprojects an image into `target`, bilinear; alpha is 0 outside the image. The error of
-/// positions is at most `max_warp_error`, and 0 in the first and last column. False if unreadable
-/// or stopped.
+/// Reprojects an image into `target`, bilinear; alpha is 0 outside the image. Positions err by up
+/// to `max_warp_error`, and not in the first and last column. False if unreadable or stopped.
 bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options);
 inline constexpr double max_warp_error = 0.05; // target pixels
 

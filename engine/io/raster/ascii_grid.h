@@ -13,9 +13,8 @@ struct CheckedRaster {
     std::optional<bool> mixed_overviews; ///< see overviews_mix_voids
 };
 
-/// As open_raster, but ignores overviews that mix voids with heights and fails for an ASCII grid
-/// with missing values. It reads the whole grid for that: GDAL would search each row after a
-/// missing one again, in exponential time.
+/// As open_raster, but ignores overviews that mix voids with heights. Fails for an ASCII grid with
+/// missing values, which costs GDAL exponential time.
 Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
                                         const GdalMessages& messages);
 

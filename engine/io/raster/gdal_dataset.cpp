@@ -12,7 +12,6 @@
 
 #include <OpenImageIO/imageio.h>
 #include <cpl_error.h>
-#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
@@ -219,6 +218,12 @@ std::string GdalMessages::reason() const {
 std::string size_text(double bytes) {
     return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
                         : fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
+void add_options(CPLStringList& list, std::initializer_list<std::string> words) {
+    for (const std::string& word : words) {
+        list.AddString(word.c_str());
+    }
 }
 
 Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {

@@ -2,19 +2,20 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <cpl_conv.h>
+#include <cpl_string.h>
 #include <gdal_priv.h>
 
 #include "engine/core/result.h"
 
 namespace reljef::io {
 
-/// Collects GDAL's messages in the current thread instead of printing them. Meanwhile a truncated
-/// JPEG is an error.
+/// Collects this thread's GDAL messages instead of printing them; a truncated JPEG is an error.
 class GdalMessages {
 public:
     GdalMessages();
@@ -49,11 +50,14 @@ using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 /// "1.5 GB" or "1.5 MB".
 std::string size_text(double bytes);
 
+/// Appends options.
+void add_options(CPLStringList& list, std::initializer_list<std::string> options);
+
 /// Whether GDAL reads the path from a server ("https://…") or a virtual file system ("/vsi…").
 bool is_remote(const std::filesystem::path& path);
 
-/// Opens a file's raster read-only; of a .zip the first raster. It has at least one band and blocks
-/// of at most 256 MB.
+/// Opens a raster read-only; the first one of a .zip. Fails without bands or for blocks over 256
+/// MB.
 Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);
 /// Ignores overviews.
 Result<Dataset> open_without_overviews(const std::filesystem::path& path,

@@ -268,6 +268,13 @@ std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset) {
     return identity ? std::nullopt : std::optional(affine);
 }
 
+bool place_raster(GDALDataset& dataset, const geo::PixelAffine& affine,
+                  const OGRSpatialReference* crs) {
+    std::array<double, 6> t{affine.x0, affine.x_col, affine.x_row,
+                            affine.y0, affine.y_col, affine.y_row};
+    return dataset.SetSpatialRef(crs) == CE_None && dataset.SetGeoTransform(t.data()) == CE_None;
+}
+
 std::string vertical_datum_of(GDALDataset& dataset) {
     const OGRSpatialReference* crs = dataset.GetSpatialRef();
     if (crs != nullptr && crs->GetAxesCount() == 3 && crs->IsCompound() == 0) {

@@ -14,9 +14,13 @@
 
 namespace reljef::io {
 
-/// GDAL's geotransform; (0,0) is the outer corner of the first pixel. Absent if the raster has
-/// none. Precondition: check_affine() passed.
+/// GDAL's geotransform, if any; (0,0) is the outer corner of the first pixel. Precondition:
+/// check_affine() passed.
 std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset);
+
+/// Sets a raster's geotransform and CRS (null: none). False if GDAL fails.
+bool place_raster(GDALDataset& dataset, const geo::PixelAffine& affine,
+                  const OGRSpatialReference* crs);
 
 /// Fails for a geotransform that is not finite or has no area.
 Result<void> check_affine(GDALDataset& dataset, const std::string& name);
@@ -47,8 +51,7 @@ struct Place {
     geo::GlobalWrap closing; ///< applied to `georeference`, but not to `grid`
 };
 
-/// Fails for an invalid geotransform, an absurd spacing, and a RasterOptions::spacing that
-/// conflicts with the file. Notes other oddities.
+/// Fails for an invalid geotransform, an absurd spacing and a conflicting RasterOptions::spacing.
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
                        const RasterOptions& options, std::vector<std::string>& notes);
 

@@ -68,8 +68,8 @@ std::optional<double> declared_void(GDALRasterBand& band) {
     if (band.GetRasterDataType() != GDT_Float32) {
         return value;
     }
-    constexpr double most = std::numeric_limits<float>::max();
-    return static_cast<double>(static_cast<float>(std::clamp(value, -most, most)));
+    constexpr double max_float = std::numeric_limits<float>::max();
+    return static_cast<double>(static_cast<float>(std::clamp(value, -max_float, max_float)));
 }
 
 bool declares_not_finite(GDALRasterBand& band) {

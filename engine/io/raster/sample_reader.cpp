@@ -221,8 +221,7 @@ void close_pole(Grid<float>& heights, Grid<std::uint8_t>& voids, int pole_row, i
     }
 }
 
-/// Adds the samples of a closing. A pole gets the mean of its outermost row; it is a void if the
-/// whole row is.
+/// Adds the samples of a closing. A pole gets the mean of its row, and is a void if the row is.
 void close_samples(Grid<float>& heights, Grid<std::uint8_t>& void_mask,
                    const geo::GlobalWrap& closing) {
     if (closing.cols() == 0 && closing.rows() == 0) {

@@ -34,8 +34,7 @@ struct Samples {
     std::size_t void_count = 0;
 };
 
-/// Reads and decodes (see SampleDecoder). Adds notes on the interpretation of values and on
-/// undeclared voids.
+/// Reads and decodes. Adds notes on the interpretation of values and on undeclared voids.
 Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const std::string& name,
                              const RasterOptions& options, const GdalMessages& messages,
                              std::vector<std::string>& notes);
@@ -45,8 +44,7 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const std::string& name, const RasterOptions& options,
                                   const GdalMessages& messages, std::vector<std::string>& notes);
 
-/// Mirrors the samples to their place, fills voids and closes a global raster. Moves the place's
-/// georeference.
+/// Orients the samples, fills voids and closes a global raster. Moves the place's georeference.
 terrain::Heightfield heightfield_of(Samples samples, Place& place);
 
 } // namespace reljef::io

@@ -31,8 +31,7 @@ enum class HeightEncoding { none, terrarium, terrain_rgb };
 /// Terrarium: Tilezen, "joerd", docs/formats.md. Terrain-RGB: Mapbox, "Access elevation data".
 double encoded_height(HeightEncoding encoding, double red, double green, double blue);
 
-/// False for a grey picture: many neighbouring grey pixels of several shades. Channels are 0 to
-/// 255.
+/// False for a grey picture: many neighbouring grey pixels of several shades. Channels: 0 to 255.
 bool may_be_heights(std::span<const double> red, std::span<const double> green,
                     std::span<const double> blue);
 
@@ -49,8 +48,7 @@ inline bool is_web_tiles(const std::filesystem::path& path) {
 
 /// Description for GDAL's WMS driver (service TMS): a global raster with each level as an overview,
 /// black without a tile. The finest level is that of `{z:12}`, else 15, or the highest one in a
-/// folder. Fails for a folder without tiles or an address without {z}, {x} and {y}. Precondition:
-/// is_web_tiles.
+/// folder. Fails for a folder without tiles or an address without {z}, {x} and {y}.
 Result<std::string> web_tiles_description(const std::filesystem::path& path);
 
 /// The area of a folder's finest level, between the outermost pixel centres; absent for addresses.
