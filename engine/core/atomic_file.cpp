@@ -44,18 +44,20 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
       replaced_(std::exchange(other.replaced_, {})) {}
 
-AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
-    if (this != &other) {
-        remove();
-        target_ = std::move(other.target_);
-        temporary_ = std::exchange(other.temporary_, {});
-        replaced_ = std::exchange(other.replaced_, {});
-    }
+AtomicFile& AtomicFile::operator=(AtomicFile other) noexcept {
+    target_.swap(other.target_);
+    temporary_.swap(other.temporary_);
+    replaced_.swap(other.replaced_);
     return *this;
 }
 
 AtomicFile::~AtomicFile() {
-    remove();
+    std::error_code ignored;
+    for (const fs::path* const leftover : {&temporary_, &replaced_}) {
+        if (!leftover->empty()) {
+            fs::remove(*leftover, ignored);
+        }
+    }
 }
 
 Result<void> AtomicFile::commit() {
@@ -91,15 +93,6 @@ void AtomicFile::revert() noexcept {
     } else {
         fs::rename(replaced_, target_, ignored);
         replaced_.clear();
-    }
-}
-
-void AtomicFile::remove() noexcept {
-    std::error_code ignored;
-    for (const fs::path* const leftover : {&temporary_, &replaced_}) {
-        if (!leftover->empty()) {
-            fs::remove(*leftover, ignored);
-        }
     }
 }
 

@@ -18,9 +18,8 @@ public:
     static Result<AtomicFile> create(std::filesystem::path target);
 
     AtomicFile(AtomicFile&& other) noexcept;
-    AtomicFile& operator=(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile other) noexcept;
     AtomicFile(const AtomicFile&) = delete;
-    AtomicFile& operator=(const AtomicFile&) = delete;
     ~AtomicFile();
 
     /// Beside the target, with the target's extension.
@@ -37,7 +36,6 @@ public:
 private:
     AtomicFile(std::filesystem::path target, std::filesystem::path temporary)
         : target_(std::move(target)), temporary_(std::move(temporary)) {}
-    void remove() noexcept;
 
     std::filesystem::path target_;
     std::filesystem::path temporary_;

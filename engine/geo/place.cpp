@@ -11,11 +11,6 @@
 #include "engine/core/check.h"
 
 namespace reljef::geo {
-namespace {
-
-constexpr int max_mgrs_digits = 11;
-
-} // namespace
 
 glm::dvec3 geocentric_from_geodetic(const Geodetic& position) {
     glm::dvec3 result{0.0};
@@ -32,7 +27,7 @@ Geodetic geodetic_from_geocentric(glm::dvec3 geocentric) {
 }
 
 std::string mgrs_text(const Geodetic& position, int digits) {
-    check(digits >= 0 && digits <= max_mgrs_digits, "mgrs_text takes 0 to 11 digits");
+    check(digits >= 0 && digits <= 11, "mgrs_text takes 0 to 11 digits");
     check(std::abs(position.latitude) <= 90.0, "latitude outside [-90, 90]");
     int zone = 0;
     bool north = true;

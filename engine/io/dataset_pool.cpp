@@ -26,7 +26,7 @@ void forget(const std::filesystem::path& path) {
 
 } // namespace
 
-void DatasetPool::Loan::spoil() {
+void DatasetPool::Loan::discard() {
     dataset_.reset();
     forget(path_);
 }

@@ -52,7 +52,7 @@ public:
         GDALDataset& operator*() const { return *dataset_; }
         GDALDataset* operator->() const { return dataset_.get(); }
         /// Closes a raster that failed.
-        void spoil();
+        void discard();
 
     private:
         DatasetPool* pool_;
@@ -105,7 +105,7 @@ public:
         return failures_.contains(path);
     }
     /// The last error of a file to skip now; else absent.
-    [[nodiscard]] std::optional<std::string> given_up(const std::filesystem::path& path) const {
+    [[nodiscard]] std::optional<std::string> skip_reason(const std::filesystem::path& path) const {
         const std::lock_guard lock(mutex_);
         const auto found = failures_.find(path);
         const bool skipped =
@@ -133,27 +133,27 @@ public:
         }
     }
     /// A note that follows the file's name. Files with the same note share a sentence.
-    void add(const std::filesystem::path& file, const std::string& words) {
+    void add(const std::filesystem::path& file, const std::string& note) {
         const std::lock_guard lock(mutex_);
-        if (known_.insert(file.string() + ": " + words).second) {
-            files_by_words_[words].insert(file);
+        if (known_.insert(file.string() + ": " + note).second) {
+            files_by_note_[note].insert(file);
         }
     }
     /// New notes since the last call.
     [[nodiscard]] std::vector<std::string> take() {
         const std::lock_guard lock(mutex_);
-        for (const auto& [words, files] : std::exchange(files_by_words_, {})) {
+        for (const auto& [note, files] : std::exchange(files_by_note_, {})) {
             const std::string first = files.begin()->string();
-            notes_.push_back(files.size() == 1 ? fmt::format("{}: {}", first, words)
+            notes_.push_back(files.size() == 1 ? fmt::format("{}: {}", first, note)
                                                : fmt::format("{} and {} more: {}", first,
-                                                             files.size() - 1, words));
+                                                             files.size() - 1, note));
         }
         return std::exchange(notes_, {});
     }
 
 private:
     std::mutex mutex_;
-    std::map<std::string, std::set<std::filesystem::path>> files_by_words_;
+    std::map<std::string, std::set<std::filesystem::path>> files_by_note_;
     std::set<std::string> known_;
     std::vector<std::string> notes_;
 };

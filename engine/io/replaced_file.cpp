@@ -86,31 +86,32 @@ bool is_north_up(const geo::PixelAffine& affine) {
 }
 
 /// Options of gdalwarp. Without a declared void, SRTM's void value is excluded.
-CPLStringList warp_words(GDALRasterBand& band, const RasterPlace& before) {
+CPLStringList warp_arguments(GDALRasterBand& band, const RasterPlace& before) {
     const glm::dvec2 low = before.crs_from_pixel.crs_from_pixel({0.0, before.size.y});
     const glm::dvec2 high = before.crs_from_pixel.crs_from_pixel({before.size.x, 0.0});
-    CPLStringList words;
+    CPLStringList arguments;
     const auto exact = [](double value) { return fmt::format("{:.17g}", value); };
-    add_options(words, {"-of", "VRT", "-ot", "Float64", "-r", "bilinear", "-et", "0", "-novshift",
-                        "-t_srs", before.crs, "-te", exact(low.x), exact(low.y), exact(high.x),
-                        exact(high.y), "-ts", exact(before.size.x), exact(before.size.y)});
+    add_options(arguments,
+                {"-of", "VRT", "-ot", "Float64", "-r", "bilinear", "-et", "0", "-novshift",
+                 "-t_srs", before.crs, "-te", exact(low.x), exact(low.y), exact(high.x),
+                 exact(high.y), "-ts", exact(before.size.x), exact(before.size.y)});
     int declared = 0;
     band.GetNoDataValue(&declared);
     if ((band.GetMaskFlags() & GMF_PER_DATASET) != 0) {
-        add_options(words, {"-dstalpha"});
+        add_options(arguments, {"-dstalpha"});
     } else if (declared == 0) {
-        add_options(words, {"-srcnodata", "-32768", "-dstnodata", "-32768"});
+        add_options(arguments, {"-srcnodata", "-32768", "-dstnodata", "-32768"});
     }
-    return words;
+    return arguments;
 }
 
 /// Heights in metres at the indexed samples; null if GDAL fails. Keeps `now` open.
 Dataset at_indexed_samples(Dataset now, const RasterPlace& before) {
     GDALRasterBand& band = *now->GetRasterBand(1);
     const double metres = height_unit_of(*now, band).metres;
-    CPLStringList words = warp_words(band, before);
+    CPLStringList arguments = warp_arguments(band, before);
     const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> options(
-        GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
+        GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
     if (options == nullptr) {
         return nullptr;
     }

@@ -77,7 +77,7 @@ std::vector<glm::dvec2> lattice_points(const TileLayer& layer, std::span<const g
         }
         to_crs(layer, *transform, part);
         for (glm::dvec2& point : part) {
-            point = layer.lattice_from_turned(point);
+            point = layer.lattice_from_wrapped(point);
         }
     };
     parallel_for((count + size - 1) / size, transform_part,
@@ -95,16 +95,15 @@ double snapped(double value) {
     return std::abs(value - std::round(value)) <= on_sample ? std::round(value) : value;
 }
 
-/// Distance of a point from a tile's samples, in steps; 0 inside.
-double outside_by(const LayerTile& tile, glm::dvec2 point) {
-    const glm::dvec2 low = glm::dvec2(tile.col, tile.row) - point;
-    const glm::dvec2 high = point - glm::dvec2(tile.col + tile.cols - 1, tile.row + tile.rows - 1);
-    return std::max({low.x, low.y, high.x, high.y, 0.0});
-}
-
-glm::dvec2 moved_into(const LayerTile& tile, glm::dvec2 point) {
+glm::dvec2 clamped_to(const LayerTile& tile, glm::dvec2 point) {
     return glm::clamp(point, glm::dvec2(tile.col, tile.row),
                       glm::dvec2(tile.col + tile.cols - 1, tile.row + tile.rows - 1));
+}
+
+/// Distance of a point from a tile's samples, in steps; 0 inside.
+double outside_by(const LayerTile& tile, glm::dvec2 point) {
+    const glm::dvec2 outside = glm::abs(point - clamped_to(tile, point));
+    return std::max(outside.x, outside.y);
 }
 
 /// Indexes of points in a block of the lattice.
@@ -252,7 +251,7 @@ private:
         }
         if (nearest.tile != nullptr && !between_tiles(nearest.point)) {
             return reach_ == Reach::half_a_cell
-                       ? OnTile{nearest.tile, moved_into(*nearest.tile, nearest.point)}
+                       ? OnTile{nearest.tile, clamped_to(*nearest.tile, nearest.point)}
                        : OnTile{};
         }
         return nearest;

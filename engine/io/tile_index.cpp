@@ -49,7 +49,7 @@ bool is_named_side_file(const fs::path& path) {
 }
 
 /// Checksums of sidecar files by the stem of their names.
-class Families {
+class SidecarHashes {
 public:
     void add(const IndexedFile& file) {
         const fs::path path = OIIO::Strutil::lower(file.path);
@@ -89,15 +89,16 @@ private:
     std::unordered_map<std::string, std::uint64_t> hashes_;
 };
 
-/// Sets `beside` of all files. The sidecar files of "a.tif" are named "a.…" and are no rasters
+/// Sets `sidecar_hash` of all files. The sidecar files of "a.tif" are named "a.…" and are no
+/// rasters
 /// ("a.prj", "a.tif.aux.xml"); those of an .adf are all .adf files of its folder. Ignores case.
-void set_beside(std::span<IndexedFile> files) {
-    Families families;
+void set_sidecar_hashes(std::span<IndexedFile> files) {
+    SidecarHashes families;
     for (const IndexedFile& file : files) {
         families.add(file);
     }
     for (IndexedFile& file : files) {
-        file.beside = families.of(file);
+        file.sidecar_hash = families.of(file);
     }
 }
 
@@ -139,7 +140,7 @@ Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::s
     }
     std::sort(files.begin(), files.end(),
               [](const IndexedFile& a, const IndexedFile& b) { return a.path < b.path; });
-    set_beside(files);
+    set_sidecar_hashes(files);
     return files;
 }
 
@@ -273,7 +274,7 @@ std::optional<Described> find_unchanged(const TileIndex& index, const IndexedFil
         [](const IndexedFile& file, const std::string& path) { return file.path < path; });
     if (found == index.files.end() || found->path != now.path || !found->opened ||
         found->bytes != now.bytes || found->modified != now.modified ||
-        found->beside != now.beside) {
+        found->sidecar_hash != now.sidecar_hash) {
         return std::nullopt;
     }
     const bool placed = found->use == TileUse::heights;

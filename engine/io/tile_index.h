@@ -15,11 +15,11 @@ namespace reljef::io {
 enum class TileUse : std::uint8_t { heights, picture, error };
 
 struct IndexedFile {
-    std::string path;          ///< relative to the folder, with '/'
-    std::uint64_t bytes = 0;   ///< this and the next two detect changes
-    std::int64_t modified = 0; ///< ticks of the file system's clock
-    std::uint64_t beside = 0;  ///< checksum of its sidecar files' names, sizes and times
-    bool opened = false;       ///< false: try again next time
+    std::string path;               ///< relative to the folder, with '/'
+    std::uint64_t bytes = 0;        ///< this and the next two detect changes
+    std::int64_t modified = 0;      ///< ticks of the file system's clock
+    std::uint64_t sidecar_hash = 0; ///< checksum of its sidecar files' names, sizes and times
+    bool opened = false;            ///< false: try again next time
     TileUse use = TileUse::error;
     std::string error; ///< why it cannot be used
     int cols = 0;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "engine/io/cache/fnv_hash.h"
@@ -16,9 +15,7 @@ class IndexWriter {
 public:
     template <class T> void put(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
-        std::array<char, sizeof(T)> raw{};
-        std::memcpy(raw.data(), &value, sizeof(T));
-        bytes_.append(raw.data(), raw.size());
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
     }
     void put(const std::string& text) {
         put(static_cast<std::uint32_t>(text.size()));
@@ -67,9 +64,9 @@ private:
 /// Visits each field, for reading and writing.
 template <class File, class Visit> void visit_fields(File& file, const Visit& visit) {
     const auto visit_all = [&](auto&... fields) { (visit(fields), ...); };
-    visit_all(file.path, file.bytes, file.modified, file.beside, file.opened, file.use, file.error,
-              file.cols, file.rows, file.crs_from_pixel, file.crs, file.format, file.type,
-              file.vertical_datum, file.declares_voids);
+    visit_all(file.path, file.bytes, file.modified, file.sidecar_hash, file.opened, file.use,
+              file.error, file.cols, file.rows, file.crs_from_pixel, file.crs, file.format,
+              file.type, file.vertical_datum, file.declares_voids);
 }
 
 bool is_consistent(const TileIndex& index) {

@@ -104,12 +104,12 @@ int global_cols(const TileLayer& layer) {
 }
 
 /// Repeats tiles of a global layer on both sides.
-void add_turned_tiles(TileLayer& layer) {
+void add_wrapped_tiles(TileLayer& layer) {
     const int turn = global_cols(layer);
     const std::size_t count = turn > 0 ? layer.tiles.size() : 0;
     for (std::size_t i = 0; i < count; ++i) {
         LayerTile tile = layer.tiles[i];
-        tile.is_turned = true;
+        tile.is_wrapped = true;
         const int first = tile.col;
         for (const bool eastward : {true, false}) {
             const bool near = eastward ? 2 * first < turn : 2 * (first + tile.cols) > turn;
@@ -135,7 +135,7 @@ TileLayer finished(GrowingLayer growing, std::span<const IndexedFile> files) {
         tile.col -= low.x;
         tile.row -= low.y;
     }
-    add_turned_tiles(layer);
+    add_wrapped_tiles(layer);
     std::stable_sort(layer.tiles.begin(), layer.tiles.end(),
                      [&](const LayerTile& a, const LayerTile& b) {
                          return files[static_cast<std::size_t>(a.file)].modified >
@@ -222,7 +222,7 @@ constexpr std::chrono::seconds max_response_time{5}; // longer: the server hangs
 Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileContent& reading,
                                  const GdalMessages& messages) {
     const std::filesystem::path path = path_of(tile, reading);
-    if (auto wrong = reading.failing->given_up(path)) {
+    if (auto wrong = reading.failing->skip_reason(path)) {
         return Error{std::move(*wrong)};
     }
     const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
@@ -264,7 +264,7 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
         read_heights(**dataset, result.plan, path.string(), reading.options, messages, found);
     if (!values) {
         if (!reading.options.stop.stop_requested() && !is_web_tiles(path)) {
-            dataset->spoil();
+            dataset->discard();
             if (is_remote(path)) {
                 reading.failing->note(path, values.error().message);
             }
@@ -272,8 +272,8 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
         return values.error();
     }
     reading.failing->forget(path);
-    for (const std::string& words : found) {
-        reading.new_notes->add(path, words);
+    for (const std::string& note : found) {
+        reading.new_notes->add(path, note);
     }
     result.values = std::move(*values);
     // Counts all samples, because blocks are read as a whole.
@@ -325,7 +325,7 @@ void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
         errors.push_back({path, read.error().message});
         return;
     }
-    // A server that hangs is not asked for single tiles.
+    // Does not request single tiles from a server that hangs.
     if (BackOff::Clock::now() - begin > max_response_time) {
         reading.failing->note(path, read.error().message);
     }
@@ -342,7 +342,7 @@ double resolution(glm::dvec2 spacing) {
     return std::round(0.5 * std::log(spacing.x * spacing.y) / std::log(same_resolution));
 }
 
-glm::dvec2 TileLayer::lattice_from_turned(glm::dvec2 point) const {
+glm::dvec2 TileLayer::lattice_from_wrapped(glm::dvec2 point) const {
     if (period > 0.0) {
         const double middle =
             crs_from_lattice.crs_from_pixel(0.5 * glm::dvec2(cols - 1, rows - 1)).x;

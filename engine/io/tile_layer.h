@@ -36,8 +36,8 @@ struct LayerTile {
     int row = 0;
     int cols = 0;
     int rows = 0;
-    glm::dvec2 offset{0.0}; ///< of its samples from the lattice points, in steps
-    bool is_turned = false; ///< a copy 360 degrees away
+    glm::dvec2 offset{0.0};  ///< of its samples from the lattice points, in steps
+    bool is_wrapped = false; ///< a copy 360 degrees away
 };
 
 /// Tiles in one CRS with samples on one lattice: one raster with gaps.
@@ -57,7 +57,7 @@ struct TileLayer {
         return lattice_steps * (point - glm::dvec2(crs_from_lattice.x0, crs_from_lattice.y0));
     }
     /// As lattice_from_crs, modulo 360 degrees.
-    [[nodiscard]] glm::dvec2 lattice_from_turned(glm::dvec2 point) const;
+    [[nodiscard]] glm::dvec2 lattice_from_wrapped(glm::dvec2 point) const;
 };
 
 /// Position of a usable file. Multiples of 360 degrees are added to x to keep the set together.

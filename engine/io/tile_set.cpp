@@ -96,9 +96,9 @@ std::vector<TileFile> files_of(std::span<const TileLayer> layers,
     }
     std::vector<TileFile> files;
     for (const TileLayer& layer : layers) {
-        const std::string crs_name = words_of(crs_from_text(layer.crs)).name;
+        const std::string crs_name = names_of(crs_from_text(layer.crs)).name;
         for (const LayerTile& tile : layer.tiles) {
-            if (tile.is_turned) {
+            if (tile.is_wrapped) {
                 continue;
             }
             const PlacedFile& place = *place_of_file.at(tile.file);
@@ -164,13 +164,13 @@ std::vector<glm::dvec2> outline_of(const geo::GeodeticArea& area) {
 }
 
 // Moves an outline by multiples of 360 degrees onto a layer.
-void turn_together(std::vector<glm::dvec2>& outline, glm::dvec2 centre, const TileLayer& layer) {
+void wrap_outline(std::vector<glm::dvec2>& outline, glm::dvec2 centre, const TileLayer& layer) {
     if (layer.period <= 0.0) {
         return;
     }
     constexpr double half_a_turn_stays = 1.0 - 1e-9;
     const double turned =
-        layer.crs_from_lattice.crs_from_pixel(layer.lattice_from_turned(centre)).x;
+        layer.crs_from_lattice.crs_from_pixel(layer.lattice_from_wrapped(centre)).x;
     for (glm::dvec2& point : outline) {
         const double from_centre = point.x - centre.x;
         point.x = turned + from_centre -
@@ -240,7 +240,7 @@ Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOp
         std::all_of(state->layers.begin(), state->layers.end(),
                     [&](const TileLayer& layer) { return layer.crs == state->layers.front().crs; });
     state->crs = shared ? state->layers.front().crs : wgs84_degrees;
-    state->crs_name = words_of(crs_from_text(state->crs)).name;
+    state->crs_name = names_of(crs_from_text(state->crs)).name;
     state->grid = shared ? grid_in_shared_crs(state->layers, state->notes)
                          : grid_in_degrees(state->layers, state->box, state->notes);
     return TileSet(std::move(state));
@@ -295,7 +295,7 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const geo::GeodeticArea& ar
         transform->apply(points);
         const glm::dvec2 at_centre = points.back();
         points.pop_back();
-        turn_together(points, at_centre, state_->layers.front());
+        wrap_outline(points, at_centre, state_->layers.front());
     }
     PointBounds box;
     for (const glm::dvec2 point : points) {

@@ -73,7 +73,7 @@ private:
         }
         transform.apply(controls_.samples());
         for (glm::dvec2& point : controls_.samples()) {
-            point = layer_->lattice_from_turned(point);
+            point = layer_->lattice_from_wrapped(point);
         }
     }
 

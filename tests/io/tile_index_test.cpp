@@ -68,16 +68,16 @@ protected:
 
 TEST_F(TileIndices, SeeASystemThatIsAddedBesideAFileAndTakenAway) {
     folder_.write("a.asc", grid_text);
-    EXPECT_THAT(fault(), HasSubstr("names no place on Earth"));
+    EXPECT_THAT(error(), HasSubstr("names no place on Earth"));
     folder_.write("a.prj", utm31_text());
-    EXPECT_EQ(fault(), "");
+    EXPECT_EQ(error(), "");
     remove("a.prj");
-    EXPECT_THAT(fault(), HasSubstr("names no place on Earth"));
+    EXPECT_THAT(error(), HasSubstr("names no place on Earth"));
 }
 
 TEST_F(TileIndices, SeeAPlaceThatIsAddedBesideAFileAndChanged) {
     raster("a.tif", false);
-    EXPECT_THAT(fault(), HasSubstr("names no place on Earth"));
+    EXPECT_THAT(error(), HasSubstr("names no place on Earth"));
     folder_.write("a.tfw", "10\n0\n0\n-10\n500005\n4999995\n");
     EXPECT_EQ(index().files.front().crs_from_pixel.x0, 500000.0);
     folder_.write("a.tfw", "10\n0\n0\n-10\n1500005\n4999995\n");
@@ -108,7 +108,7 @@ TEST_F(TileIndices, ReadAGridOfManyFilesAgainWhereOneOfThemChanges) {
     const TileIndex before = index();
     folder_.write("grid/prj.adf", "Projection UTM");
     const TileIndex after = index();
-    EXPECT_NE(before.files.back().beside, after.files.back().beside);
+    EXPECT_NE(before.files.back().sidecar_hash, after.files.back().sidecar_hash);
 }
 
 TEST_F(TileIndices, KeepNoFaultOfOpening) {
@@ -116,9 +116,9 @@ TEST_F(TileIndices, KeepNoFaultOfOpening) {
     const auto file = folder_.path() / "a.tif";
     const test::PlainPermissions plain;
     std::filesystem::permissions(file, std::filesystem::perms::none);
-    EXPECT_THAT(fault(), HasSubstr("Permission denied"));
+    EXPECT_THAT(error(), HasSubstr("Permission denied"));
     std::filesystem::permissions(file, std::filesystem::perms::owner_read);
-    EXPECT_EQ(fault(), "");
+    EXPECT_EQ(error(), "");
 }
 
 TEST_F(TileIndices, PassOverWhatCannotBeReadAndMayBeNoRaster) {
@@ -129,7 +129,7 @@ TEST_F(TileIndices, PassOverWhatCannotBeReadAndMayBeNoRaster) {
     for (const char* name : {"N45E006.raw", "letter"}) {
         std::filesystem::permissions(folder_.path() / name, std::filesystem::perms::none);
     }
-    EXPECT_EQ(fault(), "");
+    EXPECT_EQ(error(), "");
 }
 
 } // namespace

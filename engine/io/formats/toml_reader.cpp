@@ -15,11 +15,6 @@
 namespace reljef::io {
 namespace {
 
-const toml::table& no_table() {
-    static const toml::table empty;
-    return empty;
-}
-
 std::string text_of_value(const toml::node& node) {
     std::ostringstream stream;
     node.visit([&](const auto& value) {
@@ -310,7 +305,8 @@ TomlTable TomlTable::table(std::string_view key) {
         fail(key, fmt::format("is {}, a table [{}] was expected", text_of(*node), key));
         node = nullptr;
     }
-    return {node != nullptr ? *node->as_table() : no_table(), name_, fmt::format("[{}]", key)};
+    static const toml::table empty;
+    return {node != nullptr ? *node->as_table() : empty, name_, fmt::format("[{}]", key)};
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {

@@ -38,7 +38,7 @@ public:
     void read(std::string_view key, std::uint32_t& value, const NumberRange& range);
     void read(std::string_view key, bool& value);
     void read(std::string_view key, std::string& value);
-    /// One of the words.
+    /// One of `words`.
     void read(std::string_view key, std::string& value, std::span<const std::string_view> words);
     /// A path relative to `folder`, an address, or web tiles of heights; not empty.
     void read(std::string_view key, std::filesystem::path& value,

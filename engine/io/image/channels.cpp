@@ -41,13 +41,10 @@ Error no_map_file(const fs::path& path) {
 }
 
 std::vector<std::uint16_t> whole_numbers(const std::vector<float>& values) {
-    constexpr float max_value = 65535.0F;
-    std::vector<std::uint16_t> whole;
-    whole.reserve(values.size());
-    for (const float value : values) {
-        whole.push_back(
-            static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * max_value)));
-    }
+    std::vector<std::uint16_t> whole(values.size());
+    std::transform(values.begin(), values.end(), whole.begin(), [](float value) {
+        return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 65535.0F));
+    });
     return whole;
 }
 

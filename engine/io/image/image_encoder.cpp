@@ -55,7 +55,7 @@ Result<std::vector<std::byte>> encoded_in_file(std::unique_ptr<OIIO::ImageOutput
 Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output,
                                        const OIIO::ImageSpec& spec, const void* pixels,
                                        std::size_t stride) {
-    const GdalMessages unprinted; // of the TIFF library, about unknown tags
+    const GdalMessages ignored_messages; // of the TIFF library, about unknown tags
     const bool in_memory = output->supports("ioproxy") != 0;
     try {
         auto bytes = in_memory ? encoded_in_memory(std::move(output), spec, pixels, stride)

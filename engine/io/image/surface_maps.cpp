@@ -19,17 +19,10 @@ glm::dvec2 texel_spacing(const SurfaceMapOptions& options, int cols, int rows) {
     return 1.0 / (options.scale * glm::dvec2(cols, rows));
 }
 
+// Precondition: at least 3 channels.
 bool is_grey(const Channels& channels) {
-    for (int row = 0; row < channels.rows; ++row) {
-        for (int col = 0; col < channels.cols; ++col) {
-            for (int i = 1; i < std::min(channels.count, 3); ++i) {
-                if (channels.at(col, row, i) != channels.at(col, row, 0)) {
-                    return false;
-                }
-            }
-        }
-    }
-    return true;
+    const Grid<float> first = channel_of(channels, 0);
+    return first == channel_of(channels, 1) && first == channel_of(channels, 2);
 }
 
 std::vector<std::string> notes_on(const SurfaceMapOptions& options, const std::string& file,

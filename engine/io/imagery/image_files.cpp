@@ -35,18 +35,17 @@ void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
     }
 }
 
-/// A single band of a type other than Byte and UInt16 holds heights.
-bool is_image(GDALDataset& dataset) {
+/// Fails for a single band of a type other than Byte and UInt16: it holds heights.
+Result<void> check_is_image(const fs::path& path, GDALDataset& dataset) {
     const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
-    return dataset.GetRasterCount() >= 3 || kind_of_values(dataset) != ValueKind::plain ||
-           type == GDT_Byte || type == GDT_UInt16;
-}
-
-Error no_image(const fs::path& path, GDALDataset& dataset) {
-    const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
-    return {fmt::format("{}: holds {}, as heights are stored, an image (grey of Byte or UInt16, "
-                        "palette or RGB(A)) was expected",
-                        path.string(), GDALGetDataTypeName(type))};
+    if (dataset.GetRasterCount() >= 3 || kind_of_values(dataset) != ValueKind::plain ||
+        type == GDT_Byte || type == GDT_UInt16) {
+        return {};
+    }
+    return Error{
+        fmt::format("{}: holds {}, as heights are stored, an image (grey of Byte or UInt16, "
+                    "palette or RGB(A)) was expected",
+                    path.string(), GDALGetDataTypeName(type))};
 }
 
 } // namespace
@@ -73,8 +72,8 @@ ImageFiles image_files(std::span<const fs::path> names, std::vector<std::string>
         const auto image = open_raster(path, messages);
         if (!image) {
             errors.push_back(image.error().message);
-        } else if (!is_image(**image)) {
-            errors.push_back(no_image(path, **image).message);
+        } else if (auto good = check_is_image(path, **image); !good) {
+            errors.push_back(good.error().message);
         } else {
             if (!white) {
                 files.white = std::max(files.white, white_of(**image, stop));

@@ -111,7 +111,7 @@ std::optional<glm::dvec2> pixel_size(GDALDataset& image, const CommonSpace& spac
 }
 
 /// A placed image. It is not open: there may be too many.
-struct KnownPicture {
+struct PlacedImage {
     std::filesystem::path path;
     CommonSpace space;
     glm::dvec2 pixel{1.0}; ///< size in the common space
@@ -201,7 +201,7 @@ public:
           image_(std::move(image)) {}
 
     /// Draws the `index`-th of `count` pictures; fails if it is unreadable.
-    Result<void> add(const KnownPicture& picture, std::size_t index, std::size_t count) {
+    Result<void> add(const PlacedImage& picture, std::size_t index, std::size_t count) {
         const GdalMessages messages;
         const auto colors = open_colors(picture.path, white_, heights_, picture.space, messages);
         if (!colors) {
@@ -218,7 +218,13 @@ public:
             };
         }
         for (const double turn : picture.turns) {
-            if (!draw(**colors, picture.space, turn, warping) || messages.has_lost_blocks()) {
+            Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
+            const Dataset target = target_of(drawn, grid_, picture.space, turn);
+            if (target == nullptr || !warp(**colors, *target, warping)) {
+                return unreadable_image(picture.path, messages);
+            }
+            composite_under(image_, drawn);
+            if (messages.has_lost_blocks()) {
                 return unreadable_image(picture.path, messages);
             }
         }
@@ -228,17 +234,6 @@ public:
     Image take() && { return std::move(image_); }
 
 private:
-    bool draw(GDALDataset& colors, const CommonSpace& space, double turn,
-              const WarpOptions& warping) {
-        Image drawn(image_.cols(), image_.rows(), Rgba8{0, 0, 0, 0});
-        const Dataset target = target_of(drawn, grid_, space, turn);
-        const bool done = target != nullptr && warp(colors, *target, warping);
-        if (done) {
-            lay_under(image_, drawn);
-        }
-        return done;
-    }
-
     GDALDataset& heights_;
     const SampleGrid& grid_;
     const RasterOptions& options_;
@@ -275,9 +270,9 @@ std::vector<double> turns_of(const SampleGrid& grid, GDALDataset& image, const C
     return turns.empty() || in_degrees ? turns : std::vector{0.0};
 }
 
-Result<KnownPicture> known_picture(const std::filesystem::path& path, double white,
-                                   GDALDataset& heights, const SampleGrid& grid,
-                                   std::vector<std::string>& notes) {
+Result<PlacedImage> placed_image(const std::filesystem::path& path, double white,
+                                 GDALDataset& heights, const SampleGrid& grid,
+                                 std::vector<std::string>& notes) {
     const GdalMessages messages;
     auto image = open_raster(path, messages);
     if (!image) {
@@ -286,7 +281,7 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
     if (auto good = check_affine(**image, path.string()); !good) {
         return good.error();
     }
-    KnownPicture picture{path, common_space_of(heights, **image, notes), {}, has_place(**image)};
+    PlacedImage picture{path, common_space_of(heights, **image, notes), {}, has_place(**image)};
     if (!picture.space.stretched() && !names_crs(**image)) {
         notes.push_back(fmt::format("imagery: {} names no coordinate system, so that of the "
                                     "terrain is taken",
@@ -307,19 +302,19 @@ Result<KnownPicture> known_picture(const std::filesystem::path& path, double whi
 }
 
 /// See resolution().
-double resolution_over_heights(const KnownPicture& picture) {
+double resolution_over_heights(const PlacedImage& picture) {
     const geo::PixelAffine& from = picture.space.from_heights;
     return resolution(picture.pixel /
                       std::sqrt(std::abs(from.x_col * from.y_row - from.x_row * from.y_col)));
 }
 
 /// Readable pictures: finest first, then newest. Adds errors for the others.
-std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& heights,
-                                         const SampleGrid& grid, std::vector<std::string>& notes,
-                                         std::vector<std::string>& errors) {
-    std::vector<KnownPicture> pictures;
+std::vector<PlacedImage> placed_images(const ImageFiles& files, GDALDataset& heights,
+                                       const SampleGrid& grid, std::vector<std::string>& notes,
+                                       std::vector<std::string>& errors) {
+    std::vector<PlacedImage> pictures;
     for (const std::filesystem::path& path : files.paths) {
-        auto picture = known_picture(path, files.white, heights, grid, notes);
+        auto picture = placed_image(path, files.white, heights, grid, notes);
         if (picture) {
             pictures.push_back(std::move(*picture));
         } else {
@@ -327,19 +322,19 @@ std::vector<KnownPicture> known_pictures(const ImageFiles& files, GDALDataset& h
         }
     }
     std::stable_sort(pictures.begin(), pictures.end(),
-                     [](const KnownPicture& a, const KnownPicture& b) {
+                     [](const PlacedImage& a, const PlacedImage& b) {
                          return resolution_over_heights(a) < resolution_over_heights(b);
                      });
     return pictures;
 }
 
 /// Images without a place are stretched over the terrain only if no image has a place.
-void leave_out_unplaced(std::vector<KnownPicture>& pictures, std::vector<std::string>& notes) {
-    const auto stretched = [](const KnownPicture& picture) { return picture.space.stretched(); };
+void leave_out_unplaced(std::vector<PlacedImage>& pictures, std::vector<std::string>& notes) {
+    const auto stretched = [](const PlacedImage& picture) { return picture.space.stretched(); };
     if (std::all_of(pictures.begin(), pictures.end(), stretched)) {
         return;
     }
-    for (const KnownPicture& picture : pictures) {
+    for (const PlacedImage& picture : pictures) {
         if (stretched(picture)) {
             notes.push_back(
                 fmt::format("imagery: {} names no place on Earth: it is left out beside "
@@ -366,9 +361,9 @@ void note_share(double share, std::vector<std::string>& notes) {
     }
 }
 
-void note_stretching(std::span<const KnownPicture> pictures, GDALDataset& heights,
+void note_stretching(std::span<const PlacedImage> pictures, GDALDataset& heights,
                      std::vector<std::string>& notes) {
-    for (const KnownPicture& picture : pictures) {
+    for (const PlacedImage& picture : pictures) {
         if (!picture.has_place && affine_of(heights)) {
             notes.push_back(fmt::format("imagery: {} names no place, so it is stretched over the "
                                         "terrain",
@@ -388,14 +383,14 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
     if (options.stop.stop_requested()) {
         return Error{name_of(options.imagery) + ": reading was stopped"};
     }
-    std::vector<KnownPicture> pictures = known_pictures(files, heights, grid, notes, wrong);
+    std::vector<PlacedImage> pictures = placed_images(files, heights, grid, notes, wrong);
     if (pictures.empty()) {
         check(!wrong.empty(), "a list of images without images");
         return Error{wrong.front()};
     }
     leave_out_unplaced(pictures, notes);
     note_stretching(pictures, heights, notes);
-    std::erase_if(pictures, [](const KnownPicture& picture) { return picture.turns.empty(); });
+    std::erase_if(pictures, [](const PlacedImage& picture) { return picture.turns.empty(); });
     if (pictures.empty()) {
         return shows_nothing(options);
     }

@@ -18,7 +18,7 @@
 
 namespace reljef::io {
 /// Metadata of an image.
-struct KnownImage {
+struct ImageInfo {
     std::filesystem::path path;
     glm::ivec2 size{0};
     glm::dvec2 pixel{1.0}; ///< metres
@@ -40,8 +40,8 @@ glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
     return 4.0 * glm::dvec2(across, down) / glm::dvec2(size);
 }
 
-std::vector<KnownImage::Overview> overviews_of(GDALDataset& rgb) {
-    std::vector<KnownImage::Overview> found;
+std::vector<ImageInfo::Overview> overviews_of(GDALDataset& rgb) {
+    std::vector<ImageInfo::Overview> found;
     GDALRasterBand& band = *rgb.GetRasterBand(1);
     found.reserve(static_cast<std::size_t>(std::max(band.GetOverviewCount(), 0)));
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
@@ -71,18 +71,18 @@ Result<Dataset> open_rgb(const std::filesystem::path& path, double white, const 
     return rgb;
 }
 
-std::optional<KnownImage> known(const std::filesystem::path& path, GDALDataset& rgb) {
+std::optional<ImageInfo> image_info(const std::filesystem::path& path, GDALDataset& rgb) {
     const auto degrees = places_over(rgb);
     if (degrees.empty()) {
         return std::nullopt;
     }
-    KnownImage image{path, {rgb.GetRasterXSize(), rgb.GetRasterYSize()}, {}, {}, overviews_of(rgb)};
+    ImageInfo image{path, {rgb.GetRasterXSize(), rgb.GetRasterYSize()}, {}, {}, overviews_of(rgb)};
     image.box = padded_box(degrees);
     image.pixel = pixel_size(degrees, image.size);
     return std::isfinite(image.pixel.x * image.pixel.y) ? std::optional(image) : std::nullopt;
 }
 
-double side_of(const KnownImage& image) {
+double side_of(const ImageInfo& image) {
     return std::sqrt(image.pixel.x * image.pixel.y);
 }
 
@@ -93,12 +93,12 @@ struct Choice {
     double scale = 1.0;  ///< texels per pixel read
 };
 
-Choice choice_for(const KnownImage& image, double spacing, double texels) {
+Choice choice_for(const ImageInfo& image, double spacing, double texels) {
     const double desired = spacing / std::max(image.pixel.x, image.pixel.y);
     Choice choice;
     double factor = 1.0;
     constexpr double near = 1.0 + 1e-6; // sizes are rounded
-    for (const KnownImage::Overview& overview : image.overviews) {
+    for (const ImageInfo::Overview& overview : image.overviews) {
         if (overview.factor <= desired * near && overview.factor > factor) {
             choice.overview = overview.index;
             factor = overview.factor;
@@ -117,7 +117,7 @@ bool shows_something(std::span<const Rgba8> texels) {
 }
 
 /// Whether an image may lie between the texels.
-bool is_tiny(const KnownImage& image, double spacing) {
+bool is_tiny(const ImageInfo& image, double spacing) {
     const glm::dvec2 sides = image.pixel * glm::dvec2(image.size);
     return std::min(sides.x, sides.y) < 2.0 * spacing;
 }
@@ -142,17 +142,17 @@ struct ImagerySet::State {
           }),
           failing(options.first_pause) {}
 
-    std::string crs;                ///< WKT of the grids
-    double turn;                    ///< units of x per degree; 0: not in degrees
-    std::size_t reading_memory;     ///< bytes per thread
-    double white;                   ///< see white_of
-    std::vector<KnownImage> images; ///< finest first
-    bool complete = true;           ///< all images could be opened
+    std::string crs;               ///< WKT of the grids
+    double turn;                   ///< units of x per degree; 0: not in degrees
+    std::size_t reading_memory;    ///< bytes per thread
+    double white;                  ///< see white_of
+    std::vector<ImageInfo> images; ///< finest first
+    bool complete = true;          ///< all images could be opened
     mutable DatasetPool pool;
     mutable FailingFiles failing;
 
     /// Draws an image into an empty picture.
-    Result<void> draw(const KnownImage& image, const Choice& choice, const TileGrid& grid,
+    Result<void> draw(const ImageInfo& image, const Choice& choice, const TileGrid& grid,
                       Image& texels, const std::stop_token& stop) const {
         const GdalMessages messages;
         auto rgb = pool.borrow(image.path, messages);
@@ -169,7 +169,7 @@ struct ImagerySet::State {
         if (raster == nullptr || !place_raster(*raster, outer_affine_of(grid), &reference) ||
             !warp(**rgb, *raster, options) || messages.has_lost_blocks()) {
             if (!stop.stop_requested()) {
-                rgb->spoil();
+                rgb->discard();
             }
             return Error{fmt::format("{}: cannot be read{}, a whole image was expected",
                                      image.path.string(), messages.reason())};
@@ -179,10 +179,10 @@ struct ImagerySet::State {
 
     /// Draws an image beneath the others; `turns`: see turns_to_meet. Returns whether it
     /// contributes or may contribute.
-    bool add(const KnownImage& image, const Choice& choice, const TileGrid& grid,
+    bool add(const ImageInfo& image, const Choice& choice, const TileGrid& grid,
              std::span<const double> turns, ImageryWindow& window,
              const std::stop_token& stop) const {
-        if (choice.pixels > ImagerySet::max_pixels_read || failing.given_up(image.path)) {
+        if (choice.pixels > ImagerySet::max_pixels_read || failing.skip_reason(image.path)) {
             window.whole = false;
             return true;
         }
@@ -201,7 +201,7 @@ struct ImagerySet::State {
                 return true;
             }
             shows = shows || shows_something(drawn.samples());
-            lay_under(window.texels, drawn);
+            composite_under(window.texels, drawn);
             if (turn == 0.0) {
                 break; // all turns are the same place
             }
@@ -216,19 +216,19 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
     std::vector<std::string> errors;
     const ImageFiles files = image_files(names, errors, options.stop);
     auto state = std::make_shared<State>(crs, files.white, options);
-    std::vector<std::optional<KnownImage>> found(files.paths.size());
+    std::vector<std::optional<ImageInfo>> found(files.paths.size());
     const auto inspect = [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         const GdalMessages messages;
         const auto rgb = open_rgb(files.paths[index], files.white, crs, messages);
-        found[index] = rgb ? known(files.paths[index], **rgb) : std::nullopt;
+        found[index] = rgb ? image_info(files.paths[index], **rgb) : std::nullopt;
     };
     parallel_for(static_cast<int>(found.size()), inspect,
                  {.threads = 0, .stop = options.stop, .progress = {}});
     if (options.stop.stop_requested()) {
         return Error{"the images: reading was stopped"};
     }
-    for (std::optional<KnownImage>& image : found) {
+    for (std::optional<ImageInfo>& image : found) {
         if (image) {
             state->images.push_back(std::move(*image));
         }
@@ -240,7 +240,7 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
     }
     state->complete = state->images.size() == found.size();
     std::stable_sort(state->images.begin(), state->images.end(),
-                     [](const KnownImage& a, const KnownImage& b) {
+                     [](const ImageInfo& a, const ImageInfo& b) {
                          return resolution(a.pixel) < resolution(b.pixel);
                      });
     return ImagerySet(std::move(state));
@@ -272,7 +272,7 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
     }
     const DegreeBox box = padded_box(degrees);
     const double texels = static_cast<double>(grid.cols) * grid.rows;
-    for (const KnownImage& image : state_->images) {
+    for (const ImageInfo& image : state_->images) {
         if (is_opaque(window.texels) || stop.stop_requested()) {
             break;
         }
@@ -289,7 +289,7 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
 }
 
 std::optional<std::string> ImagerySet::missing_overviews() const {
-    for (const KnownImage& image : state_->images) {
+    for (const ImageInfo& image : state_->images) {
         const double pixels = static_cast<double>(image.size.x) * image.size.y;
         if (image.overviews.empty() && pixels > max_pixels_read) {
             return fmt::format("{0}: {1}×{2} pixels without overviews, so that views from afar "

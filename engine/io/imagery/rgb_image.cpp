@@ -95,39 +95,40 @@ double highest_of(GDALRasterBand& band, const std::stop_token& stop) {
     return highest;
 }
 
-CPLStringList words_for_rgb(GDALDataset& image, double white) {
+CPLStringList rgb_arguments(GDALDataset& image, double white) {
     const ColorBands bands = color_bands(image);
-    CPLStringList words;
-    add_options(words, {"-of", "VRT"});
+    CPLStringList arguments;
+    add_options(arguments, {"-of", "VRT"});
     if (bands.palette) {
-        add_options(words, {"-b", "1", "-expand", "rgba"});
-        return words;
+        add_options(arguments, {"-b", "1", "-expand", "rgba"});
+        return arguments;
     }
     for (const int band : bands.color) {
-        add_options(words, {"-b", std::to_string(band)});
+        add_options(arguments, {"-b", std::to_string(band)});
     }
     if (bands.alpha) {
-        add_options(words, {"-b", std::to_string(*bands.alpha)});
+        add_options(arguments, {"-b", std::to_string(*bands.alpha)});
     }
-    add_options(words, {"-colorinterp", bands.alpha ? "red,green,blue,alpha" : "red,green,blue"});
+    add_options(arguments,
+                {"-colorinterp", bands.alpha ? "red,green,blue,alpha" : "red,green,blue"});
     const GDALDataType type = image.GetRasterBand(bands.color[0])->GetRasterDataType();
     if (type == GDT_Byte) {
-        return words;
+        return arguments;
     }
-    add_options(words, {"-ot", "Byte"});
+    add_options(arguments, {"-ot", "Byte"});
     const std::string max_value = fmt::format("{}", white > 0.0 ? white : 1.0);
     for (const char* option : {"-scale_1", "-scale_2", "-scale_3"}) {
-        add_options(words, {option, "0", max_value, "0", "255"});
+        add_options(arguments, {option, "0", max_value, "0", "255"});
     }
     if (bands.alpha) {
-        add_options(words, {"-scale_4", "0", fmt::format("{}", opaque_of(type)), "0", "255"});
+        add_options(arguments, {"-scale_4", "0", fmt::format("{}", opaque_of(type)), "0", "255"});
     }
-    return words;
+    return arguments;
 }
 
-Dataset translated(GDALDataset& image, CPLStringList words) {
+Dataset translated(GDALDataset& image, CPLStringList arguments) {
     const std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> options(
-        GDALTranslateOptionsNew(words.List(), nullptr), &GDALTranslateOptionsFree);
+        GDALTranslateOptionsNew(arguments.List(), nullptr), &GDALTranslateOptionsFree);
     if (options == nullptr) {
         return nullptr;
     }
@@ -218,7 +219,7 @@ Dataset as_rgb(Dataset image, double white) {
     if (!has_last_block(*image)) {
         return nullptr;
     }
-    Dataset made = translated(*image, words_for_rgb(*image, white));
+    Dataset made = translated(*image, rgb_arguments(*image, white));
     return keeping_open(std::move(made), std::move(image));
 }
 
@@ -229,11 +230,11 @@ int subsampling_of(GDALDataset& image) {
 }
 
 Dataset subsampled(Dataset rgb, int subsampling) {
-    CPLStringList words;
-    add_options(words,
+    CPLStringList arguments;
+    add_options(arguments,
                 {"-of", "VRT", "-outsize", std::to_string(rgb->GetRasterXSize() / subsampling),
                  std::to_string(rgb->GetRasterYSize() / subsampling)});
-    Dataset made = translated(*rgb, std::move(words));
+    Dataset made = translated(*rgb, std::move(arguments));
     return keeping_open(std::move(made), std::move(rgb));
 }
 
@@ -262,20 +263,20 @@ Dataset raster_over(Image& image) {
 }
 
 bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
-    CPLStringList words;
-    add_options(words, {"-r", "bilinear", "-et", fmt::format("{}", max_warp_error), "-ovr",
-                        overview_word(options.overview)});
+    CPLStringList arguments;
+    add_options(arguments, {"-r", "bilinear", "-et", fmt::format("{}", max_warp_error), "-ovr",
+                            overview_word(options.overview)});
     if (options.scale > 0.0) {
-        add_options(words, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",
-                            fmt::format("YSCALE={}", options.scale)});
+        add_options(arguments, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",
+                                fmt::format("YSCALE={}", options.scale)});
     }
     if (options.memory > 0) {
         constexpr std::size_t min_memory = std::size_t{1}
                                            << 20U; // GDAL takes small numbers as megabytes
-        add_options(words, {"-wm", std::to_string(std::max(options.memory, min_memory))});
+        add_options(arguments, {"-wm", std::to_string(std::max(options.memory, min_memory))});
     }
     const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> warping(
-        GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
+        GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
     if (warping == nullptr) {
         return false;
     }
@@ -301,7 +302,7 @@ bool is_opaque(const Image& image) {
     return std::all_of(pixels.begin(), pixels.end(), [](Rgba8 pixel) { return pixel.a == 255; });
 }
 
-void lay_under(Image& top, const Image& beneath) {
+void composite_under(Image& top, const Image& beneath) {
     check(top.cols() == beneath.cols() && top.rows() == beneath.rows(),
           "images of the same size were expected");
     std::transform(top.samples().begin(), top.samples().end(), beneath.samples().begin(),

@@ -58,6 +58,6 @@ Error unreadable_image(const std::filesystem::path& path, const GdalMessages& me
 bool is_opaque(const Image& image);
 
 /// Composites `top` over an image of the same size.
-void lay_under(Image& top, const Image& beneath);
+void composite_under(Image& top, const Image& beneath);
 
 } // namespace reljef::io

@@ -18,14 +18,6 @@ namespace {
 
 constexpr std::size_t bytes_at_a_time = std::size_t{1} << 20;
 
-struct FileCloser {
-    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
-};
-
-bool is_space(char c) {
-    return c == ' ' || c == '\n' || c == '\r' || c == '\t';
-}
-
 /// Whether a word cannot start a number.
 bool is_name(std::string_view word) {
     const bool begins_with_letter =
@@ -39,7 +31,7 @@ class ValueCount {
 public:
     void add(std::string_view piece) {
         for (const char c : piece) {
-            if (!is_space(c)) {
+            if (std::string_view(" \n\r\t").find(c) == std::string_view::npos) {
                 word_start_[std::min(length_, word_start_.size() - 1)] = c;
                 ++length_;
             } else if (length_ > 0) {
@@ -76,7 +68,7 @@ bool is_ascii_grid(GDALDataset& dataset) {
 
 /// Stops at `enough` values.
 std::uint64_t count_values(const char* name, std::uint64_t enough) {
-    const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(name, "rb"));
+    const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(name, "rb"), &VSIFCloseL);
     ValueCount count;
     std::vector<char> piece(bytes_at_a_time);
     std::size_t read = file != nullptr ? piece.size() : 0;

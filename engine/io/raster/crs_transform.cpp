@@ -35,7 +35,8 @@ std::optional<CrsTransform> CrsTransform::create(const OGRSpatialReference& from
         const auto& [west, south, east, north] = *area;
         options.SetAreaOfInterest(west, south, east, north);
     }
-    Transformation transform(OGRCreateCoordinateTransformation(&from, &to, options));
+    Transformation transform(OGRCreateCoordinateTransformation(&from, &to, options),
+                             &OGRCoordinateTransformation::DestroyCT);
     return transform != nullptr ? std::optional(CrsTransform(std::move(transform))) : std::nullopt;
 }
 

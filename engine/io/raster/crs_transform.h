@@ -37,12 +37,8 @@ public:
     void apply(std::span<glm::dvec2> points) const;
 
 private:
-    struct Deleter {
-        void operator()(OGRCoordinateTransformation* transform) const {
-            OGRCoordinateTransformation::DestroyCT(transform);
-        }
-    };
-    using Transformation = std::unique_ptr<OGRCoordinateTransformation, Deleter>;
+    using Transformation = std::unique_ptr<OGRCoordinateTransformation,
+                                           decltype(&OGRCoordinateTransformation::DestroyCT)>;
     explicit CrsTransform(Transformation transform) : transform_(std::move(transform)) {}
 
     Transformation transform_;

@@ -144,13 +144,13 @@ std::optional<geo::Georeference> georeference_of(GDALDataset& dataset,
         notes.push_back(
             fmt::format("positions are within {:.2g} m of its coordinate system's", fit->error));
     }
-    CrsWords words = words_of(crs);
+    CrsNames names = names_of(crs);
     return geo::Georeference{
-        std::move(words.name),
-        std::move(words.code),
+        std::move(names.name),
+        std::move(names.code),
         wkt_of(dataset.GetSpatialRef() != nullptr ? *dataset.GetSpatialRef() : crs),
         affine_of_samples(affine, closed(grid, place.closing)),
-        std::move(words.horizontal_unit),
+        std::move(names.horizontal_unit),
         vertical_datum_of(dataset),
         fit->map.closed(place.closing, grid.cols, grid.rows),
         std::nullopt};
@@ -169,7 +169,7 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
         notes.push_back(
             fmt::format("its coordinate system \"{}\" does not lead to WGS 84: treated as "
                         "without a place",
-                        words_of(crs).name));
+                        names_of(crs).name));
         return place;
     }
     std::array<glm::dvec2, 1> middle{middle_of(grid)};
@@ -221,7 +221,7 @@ Place place_without_crs(const std::optional<OGRSpatialReference>& local,
         place.spacing = *options.spacing * glm::abs(grid.step);
     } else if (local) {
         notes.push_back(fmt::format("its coordinate system \"{}\" names no place on Earth",
-                                    words_of(*local).name));
+                                    names_of(*local).name));
     } else if (has_own) {
         notes.push_back(fmt::format("no coordinate system: its coordinates are taken for metres, "
                                     "{:.6g} m spacing",
@@ -241,18 +241,6 @@ bool look_like_degrees(const geo::PixelAffine& affine, glm::dvec2 size) {
                           std::max(std::abs(first.y), std::abs(last.y)) <= 90.5;
     const bool from_zero = first.x == 0.0 && (first.y == 0.0 || last.y == 0.0);
     return small && on_globe && !from_zero;
-}
-
-Result<Place> with_good_spacing(Place place, const std::string& name) {
-    const glm::dvec2 spacing = place.spacing;
-    const auto fits = [](double side) {
-        return side >= terrain::min_spacing && side <= terrain::max_spacing;
-    };
-    if (fits(spacing.x) && fits(spacing.y)) {
-        return place;
-    }
-    return Error{fmt::format("{}: its samples are {} × {} m apart, {} to {} m were expected", name,
-                             spacing.x, spacing.y, terrain::min_spacing, terrain::max_spacing)};
 }
 
 } // namespace
@@ -324,30 +312,30 @@ std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
     return crs_from_text(wgs84_degrees);
 }
 
-CrsWords words_of(const OGRSpatialReference& given) {
+CrsNames names_of(const OGRSpatialReference& given) {
     const OGRSpatialReference crs = with_name(given);
     const auto text = [](const char* value) { return std::string(value != nullptr ? value : ""); };
-    CrsWords words;
+    CrsNames names;
     const char* unit = nullptr;
     if (crs.IsGeographic() != 0) {
         crs.GetAngularUnits(&unit);
     } else {
         crs.GetLinearUnits(&unit);
     }
-    words.horizontal_unit = text(unit);
-    words.name = text(crs.GetName());
+    names.horizontal_unit = text(unit);
+    names.name = text(crs.GetName());
     const char* authority = crs.GetAuthorityName(nullptr);
     const char* code = crs.GetAuthorityCode(nullptr);
     if (authority != nullptr && code != nullptr) {
-        words.code = fmt::format("{}:{}", authority, code);
-        return words;
+        names.code = fmt::format("{}:{}", authority, code);
+        return names;
     }
     const std::unique_ptr<OGRSpatialReference> match(crs.FindBestMatch(90, "EPSG", nullptr));
     if (match != nullptr && match->GetAuthorityCode(nullptr) != nullptr) {
-        words.name = text(match->GetName());
-        words.code = fmt::format("EPSG:{}", match->GetAuthorityCode(nullptr));
+        names.name = text(match->GetName());
+        names.code = fmt::format("EPSG:{}", match->GetAuthorityCode(nullptr));
     }
-    return words;
+    return names;
 }
 
 Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::string& name,
@@ -368,16 +356,23 @@ Result<Place> place_of(GDALDataset& dataset, const SampleGrid& grid, const std::
     if (!affine && dataset.GetGCPCount() > 0) {
         notes.emplace_back("is placed by ground control points, which are not used for heights");
     }
-    if (!crs || crs->IsLocal() != 0) {
-        return with_good_spacing(place_without_crs(crs, affine, grid, options, notes), name);
-    }
-    if (options.spacing) {
+    const bool on_earth = crs && crs->IsLocal() == 0;
+    if (on_earth && options.spacing) {
         return Error{
             fmt::format("{}: spacing {} was asked for, but the file's own is that of {}; none "
                         "was expected",
-                        name, *options.spacing, words_of(*crs).name)};
+                        name, *options.spacing, names_of(*crs).name)};
     }
-    return with_good_spacing(placed_on_earth(dataset, *crs, *affine, grid, notes), name);
+    Place place = on_earth ? placed_on_earth(dataset, *crs, *affine, grid, notes)
+                           : place_without_crs(crs, affine, grid, options, notes);
+    const auto fits = [](double spacing) {
+        return spacing >= min_spacing && spacing <= max_spacing;
+    };
+    if (!fits(place.spacing.x) || !fits(place.spacing.y)) {
+        return Error{fmt::format("{}: its samples are {} × {} m apart, {} to {} m were expected",
+                                 name, place.spacing.x, place.spacing.y, min_spacing, max_spacing)};
+    }
+    return place;
 }
 
 } // namespace reljef::io

@@ -33,12 +33,12 @@ std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
 /// Vertical datum ("EGM96 height") by CRS or format; empty if unknown.
 std::string vertical_datum_of(GDALDataset& dataset);
 
-struct CrsWords {
+struct CrsNames {
     std::string name;
     std::string code; ///< "EPSG:4326", or empty
     std::string horizontal_unit;
 };
-CrsWords words_of(const OGRSpatialReference& crs);
+CrsNames names_of(const OGRSpatialReference& crs);
 
 /// Position of a raster's samples.
 struct Place {

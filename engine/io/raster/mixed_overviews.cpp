@@ -26,7 +26,7 @@ double samples_of_band(GDALRasterBand& band) {
     return static_cast<double>(band.GetXSize()) * band.GetYSize();
 }
 
-/// The finest overview within `max_samples`, else the coarsest; null if that one is too large.
+/// The finest overview within `max_samples`, else the coarsest; null if it is too large.
 GDALRasterBand* small_overview(GDALRasterBand& band, double max_samples) {
     GDALRasterBand* finest = nullptr;
     GDALRasterBand* coarsest = nullptr;

@@ -20,7 +20,7 @@ Result<RasterInfo> read_raster_info(const std::filesystem::path& path) {
     info.type = GDALGetDataTypeName(band.GetRasterDataType());
     std::vector<std::string> ignored;
     if (const auto crs = horizontal_crs(dataset, ignored)) {
-        info.crs_name = words_of(*crs).name;
+        info.crs_name = names_of(*crs).name;
     }
     return info;
 }

@@ -273,7 +273,7 @@ std::string SampleDecoder::undeclared_voids_note() const {
                                        fmt::join(found, " and "));
 }
 
-std::vector<std::string> SampleDecoder::found_words() const {
+std::vector<std::string> SampleDecoder::found_notes() const {
     std::vector<std::string> words;
     if (found_sentinels_ > 0) {
         words.emplace_back("undeclared -32768 or -32767, taken for voids");

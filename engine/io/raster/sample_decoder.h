@@ -59,7 +59,7 @@ public:
     /// Values read as heights that may be voids; may be empty.
     [[nodiscard]] std::string doubtful_heights_note() const;
     /// Both as short notes without counts, for repeated reads of parts.
-    [[nodiscard]] std::vector<std::string> found_words() const;
+    [[nodiscard]] std::vector<std::string> found_notes() const;
 
 private:
     [[nodiscard]] double metres(double value);

@@ -54,7 +54,7 @@ Source source_of(GDALDataset& dataset, const ReadPlan& plan, int bands) {
     return source;
 }
 
-/// Reads tiles of stored values, `taps` of every `plan.reduction` a side.
+/// Reads tiles of stored values, `taps` of `plan.reduction` per side.
 class TileContentReader {
 public:
     TileContentReader(Source source, const ReadPlan& plan)
@@ -286,7 +286,7 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
         !read) {
         return read.error();
     }
-    for (std::string& words : decoder->found_words()) {
+    for (std::string& words : decoder->found_notes()) {
         notes.push_back(std::move(words));
     }
     return heights;

@@ -39,7 +39,7 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
                              const RasterOptions& options, const GdalMessages& messages,
                              std::vector<std::string>& notes);
 
-/// As read_samples in double precision; void_value at voids. Notes: SampleDecoder::found_words.
+/// As read_samples in double precision; void_value at voids. Notes: SampleDecoder::found_notes.
 Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const std::string& name, const RasterOptions& options,
                                   const GdalMessages& messages, std::vector<std::string>& notes);

@@ -86,7 +86,7 @@ struct FolderLevel {
 FolderLevel finest_level(const fs::path& folder) {
     FolderLevel found;
     const int level = numbers_in(folder, max_levels + 1).high;
-    const int count = level < 0 ? 0 : 1 << level; // tiles a side
+    const int count = level < 0 ? 0 : 1 << level; // tiles per side
     for (const NumberedEntry& column : numbered_entries(folder / std::to_string(level), count)) {
         const TileNumbers rows = numbers_in(column.path, count);
         if (rows.high >= 0) {
@@ -181,7 +181,7 @@ double encoded_height(HeightEncoding encoding, double red, double green, double 
 
 bool may_be_heights(std::span<const double> red, std::span<const double> green,
                     std::span<const double> blue) {
-    // So many encoded heights in a row are grey only on level ground.
+    // Only level ground has that many grey heights in a row.
     constexpr int max_grey = 32;
     constexpr int max_steps = 2;
     int grey = 0;
