@@ -13,7 +13,7 @@ namespace {
 // The sides of a detail texture that `cone` searches.
 std::vector<material::KnownCones> sides_of(const scene::Technique& technique) {
     const bool wraps =
-        technique.options.border.value_or(scene::BorderRule::wrap) == scene::BorderRule::wrap;
+        technique.options.border.value_or(material::WrapMode::wrap) == material::WrapMode::wrap;
     const auto border = wraps ? material::WrapMode::wrap : material::WrapMode::clamp;
     std::vector<material::KnownCones> sides{{border, false, nullptr}};
     if (technique.options.two_sided) {

@@ -8,7 +8,7 @@
 
 namespace reljef::scene {
 
-/// A number of a technique or an option that the user may set: one row of the table.
+/// A number of a technique or an option: one row of the table.
 struct NumberInfo {
     std::string_view name; ///< the key that a user types
     double default_value = 0.0;
@@ -16,8 +16,8 @@ struct NumberInfo {
     double high = 0.0;  ///< largest allowed value
     bool whole = false; ///< whole numbers only
     std::string_view meaning;
-    bool is_tacit = false; ///< named in a technique's text only where it is not the default
-    /// Where it exceeds `low`: the smallest allowed value except `low` itself.
+    bool is_tacit = false; ///< part of a technique's text only if it differs from its default
+    /// If it exceeds `low`: the smallest allowed value except `low` itself.
     double min_above_low = std::numeric_limits<double>::lowest();
 
     [[nodiscard]] constexpr bool allows(double value) const {
@@ -28,8 +28,8 @@ struct NumberInfo {
     }
 };
 
-/// The row of a member: its default is the struct's own, and a member that holds no fractions is
-/// whole. A bool goes from 0 to 1.
+/// Completes the row of a member: its default is the struct's; integers are whole; a bool is 0 or
+/// 1.
 template <class Owner, class Value>
 constexpr NumberInfo number_of(Value Owner::*member, NumberInfo row) {
     row.default_value = static_cast<double>(Owner{}.*member);
@@ -41,7 +41,7 @@ constexpr NumberInfo number_of(Value Owner::*member, NumberInfo row) {
     return row;
 }
 
-/// A number that its row allows; fails with `subject`, the number's name, what was found and what
+/// Parses a number that its row allows. Errors name `subject`, the number, what was found and what
 /// was expected.
 Result<double> parse_number(std::string_view subject, const NumberInfo& number,
                             std::string_view text);

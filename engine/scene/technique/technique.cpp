@@ -11,21 +11,21 @@
 namespace reljef::scene {
 namespace {
 
-std::vector<std::string_view> names_of(const auto& infos) {
+std::string names_of(const auto& infos) {
     std::vector<std::string_view> names;
     std::transform(infos.begin(), infos.end(), std::back_inserter(names),
                    [](const auto& info) { return info.name; });
-    return names;
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Null where there is none of that name.
+// Null if no row has the name.
 auto named(const auto& infos, std::string_view name) {
     const auto found = std::find_if(infos.begin(), infos.end(),
                                     [&](const auto& info) { return info.name == name; });
     return found == infos.end() ? nullptr : &*found;
 }
 
-// Splits at the first `separator`; the second part is empty where there is none.
+// Splits at the first `separator`; without one the second part is empty.
 std::pair<std::string_view, std::string_view> split(std::string_view text, char separator) {
     const auto at = text.find(separator);
     return at == std::string_view::npos ? std::pair{text, std::string_view{}}
@@ -41,7 +41,7 @@ Result<void> set_parameter(Technique& technique, std::string_view assignment) {
                    ? Error{fmt::format("technique {}: parameter '{}' found, it has none", info.name,
                                        key)}
                    : Error{fmt::format("technique {}: parameter '{}' found, one of {} was expected",
-                                       info.name, key, fmt::join(names_of(info.parameters), ", "))};
+                                       info.name, key, names_of(info.parameters))};
     }
     const auto value = parse_number(fmt::format("technique {}", info.name), *parameter, text);
     if (!value) {
@@ -51,8 +51,8 @@ Result<void> set_parameter(Technique& technique, std::string_view assignment) {
     return {};
 }
 
-// Takes the next assignment off the list: up to a comma, or, of an option, up to the comma before
-// the next '='.
+// Removes the first assignment from the list. It ends at a comma; the assignment of an option ends
+// at the comma before the next '='.
 std::string_view take_assignment(std::string_view& list) {
     auto end = std::min(list.find(','), list.size());
     if (is_option(list.substr(0, end)) && end < list.size()) {
@@ -65,7 +65,7 @@ std::string_view take_assignment(std::string_view& list) {
     return assignment;
 }
 
-// Sets a parameter or an option; `seen` are the options set so far.
+// Sets a parameter or an option; `seen`: the names set so far.
 Result<void> assign(Technique& technique, std::string_view assignment,
                     std::vector<std::string_view>& seen) {
     const auto name = split(assignment, '=').first;
@@ -88,7 +88,6 @@ bool is_replaced(const Technique& technique, const ParameterInfo& parameter) {
     return other != nullptr && !is_default(technique, *other);
 }
 
-// Pointer to const in const parameters.
 template <class Parameters> auto offset_in(Parameters& parameters) {
     if (auto* const parallax = std::get_if<Parallax>(&parameters)) {
         return &parallax->offset;
@@ -100,7 +99,7 @@ template <class Parameters> auto offset_in(Parameters& parameters) {
     return iterated == nullptr ? nullptr : &iterated->offset;
 }
 
-// What no parameter shows by itself.
+// Fails on parameters that exclude each other.
 Result<Technique> without_contradiction(const Technique& technique) {
     const TechniqueInfo& info = technique_info(technique.id());
     for (const ParameterInfo& parameter : info.parameters) {
@@ -115,7 +114,7 @@ Result<Technique> without_contradiction(const Technique& technique) {
 } // namespace
 
 TechniqueId Technique::id() const {
-    return std::visit([](const auto& kind) { return kind.id; }, parameters);
+    return static_cast<TechniqueId>(parameters.index());
 }
 
 Geometry geometry_of(TechniqueId id) {
@@ -182,7 +181,7 @@ Result<Technique> parse_technique(std::string_view text) {
     const TechniqueInfo* const info = named(technique_catalogue(), name);
     if (info == nullptr) {
         return Error{fmt::format("technique '{}' found, one of {} was expected", name,
-                                 fmt::join(names_of(technique_catalogue()), ", "))};
+                                 names_of(technique_catalogue()))};
     }
     Technique technique = make_technique(info->id);
     if (text.ends_with(':') || text.ends_with(',')) {

@@ -68,7 +68,6 @@ constexpr std::array iterated_parameters{
     parameter_row<&ParallaxIterated::iterations>(
         {.name = "k", .low = 1.0, .high = 64.0, .meaning = "times the height is looked at again"})};
 
-// The parameter n of those that take equal steps.
 template <class Kind>
 constexpr ParameterInfo linear_steps_parameter = parameter_row<&Kind::linear_steps>(
     {.name = "n", .low = 1.0, .high = max_step_count, .meaning = "equal steps along the ray"});
@@ -92,7 +91,6 @@ constexpr std::array pom_parameters{
                                     .high = max_step_count,
                                     .meaning = "equal steps seen along the ground"})};
 
-// The parameter k of those that end with a chord.
 template <class Kind>
 constexpr ParameterInfo halvings_parameter = parameter_row<&Kind::bisection_steps>(
     {.name = "k", .high = max_halvings, .meaning = "times the bracket is halved before the chord"});
@@ -122,7 +120,6 @@ constexpr std::array emboss_parameters{
                                    .high = 64.0,
                                    .meaning = "texels towards the light to the second height"})};
 
-// What is told of a technique beside its parameters.
 struct TechniqueText {
     std::string_view name;
     std::string_view meaning;
@@ -132,7 +129,13 @@ struct TechniqueText {
 template <class Kind>
 constexpr TechniqueInfo technique_row(const TechniqueText& text,
                                       std::span<const ParameterInfo> parameters = {}) {
-    return {Kind::id, text.name, text.meaning, text.source, Kind{}, parameters};
+    const TechniqueParameters defaults = Kind{};
+    return {static_cast<TechniqueId>(defaults.index()),
+            text.name,
+            text.meaning,
+            text.source,
+            defaults,
+            parameters};
 }
 
 constexpr std::array catalogue{

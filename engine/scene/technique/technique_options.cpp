@@ -13,7 +13,6 @@
 namespace reljef::scene {
 namespace {
 
-// A number of an option that is there or not.
 template <auto option, auto member>
 std::optional<double> option_number(const TechniqueOptions& options) {
     const auto& held = options.*option;
@@ -72,38 +71,26 @@ constexpr std::array<std::string_view, 3> shadow_words{"none", "hard", "soft"};
 constexpr std::array<std::string_view, 2> edges_words{"none", "smooth"};
 constexpr std::array<std::string_view, 2> sides_words{"one", "two"};
 
-struct BorderWord {
-    std::string_view word;
-    BorderRule rule;
-};
-constexpr std::array<BorderWord, 3> border_rules{
-    {{"wrap", BorderRule::wrap}, {"clamp", BorderRule::clamp}, {"discard", BorderRule::discard}}};
-constexpr std::array border_words{border_rules[0].word, border_rules[1].word, border_rules[2].word};
-
+constexpr std::array<std::string_view, 3> border_words{"wrap", "clamp", "discard"};
 constexpr std::array<std::string_view, 2> depth_words{"none", "write"};
 constexpr std::array<std::string_view, 2> silhouettes_words{"none", "true"};
 
-// Of an option that is there or not, and has one value beside.
+// For an option that is off by default and on with the word at `place`.
 template <auto option, std::size_t place>
-std::optional<std::size_t> chosen_if_there(const TechniqueOptions& options) {
+std::optional<std::size_t> chosen_if_on(const TechniqueOptions& options) {
     return options.*option ? std::optional(place) : std::nullopt;
 }
 
 template <auto option, std::size_t place>
-void choose_if_there(TechniqueOptions& options, std::optional<std::size_t> word) {
+void switch_on(TechniqueOptions& options, std::optional<std::size_t> word) {
     auto& held = options.*option;
-    held.reset();
-    if (word == place) {
+    if constexpr (std::is_same_v<decltype(held), bool&>) {
+        held = word == place;
+    } else if (word == place) {
         held.emplace();
+    } else {
+        held.reset();
     }
-}
-
-template <auto flag> std::optional<std::size_t> chosen_flag(const TechniqueOptions& options) {
-    return options.*flag ? std::optional<std::size_t>(1) : std::nullopt;
-}
-
-template <auto flag> void choose_flag(TechniqueOptions& options, std::optional<std::size_t> word) {
-    options.*flag = word == 1U;
 }
 
 constexpr std::size_t hard_word = 1;
@@ -123,22 +110,13 @@ void choose_shadow(TechniqueOptions& options, std::optional<std::size_t> word) {
     }
 }
 
+// The words of `border` are in the order of WrapMode.
 std::optional<std::size_t> chosen_border(const TechniqueOptions& options) {
-    const auto* const found =
-        std::find_if(border_rules.begin(), border_rules.end(),
-                     [&](const BorderWord& row) { return row.rule == options.border; });
-    return found == border_rules.end()
-               ? std::nullopt
-               : std::optional(static_cast<std::size_t>(found - border_rules.begin()));
+    return options.border ? std::optional(static_cast<std::size_t>(*options.border)) : std::nullopt;
 }
 
 void choose_border(TechniqueOptions& options, std::optional<std::size_t> word) {
-    options.border = word ? std::optional(border_rules[*word].rule) : std::nullopt;
-}
-
-bool looks_once(TechniqueId id) {
-    return id == TechniqueId::parallax || id == TechniqueId::parallax_limited ||
-           id == TechniqueId::parallax_iterated;
+    options.border = word ? std::optional(static_cast<material::WrapMode>(*word)) : std::nullopt;
 }
 
 std::string_view reason_without_ray(TechniqueId id) {
@@ -146,7 +124,9 @@ std::string_view reason_without_ray(TechniqueId id) {
 }
 
 std::string_view reason_without_path(TechniqueId id) {
-    return looks_once(id) ? "it follows no ray; relief and exact do" : reason_without_ray(id);
+    const bool is_parallax = id == TechniqueId::parallax || id == TechniqueId::parallax_limited ||
+                             id == TechniqueId::parallax_iterated;
+    return is_parallax ? "it follows no ray; relief and exact do" : reason_without_ray(id);
 }
 
 std::string_view reason_against_steps(TechniqueId id) {
@@ -190,19 +170,17 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .default_value = "as many as the technique has",
       .meaning = "equal steps by the angle of view: n = min + (max - min)(1 - cos a)",
       .source = "GPU surface-detail survey (2008) ch. 3.6.4",
-      .words = {},
       .numbers = steps_numbers,
-      .chosen = chosen_if_there<steps_member, 0>,
-      .choose = choose_if_there<steps_member, 0>,
+      .chosen = chosen_if_on<steps_member, 0>,
+      .choose = switch_on<steps_member, 0>,
       .reason_against = reason_against_steps},
      {.name = "fade",
       .default_value = "1..1",
       .meaning = "heights by the angle of view: s times min + (max - min)(1 - (1 - cos a)^k)",
       .source = "GPU surface-detail survey (2008) ch. 3.6.4",
-      .words = {},
       .numbers = fade_numbers,
-      .chosen = chosen_if_there<fade_member, 0>,
-      .choose = choose_if_there<fade_member, 0>,
+      .chosen = chosen_if_on<fade_member, 0>,
+      .choose = switch_on<fade_member, 0>,
       .reason_against = reason_without_ray},
      {.name = "shadow",
       .default_value = "none",
@@ -222,35 +200,30 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .source = "GPU surface-detail survey (2008) ch. 3.6.7",
       .words = edges_words,
       .numbers = edges_numbers,
-      .chosen = chosen_if_there<&TechniqueOptions::smooth_edges, 1>,
-      .choose = choose_if_there<&TechniqueOptions::smooth_edges, 1>,
+      .chosen = chosen_if_on<&TechniqueOptions::smooth_edges, 1>,
+      .choose = switch_on<&TechniqueOptions::smooth_edges, 1>,
       .reason_against = reason_against_edges},
      {.name = "sides",
       .default_value = "one",
       .meaning = "two: a detail tile is seen from behind too, heights inverted, normals negated",
       .source = "GPU surface-detail survey (2008) ch. 3.6.8",
       .words = sides_words,
-      .numbers = {},
-      .chosen = chosen_flag<&TechniqueOptions::two_sided>,
-      .choose = choose_flag<&TechniqueOptions::two_sided>,
+      .chosen = chosen_if_on<&TechniqueOptions::two_sided, 1>,
+      .choose = switch_on<&TechniqueOptions::two_sided, 1>,
       .reason_against = reason_against_sides},
      {.name = "border",
       .default_value = "as the tile has",
       .meaning = "what lies beyond a detail tile: its copies, its border drawn out, nothing",
-      .source = "",
       .words = border_words,
-      .numbers = {},
       .chosen = chosen_border,
       .choose = choose_border,
       .reason_against = reason_against_border},
      {.name = "depth",
       .default_value = "none",
       .meaning = "write: the depth of the hit, so that meshes cut the relief where it is seen",
-      .source = "",
       .words = depth_words,
-      .numbers = {},
-      .chosen = chosen_flag<&TechniqueOptions::writes_depth>,
-      .choose = choose_flag<&TechniqueOptions::writes_depth>,
+      .chosen = chosen_if_on<&TechniqueOptions::writes_depth, 1>,
+      .choose = switch_on<&TechniqueOptions::writes_depth, 1>,
       .reason_against = reason_without_ray},
      {.name = "silhouettes",
       .default_value = "none",
@@ -258,9 +231,8 @@ constexpr std::array<OptionInfo, 8> option_infos{
                  "has met nothing: its outline is that of its heights, its depth that of the hit",
       .source = "Hirche, Ehlert, Guthe and Doggett 2004; Porumbescu, Budge, Feng and Joy 2005",
       .words = silhouettes_words,
-      .numbers = {},
-      .chosen = chosen_flag<&TechniqueOptions::true_silhouettes>,
-      .choose = choose_flag<&TechniqueOptions::true_silhouettes>,
+      .chosen = chosen_if_on<&TechniqueOptions::true_silhouettes, 1>,
+      .choose = switch_on<&TechniqueOptions::true_silhouettes, 1>,
       .reason_against = reason_against_silhouettes_of}}};
 
 static_assert(std::all_of(option_infos.begin(), option_infos.end(),
@@ -272,7 +244,7 @@ static_assert(std::all_of(option_infos.begin(), option_infos.end(),
                           }),
               "every default lies in its range");
 
-// One assignment: key=value,more.
+// key=value,more
 struct Assignment {
     std::string_view key;
     std::string_view value;
@@ -299,8 +271,8 @@ Error unexpected(const OptionInfo& info, const Assignment& found) {
         found.more ? fmt::format(",{}", *found.more) : std::string(), info.name, form_of(info))};
 }
 
-// The numbers behind its range, or behind its last word.
-std::span<const OptionNumberInfo> numbers_behind(const OptionInfo& info) {
+// The numbers after the range or the last word.
+std::span<const OptionNumberInfo> numbers_after(const OptionInfo& info) {
     return info.words.empty() ? info.numbers.subspan(2) : info.numbers;
 }
 
@@ -309,13 +281,12 @@ Result<double> number_in(const OptionInfo& info, const OptionNumberInfo& number,
     return parse_number(fmt::format("option {}", info.name), number, text);
 }
 
-// Sets the number behind a word or a range, where there is one: its row is there.
-Result<void> set_behind(TechniqueOptions& options, const OptionInfo& info,
-                        const Assignment& found) {
+// Sets the number after a word or a range. Precondition: the option has one if `found.more`.
+Result<void> set_after(TechniqueOptions& options, const OptionInfo& info, const Assignment& found) {
     if (!found.more) {
         return {};
     }
-    const OptionNumberInfo& number = numbers_behind(info).front();
+    const OptionNumberInfo& number = numbers_after(info).front();
     const auto value = number_in(info, number, *found.more);
     if (!value) {
         return value.error();
@@ -343,13 +314,13 @@ Result<void> set_range(TechniqueOptions& options, const OptionInfo& info, const 
         return Error{fmt::format("option {}: {}..{} found, the smaller number first was expected",
                                  info.name, low_text, *high_text)};
     }
-    if (found.more && numbers_behind(info).empty()) {
+    if (found.more && numbers_after(info).empty()) {
         return unexpected(info, found);
     }
     info.choose(options, 0);
     low.set(options, *low_value);
     high.set(options, *high_value);
-    return set_behind(options, info, found);
+    return set_after(options, info, found);
 }
 
 Result<void> set_word(TechniqueOptions& options, const OptionInfo& info, const Assignment& found) {
@@ -360,7 +331,7 @@ Result<void> set_word(TechniqueOptions& options, const OptionInfo& info, const A
         return unexpected(info, found);
     }
     info.choose(options, word);
-    return set_behind(options, info, found);
+    return set_after(options, info, found);
 }
 
 const OptionInfo* option_named(std::string_view name) {
@@ -379,7 +350,7 @@ std::string value_text(const OptionInfo& info, std::size_t word, const Technique
     if (!is_range && word + 1 < info.words.size()) {
         return text;
     }
-    for (const OptionNumberInfo& number : numbers_behind(info)) {
+    for (const OptionNumberInfo& number : numbers_after(info)) {
         const double value = *number.get(options);
         const bool is_usual = number.is_tacit && value == number.default_value;
         text += is_usual ? "" : fmt::format(",{}", value);
@@ -406,7 +377,7 @@ std::string form_of(const OptionInfo& info) {
     std::string form = info.words.empty()
                            ? fmt::format("{}..{}", info.numbers[0].name, info.numbers[1].name)
                            : fmt::format("{}", fmt::join(info.words, "|"));
-    for (const OptionNumberInfo& number : numbers_behind(info)) {
+    for (const OptionNumberInfo& number : numbers_after(info)) {
         form += fmt::format("[,{}]", number.name);
     }
     return form;

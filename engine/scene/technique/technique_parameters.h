@@ -5,7 +5,7 @@
 
 namespace reljef::scene {
 
-/// The name of a technique, for tables and sets.
+/// The techniques, in the order of TechniqueParameters.
 enum class TechniqueId {
     texture,
     polygons,
@@ -28,150 +28,89 @@ enum class TechniqueId {
     multi_layer,
 };
 
-// One struct for each technique: its parameters with their defaults. technique_catalogue.h has
-// their ranges, and their names on the command line.
+// One struct per technique: its parameters with their defaults. technique_catalogue.cpp has their
+// meanings, ranges and names on the command line.
 
-/// Colour over the flat reference surface.
-struct Texture {
-    static constexpr TechniqueId id = TechniqueId::texture;
-    friend auto operator<=>(const Texture&, const Texture&) = default;
+template <TechniqueId> struct NoParameters {
+    friend auto operator<=>(const NoParameters&, const NoParameters&) = default;
 };
+using Texture = NoParameters<TechniqueId::texture>;
+using Exact = NoParameters<TechniqueId::exact>;
+using Bump = NoParameters<TechniqueId::bump>;
+using Normal = NoParameters<TechniqueId::normal>;
+using Prewarp = NoParameters<TechniqueId::prewarp>;
 
-/// The heightfield as triangles: all, fewer by distance, or as few as an error allows.
 struct Polygons {
-    static constexpr TechniqueId id = TechniqueId::polygons;
     int max_levels = 1; ///< by distance; 1: every sample is a vertex
     double error = 0.0; ///< bound in pixels, instead of levels; 0: by levels
     bool morph = false; ///< with an error: vertices move to their places step by step
     friend auto operator<=>(const Polygons&, const Polygons&) = default;
 };
 
-/// One look at the height shifts the place.
-struct Parallax {
-    static constexpr TechniqueId id = TechniqueId::parallax;
+template <TechniqueId> struct SingleParallax {
     double offset = -0.5; ///< minus the height of the reference plane, [-1, 0]
-    friend auto operator<=>(const Parallax&, const Parallax&) = default;
+    friend auto operator<=>(const SingleParallax&, const SingleParallax&) = default;
 };
+using Parallax = SingleParallax<TechniqueId::parallax>;
+using ParallaxLimited = SingleParallax<TechniqueId::parallax_limited>;
 
-/// Parallax by no more than the height.
-struct ParallaxLimited {
-    static constexpr TechniqueId id = TechniqueId::parallax_limited;
-    double offset = -0.5; ///< as of Parallax
-    friend auto operator<=>(const ParallaxLimited&, const ParallaxLimited&) = default;
-};
-
-/// Parallax again from where the last look led.
 struct ParallaxIterated {
-    static constexpr TechniqueId id = TechniqueId::parallax_iterated;
-    double offset = -0.5; ///< as of Parallax
+    double offset = -0.5; ///< minus the height of the reference plane, [-1, 0]
     int iterations = 3;
     friend auto operator<=>(const ParallaxIterated&, const ParallaxIterated&) = default;
 };
 
-/// Equal steps along the ray.
 struct Steep {
-    static constexpr TechniqueId id = TechniqueId::steep;
     int linear_steps = 32;
     friend auto operator<=>(const Steep&, const Steep&) = default;
 };
 
-/// Equal steps, then bisection.
 struct Relief {
-    static constexpr TechniqueId id = TechniqueId::relief;
     int linear_steps = 11;
     int bisection_steps = 8;
     friend auto operator<=>(const Relief&, const Relief&) = default;
 };
 
-/// Equal steps, then chords.
 struct Interval {
-    static constexpr TechniqueId id = TechniqueId::interval;
     int linear_steps = 14;
     int secant_steps = 2;
     friend auto operator<=>(const Interval&, const Interval&) = default;
 };
 
-/// Steps by the angle of view, then one chord.
 struct Pom {
-    static constexpr TechniqueId id = TechniqueId::pom;
     int min_steps = 8;  ///< seen from straight above
     int max_steps = 32; ///< seen along the ground
     friend auto operator<=>(const Pom&, const Pom&) = default;
 };
 
-/// From empty cone to empty cone.
 struct Cone {
-    static constexpr TechniqueId id = TechniqueId::cone;
-    bool relaxed = true; ///< cones that a ray may meet the surface in once
+    bool relaxed = true; ///< relaxed cones: a ray inside one meets the surface at most once
     int max_steps = 32;
-    int bisection_steps = 2; ///< before the chord
-    double min_step = 1.5;   ///< samples; 0: passes over nothing
+    int bisection_steps = 2; ///< before the secant step
+    double min_step = 1.5;   ///< samples; 0: a step never jumps over anything
     friend auto operator<=>(const Cone&, const Cone&) = default;
 };
 
-/// The true first hit.
-struct Exact {
-    static constexpr TechniqueId id = TechniqueId::exact;
-    friend auto operator<=>(const Exact&, const Exact&) = default;
-};
-
-/// The vertices of a mesh cut fine, moved by the height.
 struct Displacement {
-    static constexpr TechniqueId id = TechniqueId::displacement;
-    double max_texels = 4.0; ///< of the heights between two vertices
+    double max_texels = 4.0; ///< texels of the heights between two vertices
     friend auto operator<=>(const Displacement&, const Displacement&) = default;
 };
 
-/// Lit by the height's derivatives.
-struct Bump {
-    static constexpr TechniqueId id = TechniqueId::bump;
-    friend auto operator<=>(const Bump&, const Bump&) = default;
-};
-
-/// Lit by the difference of two heights.
 struct Emboss {
-    static constexpr TechniqueId id = TechniqueId::emboss;
-    double delta = 1.5; ///< texels between the two, towards the light
+    double delta = 1.5; ///< texels between the two heights, towards the light
     friend auto operator<=>(const Emboss&, const Emboss&) = default;
 };
 
-/// Lit by a normal map.
-struct Normal {
-    static constexpr TechniqueId id = TechniqueId::normal;
-    friend auto operator<=>(const Normal&, const Normal&) = default;
-};
-
-/// The surface warped onto the reference plane beforehand.
-struct Prewarp {
-    static constexpr TechniqueId id = TechniqueId::prewarp;
-    friend auto operator<=>(const Prewarp&, const Prewarp&) = default;
-};
-
-/// A sheet with holes.
-struct Lattice {
-    static constexpr TechniqueId id = TechniqueId::lattice;
+template <TechniqueId> struct LayerSearch {
     int linear_steps = 32;
-    int bisection_steps = 6; ///< before the chord
-    friend auto operator<=>(const Lattice&, const Lattice&) = default;
+    int bisection_steps = 6; ///< before the secant step
+    friend auto operator<=>(const LayerSearch&, const LayerSearch&) = default;
 };
+using Lattice = LayerSearch<TechniqueId::lattice>;
+using DualLayer = LayerSearch<TechniqueId::dual_layer>;
+using MultiLayer = LayerSearch<TechniqueId::multi_layer>;
 
-/// A sheet with another back.
-struct DualLayer {
-    static constexpr TechniqueId id = TechniqueId::dual_layer;
-    int linear_steps = 32;
-    int bisection_steps = 6; ///< before the chord
-    friend auto operator<=>(const DualLayer&, const DualLayer&) = default;
-};
-
-/// Two solids, one over the other.
-struct MultiLayer {
-    static constexpr TechniqueId id = TechniqueId::multi_layer;
-    int linear_steps = 32;
-    int bisection_steps = 6; ///< before the chord
-    friend auto operator<=>(const MultiLayer&, const MultiLayer&) = default;
-};
-
-/// Which technique, and its parameters.
+/// A technique and its parameters, in the order of TechniqueId.
 using TechniqueParameters =
     std::variant<Texture, Polygons, Parallax, ParallaxLimited, ParallaxIterated, Steep, Relief,
                  Interval, Pom, Cone, Exact, Displacement, Bump, Emboss, Normal, Prewarp, Lattice,

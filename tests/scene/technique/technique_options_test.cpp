@@ -120,7 +120,7 @@ TEST(TechniqueOptions, AllOfThemAreReadInAnyOrderAmongTheParameters) {
                                     Shadow{0.3},
                                     SmoothEdges{0.05},
                                     true,
-                                    BorderRule::wrap,
+                                    material::WrapMode::wrap,
                                     true};
     const Technique relief{Relief{.linear_steps = 12, .bisection_steps = 7}, expected};
     EXPECT_EQ(*technique, relief);
@@ -137,9 +137,9 @@ TEST(TechniqueOptions, NumbersThatAreLeftOutAreTheDefault) {
 }
 
 TEST(TechniqueOptions, EachWordOfTheBorderIsItsRule) {
-    for (const auto& [word, rule] :
-         {std::pair{"wrap", BorderRule::wrap}, std::pair{"clamp", BorderRule::clamp},
-          std::pair{"discard", BorderRule::discard}}) {
+    for (const auto& [word, rule] : {std::pair{"wrap", material::WrapMode::wrap},
+                                     std::pair{"clamp", material::WrapMode::clamp},
+                                     std::pair{"discard", material::WrapMode::discard}}) {
         const TechniqueOptions options = parsed(std::string("relief:border=") + word);
         EXPECT_EQ(options.border, rule) << word;
         EXPECT_EQ(to_string(options), std::string(",border=") + word);
