@@ -8,7 +8,6 @@
 #include "engine/core/process_memory.h"
 #include "engine/core/statistics.h"
 #include "engine/core/stopwatch.h"
-#include "engine/session/ground.h"
 #include "engine/session/streaming.h"
 
 namespace reljef::session {

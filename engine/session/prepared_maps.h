@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
-#include <string>
 
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"

@@ -7,7 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/render/driver.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/view/frame_selector.h"
+#include "engine/view/select.h"
 
 namespace reljef::session {
 

@@ -11,7 +11,7 @@
 #include "engine/scene/tile_stream.h"
 #include "engine/session/log.h"
 #include "engine/session/terrain_source.h"
-#include "engine/view/frame_selector.h"
+#include "engine/view/select.h"
 
 namespace reljef::session {
 

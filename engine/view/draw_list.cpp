@@ -5,34 +5,25 @@
 namespace reljef::view {
 
 Result<void> check_techniques(const DrawList& list) {
-    const scene::TerrainNode* checked = nullptr;
-    const auto check_node = [&](const scene::TerrainNode& terrain) -> Result<void> {
-        if (std::exchange(checked, &terrain) == &terrain) {
-            return {};
+    Result<void> checked;
+    const scene::TerrainNode* last = nullptr;
+    const auto check_terrains = [&](const auto& draws) {
+        for (const auto& draw : draws) {
+            if (checked && std::exchange(last, draw.terrain) != draw.terrain) {
+                const scene::TerrainNode& node = *draw.terrain;
+                checked = scene::check_technique(node.material.technique, *node.surface);
+            }
         }
-        return scene::check_technique(terrain.material.technique, *terrain.surface);
     };
-    for (const TileDraw& draw : list.tiles) {
-        if (auto good = check_node(*draw.terrain); !good) {
-            return good;
-        }
-    }
-    for (const StreamedDraw& draw : list.streamed_tiles) {
-        if (auto good = check_node(*draw.terrain); !good) {
-            return good;
-        }
-    }
-    for (const ReliefDraw& draw : list.reliefs) {
-        if (auto good = check_node(*draw.terrain); !good) {
-            return good;
-        }
-    }
+    check_terrains(list.tiles);
+    check_terrains(list.streamed_tiles);
+    check_terrains(list.reliefs);
     for (const MeshDraw& draw : list.meshes) {
-        if (auto good = scene::check_technique(draw.mesh->material.technique, *draw.mesh); !good) {
-            return good;
+        if (checked) {
+            checked = scene::check_technique(draw.mesh->material.technique, *draw.mesh);
         }
     }
-    return {};
+    return checked;
 }
 
 std::optional<scene::TerrainLight> light_on(const DrawList& list,

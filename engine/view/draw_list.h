@@ -19,45 +19,46 @@
 
 namespace reljef::view {
 
-/// How coarse a terrain's tiles may be: as coarse as the view allows, or patches by their level
-/// (terrain/patch_mesh.h).
+/// How coarse a terrain's tiles may be: by error, or by the levels of patches
+/// (terrain/mesh/patch_mesh.h).
 using Coarseness = std::variant<terrain::ErrorView, Grid<std::uint8_t>>;
+
+// Distances are metres from the eye to the nearest point of the bounds.
 
 /// One terrain tile to draw.
 struct TileDraw {
     const scene::TerrainNode* terrain = nullptr;
-    double distance = 0.0;                  ///< from the eye to its bounds' nearest point, metres
+    double distance = 0.0;
     int transform = 0;                      ///< index into DrawList::transforms
     int tile = 0;                           ///< index into the surface's tiles
-    DetailLevel detail = DetailLevel::none; ///< of what lies over the terrain
+    DetailLevel detail = DetailLevel::none; ///< of the detail tile over the terrain
     bool flat = false;                      ///< the reference surface instead of the heightfield
-    bool coarse = false; ///< as DrawList::coarse_terrains says, instead of every sample
+    bool coarse = false;                    ///< see DrawList::coarse_terrains
 };
 
-/// One terrain whose tiles need not have every sample as a vertex.
+/// One terrain whose tiles need not have a vertex at every sample.
 struct CoarseTerrain {
     const scene::TerrainNode* terrain = nullptr;
     Coarseness coarseness;
 };
 
-/// One terrain whose surface each pixel looks for along its ray.
+/// One terrain whose pixels search for the surface along their rays.
 struct ReliefDraw {
     const scene::TerrainNode* terrain = nullptr;
     glm::dmat4 world_from_local{1.0};
-    double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
+    double distance = 0.0;
 };
 
-/// One tile of a terrain that is read part by part.
+/// One tile of a streamed terrain.
 struct StreamedDraw {
     const scene::TerrainNode* terrain = nullptr;
     glm::dmat4 world_from_local{1.0};
     std::shared_ptr<const scene::StreamedTile> tile;
-    bool flat = false;                      ///< on the reference surface instead of its heights
-    double distance = 0.0;                  ///< from the eye to its bounds' nearest point, metres
-    DetailLevel detail = DetailLevel::none; ///< of what lies over the terrain
-    double error = 0.0; ///< that its vertices are seen off by, an estimate, pixels
-    /// Behind nearer ground: drawn by itself, as the tiles around it need not meet it.
-    bool is_hidden = false;
+    bool flat = false; ///< the reference surface instead of its heights
+    double distance = 0.0;
+    DetailLevel detail = DetailLevel::none; ///< of the detail tile over the terrain
+    double error = 0.0;                     ///< estimated error of its vertices, pixels
+    bool is_hidden = false; ///< behind nearer ground; the tiles around need not meet it
 };
 
 struct MeshDraw {
@@ -66,7 +67,7 @@ struct MeshDraw {
     bool from_behind = false; ///< its inner side
 };
 
-/// What to draw this frame: pure data, decided on the CPU. Valid as long as the scene is unchanged.
+/// What to draw in a frame: pure data. Valid as long as the scene is unchanged.
 struct DrawList {
     scene::Camera camera;
     glm::ivec2 size{0};              ///< of the picture, pixels
@@ -78,18 +79,17 @@ struct DrawList {
     std::vector<CoarseTerrain> coarse_terrains;
     std::vector<ReliefDraw> reliefs; ///< front to back
     std::vector<MeshDraw> meshes;
-    FrameStats stats; ///< nodes and what was skipped, so far
+    FrameStats stats; ///< of the selection
 
     [[nodiscard]] const glm::dmat4& world_from_local(const TileDraw& draw) const {
         return transforms[static_cast<std::size_t>(draw.transform)];
     }
 };
 
-/// Whether each terrain and mesh can be drawn as it is asked to be; fails as
-/// scene::check_technique.
+/// Fails as scene::check_technique of each terrain and mesh.
 Result<void> check_techniques(const DrawList& list);
 
-/// The list's sun over a terrain that is placed so; nothing without a sun.
+/// The list's sun over a terrain; empty without a sun.
 std::optional<scene::TerrainLight> light_on(const DrawList& list,
                                             const glm::dmat4& world_from_local);
 

@@ -10,26 +10,25 @@
 
 #include "engine/core/check.h"
 
-// A pixel shows a point A of a triangle that belongs at B = A + D. With the view's right, up and
-// forward axes A = (Ax, Ay, Az), and with f pixels to a radian at the middle of the picture
-//   |project(B) - project(A)| = f |(Dx, Dy) Az - (Ax, Ay) Dz| / (Az Bz),
-// the first two components of a cross product: at most f |D × A| / (Az Bz). That holds wherever on
-// the picture A is, and wherever its middle is. On a plane D is vertical, so |D × A| is |D| times
-// A's horizontal distance from the eye; else at most |D| times its distance.
+// A pixel shows a point A of a triangle, which belongs at B = A + D. Along the view's right, up and
+// forward axes A = (Ax, Ay, Az). With f pixels per radian at the middle of the picture
+//   |project(B) - project(A)| = f |(Dx, Dy) Az - (Ax, Ay) Dz| / (Az Bz).
+// The numerator is two components of a cross product, so this is at most f |D × A| / (Az Bz),
+// wherever A is on the picture. On a plane D is vertical, and |D × A| is |D| times A's horizontal
+// distance from the eye; otherwise it is at most |D| times A's distance.
 
 namespace reljef::view {
 namespace {
 
-// The most that a transform lengthens anything.
-double greatest_stretch(const glm::dmat3& axes) {
+// Bounds the factor by which a transform lengthens a vector.
+double max_stretch(const glm::dmat3& axes) {
     const std::array squares{glm::dot(axes[0], axes[0]), glm::dot(axes[1], axes[1]),
                              glm::dot(axes[2], axes[2])};
     const double sum = squares[0] + squares[1] + squares[2];
-    // Columns that are orthogonal up to the rounding of doubles.
     const double skew =
         std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
                   std::abs(glm::dot(axes[2], axes[0]))});
-    constexpr double rounding = 0x1p-40;
+    constexpr double rounding = 0x1p-40; // orthogonal columns up to the rounding of doubles
     return skew <= rounding * sum
                ? std::sqrt(*std::max_element(squares.begin(), squares.end()) + 2.0 * skew)
                : std::sqrt(sum); // the Frobenius norm
@@ -39,16 +38,30 @@ glm::dmat3 cross_with(glm::dvec3 v) {
     return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0};
 }
 
-glm::dvec4 unit_side(glm::dvec4 side) {
-    return side / glm::length(glm::dvec3(side));
+// Left, right, bottom, top and near plane of the frustum (Gribb and Hartmann 2001), with unit
+// normals.
+std::array<glm::dvec4, 5> frustum_sides(const glm::dmat4& clip_from_local) {
+    const glm::dmat4 rows = glm::transpose(clip_from_local);
+    std::array<glm::dvec4, 5> sides{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
+                                    rows[3] - rows[1], rows[3] - rows[2]};
+    for (glm::dvec4& side : sides) {
+        side /= glm::length(glm::dvec3(side));
+    }
+    return sides;
 }
 
-// Left, right, bottom, top and near side of what is seen (Gribb and Hartmann 2001).
-std::array<glm::dvec4, 5> seen_sides(const glm::dmat4& clip_from_local) {
-    const glm::dmat4 rows = glm::transpose(clip_from_local);
-    return {unit_side(rows[3] + rows[0]), unit_side(rows[3] - rows[0]),
-            unit_side(rows[3] + rows[1]), unit_side(rows[3] - rows[1]),
-            unit_side(rows[3] - rows[2])};
+// Whether the transform keeps lengths and angles.
+bool is_rigid(const glm::dmat4& transform) {
+    constexpr double rounding = 0x1p-40;
+    const glm::dmat3 axes(transform);
+    const glm::dmat3 product = glm::transpose(axes) * axes;
+    double deviation = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            deviation = std::max(deviation, std::abs(product[i][j] - (i == j ? 1.0 : 0.0)));
+        }
+    }
+    return deviation <= rounding;
 }
 
 } // namespace
@@ -64,8 +77,8 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     terrain::ErrorView view;
     view.max_error = max_error - rasterizer_error;
     view.perspective = camera.projection == scene::ProjectionKind::perspective;
-    view.stretch = greatest_stretch(axes);
-    view.sides = seen_sides(scene::clip_from_world(camera, size) * world_from_local);
+    view.stretch = max_stretch(axes);
+    view.sides = frustum_sides(scene::clip_from_world(camera, size) * world_from_local);
     view.depth = glm::dvec4(glm::transpose(axes) * forward, glm::dot(forward, offset));
     const glm::dvec3 metre_up = axes[2];
     if (!view.perspective) {
@@ -78,6 +91,22 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     const glm::dmat3 lateral = is_vertical ? cross_with(glm::normalize(metre_up)) : glm::dmat3(1.0);
     view.lateral_axes = lateral * axes;
     view.lateral_origin = lateral * offset;
+    return view;
+}
+
+std::optional<terrain::HorizonView> horizon_view(const scene::Camera& camera, glm::ivec2 size,
+                                                 const glm::dmat4& world_from_local, double error) {
+    if (camera.projection != scene::ProjectionKind::perspective || !is_rigid(world_from_local)) {
+        return std::nullopt;
+    }
+    const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
+    const double focal = 0.5 * size.y / half_height; // pixels per radian, at least
+    const double half_width = half_height * size.x / size.y;
+    constexpr double rasterized = 1.0; // pixels between a pixel's ray and its corners
+    terrain::HorizonView view;
+    view.eye = glm::dvec3(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
+    view.near = camera.near * std::sqrt(1.0 + half_height * half_height + half_width * half_width);
+    view.margin = (error + rasterized) / focal;
     return view;
 }
 

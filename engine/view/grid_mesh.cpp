@@ -5,8 +5,7 @@
 namespace reljef::view {
 namespace {
 
-// Quads along the side of a flat tile on an ellipsoid: over a tile of 128 samples 3″ apart (12 km)
-// the chord of an eighth stays within 5 cm of the arc.
+// On a tile of 12 km (128 samples, 3″ apart) the chord of an eighth stays within 5 cm of the arc.
 constexpr int flat_ellipsoid_quads = 8;
 
 template <class HeightAt>
@@ -45,7 +44,7 @@ GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Place
 void VertexPlacer::know(const terrain::Triangulation& part, std::span<const GridVertex> vertices) {
     check(vertices.size() == part.vertices.size(), "a triangulation and the vertices of another");
     if (!part.moves.empty()) {
-        return; // on their way, not at their places
+        return; // morphing
     }
     if (at_samples_.empty()) {
         at_samples_ = Grid<const GridVertex*>(tile_.cols + 1, tile_.rows + 1, nullptr);

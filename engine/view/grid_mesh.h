@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,14 +15,13 @@ namespace reljef::view {
 
 /// One vertex of a tile, as in terrain.vert.
 struct GridVertex {
-    glm::vec3 position; ///< local metres, the same for each tile that has the vertex
+    glm::vec3 position; ///< local metres, the same bits in each tile that shares the vertex
     float height;       ///< true metres
     glm::vec2 place;    ///< samples from the tile's first
-    glm::vec3 rest;     ///< local metres: what the rounding to floats left of the position
+    glm::vec3 rest;     ///< local metres: the rounding error of the position
 };
 static_assert(sizeof(GridVertex) == 36);
 
-/// A vertex at a place in local metres; `place`: samples from the tile's first.
 GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place);
 
 /// A tile as a regular grid of vertices, row after row.
@@ -33,19 +31,20 @@ struct GridMesh {
     std::vector<GridVertex> vertices; ///< (cols + 1) × (rows + 1)
 };
 
-/// Every sample of the tile a vertex.
+/// The tile with a vertex at every sample.
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                    const terrain::Tile& tile);
 
-/// Finds the vertices of parts of a tile. Those of samples that are known already it only looks up:
-/// on an ellipsoid a place takes longer than all else. All that it is given outlives it.
+/// Finds the vertices of parts of a tile. Looks up vertices at known samples, because placing them
+/// on an ellipsoid is slow. Its arguments outlive it.
 class VertexPlacer {
 public:
     VertexPlacer(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
                  const terrain::Tile& tile)
         : heightfield_(heightfield), placement_(placement), tile_(tile) {}
 
-    /// Precondition: `vertices` are place(part), of a placer of the same tile.
+    /// Remembers the vertices at samples. Precondition: `vertices` are place(part) of the same
+    /// tile.
     void know(const terrain::Triangulation& part, std::span<const GridVertex> vertices);
 
     [[nodiscard]] std::vector<GridVertex> place(const terrain::Triangulation& part) const;
@@ -57,14 +56,13 @@ private:
     const terrain::Heightfield& heightfield_;
     const terrain::Placement& placement_;
     const terrain::Tile& tile_;
-    Grid<const GridVertex*> at_samples_; // of the tile; empty where nothing is known
+    Grid<const GridVertex*> at_samples_; // empty before know()
 };
 
-/// Quads along a side of a tile of the flat reference surface: one on a plane, a few on an
-/// ellipsoid.
+/// Quads along a side of a tile of the flat reference surface.
 int flat_quads(terrain::PlacementKind kind);
 
-/// The tile's part of the flat reference surface at `height` metres, of flat_quads() quads a side.
+/// The tile of the flat reference surface at `height` metres.
 GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height);
 
 } // namespace reljef::view

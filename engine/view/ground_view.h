@@ -7,24 +7,24 @@
 
 namespace reljef::view {
 
-/// How much is seen of the tile of detail that lies over a terrain.
+/// How much of the detail tile over a terrain is visible.
 enum class DetailLevel {
     none,  ///< too far: the terrain alone
     light, ///< its colour and its light
-    relief ///< its heights, where the technique looks for them
+    relief ///< its heights, if the technique searches for them
 };
 
-/// A tile begins to be seen where it is so wide on the picture, pixels, and is wholly seen there.
+/// Widths of a detail tile on the picture between which it fades in, pixels.
 inline constexpr glm::vec2 seen_tile_pixels{8.0F, 32.0F};
 
-/// Its heights begin to be looked for where they are so high on the picture, pixels, and are wholly
-/// there: the error that the polygons may show, else a pixel, and twice as much.
+/// Heights of a detail tile on the picture between which its relief fades in, pixels: the error
+/// bound of the polygons, or one pixel, and twice that.
 glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain);
 
-/// Metres that a pixel shows across: at the eye (x), and more for each metre away (y).
+/// Width of a pixel, metres: x at the eye, plus y per metre of distance.
 glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size);
 
-/// What is seen at no less than that distance, metres.
+/// The level at a distance of at least `distance` metres.
 DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, double distance);
 

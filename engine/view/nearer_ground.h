@@ -1,40 +1,81 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/scene/streamed_tile.h"
 #include "engine/terrain/field/horizon.h"
-#include "engine/view/drawn_ground.h"
 
 namespace reljef::view {
 
-/// What hides farther tiles of a stream, as far as it is known: the ground that nearer ones show.
+/// The ground that streamed tiles on a plane show together.
+class DrawnGround {
+public:
+    /// Precondition: the terrain lies on a plane. The builder outlives this object.
+    explicit DrawnGround(const scene::TileBuilder& builder);
+
+    /// Precondition: the tile overlaps no other one.
+    void add(std::shared_ptr<const scene::StreamedTile> tile);
+
+    /// As terrain::GroundRange, in local metres.
+    [[nodiscard]] std::optional<terrain::HeightRange> range(glm::dvec2 low, glm::dvec2 high) const;
+
+private:
+    // Samples are those of the tree.
+    struct Part {
+        glm::dvec2 first{0.0};
+        glm::dvec2 end{0.0};
+        double step = 1.0; // samples between vertices
+        std::shared_ptr<const scene::StreamedTile> tile;
+    };
+    // A node of the tree: a part, or four children.
+    struct Branch {
+        int part = -1;
+        std::array<int, 4> children{-1, -1, -1, -1};
+    };
+    [[nodiscard]] glm::dvec2 sample_of(glm::dvec2 place) const;
+    [[nodiscard]] const Part* part_at(glm::dvec2 sample) const;
+    [[nodiscard]] std::optional<terrain::HeightRange> range_within(glm::dvec2 first,
+                                                                   glm::dvec2 end) const;
+
+    const scene::TileBuilder* builder_;
+    glm::dvec2 last_{0.0};
+    std::vector<Part> parts_;
+    std::vector<Branch> branches_; // the root first
+};
+
+/// The ground of nearer tiles, which may hide farther tiles of the same stream.
 class NearerGround {
 public:
-    /// Nothing hides anything where the view is absent. Precondition: else as DrawnGround.
-    NearerGround(const scene::TileBuilder& maker, const std::optional<terrain::HorizonView>& view);
+    /// Without a view nothing hides anything. Precondition with a view: as DrawnGround.
+    NearerGround(const scene::TileBuilder& builder,
+                 const std::optional<terrain::HorizonView>& view);
     NearerGround(const NearerGround&) = delete;
 
-    /// A tile that is drawn. Precondition: as DrawnGround::add.
+    /// Adds a drawn tile. Precondition: as DrawnGround::add.
     void add(std::shared_ptr<const scene::StreamedTile> tile) { ground_.add(std::move(tile)); }
-    /// A tile that is under the eye, where it is not seen.
+    /// Adds the tile under the eye if it is outside the picture; null: it is not loaded.
     void add_under_eye(std::shared_ptr<const scene::StreamedTile> tile);
 
-    /// As terrain::Horizon::hides; `along`: metres from the eye to the box, along the ground.
-    /// Precondition: all that is nearer has been added.
+    /// As terrain::Horizon::hides. `along`: metres from the eye to the box along the ground.
+    /// Precondition: all nearer tiles were added.
     [[nodiscard]] bool hides(const Box& box, double along);
 
 private:
     [[nodiscard]] std::optional<terrain::HeightRange> range_at_eye(const DrawnGround& ground) const;
     void make_horizon();
 
-    const scene::TileBuilder& maker_;
+    const scene::TileBuilder& builder_;
     std::optional<terrain::HorizonView> view_;
     DrawnGround ground_;
-    std::optional<double> under_eye_; // metres; highest
-    bool is_looked_for_ = false;
-    std::optional<terrain::Horizon> horizon_; // absent: nothing is sure to hide anything
+    std::optional<double> under_eye_; // the highest ground there, metres
+    bool was_made_ = false;
+    std::optional<terrain::Horizon> horizon_; // empty: nothing certainly hides anything
 };
 
 } // namespace reljef::view

@@ -12,22 +12,22 @@
 
 namespace reljef::view {
 
-/// A visible node that shows something.
+/// A visible terrain or mesh node.
 struct SeenNode {
     const scene::Node* node = nullptr;
     glm::dmat4 world_from_local{1.0};
     scene::Node::Content content;
     Box local_bounds;                  ///< metres
-    std::uint64_t stream_revision = 0; ///< of the content's tiles; 0: none
+    std::uint64_t stream_revision = 0; ///< of the content's tiles; 0: no stream
 };
 
-/// All that a frame's draw list depends on, by value: where it is the same, so is the list.
+/// Everything that a frame's draw list depends on, by value: equal views give equal lists.
 class SceneView {
 public:
     SceneView() = default;
     SceneView(const scene::Scene& scene, glm::ivec2 size) { look(scene, size); }
 
-    /// Looks at the scene once more; whether anything is otherwise than before.
+    /// Looks at the scene again; returns whether anything changed.
     bool look(const scene::Scene& scene, glm::ivec2 size);
 
     [[nodiscard]] const scene::Camera& camera() const { return camera_; }
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] const std::vector<SeenNode>& nodes() const { return nodes_; }
     [[nodiscard]] int node_count() const { return node_count_; }
     [[nodiscard]] int visible_count() const { return visible_count_; }
-    /// Of all that is shown, world metres.
+    /// Of all nodes, world metres.
     [[nodiscard]] Box bounds() const;
 
 private:

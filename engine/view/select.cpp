@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <variant>
 
@@ -9,17 +10,17 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/core/check.h"
 #include "engine/core/nearest_first.h"
+#include "engine/core/stopwatch.h"
 #include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
-#include "engine/view/occlusion.h"
 #include "engine/view/tile_selection.h"
 
 namespace reljef::view {
 namespace {
 
-// As it would be drawn.
 std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Tile& tile,
                            bool flat) {
     const int quads = flat_quads(terrain.surface->placement().kind());
@@ -27,10 +28,10 @@ std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Til
            static_cast<std::size_t>(flat ? quads : tile.rows);
 }
 
-// Of an overview whose tiles are not there yet: no picture to wait for a bisection for.
+// Levels of an overview whose tiles are not loaded yet: it is not worth a bisection.
 constexpr int overview_levels = terrain::max_patch_levels + 1;
 
-// How coarse a terrain may be; nothing where every sample is a vertex.
+// Empty if every sample is a vertex.
 std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
                                         const scene::Camera& camera, glm::ivec2 size,
                                         const glm::dmat4& world_from_local) {
@@ -55,7 +56,7 @@ std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
     return terrain::patch_levels(surface.heightfield(), surface.placement(), eye, levels);
 }
 
-// From a box's nearest point.
+// The vector from the nearest point of a box.
 glm::dvec3 away_from(glm::dvec3 point, const Box& box) {
     return point - glm::clamp(point, box.low, box.high);
 }
@@ -64,7 +65,7 @@ bool has_streamed_tiles(const scene::TerrainNode& terrain) {
     return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
 }
 
-// Adds what one visible node shows.
+// Adds visible nodes to the frame.
 class Selector {
 public:
     Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options,
@@ -100,7 +101,7 @@ private:
         int transform = 0;
         int tile = 0;
     };
-    // With DrawList::transforms.
+    // Has the index of its transform.
     struct ShownTerrain {
         const scene::TerrainNode* terrain = nullptr;
         bool is_flat = false;
@@ -138,7 +139,7 @@ private:
         }
     }
 
-    // False where there is no stream, or nothing of it yet: the overview is drawn.
+    // False if the overview is drawn: without a stream, and before its root is loaded.
     bool add_streamed(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         if (!has_streamed_tiles(terrain)) {
             return false;
@@ -199,7 +200,7 @@ private:
         }
     }
 
-    // What is seen of the tile of detail on a terrain, and how often it is too far.
+    // Counts details that are too far away to be visible.
     DetailLevel detail_of(const scene::TerrainNode& terrain, double distance) {
         const DetailLevel seen = seen_detail(terrain, list_.camera, list_.size, distance);
         const bool is_skipped = terrain.detail != nullptr && seen == DetailLevel::none;
@@ -214,6 +215,29 @@ private:
     std::vector<SeenTile> seen_;
     std::vector<ShownTerrain> shown_;
 };
+
+// The error bound of a terrain, pixels; empty if there is none.
+std::optional<double> max_error_of(const DrawList& list, const scene::TerrainNode& terrain) {
+    for (const CoarseTerrain& coarse : list.coarse_terrains) {
+        if (coarse.terrain == &terrain) {
+            const auto* const view = std::get_if<terrain::ErrorView>(&coarse.coarseness);
+            return view != nullptr ? std::optional(view->max_error) : std::nullopt;
+        }
+    }
+    return 0.0;
+}
+
+std::optional<terrain::Horizon> horizon_of(const DrawList& list, const TileDraw& draw) {
+    const auto error = max_error_of(list, *draw.terrain);
+    if (draw.flat || draw.terrain->material.wireframe || !error) {
+        return std::nullopt;
+    }
+    const auto view = horizon_view(list.camera, list.size, list.world_from_local(draw), *error);
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    return view ? terrain::Horizon::create(surface.heightfield(), surface.pyramid(),
+                                           surface.placement(), *view)
+                : std::nullopt;
+}
 
 std::size_t max_tiles(const SceneView& view) {
     std::size_t most = 0;
@@ -269,6 +293,42 @@ std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::
         }
     });
     return requests;
+}
+
+void drop_occluded(DrawList& list) {
+    std::map<const scene::TerrainNode*, std::optional<terrain::Horizon>> horizons;
+    const auto dropped = std::erase_if(list.tiles, [&](const TileDraw& draw) {
+        const auto [entry, is_new] = horizons.try_emplace(draw.terrain);
+        if (is_new) {
+            entry->second = horizon_of(list, draw);
+        }
+        const auto tile = static_cast<std::size_t>(draw.tile);
+        return entry->second && entry->second->hides(draw.terrain->surface->tiles()[tile].bounds);
+    });
+    const auto streamed =
+        std::erase_if(list.streamed_tiles, [](const StreamedDraw& draw) { return draw.is_hidden; });
+    list.stats.skipped.tiles_occluded += static_cast<int>(dropped + streamed);
+}
+
+const FrameView& FrameSelector::select(const scene::Scene& scene, glm::ivec2 size) {
+    const Stopwatch watch;
+    const bool has_changed = view_.look(scene, size);
+    if (has_changed || !frame_ || selects_always_) {
+        frame_ = view::select(view_, options_);
+        ++count_;
+        milliseconds_ = watch.milliseconds();
+    }
+    return *frame_;
+}
+
+const FrameView& FrameSelector::selected() const {
+    check(frame_.has_value(), "a selected frame was expected");
+    return *frame_;
+}
+
+void FrameSelector::forget() {
+    view_ = {};
+    frame_.reset();
 }
 
 } // namespace reljef::view

@@ -1,19 +1,19 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/tile_stream.h"
-#include "engine/terrain/tree/tile_tree.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/scene_view.h"
 
 namespace reljef::view {
 
-/// What a view needs of a stream of tiles.
+/// The tiles that a view needs from a stream.
 struct TileRequests {
     std::shared_ptr<scene::TileStream> stream;
     std::vector<terrain::TreeTile> missing; ///< to load, the most urgent first
@@ -24,25 +24,59 @@ struct TileRequests {
 /// (DrawList::stats). Valid as long as the scene is unchanged.
 struct FrameView {
     DrawList list;
-    std::vector<TileRequests> requests; ///< one for each stream that the view shows
+    std::vector<TileRequests> requests; ///< one for each visible stream
 };
 
 struct SelectOptions {
-    /// Leaves out what nearer ground hides. Without it hidden tiles are requested and listed, too
-    /// (StreamedDraw::is_hidden): to see what leaving them out takes from the picture.
+    /// Drops tiles behind nearer ground. Without it they are requested and listed, too
+    /// (StreamedDraw::is_hidden): to measure the effect on the picture.
     bool occlusion = true;
 };
 
-/// Leaves out what is hidden or outside the frustum and orders the rest front to back. An
-/// orthographic camera's depth range is fitted to the scene. Reads the view, and the tiles in
-/// memory of its streams, whose revisions the view has; changes nothing. The same view gives the
-/// same frame.
+/// Drops what is hidden or outside the frustum and orders the rest front to back. Fits the depth
+/// range of an orthographic camera to the scene. Reads the view and the loaded tiles of its
+/// streams, and changes nothing: the same view gives the same frame.
 FrameView select(const SceneView& view, const SelectOptions& options = {});
-/// Looks at the scene through its camera.
+/// Selects what the scene's camera sees.
 FrameView select(const scene::Scene& scene, glm::ivec2 size, const SelectOptions& options = {});
 
-/// What the view of another camera needs of the scene's streams, for reading ahead.
+/// The tiles that the view of another camera needs, to load them ahead.
 std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::Camera& camera,
                                         glm::ivec2 size);
+
+/// Drops the tiles behind nearer ground of the same terrain, of which no pixel is visible
+/// (terrain/horizon.h), and hidden streamed tiles (tile_selection.h). Only in perspective, from an
+/// eye above the ground. Keeps terrains on an ellipsoid, tiles with levels by distance, and
+/// wireframes. Counts what it drops.
+void drop_occluded(DrawList& list);
+
+/// Selects a scene's frames one after the other: a view that has not changed keeps its frame. Holds
+/// on to the content of the last view until it selects another one or forget() is called.
+class FrameSelector {
+public:
+    /// `selects_always`: selects unchanged views again, to measure it.
+    explicit FrameSelector(const SelectOptions& options = {}, bool selects_always = false)
+        : options_(options), selects_always_(selects_always) {}
+
+    /// What the scene's camera sees, in a picture of `size` pixels. Valid until the next call.
+    const FrameView& select(const scene::Scene& scene, glm::ivec2 size);
+    /// The frame selected last. Precondition: there is one.
+    [[nodiscard]] const FrameView& selected() const;
+
+    void forget();
+
+    /// Views selected so far.
+    [[nodiscard]] int count() const { return count_; }
+    /// Duration of the last selection.
+    [[nodiscard]] double milliseconds() const { return milliseconds_; }
+
+private:
+    SelectOptions options_;
+    bool selects_always_;
+    SceneView view_;
+    std::optional<FrameView> frame_;
+    int count_ = 0;
+    double milliseconds_ = 0.0;
+};
 
 } // namespace reljef::view

@@ -12,35 +12,30 @@
 #include "engine/core/parallel_for.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/terrain/mesh/bisection.h"
-#include "engine/terrain/tree/stitching.h"
 #include "engine/view/error_view.h"
 
 namespace reljef::view {
 namespace {
 
-constexpr double min_share_of_triangles = 0.5; // of the error
+constexpr double min_share_of_triangles = 0.5; // of the error bound
 
-// Errors of vertices and of triangles are seldom the most at the same place: they add up to less
-// than their sum (which 1 would be), if not as little as independent ones do (2, which over the
-// Alps from far above makes the error that 99 of 100 pixels keep a quarter larger). Measured.
+// The largest errors of vertices and of triangles are seldom at the same place. This power lies
+// between their sum (1) and independent errors (2). Measured: over the Alps from far above, 2 makes
+// the 99th percentile of the error a quarter larger.
 constexpr double addition_power = 1.25;
 
-// Of the error, what is left for triangles where vertices take a share.
+// The triangles' share of the error bound.
 double share_beside(double share_of_vertices) {
     const double taken = std::pow(std::min(share_of_vertices, 1.0), addition_power);
     return std::max(std::pow(1.0 - taken, 1.0 / addition_power), min_share_of_triangles);
 }
 
-glm::dvec3 place_of(const scene::StreamedTile& tile, glm::ivec2 vertex) {
-    return tile.place(vertex);
-}
-
-// East, north and up of the plane, and the middle of the tile's corners.
+// The plane that touches the tile: east, north and up, and the middle of the tile's corners.
 glm::dmat4 plane_of(const scene::StreamedTile& tile) {
-    const glm::dvec3 north_west = place_of(tile, {0, 0});
-    const glm::dvec3 north_east = place_of(tile, {tile.cells.x, 0});
-    const glm::dvec3 south_west = place_of(tile, {0, tile.cells.y});
-    const glm::dvec3 south_east = place_of(tile, tile.cells);
+    const glm::dvec3 north_west = tile.place({0, 0});
+    const glm::dvec3 north_east = tile.place({tile.cells.x, 0});
+    const glm::dvec3 south_west = tile.place({0, tile.cells.y});
+    const glm::dvec3 south_east = tile.place(tile.cells);
     const glm::dvec3 up(tile.up);
     const glm::dvec3 along = north_east - north_west + south_east - south_west;
     const glm::dvec3 east = glm::normalize(along - up * glm::dot(along, up));
@@ -53,7 +48,7 @@ terrain::Heightfield heights_over(const glm::dmat4& local_from_plane,
                                   const scene::StreamedTile& tile) {
     const glm::dmat4 plane_from_local = glm::inverse(local_from_plane);
     const auto at = [&](glm::ivec2 vertex) {
-        return glm::dvec3(plane_from_local * glm::dvec4(place_of(tile, vertex), 1.0));
+        return glm::dvec3(plane_from_local * glm::dvec4(tile.place(vertex), 1.0));
     };
     terrain::Heightfield heightfield;
     heightfield.heights = Grid<float>(tile.cells.x + 1, tile.cells.y + 1);
@@ -70,35 +65,30 @@ terrain::Heightfield heights_over(const glm::dmat4& local_from_plane,
 
 } // namespace
 
-struct StreamedShape::Data {
-    explicit Data(terrain::Heightfield made)
-        : heightfield(std::move(made)),
+// A streamed tile as heights over the plane that touches it, with their bisection. The error of its
+// triangles includes the curvature of the Earth.
+struct StreamedShape {
+    explicit StreamedShape(const scene::StreamedTile& tile)
+        : local_from_plane(plane_of(tile)), heightfield(heights_over(local_from_plane, tile)),
           placement(terrain::Placement::create(heightfield, terrain::PlacementKind::plane).value()),
           bisection(heightfield, placement, {.threads = 1, .stop = {}, .progress = {}}) {}
+    StreamedShape(const StreamedShape&) = delete;
 
+    glm::dmat4 local_from_plane{1.0};
     terrain::Heightfield heightfield;
     terrain::Placement placement;
     terrain::Bisection bisection;
 };
 
-StreamedShape::StreamedShape(const scene::StreamedTile& tile)
-    : local_from_plane_(plane_of(tile)),
-      data_(std::make_unique<const Data>(heights_over(local_from_plane_, tile))) {}
-StreamedShape::~StreamedShape() = default;
-StreamedShape::StreamedShape(StreamedShape&&) noexcept = default;
-StreamedShape& StreamedShape::operator=(StreamedShape&&) noexcept = default;
+namespace {
 
-std::vector<glm::ivec2> StreamedShape::border_splits(const terrain::ErrorView& view) const {
-    return terrain::border_splits(data_->bisection, view);
-}
-
-CutTriangles StreamedShape::triangles(const terrain::ErrorView& view,
-                                      const Grid<std::uint8_t>& splits) const {
-    const Grid<float>& heights = data_->heightfield.heights;
-    const glm::ivec2 cells(heights.cols() - 1, heights.rows() - 1);
-    const terrain::Tile tile{0, 0, cells.x, cells.y, {}};
+// As few triangles as the view and the splits allow.
+CutTriangles triangles_of(const StreamedShape& shape, const terrain::ErrorView& view,
+                          const Grid<std::uint8_t>& splits) {
+    const Grid<float>& heights = shape.heightfield.heights;
+    const terrain::Tile tile{0, 0, heights.cols() - 1, heights.rows() - 1, {}};
     terrain::Triangulation found =
-        terrain::triangulate_samples(data_->bisection, tile, view, splits);
+        terrain::triangulate_samples(shape.bisection, tile, view, splits);
     CutTriangles cut;
     cut.vertices.reserve(found.vertices.size());
     for (const glm::ivec2 place : found.vertices) {
@@ -109,13 +99,10 @@ CutTriangles StreamedShape::triangles(const terrain::ErrorView& view,
     return cut;
 }
 
-namespace {
-
-// Cuts all tiles of a cover, where one is not as it must be.
-class TogetherCutter {
+// Finds the triangles of all tiles of a cover.
+class CoverCutter {
 public:
-    TogetherCutter(const DrawList& list, const terrain::DrawnTiles& cover,
-                   std::span<TileToCut> tiles)
+    CoverCutter(const DrawList& list, const terrain::DrawnTiles& cover, std::span<TileToCut> tiles)
         : list_(list), cover_(cover), tiles_(tiles), views_(tiles.size()) {
         for (const TileToCut& tile : tiles_) {
             draws_.emplace(tile.draw->tile->id, tile.draw);
@@ -140,16 +127,13 @@ private:
     }
 
     void make_shapes() {
-        const bool all_there = std::all_of(tiles_.begin(), tiles_.end(), [](const TileToCut& tile) {
-            return tile.cut->shape.has_value();
-        });
-        if (all_there) {
-            return; // no threads for nothing
+        const auto lacks_shape = [](const TileToCut& tile) { return tile.cut->shape == nullptr; };
+        if (std::none_of(tiles_.begin(), tiles_.end(), lacks_shape)) {
+            return; // starts no threads
         }
         for_each_tile([&](std::size_t i) {
-            StreamedCut& cut = *tiles_[i].cut;
-            if (!cut.shape) {
-                cut.shape.emplace(*tiles_[i].draw->tile);
+            if (lacks_shape(tiles_[i])) {
+                tiles_[i].cut->shape = std::make_shared<StreamedShape>(*tiles_[i].draw->tile);
             }
         });
     }
@@ -161,7 +145,7 @@ private:
             TileToCut& tile = tiles_[i];
             Grid<std::uint8_t>& needed = splits.at(tile.draw->tile->id);
             if (tile.cut->view != views_[i] || tile.cut->splits != needed) {
-                tile.triangles = tile.cut->shape->triangles(views_[i], needed);
+                tile.triangles = triangles_of(*tile.cut->shape, views_[i], needed);
                 tile.view = views_[i];
                 tile.cut->view.reset();
                 tile.cut->splits = std::move(needed);
@@ -171,8 +155,9 @@ private:
 
     [[nodiscard]] terrain::BorderSplits required() const {
         std::vector<std::vector<glm::ivec2>> found(tiles_.size());
-        for_each_tile(
-            [&](std::size_t i) { found[i] = tiles_[i].cut->shape->border_splits(views_[i]); });
+        for_each_tile([&](std::size_t i) {
+            found[i] = terrain::border_splits(tiles_[i].cut->shape->bisection, views_[i]);
+        });
         terrain::BorderSplits required;
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
             required.emplace(tiles_[i].draw->tile->id, std::move(found[i]));
@@ -184,12 +169,11 @@ private:
                                              const StreamedShape& shape) const {
         const double error = scene::error_bound(draw.terrain->material.technique);
         const double most = error * share_beside(error_of_vertices(draw) / error);
-        return error_view(list_.camera, list_.size,
-                          draw.world_from_local * shape.local_from_plane(),
+        return error_view(list_.camera, list_.size, draw.world_from_local * shape.local_from_plane,
                           terrain::PlacementKind::plane, std::max(most, min_error));
     }
 
-    // On a border they are those of the coarser of two tiles.
+    // On a border those of the coarser tile.
     [[nodiscard]] double error_of_vertices(const StreamedDraw& draw) const {
         double most = draw.error;
         for (const terrain::TreeTile other : cover_.touching(draw.tile->id)) {
@@ -214,7 +198,7 @@ bool is_cut(const StreamedDraw& draw) {
 
 void cut_together(const DrawList& list, const terrain::DrawnTiles& cover, bool is_new_cover,
                   std::span<TileToCut> tiles) {
-    TogetherCutter(list, cover, tiles).cut(is_new_cover);
+    CoverCutter(list, cover, tiles).cut(is_new_cover);
 }
 
 } // namespace reljef::view

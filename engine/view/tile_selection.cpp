@@ -13,61 +13,61 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/view/horizon_view.h"
+#include "engine/view/error_view.h"
 #include "engine/view/nearer_ground.h"
 
 namespace reljef::view {
 namespace {
 
-// How far beyond a tile's own heights those of the finer ones below it are looked for, an estimate
-// (averages are lower than peaks): of its range, and errors of its own. What is left out as hidden
-// is looked for farther: a tower where four averages meet stands 16 times as high in the next
-// level.
-constexpr double more_of_range = 0.25;
+// Estimated margin of the finer tiles' heights beyond a tile's own (averages are lower than peaks):
+// a share of its range, plus a number of its errors. The margin for hiding is larger: a tower where
+// four averages meet is 16 times as high in the next level.
+constexpr double margin_of_range = 0.25;
 constexpr double errors_seen = 1.0;
 constexpr double errors_hidden = 16.0;
 
-// Of the error: what is left is for fewer triangles.
+// The tiles' share of the error bound; the rest is for fewer triangles.
 constexpr double share_of_tiles = 0.5;
 
-// Errors that what hides may be seen lower, and what is hidden higher, than its tile's heights.
-// Where every tile is as fine as it should be a border goes to the vertices of a coarser tile that
-// is, too: both of their errors, on either side. Fewer triangles may take all of the error.
+// Error bounds by which an occluder may appear lower, and a hidden tile higher, than the heights of
+// its tile. On a border both tiles' errors count, on either side; fewer triangles take up to a
+// whole bound.
 constexpr double errors_of_horizon = 2.0 * (share_of_tiles + share_of_tiles) + 1.0;
 
-// Of images where finer ones are to be had, pixels from texel to texel.
+// Largest distance between texels if there are finer images, pixels.
 constexpr double max_texel = 1.0;
 
-// At a time: what is less urgent may turn out not to be needed once these are there.
-constexpr std::size_t max_wanted = 16;
+// Requests of one view. These tiles may make less urgent ones unnecessary.
+constexpr std::size_t max_requests = 16;
 
 struct Candidate {
     double along = 0.0; // metres from the eye, along the ground
     terrain::TreeTile id;
     Box expected;         // local metres
-    double urgency = 0.0; // the least excess of the tiles above
-    terrain::TreeTile above;
-    bool is_hidden = false;   // the tile above is
-    bool is_foreseen = false; // a tile above is not there: only what is known of this one counts
+    double urgency = 0.0; // the smallest screen space error of its ancestors
+    terrain::TreeTile parent;
+    bool is_hidden = false;   // the parent is hidden
+    bool is_foreseen = false; // an ancestor is not loaded: neither requested nor drawn
 
     friend bool operator<(const Candidate& a, const Candidate& b) {
         return a.along != b.along ? a.along > b.along : b.id < a.id;
     }
 };
 
-// Where the finer tiles below one are looked for.
+// Expected heights of the finer tiles below a tile.
 terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) {
-    const double more = more_of_range * (tile.range.high - tile.range.low) + errors * tile.error;
-    return {tile.range.low - more, tile.range.high + more};
+    const double margin =
+        margin_of_range * (tile.range.high - tile.range.low) + errors * tile.error;
+    return {tile.range.low - margin, tile.range.high + margin};
 }
 
-// A tile that is there, or that was.
+// A loaded or an evicted tile.
 struct KnownTile {
     scene::TileSummary summary;
-    std::shared_ptr<const scene::StreamedTile> tile; // null: it went
+    std::shared_ptr<const scene::StreamedTile> tile; // null: evicted
 };
 
-// What a view shows of a stream, and how large.
+// The projection of a stream's tiles.
 class StreamView {
 public:
     StreamView(const scene::TerrainNode& terrain, const scene::Camera& camera, glm::ivec2 size,
@@ -83,13 +83,14 @@ public:
                                 : size.y / camera.view_height;
         eye_ = glm::dvec3(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
         if (is_solid && !terrain.material.wireframe &&
-            stream_.maker().overview().placement().kind() == terrain::PlacementKind::plane) {
+            builder().overview().placement().kind() == terrain::PlacementKind::plane) {
             horizon_ = horizon_view(camera, size, world_from_local, errors_of_horizon * max_error_);
         }
     }
 
     [[nodiscard]] const scene::TileStream& stream() const { return stream_; }
-    /// Absent where nothing hides anything.
+    [[nodiscard]] const scene::TileBuilder& builder() const { return stream_.maker(); }
+    /// Empty if nothing can be hidden.
     [[nodiscard]] const std::optional<terrain::HorizonView>& horizon() const { return horizon_; }
 
     [[nodiscard]] std::optional<KnownTile> known(terrain::TreeTile id) const {
@@ -104,13 +105,12 @@ public:
         return frustum_.may_see(transformed(world_from_local_, local));
     }
 
-    /// Whether those below a tile of this summary may show something of `below`.
-    [[nodiscard]] bool may_see_below(const scene::TileSummary& tile,
-                                     terrain::TreeTile below) const {
-        return may_see(stream_.maker().bounds(below, range_below(tile, errors_seen)));
+    [[nodiscard]] bool may_see_child(const scene::TileSummary& parent,
+                                     terrain::TreeTile child) const {
+        return may_see(builder().bounds(child, range_below(parent, errors_seen)));
     }
 
-    /// Metres, to the nearest point of a box along the local ground.
+    /// Distance to the nearest point of a box along the local ground, metres.
     [[nodiscard]] double along(const Box& local) const {
         const glm::dvec2 eye(eye_);
         return glm::distance(eye, glm::clamp(eye, glm::dvec2(local.low), glm::dvec2(local.high)));
@@ -119,22 +119,22 @@ public:
     [[nodiscard]] TileSelection::Drawn
     drawn(std::shared_ptr<const scene::StreamedTile> tile) const {
         const double distance = distance_to(*tile);
-        const bool is_whole = tile->id.level == 0 || stream_.maker().has_all_samples(tile->id);
+        const bool is_whole = tile->id.level == 0 || builder().has_all_samples(tile->id);
         const double error = is_whole ? 0.0 : tile->error * pixels_per_metre(distance);
         return {std::move(tile), distance, error};
     }
 
-    /// Its error as it is seen, or what its picture lacks, over what may be.
+    /// The error on the picture, or the size of its texels, relative to its bound.
     [[nodiscard]] double screen_space_error_of(const scene::TileSummary& tile) const {
         if (tile.id.level == 0) {
             return 0.0;
         }
         const double pixels = pixels_per_metre(distance_to(tile));
         const double texels = tile.coarse_texel * pixels / max_texel;
-        if (stream_.maker().has_all_samples(tile.id)) {
+        if (builder().has_all_samples(tile.id)) {
             return texels;
         }
-        const double spacing = stream_.maker().spacing(tile.id.level);
+        const double spacing = builder().spacing(tile.id.level);
         const double errors =
             std::max(tile.error / share_of_tiles, spacing / samples_apart_in_errors) * pixels /
             max_error_;
@@ -158,26 +158,16 @@ private:
     glm::dvec3 eye_{0.0}; // local metres
     double max_error_ = default_tile_error;
     bool is_perspective_ = true;
-    double pixels_per_metre_ = 1.0; // at a distance of a metre where it is a perspective
+    double pixels_per_metre_ = 1.0; // in perspective: at a distance of one metre
     std::optional<terrain::HorizonView> horizon_;
 };
 
-// What keeps a walk from the tiles that the view should have.
 struct WalkLimits {
-    double max_screen_space_error = 1.0; // tiles of no more do not give way
-    std::set<terrain::TreeTile> whole;   // nor do these: what is below them is not there
-    // Nearer ground hides what is behind it. Only where nothing else keeps tiles from giving way:
-    // a border goes to the vertices of the coarsest tile beside it, however far that is off.
+    double max_screen_space_error = 1.0; // tiles with larger errors are refined
+    std::set<terrain::TreeTile> leaves;  // not refined: children are missing
+    // Whether nearer ground hides tiles. Only without other limits, because borders move to the
+    // vertices of the coarsest tile, however far away these are.
     bool hides = true;
-
-    void raise(double screen_space_error) {
-        max_screen_space_error = screen_space_error;
-        hides = false;
-    }
-    void keep_whole(terrain::TreeTile tile) {
-        whole.insert(tile);
-        hides = false;
-    }
 };
 
 // One walk through the tree, from the eye outwards.
@@ -185,10 +175,10 @@ class TreeWalk {
 public:
     TreeWalk(const StreamView& view, const WalkLimits& limits, const TileSelectionOptions& options)
         : view_(view), limits_(limits), options_(options),
-          nearer_(view.stream().maker(), limits.hides ? view.horizon() : std::nullopt) {}
+          nearer_(view.builder(), limits.hides ? view.horizon() : std::nullopt) {}
     TreeWalk(const TreeWalk&) = delete;
 
-    /// False, and not to its end, where memory does not hold what would be drawn.
+    /// Stops and returns false if the drawn tiles do not fit in memory.
     [[nodiscard]] bool walk(const scene::StreamedTile& root) {
         open_.push({view_.along(root.bounds), root.id, root.bounds,
                     std::numeric_limits<double>::infinity(), root.id});
@@ -201,96 +191,83 @@ public:
     }
 
     [[nodiscard]] const std::vector<Candidate>& missing() const { return missing_; }
-    /// What would be drawn, and what is above it.
-    [[nodiscard]] const std::vector<terrain::TreeTile>& used() const { return seen_; }
-    TileSelection take() { return std::move(choice_); }
+    /// The loaded tiles that would be drawn, and their ancestors.
+    [[nodiscard]] const std::vector<terrain::TreeTile>& used() const { return used_; }
+    TileSelection take() { return std::move(selection_); }
 
 private:
     void visit(const Candidate& candidate) {
-        // Whether it is there makes no difference: the choice is the same whatever came before.
+        // Independent of what is loaded, so that the selection is, too.
         const bool is_hidden =
             candidate.is_hidden || nearer_.hides(candidate.expected, candidate.along);
         auto known = view_.known(candidate.id);
         if (is_hidden && !options_.keeps_hidden) {
             leave_out(known ? std::move(known->tile) : nullptr);
         } else if (!known) {
-            miss(candidate);
+            use_or_request(candidate, nullptr);
             ++leaves_;
-        } else if (candidate.id.level == 0 && !view_.may_see(known->summary.bounds)) {
-            pass_by(candidate, std::move(known->tile));
-        } else {
+        } else if (candidate.id.level > 0 || view_.may_see(known->summary.bounds)) {
             add(candidate, std::move(*known), is_hidden);
+        } else {
+            ++selection_.outside_frustum;
+            if (candidate.along == 0.0) { // occlusion needs the tile under the eye
+                use_or_request(candidate, known->tile);
+                nearer_.add_under_eye(std::move(known->tile));
+            }
         }
     }
 
     void leave_out(std::shared_ptr<const scene::StreamedTile> tile) {
         if (tile == nullptr) {
-            ++choice_.hidden_unread;
+            ++selection_.hidden_unread;
         } else {
-            choice_.hidden.push_back(view_.drawn(std::move(tile)));
+            selection_.hidden.push_back(view_.drawn(std::move(tile)));
         }
     }
 
-    void miss(const Candidate& candidate) {
-        if (!candidate.is_foreseen) {
+    void use_or_request(const Candidate& candidate,
+                        const std::shared_ptr<const scene::StreamedTile>& tile) {
+        if (tile != nullptr) {
+            used_.push_back(candidate.id);
+        } else if (!candidate.is_foreseen) {
             missing_.push_back(candidate);
-        }
-    }
-
-    // A tile of the finest level that the view does not show. The one under the eye is needed to
-    // know what nearer ground hides.
-    void pass_by(const Candidate& candidate, std::shared_ptr<const scene::StreamedTile> tile) {
-        ++choice_.outside_frustum;
-        if (candidate.along > 0.0) {
-            return;
-        }
-        if (tile == nullptr) {
-            miss(candidate);
-        } else {
-            seen_.push_back(tile->id);
-            nearer_.add_under_eye(std::move(tile));
         }
     }
 
     void add(const Candidate& candidate, KnownTile known, bool is_above_hidden) {
         const scene::TileSummary& summary = known.summary;
         const double screen_space_error = view_.screen_space_error_of(summary);
-        const bool gives_way = screen_space_error > limits_.max_screen_space_error &&
-                               !limits_.whole.contains(summary.id);
+        const bool is_refined = screen_space_error > limits_.max_screen_space_error &&
+                                !limits_.leaves.contains(summary.id);
         const Box box =
-            gives_way
-                ? view_.stream().maker().bounds(summary.id, range_below(summary, errors_hidden))
-                : summary.bounds;
+            is_refined ? view_.builder().bounds(summary.id, range_below(summary, errors_hidden))
+                       : summary.bounds;
         const bool is_hidden = is_above_hidden || nearer_.hides(box, candidate.along);
         if (is_hidden && !options_.keeps_hidden) {
             leave_out(std::move(known.tile));
             return;
         }
-        if (known.tile == nullptr) {
-            miss(candidate);
-        } else {
-            seen_.push_back(summary.id);
-        }
-        if (gives_way) {
-            push_below(candidate, known, std::min(candidate.urgency, screen_space_error),
-                       is_hidden);
+        use_or_request(candidate, known.tile);
+        if (is_refined) {
+            push_children(candidate, known, std::min(candidate.urgency, screen_space_error),
+                          is_hidden);
         } else {
             add_leaf(candidate, std::move(known.tile), is_hidden);
         }
     }
 
-    void push_below(const Candidate& candidate, const KnownTile& known, double urgency,
-                    bool is_hidden) {
-        const scene::TileBuilder& maker = view_.stream().maker();
+    void push_children(const Candidate& candidate, const KnownTile& known, double urgency,
+                       bool is_hidden) {
         const bool is_foreseen = candidate.is_foreseen || known.tile == nullptr;
-        for (const terrain::TreeTile below : view_.stream().tree().children(candidate.id)) {
-            const Box expected = maker.bounds(below, range_below(known.summary, errors_hidden));
+        for (const terrain::TreeTile child : view_.stream().tree().children(candidate.id)) {
+            const Box expected =
+                view_.builder().bounds(child, range_below(known.summary, errors_hidden));
             const double along = view_.along(expected);
-            if (view_.may_see_below(known.summary, below)) {
-                open_.push({along, below, expected, urgency, candidate.id, is_hidden, is_foreseen});
+            if (view_.may_see_child(known.summary, child)) {
+                open_.push({along, child, expected, urgency, candidate.id, is_hidden, is_foreseen});
                 continue;
             }
-            ++choice_.outside_frustum;
+            ++selection_.outside_frustum;
             if (along == 0.0 && !is_foreseen) {
                 nearer_.add_under_eye(known.tile);
             }
@@ -300,13 +277,13 @@ private:
     void add_leaf(const Candidate& candidate, std::shared_ptr<const scene::StreamedTile> tile,
                   bool is_hidden) {
         if (is_hidden && tile != nullptr) {
-            choice_.hidden.push_back(view_.drawn(std::move(tile)));
+            selection_.hidden.push_back(view_.drawn(std::move(tile)));
             return;
         }
         ++leaves_;
         if (tile != nullptr && !candidate.is_foreseen) {
             nearer_.add(tile);
-            choice_.drawn.push_back(view_.drawn(std::move(tile)));
+            selection_.drawn.push_back(view_.drawn(std::move(tile)));
         }
     }
 
@@ -316,14 +293,14 @@ private:
     NearerGround nearer_;
     std::priority_queue<Candidate> open_;
     std::vector<Candidate> missing_;
-    std::size_t leaves_ = 0; // that would be drawn if all of them were there
-    std::vector<terrain::TreeTile> seen_;
-    TileSelection choice_;
+    std::size_t leaves_ = 0; // tiles to draw once all are loaded
+    std::vector<terrain::TreeTile> used_;
+    TileSelection selection_;
 };
 
-// The excess above which tiles may give way so that no more are drawn than memory holds: the
-// largest excesses first, as far as tiles are known. The same whatever else is known.
-double excess_within_memory(const StreamView& view, const scene::StreamedTile& root) {
+// The screen space error above which tiles may be refined so that all drawn tiles fit in memory.
+// Refines the largest errors first. Depends on known tiles only, loaded or not.
+double error_within_memory(const StreamView& view, const scene::StreamedTile& root) {
     struct Open {
         double screen_space_error;
         scene::TileSummary tile;
@@ -334,7 +311,6 @@ double excess_within_memory(const StreamView& view, const scene::StreamedTile& r
                        : other.tile.id < tile.id;
         }
     };
-    const std::size_t most = view.stream().max_drawn();
     std::size_t leaves = 1;
     std::priority_queue<Open> open;
     open.push({view.screen_space_error_of(root), root});
@@ -342,31 +318,30 @@ double excess_within_memory(const StreamView& view, const scene::StreamedTile& r
         const Open next = open.top();
         open.pop();
         std::size_t seen = 0;
-        for (const terrain::TreeTile below : view.stream().tree().children(next.tile.id)) {
-            if (!view.may_see_below(next.tile, below)) {
+        for (const terrain::TreeTile child : view.stream().tree().children(next.tile.id)) {
+            if (!view.may_see_child(next.tile, child)) {
                 continue;
             }
             ++seen;
-            if (const auto known = view.known(below)) {
+            if (const auto known = view.known(child)) {
                 const double screen_space_error = view.screen_space_error_of(known->summary);
                 open.push({std::min(next.screen_space_error, screen_space_error), known->summary});
             }
         }
-        leaves += std::max<std::size_t>(seen, 1) - 1; // never fewer: the limit is safe
-        if (leaves > most) {
+        leaves += std::max<std::size_t>(seen, 1) - 1; // never decreases: the limit is safe
+        if (leaves > view.stream().max_drawn()) {
             return next.screen_space_error;
         }
     }
     return 1.0;
 }
 
-std::vector<terrain::TreeTile> max_urgent(std::vector<Candidate> missing) {
+std::vector<terrain::TreeTile> most_urgent(std::vector<Candidate> missing) {
     std::sort(missing.begin(), missing.end(), [](const Candidate& a, const Candidate& b) {
         return a.urgency != b.urgency ? a.urgency > b.urgency : a.id < b.id;
     });
-    missing.resize(std::min(missing.size(), max_wanted));
+    missing.resize(std::min(missing.size(), max_requests));
     std::vector<terrain::TreeTile> requested;
-    requested.reserve(missing.size());
     for (const Candidate& candidate : missing) {
         requested.push_back(candidate.id);
     }
@@ -380,37 +355,38 @@ bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>&
            });
 }
 
-// Walks until one finds all that it needs. An end there is: each walk but the last raises the limit
-// so far that memory holds all, or keeps a tile whole that gave way, or is the last that hides.
-TileSelection chosen(const StreamView& view, const scene::StreamedTile& root,
-                     const TileSelectionOptions& options) {
-    const scene::TileStream& stream = view.stream();
+// Walks until no tile is missing. This ends: each walk but the last raises the error so that all
+// fits in memory, adds a leaf, or is the last that hides.
+TileSelection walk_until_complete(const StreamView& view, const scene::StreamedTile& root,
+                                  const TileSelectionOptions& options) {
     WalkLimits limits;
     std::optional<std::vector<terrain::TreeTile>> requested;
-    std::set<terrain::TreeTile> used; // by any walk: the next view may be like the first one's
+    std::set<terrain::TreeTile> used; // by any walk, because the next view is similar
     while (true) {
         TreeWalk walk(view, limits, options);
         if (!walk.walk(root)) {
-            limits.raise(excess_within_memory(view, root));
+            limits.max_screen_space_error = error_within_memory(view, root);
+            limits.hides = false;
             continue;
         }
         used.insert(walk.used().begin(), walk.used().end());
-        if (limits.hides && are_given_up(stream, walk.missing())) {
-            limits.hides = false; // for long: what is drawn meanwhile is wanted, too
+        if (limits.hides && are_given_up(view.stream(), walk.missing())) {
+            limits.hides = false; // for long: tiles that stand in are requested, too
             continue;
         }
         if (!requested) {
-            requested = max_urgent(walk.missing());
+            requested = most_urgent(walk.missing());
         }
         if (walk.missing().empty()) {
-            TileSelection choice = walk.take();
-            choice.requested = std::move(*requested);
-            choice.used.assign(used.begin(), used.end());
-            return choice;
+            TileSelection selection = walk.take();
+            selection.requested = std::move(*requested);
+            selection.used.assign(used.begin(), used.end());
+            return selection;
         }
         for (const Candidate& candidate : walk.missing()) {
-            limits.keep_whole(candidate.above);
+            limits.leaves.insert(candidate.parent);
         }
+        limits.hides = false;
     }
 }
 
@@ -423,12 +399,13 @@ TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camer
     const scene::TileStream& stream = *terrain.stream;
     const auto root = stream.find(stream.tree().root());
     if (root == nullptr) {
-        TileSelection choice;
-        choice.has_root = false;
-        choice.requested.push_back(stream.tree().root());
-        return choice;
+        TileSelection selection;
+        selection.has_root = false;
+        selection.requested.push_back(stream.tree().root());
+        return selection;
     }
-    return chosen(StreamView(terrain, camera, size, world_from_local), *root, options);
+    const StreamView view(terrain, camera, size, world_from_local);
+    return walk_until_complete(view, *root, options);
 }
 
 } // namespace reljef::view

@@ -11,45 +11,47 @@
 
 namespace reljef::view {
 
-/// The tiles of a streamed terrain that a view shows.
+/// The tiles of a streamed terrain in a view.
 struct TileSelection {
     struct Drawn {
         std::shared_ptr<const scene::StreamedTile> tile;
-        double distance = 0.0; ///< from the eye to its bounds' nearest point, metres
-        double error = 0.0;    ///< of its vertices as it is seen, an estimate, pixels
+        double distance = 0.0; ///< from the eye to the nearest point of its bounds, metres
+        double error = 0.0;    ///< estimated error of its vertices, pixels
     };
     std::vector<Drawn> drawn;                 ///< from the eye outwards
-    std::vector<Drawn> hidden;                ///< behind what is drawn, of what is there
-    std::vector<terrain::TreeTile> requested; ///< and not there, the most urgent first
-    /// In memory, and drawn, above a drawn one, or needed to find out what is hidden: to keep.
+    std::vector<Drawn> hidden;                ///< loaded tiles behind the drawn ones
+    std::vector<terrain::TreeTile> requested; ///< not loaded, the most urgent first
+    /// Loaded tiles to keep: drawn, above a drawn one, or needed to find hidden ones.
     std::vector<terrain::TreeTile> used;
-    bool has_root = true; ///< false: nothing is in memory yet, and the root is wanted
+    bool has_root = true; ///< false: no tile is loaded, the root is requested
     int outside_frustum = 0;
-    int hidden_unread = 0; ///< tiles that are not there and need not be
+    int hidden_unread = 0; ///< hidden tiles that are not loaded
 };
 
-/// The error on the picture that streamed tiles are chosen for where the technique names none,
-/// pixels.
+/// The error bound for streamed tiles if the technique has none, pixels.
 inline constexpr double default_tile_error = 1.0;
-/// Largest distance of samples on screen, in error bounds, if the error allows it.
+/// Largest distance between samples on the picture, in error bounds.
 inline constexpr double samples_apart_in_errors = 4.0;
 
 struct TileSelectionOptions {
-    /// What nearer ground hides is wanted and chosen as finely as all else, to be `hidden`: for
-    /// looking at what it takes from the picture to leave it out.
+    /// Requests and refines hidden tiles like all others and returns them as `hidden`: to measure
+    /// the effect of occlusion on the picture.
     bool keeps_hidden = false;
 };
 
-/// A tile gives way to those below it where its estimated error is seen larger than half of the
-/// technique's error; where more would be drawn than memory holds, those of the largest errors do,
-/// tiles that went being judged by what is remembered of them. Where one below is not there yet, it
-/// is wanted, and the coarser one drawn meanwhile. What lies behind nearer ground
-/// (terrain/horizon.h, of polygons on a plane) is not drawn where all that is drawn is as fine as
-/// it should be, as nothing is hidden by what only stands in for finer tiles; and is not wanted,
-/// but where that cannot be. How high the ground of tiles rises that are not read is an estimate
-/// out of the coarser ones' range and error: what sticks out of these by more, as a tower of a few
-/// samples may, is missed behind nearer ground as beyond the picture's border. The same view of the
-/// same tiles gives the same choice. Nothing at all while the root is not there.
+/// Refines each tile whose estimated error on the picture exceeds half of the technique's error
+/// bound. If memory does not hold all drawn tiles, only those with the largest errors are refined;
+/// evicted tiles count with their summaries. Requests missing children and draws their parent
+/// meanwhile.
+///
+/// Tiles behind nearer ground (terrain/horizon.h; polygons on a plane only) are neither drawn nor
+/// requested, but only if all drawn tiles are as fine as they should be: tiles that stand in for
+/// finer ones hide nothing. The heights of tiles that were never read are estimated from the range
+/// and error of coarser ones, so a tower of a few samples may be missed behind nearer ground or at
+/// the picture's border.
+///
+/// The same view of the same tiles gives the same selection. Selects nothing before the root is
+/// loaded.
 TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                            glm::ivec2 size, const glm::dmat4& world_from_local,
                            const TileSelectionOptions& options = {});

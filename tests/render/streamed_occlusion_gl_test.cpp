@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/scene/tile_stream.h"
-#include "engine/view/occlusion.h"
+#include "engine/view/select.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/session/made_session.h"

@@ -1,4 +1,4 @@
-#include "engine/view/occlusion.h"
+#include "engine/view/select.h"
 
 #include <cmath>
 #include <cstring>

@@ -2,7 +2,6 @@
 #include "engine/terrain/mesh/grid_triangles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
