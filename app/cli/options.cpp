@@ -13,7 +13,6 @@
 #include "app/cli/parsed_option.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/terrain_node.h"
-#include "engine/scene/technique/terrain_detail.h"
 #include "engine/view/error_view.h"
 
 namespace reljef::cli {

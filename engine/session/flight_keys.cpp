@@ -14,14 +14,14 @@
 namespace reljef::session {
 namespace {
 
-constexpr double height_over_ground = 300.0; // metres, where the file tells no heights
+constexpr double height_over_ground = 300.0; // metres, for keys without height
 constexpr double look_ahead = 1000.0;        // metres
-// From key to key at a steady pace; at most twice that where it changes, of which a chord is 0.7 m
-// below its arc.
+// Between keyframes at constant speed. Where the speed changes steps are at most twice as long;
+// then a chord lies 0.7 m below its arc.
 constexpr double max_metres_a_step = 3000.0;
 constexpr double max_steps = 1e6;
 
-// A place of the flight: a key's own, or so far on the way to the next key.
+// A place of the flight: at a key, or on the way to the next one.
 struct Waypoint {
     double time = 0.0;
     std::size_t key = 0;
@@ -29,22 +29,17 @@ struct Waypoint {
     glm::dvec3 eye{0.0};
 };
 
-// True metres; nothing outside the terrain.
-std::optional<double> ground_height(const terrain::Heightfield& heightfield,
-                                    const geo::Geodetic& place) {
+// The height for a key without one: above the ground, or above 0 outside the terrain.
+double default_height(const terrain::Heightfield& heightfield, const geo::Geodetic& place) {
     if (!heightfield.georeference) {
-        return std::nullopt;
+        return height_over_ground;
     }
     const auto sample = heightfield.georeference->geodetic.sample(place.latitude, place.longitude);
     const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
-    const bool inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
-                        sample->y <= last.y;
-    return inside ? std::optional(terrain::bilinear_height(heightfield.heights.view(), *sample))
-                  : std::nullopt;
-}
-
-double height_over(const scene::TerrainSurface& surface, const geo::Geodetic& place) {
-    return ground_height(surface.heightfield(), place).value_or(0.0) + height_over_ground;
+    const bool is_inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
+                           sample->y <= last.y;
+    return height_over_ground +
+           (is_inside ? terrain::bilinear_height(heightfield.heights.view(), *sample) : 0.0);
 }
 
 void sort_by_time(std::vector<io::GeodeticKey>& keys) {
@@ -68,7 +63,8 @@ public:
         for (const io::GeodeticKey& key : keys) {
             const geo::Geodetic place{key.latitude, key.longitude, 0.0};
             places_.push_back(place);
-            places_.back().height = key.height.value_or(height_over(surface, place));
+            places_.back().height =
+                key.height.value_or(default_height(surface.heightfield(), place));
             if (places_.size() > 1) {
                 ways_.push_back(geo::geodesic_between(places_[places_.size() - 2], place));
                 way_ += ways_.back().distance;
@@ -77,8 +73,7 @@ public:
         }
     }
 
-    /// Fails where a key has no place in the scene; places between keys that have none are left
-    /// out.
+    /// Fails if a key has no place in the scene. Skips such places between keys.
     [[nodiscard]] Result<std::vector<Waypoint>> waypoints(const std::string& name) const {
         const auto profile = scene::CameraPath::create(profile_);
         if (!profile) {
@@ -116,7 +111,7 @@ private:
             geo::Geodetic place = geo::geodesic_end(places_[key], ways_[key].azimuth_start,
                                                     on_profile.x - profile_[key].eye.x);
             place.height = !keys_[key].height && !keys_[key + 1].height
-                               ? height_over(surface_, place)
+                               ? default_height(surface_.heightfield(), place)
                                : on_profile.y;
             if (const auto eye = surface_.placement().world_from_geodetic(place)) {
                 found.push_back({time, key, share, *eye});
@@ -129,13 +124,13 @@ private:
     std::span<const io::GeodeticKey> keys_;
     std::vector<geo::Geodetic> places_;
     std::vector<geo::Geodesic> ways_;      // from each key to the next
-    std::vector<scene::Keyframe> profile_; // x: metres since the first key, y: the height there
+    std::vector<scene::Keyframe> profile_; // x: metres since the first key, y: height
     double way_ = 0.0;
 };
 
-// By the key's angles, else to the next place, else as before; of length look_ahead.
-glm::dvec3 look_of_key(const terrain::Placement& placement, const io::GeodeticKey& key,
-                       std::span<const Waypoint> places, std::size_t index) {
+// Along the key's angles, or towards the next place, or at the end as before; look_ahead long.
+glm::dvec3 direction_of_key(const terrain::Placement& placement, const io::GeodeticKey& key,
+                            std::span<const Waypoint> places, std::size_t index) {
     const glm::dvec3 eye = places[index].eye;
     if (key.heading) {
         const auto camera = scene::camera_from_angles(eye, *key.heading, key.pitch.value_or(0.0),
@@ -150,39 +145,40 @@ glm::dvec3 look_of_key(const terrain::Placement& placement, const io::GeodeticKe
     return length > 0.0 ? way * (look_ahead / length) : glm::dvec3(0.0, look_ahead, 0.0);
 }
 
-// A direction taken along the Earth to where up is another (Rodrigues' formula).
-glm::dvec3 carried(glm::dvec3 direction, glm::dvec3 from_up, glm::dvec3 to_up) {
+// Rotates a direction with the local up vector (Rodrigues' formula).
+glm::dvec3 rotated_with_up(glm::dvec3 direction, glm::dvec3 from_up, glm::dvec3 to_up) {
     const glm::dvec3 axis = glm::cross(from_up, to_up);
     const glm::dvec3 turned = glm::cross(axis, direction);
     const double whole = std::max(1.0 + glm::dot(from_up, to_up), 1e-12);
     return direction + turned + glm::cross(axis, turned) / whole;
 }
 
-// Of all places: keys look as they say, those between turn from one to the next.
-std::vector<scene::Keyframe> with_looks(const terrain::Placement& placement,
-                                        std::span<const io::GeodeticKey> keys,
-                                        std::span<const Waypoint> places) {
-    struct KeyLook {
-        glm::dvec3 look{0.0};
+// Places between keys interpolate the directions of the keys.
+std::vector<scene::Keyframe> with_targets(const terrain::Placement& placement,
+                                          std::span<const io::GeodeticKey> keys,
+                                          std::span<const Waypoint> places) {
+    struct Orientation {
+        glm::dvec3 forward{0.0};
         glm::dvec3 up{0.0};
     };
-    std::vector<KeyLook> looks;
+    std::vector<Orientation> of_keys;
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (places[i].share == 0.0) {
-            looks.push_back({look_of_key(placement, keys[places[i].key], places, i),
-                             placement.up(places[i].eye)});
+            of_keys.push_back({direction_of_key(placement, keys[places[i].key], places, i),
+                               placement.up(places[i].eye)});
         }
     }
     std::vector<scene::Keyframe> keyframes;
     for (const Waypoint& place : places) {
-        glm::dvec3 look = looks[place.key].look;
+        const Orientation& key = of_keys[place.key];
+        glm::dvec3 forward = key.forward;
         if (place.share > 0.0) {
             const glm::dvec3 up = placement.up(place.eye);
-            const KeyLook& next = looks[place.key + 1];
-            look = glm::mix(carried(look, looks[place.key].up, up),
-                            carried(next.look, next.up, up), place.share);
+            const Orientation& next = of_keys[place.key + 1];
+            forward = glm::mix(rotated_with_up(forward, key.up, up),
+                               rotated_with_up(next.forward, next.up, up), place.share);
         }
-        keyframes.push_back({place.time, place.eye, place.eye + look});
+        keyframes.push_back({place.time, place.eye, place.eye + forward});
     }
     return keyframes;
 }
@@ -197,7 +193,7 @@ Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& su
     if (!places) {
         return places.error();
     }
-    return with_looks(surface.placement(), keys, *places);
+    return with_targets(surface.placement(), keys, *places);
 }
 
 } // namespace reljef::session

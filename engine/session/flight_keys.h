@@ -9,13 +9,12 @@
 
 namespace reljef::session {
 
-/// A flight on Earth as keys in the scene, along the geodesics from key to key: between keys that
-/// are far apart there are more, so that the path is within a metre of the way (in a flight of a
-/// million kilometres less exactly). Of keys at one time the last counts. Keys without a height
-/// stand 300 m above the ground of the surface; no other is moved. The file's keys look along their
-/// angles, else to the next of all keys, as a rule at most 3 km on; those between turn from one
-/// look to the next. Fails for a terrain without a place on Earth, and for keys beside its map;
-/// `name` is the file's, for the error.
+/// The keyframes of a flight on Earth, along the geodesics from key to key. Adds keyframes between
+/// distant keys, so that the path stays within a metre of the geodesics (less exactly in a flight
+/// of a million kilometres). The last of several keys at one time counts. Keys without a height are
+/// 300 m above the ground of the surface. A key looks along its angles, or towards the next
+/// keyframe; those between interpolate. Fails for a terrain without a place on Earth, and for keys
+/// beside its map; `name`: the file, for the error.
 Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& surface,
                                                  std::vector<io::GeodeticKey> keys,
                                                  const std::string& name);

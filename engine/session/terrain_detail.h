@@ -4,7 +4,7 @@
 #include <stop_token>
 
 #include "engine/io/formats/scene_file.h"
-#include "engine/scene/technique/terrain_detail.h"
+#include "engine/scene/graph/terrain_node.h"
 #include "engine/session/log.h"
 #include "engine/session/options.h"
 

@@ -7,7 +7,7 @@
 #include "engine/render/shaders/relief_options.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
-#include "engine/scene/graph/texture_plane.h"
+#include "engine/scene/graph/mesh.h"
 
 namespace reljef::render {
 namespace {

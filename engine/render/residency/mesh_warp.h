@@ -4,7 +4,7 @@
 
 #include "engine/core/grid.h"
 #include "engine/scene/graph/surface_detail.h"
-#include "engine/scene/graph/texture_plane.h"
+#include "engine/scene/graph/mesh.h"
 
 namespace reljef::render {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace reljef::scene {
@@ -26,15 +27,14 @@ void add_quad(Mesh& mesh, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     }
 }
 
-// The same bits for the same column, and for the last as for the first.
+// Gives the same bits for the first and the last column.
 glm::vec2 direction_of(int col, int around) {
     const float u = static_cast<float>(col % around) / static_cast<float>(around);
     return {std::cos(2.0F * pi * u), std::sin(2.0F * pi * u)};
 }
 
-// Rows of vertices over (u, v) in [0,1]², seen from outside with u to the right and v downwards.
-// The last column stands exactly where the first does. `vertex(direction, row)` gives position and
-// normal.
+// Rows of vertices over (u, v) in [0,1]²: from outside, u points right and v down. The last column
+// has the positions of the first. `vertex(direction, row)` gives position and normal.
 template <class Vertex> Mesh swept(int around, int down, const Vertex& vertex) {
     Mesh mesh;
     for (int row = 0; row <= down; ++row) {
@@ -51,7 +51,7 @@ template <class Vertex> Mesh swept(int around, int down, const Vertex& vertex) {
     return mesh;
 }
 
-// The level disc that closes a cylinder; `up` is 1 at its top and -1 at its bottom.
+// The disc that closes a cylinder; `up` is 1 at the top and -1 at the bottom.
 void add_disc(Mesh& mesh, float radius, float height, int around, float up) {
     const glm::vec2 density(1.0F / (2.0F * pi * radius), 1.0F / height);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -71,6 +71,29 @@ void add_disc(Mesh& mesh, float radius, float height, int around, float up) {
             mesh.indices.push_back(index);
         }
     }
+}
+
+// Empty if the triangle has no area or no texture coordinates.
+std::optional<TexturePlane> plane_of_triangle(const Mesh& mesh, std::size_t first) {
+    const auto [corner, p, q, coordinate, s, t] = triangle_edges(mesh, first);
+    const double area = s.x * t.y - s.y * t.x;
+    const glm::dvec3 across = glm::cross(p, q);
+    if (area == 0.0 || glm::length(across) == 0.0) {
+        return std::nullopt;
+    }
+    TexturePlane plane;
+    plane.along_u = (t.y * p - s.y * q) / area;
+    plane.along_v = (s.x * q - t.x * p) / area;
+    plane.origin = corner - coordinate.x * plane.along_u - coordinate.y * plane.along_v;
+    plane.normal = glm::normalize(across);
+    return plane;
+}
+
+bool lies_on(const TexturePlane& plane, const Mesh& mesh, std::size_t vertex, double tolerance) {
+    const glm::dvec2 coordinate(mesh.texture_coordinates[vertex]);
+    const glm::dvec3 expected =
+        plane.origin + coordinate.x * plane.along_u + coordinate.y * plane.along_v;
+    return glm::distance(expected, glm::dvec3(mesh.positions[vertex])) <= tolerance;
 }
 
 } // namespace
@@ -124,8 +147,7 @@ Mesh sphere_mesh(float radius, int segments) {
     const int down = std::max(around / 2, 2);
     return swept(around, down, [&](glm::vec2 direction, int row) {
         const float angle = pi * static_cast<float>(row) / static_cast<float>(down);
-        // The poles are points.
-        const float ring = row > 0 && row < down ? std::sin(angle) : 0.0F;
+        const float ring = row > 0 && row < down ? std::sin(angle) : 0.0F; // poles are points
         const glm::vec3 normal(ring * direction, std::cos(angle));
         return std::pair(radius * normal, normal);
     });
@@ -163,6 +185,29 @@ Mesh cylinder_mesh(float radius, float height, int segments) {
     add_disc(mesh, radius, height, around, 1.0F);
     add_disc(mesh, radius, height, around, -1.0F);
     return mesh;
+}
+
+std::optional<TexturePlane> texture_plane(const Mesh& mesh) {
+    std::optional<TexturePlane> plane;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size() && !plane; i += 3) {
+        plane = plane_of_triangle(mesh, i);
+    }
+    if (!plane) {
+        return std::nullopt;
+    }
+    // A few units in the last place of the floats of positions and coordinates.
+    const glm::dvec3 size = bounds_of(mesh).size();
+    const double tolerance = std::ldexp(std::max({size.x, size.y, size.z}), -20);
+    plane->low = plane->high = glm::dvec2(mesh.texture_coordinates[mesh.indices.front()]);
+    for (const std::uint32_t vertex : mesh.indices) {
+        if (!lies_on(*plane, mesh, vertex, tolerance)) {
+            return std::nullopt;
+        }
+        const glm::dvec2 coordinate(mesh.texture_coordinates[vertex]);
+        plane->low = glm::min(plane->low, coordinate);
+        plane->high = glm::max(plane->high, coordinate);
+    }
+    return plane;
 }
 
 } // namespace reljef::scene

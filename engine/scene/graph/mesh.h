@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -11,8 +12,8 @@
 
 namespace reljef::scene {
 
-/// Triangles in local metres. All three vertex arrays have one length; every three indices are one
-/// triangle, counter-clockwise from the outside.
+/// Triangles in local metres. The three vertex arrays have the same length. Three indices each are
+/// one triangle, counter-clockwise from outside.
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals; ///< unit length
@@ -20,46 +21,57 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
 };
 
-/// The box around the positions.
 Box bounds_of(const Mesh& mesh);
 
-/// One corner of a triangle, and the ways from it to the other two.
+/// A corner of a triangle and its edges to the other two.
 struct TriangleEdges {
     glm::dvec3 corner{0.0}; ///< metres, as p and q
     glm::dvec3 p{0.0};
     glm::dvec3 q{0.0};
-    glm::dvec2 coordinate{0.0}; ///< of the texture, as s and t
+    glm::dvec2 coordinate{0.0}; ///< texture coordinate, as s and t
     glm::dvec2 s{0.0};
     glm::dvec2 t{0.0};
 };
-/// Of the triangle whose indices begin at `first`.
+/// `first`: the first of the triangle's indices.
 TriangleEdges triangle_edges(const Mesh& mesh, std::size_t first);
 
-// The shapes' texture coordinates: a picture whose row 0 is at v = 0 stands upright and is not
-// mirrored, seen from outside.
+/// The plane of a flat mesh with its texture coordinates: local metres.
+struct TexturePlane {
+    glm::dvec3 origin{0.0};  ///< at texture coordinate 0
+    glm::dvec3 along_u{0.0}; ///< per unit of u
+    glm::dvec3 along_v{0.0};
+    glm::dvec3 normal{0.0}; ///< unit length, outwards
+    glm::dvec2 low{0.0};    ///< smallest texture coordinates of the mesh
+    glm::dvec2 high{0.0};
+};
+
+/// Empty if the mesh is not flat, or its texture coordinates are not affine.
+std::optional<TexturePlane> texture_plane(const Mesh& mesh);
+
+// Shapes: seen from outside, an image with row 0 at v = 0 is upright and not mirrored. `segments`
+// around are at least 3.
 
 /// A level rectangle around the origin, seen from above: `size` in metres along x and y; u grows
 /// with x, v against y, 0 to 1.
 Mesh plane_mesh(glm::vec2 size);
 
-/// A box centred at the origin; `size` in metres along x, y, z; each side u and v from 0 to 1.
+/// A box centred at the origin; `size` in metres along x, y, z; u and v from 0 to 1 on each side.
 Mesh box_mesh(glm::vec3 size);
 
-/// A sphere centred at the origin, `segments` around and half as many from pole to pole (at least
-/// 3); u once around, v from the upper pole to the lower.
+/// A sphere centred at the origin with half as many segments from pole to pole; u once around, v
+/// from the upper pole to the lower one.
 Mesh sphere_mesh(float radius, int segments = 48);
 
-/// The lower half of such a sphere, open on top: its rim lies at z = 0. `segments` around and a
-/// quarter as many from the rim to the pole (at least 3); u once around, v from the rim down.
+/// The lower half of a sphere, open on top: its rim lies at z = 0. A quarter as many segments from
+/// the rim to the pole; u once around, v from the rim down.
 Mesh bowl_mesh(float radius, int segments = 48);
 
-/// A torus around the z axis: its tube of `tube_radius` runs `ring_radius` away from the origin.
-/// `segments` around the axis and half as many around the tube (at least 3); u once around the
-/// axis, v once around the tube, from inside over the top.
+/// A torus around the z axis with half as many segments around the tube; u once around the axis, v
+/// once around the tube, from inside over the top.
 Mesh torus_mesh(float ring_radius, float tube_radius, int segments = 64);
 
-/// A closed cylinder around the z axis, centred at the origin; `segments` around (at least 3). On
-/// the wall u goes once around and v from the top down; on the ends they go as far a metre.
+/// A closed cylinder around the z axis, centred at the origin. On the wall u goes once around and v
+/// from the top down; the ends have the same density of texture coordinates.
 Mesh cylinder_mesh(float radius, float height, int segments = 48);
 
 } // namespace reljef::scene

@@ -8,7 +8,6 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/scene/graph/texture_plane.h"
 #include "engine/scene/tile_stream.h"
 
 namespace reljef::scene {

@@ -12,7 +12,7 @@
 namespace reljef::scene {
 namespace {
 
-// Twice the areas of a mesh's triangles: in metres², and of texture coordinates.
+// Twice the area of a mesh, in metres² and in texture coordinates.
 struct Areas {
     double surface = 0.0;
     double texture = 0.0;
@@ -28,7 +28,7 @@ Areas areas_of(const Mesh& mesh) {
     return areas;
 }
 
-// The lengths of a triangle's edges in texels of the heights, the longest.
+// The longest edge of a triangle, in texels of the heights.
 double longest_edge(const Mesh& mesh, std::size_t first, glm::dvec2 texels_per_coordinate) {
     double longest = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -39,8 +39,8 @@ double longest_edge(const Mesh& mesh, std::size_t first, glm::dvec2 texels_per_c
     return longest;
 }
 
-// A vertex i, j, k n-ths between three: the same bits whichever triangle asks, for an edge's two
-// corners are multiplied exactly and added in either order.
+// Interpolates at (i, j, k)/n. All triangles of an edge get the same bits, because the products
+// with its two corners are exact and addition commutes.
 template <class V>
 V between(const std::vector<V>& values, std::span<const std::uint32_t, 3> corners,
           glm::ivec3 parts) {
@@ -78,7 +78,7 @@ void add_cut_triangle(const Mesh& mesh, std::size_t index, int n, Mesh& fine) {
     }
 }
 
-// The vertices, those that stand at one place one after the other.
+// The vertices in an order that groups equal positions.
 std::vector<std::size_t> ordered_by_place(const std::vector<glm::vec3>& positions) {
     std::vector<std::size_t> order(positions.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -91,8 +91,8 @@ std::vector<std::size_t> ordered_by_place(const std::vector<glm::vec3>& position
     return order;
 }
 
-// Where vertices at one place go that are lifted by 1: as far along each of their normals, so that
-// faces that meet there go on meeting. Along one of them where they look opposite ways.
+// The displacement of vertices at one place by height 1: the same distance along each of their
+// normals, so that faces stay joined. Follows one normal if they point in opposite directions.
 glm::dvec3 shared_direction(const Mesh& mesh, std::span<const std::size_t> vertices) {
     std::vector<glm::vec3> normals;
     glm::dvec3 sum(0.0);
@@ -119,12 +119,6 @@ template <class Visit> void visit_places(const Mesh& mesh, const Visit& visit) {
         visit(std::span(begin, end));
         begin = end;
     }
-}
-
-int index_on_tile(int index, int count, material::WrapMode border) {
-    const int rest = index % count;
-    return border == material::WrapMode::wrap ? (rest < 0 ? rest + count : rest)
-                                              : std::clamp(index, 0, count - 1);
 }
 
 } // namespace
@@ -166,9 +160,9 @@ int cuts_for(const Mesh& mesh, const SurfaceDetail& detail, double texels) {
         longest = std::max(longest, longest_edge(mesh, i, texels_per_coordinate));
     }
     const std::size_t triangles = std::max<std::size_t>(mesh.indices.size() / 3, 1);
-    const double most =
+    const double max_cuts =
         std::sqrt(static_cast<double>(max_displaced_triangles) / static_cast<double>(triangles));
-    return static_cast<int>(std::clamp(std::ceil(longest / texels), 1.0, std::max(most, 1.0)));
+    return static_cast<int>(std::clamp(std::ceil(longest / texels), 1.0, std::max(max_cuts, 1.0)));
 }
 
 std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const SurfaceDetail& detail) {
@@ -214,8 +208,8 @@ double tile_height(const material::ReliefMaterial& set, glm::dvec2 coordinate,
     const glm::ivec2 cell(glm::floor(place));
     const glm::dvec2 part = place - glm::dvec2(cell);
     const auto at = [&](int right, int down) {
-        return static_cast<double>(heights(index_on_tile(cell.x + right, size.x, border),
-                                           index_on_tile(cell.y + down, size.y, border)));
+        return static_cast<double>(heights(material::index_beyond(cell.x + right, size.x, border),
+                                           material::index_beyond(cell.y + down, size.y, border)));
     };
     return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
                     part.y);

@@ -12,61 +12,59 @@
 
 namespace reljef::scene {
 
-/// A tile of detail on a mesh: how often, how high, and what lies beyond it.
+/// A repeated detail tile on a mesh.
 struct SurfaceDetail {
-    std::shared_ptr<const material::ReliefMaterial> set; ///< as completed() gave it
-    glm::vec2 repeats{1.0F}; ///< tiles along texture coordinates 0 … 1; > 0
+    std::shared_ptr<const material::ReliefMaterial> set; ///< as completed() returned it
+    glm::vec2 repeats{1.0F}; ///< tiles per unit of texture coordinates; > 0
     float scale = 0.05F;     ///< height of 1, in tile widths; > 0
-    /// Of the heights against the mesh, in [−1, 0]: −1 sinks all below it, 0 lifts all above.
+    /// Added to the heights, in [−1, 0]: −1 puts all below the mesh, 0 all above.
     float offset = -1.0F;
     material::WrapMode border = material::WrapMode::wrap;
 
     friend bool operator==(const SurfaceDetail&, const SurfaceDetail&) = default;
 };
 
-/// Side of the square as large as one tile is on the mesh, on average, metres; 0 where the texture
-/// coordinates cover nothing.
+/// Side of a square with the mean area of a tile on the mesh, metres; 0 if the texture coordinates
+/// have no area.
 double tile_width(const Mesh& mesh, glm::vec2 repeats);
 
-/// Metres that a height of 1 lifts a point of the mesh.
+/// Displacement by a height of 1, metres.
 double relief_height(const Mesh& mesh, const SurfaceDetail& detail);
 
-/// A vertex that is lifted by 1 goes no farther: over an edge as far as each of its faces needs,
-/// see SharedPlace, but no spike is longer.
+/// Largest displacement of a vertex by height 1: at an edge it is longer, to keep the distance from
+/// each face (see SharedPlace).
 inline constexpr double max_lift = 2.0;
 
-/// Metres that displacement adds to a mesh's bounds, at most.
+/// Upper bound of what displacement adds to a mesh's bounds, metres.
 double raised_above(const Mesh& mesh, const SurfaceDetail& detail);
 
-/// Metres that a hull around all heights adds to a mesh's bounds, at most: a height by hull_margin
-/// beyond the lowest and the highest.
+/// Upper bound of what a hull adds to a mesh's bounds, metres. The hull reaches `hull_margin`
+/// beyond the lowest and the highest height.
 double hull_reach(const Mesh& mesh, const SurfaceDetail& detail);
 inline constexpr double hull_margin = 1.0 / 4096.0;
 
-/// The mesh with every triangle cut into n², its vertices' normals unit vectors between the
-/// corners'. Edges that two triangles share stay shared. Precondition: n >= 1.
+/// Divides each triangle into n² with interpolated unit normals. Shared edges stay shared.
+/// Precondition: n >= 1.
 Mesh tessellated(const Mesh& mesh, int n);
 
-/// Into how many parts each edge is cut so that vertices lie no more than `texels` of the heights
-/// apart, and there are no more than max_displaced_triangles. Precondition: a set is there.
+/// The parts of each edge so that vertices are at most `texels` of the heights apart, with at most
+/// max_displaced_triangles. Precondition: the detail has a set.
 int cuts_for(const Mesh& mesh, const SurfaceDetail& detail, double texels);
 inline constexpr std::size_t max_displaced_triangles = 1'000'000;
 
-/// The positions moved along the normals to the heights at their texture coordinates. Vertices at
-/// one place stay together: they share the mean of their heights, and go along the mean of their
-/// normals, as far along each as they would alone.
+/// The positions displaced by the heights at their texture coordinates. Vertices at one place stay
+/// together: by the mean of their heights, along SharedPlace::direction.
 std::vector<glm::vec3> displaced_positions(const Mesh& mesh, const SurfaceDetail& detail);
 
-/// Where a vertex stands, and where it goes that is lifted by 1.
 struct SharedPlace {
-    std::uint32_t index = 0;   ///< the same of all vertices at one place
-    glm::dvec3 direction{0.0}; ///< likewise: as far along each of their normals
+    std::uint32_t index = 0;   ///< the same for all vertices at one place
+    glm::dvec3 direction{0.0}; ///< of displacement by 1: the same distance along each normal
 };
-/// Of each vertex.
+/// One for each vertex.
 std::vector<SharedPlace> shared_places(const Mesh& mesh);
 
-/// Height in [0,1] at a tile's coordinate, bilinear between texel centres, as GL samples; beyond
-/// the tile (discard) the border's.
+/// Height in [0,1] at a tile coordinate, bilinear between texel centres, as GL samples. `discard`
+/// continues the border.
 double tile_height(const material::ReliefMaterial& set, glm::dvec2 coordinate,
                    material::WrapMode border);
 

@@ -5,7 +5,6 @@
 namespace reljef::scene {
 namespace {
 
-// A terrain's own light is that of its heights already, and its own vertices stand where they are.
 Error for_meshes_only(TechniqueId id) {
     const bool moves = id == TechniqueId::displacement || looks_for_layers(id);
     return Error{fmt::format("technique {}: a terrain found, a mesh with a tile of detail was "
@@ -13,6 +12,18 @@ Error for_meshes_only(TechniqueId id) {
                              technique_info(id).name,
                              looks_for_layers(id) ? "exact" : (moves ? "polygons" : "texture"),
                              moves ? "shapes" : "lights")};
+}
+
+bool shows_detail(TechniqueId id) {
+    return id != TechniqueId::polygons && id != TechniqueId::displacement &&
+           id != TechniqueId::prewarp && !looks_for_layers(id);
+}
+
+bool has_foreign_options(const TechniqueOptions& options) {
+    TechniqueOptions allowed;
+    allowed.steps = options.steps;
+    allowed.shadow = options.shadow;
+    return options != allowed;
 }
 
 } // namespace
@@ -57,9 +68,8 @@ Result<TerrainSurface> TerrainSurface::create(std::shared_ptr<const terrain::Ter
 
 std::optional<double> TerrainSurface::height_at(double x, double y) const {
     const Grid<float>& heights = heightfield().heights;
-    // On a curved Earth the vertical through (x, y) leans against z: look up where the ground below
-    // the last guess stands; each round shrinks the miss by the slope of that lean, below 1 % over
-    // 100 km.
+    // On a curved Earth the vertical through (x, y) is not parallel to z. Each round looks up the
+    // ground below the last guess, which divides the error by more than 100 within 100 km.
     const int rounds = placement_.kind() == terrain::PlacementKind::plane ? 1 : 8;
     double z = 0.0;
     for (int i = 0; i < rounds; ++i) {
@@ -70,7 +80,7 @@ std::optional<double> TerrainSurface::height_at(double x, double y) const {
         const double height = terrain::bilinear_height(heights.view(), glm::dvec2(*sample));
         z = placement_.world_from_sample({sample->x, sample->y, height}).z;
     }
-    // Over the border or not shows only at the height of the ground.
+    // Whether the place is inside depends on the height of the ground.
     const auto sample = placement_.sample_from_world({x, y, z});
     if (!sample || sample->x < 0.0 || sample->y < 0.0 || sample->x > heights.cols() - 1 ||
         sample->y > heights.rows() - 1) {
@@ -119,6 +129,20 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
         fmt::format("technique {}: placement ellipsoid found, plane was expected; polygons "
                     "draws both",
                     name)};
+}
+
+Result<void> check_terrain_detail_technique(const Technique& technique) {
+    if (!shows_detail(technique.id())) {
+        return Error{fmt::format("technique {}: a tile of detail on a terrain found, a mesh was "
+                                 "expected; normal, relief and exact show both",
+                                 technique_info(technique.id()).name)};
+    }
+    if (has_foreign_options(technique.options)) {
+        return Error{fmt::format("technique {}: a tile of detail on a terrain found with an option "
+                                 "that only meshes have, none beside steps and shadow was expected",
+                                 to_string(technique))};
+    }
+    return {};
 }
 
 } // namespace reljef::scene

@@ -9,7 +9,6 @@
 #include "engine/material/cone_map.h"
 #include "engine/scene/graph/surface_detail.h"
 #include "engine/scene/technique/technique.h"
-#include "engine/scene/technique/terrain_detail.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/placement.h"
@@ -19,30 +18,29 @@
 
 namespace reljef::scene {
 
-/// How a surface looks.
 struct Material {
     Technique technique{Polygons{}};
     bool wireframe = false;
-    glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain brings its own
-    SurfaceDetail detail;  ///< meshes only; without a set the mesh is of one colour
+    glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain has its own
+    SurfaceDetail detail;  ///< meshes only; without a set the mesh has one colour
 
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// The tile of detail as it is drawn: what the technique says of its border comes first.
+/// The detail with the border that the technique names.
 SurfaceDetail shown_detail(const Material& material);
 
-/// Whether a mesh is drawn with its inner side.
+/// Whether the inner side of a mesh is drawn, too.
 bool is_seen_from_behind(const Material& material);
 
 struct TerrainOptions {
-    /// Absent: ellipsoid for georeferenced heights, else plane.
+    /// Absent: ellipsoid for georeferenced heights, otherwise plane.
     std::optional<terrain::PlacementKind> placement;
     double exaggeration = 1.0;
 };
 
-/// A terrain placed in a node's local frame (metres, x east, y north, z up), ready to be drawn and
-/// asked. The data is shared and never changes.
+/// A terrain in a node's local frame (metres, x east, y north, z up), for drawing and queries. The
+/// data is shared and never changes.
 class TerrainSurface {
 public:
     static Result<TerrainSurface> create(std::shared_ptr<const terrain::Terrain> terrain,
@@ -53,16 +51,16 @@ public:
     [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
     [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }
 
-    /// Tiles of the surface, and of the flat reference surface, with the same indices.
+    /// Tiles of the surface and of the flat reference surface, with the same indices.
     [[nodiscard]] const std::vector<terrain::Tile>& tiles() const { return tiles_; }
     [[nodiscard]] const std::vector<terrain::Tile>& flat_tiles() const { return flat_tiles_; }
     [[nodiscard]] const Box& bounds() const { return bounds_; }
 
-    /// z of the surface straight above or below (x, y) in the local frame, exaggeration included;
-    /// nothing outside the heightfield.
+    /// z of the surface at (x, y) in the local frame, exaggeration included; empty outside the
+    /// heightfield.
     [[nodiscard]] std::optional<double> height_at(double x, double y) const;
 
-    /// Where a ray in the local frame first meets the surface.
+    /// The first hit of a ray in the local frame.
     [[nodiscard]] std::optional<terrain::SurfaceHit> pick(const Ray& ray) const;
 
 private:
@@ -76,30 +74,41 @@ private:
     Box bounds_;
 };
 
-/// Whether the technique can draw the surface. Fails, with the reason and the name of what works,
-/// where a technique is one for meshes, where one that looks for the surface along rays finds it
-/// bent over the Earth, and on options that only detail tiles have: two sides, a border that goes
-/// on.
+/// Fails if the technique cannot draw the surface, with the reason and a technique that can:
+/// techniques for meshes, rays on the ellipsoid, and options that only detail tiles have.
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface);
+
+/// A detail tile that repeats over a terrain drawn as polygons. Its colour covers the terrain's;
+/// its heights lie below the triangles, and rays meet them in the plane of the triangle. It fades
+/// with distance and does not change hits.
+struct TerrainDetail {
+    std::shared_ptr<const material::ReliefMaterial> set; ///< as completed() returned it
+    double width = 4.0;            ///< of a tile, metres, [terrain::min_tile_width, max_tile_width]
+    float scale = 0.05F;           ///< height of 1, in tile widths; (0, terrain::max_tile_scale]
+    Technique technique{Relief{}}; ///< see check_terrain_detail_technique
+};
+
+/// Fails if a technique cannot show a detail tile on a terrain, with the reason and techniques that
+/// can: it must not move vertices, warp or search layers, and only `steps` and `shadow` are
+/// allowed options.
+Result<void> check_terrain_detail_technique(const Technique& technique);
 
 class TileStream;
 
-/// What makes a node a terrain.
 struct TerrainNode {
     std::shared_ptr<const TerrainSurface> surface;
     Material material;
-    /// Finer tiles of the same terrain, which is an overview then; null: it is all there is.
+    /// Finer tiles of the same terrain, of which the surface is the overview; null: none.
     std::shared_ptr<TileStream> stream = {};
-    /// Shown where the technique is polygons; null: none.
-    std::shared_ptr<const TerrainDetail> detail = {};
-    /// Of the surface, where they were made or read before; null: made when they are first needed.
+    std::shared_ptr<const TerrainDetail> detail = {}; ///< for polygons only; null: none
+    /// Prepared maps of the surface; null: the renderer makes them on demand.
     std::shared_ptr<const terrain::Bisection> bisection = {};
     std::shared_ptr<const material::ConeMaps> cones = {}; ///< over its heights, from 0 to 1
 
     friend bool operator==(const TerrainNode&, const TerrainNode&) = default;
 };
 
-/// Whether the technique draws the tiles of a stream; else it draws the overview.
+/// Whether the technique draws the tiles of a stream; others draw the overview.
 bool draws_tiles(const Technique& technique);
 
 } // namespace reljef::scene

@@ -1,4 +1,4 @@
-#include "engine/scene/graph/texture_plane.h"
+#include "engine/scene/graph/mesh.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

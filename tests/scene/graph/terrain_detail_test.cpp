@@ -1,4 +1,4 @@
-#include "engine/scene/technique/terrain_detail.h"
+#include "engine/scene/graph/terrain_node.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
