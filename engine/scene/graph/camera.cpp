@@ -8,20 +8,15 @@
 namespace reljef::scene {
 namespace {
 
-// The vector's direction, or `otherwise` where it has none (zero length, not finite).
+// The unit vector, or `otherwise` if the length is zero or not finite.
 glm::dvec3 direction_or(glm::dvec3 vector, glm::dvec3 otherwise) {
     const double length = glm::length(vector);
     return std::isfinite(length) && length > 0.0 ? vector / length : otherwise;
 }
 
-// Sine of the angle below which a view counts as looking along its up vector: there the cross
-// product keeps fewer than half of a double's 53 bits.
+// A smaller sine between two unit vectors makes them parallel: their cross product has fewer than
+// half of a double's 53 bits.
 constexpr double parallel_sine = 0x1p-26;
-
-// The camera's shift as a part of half the picture's sides, right and up.
-glm::dvec2 clip_shift(const Camera& camera, glm::ivec2 size) {
-    return {2.0 * camera.shift.x / size.x, -2.0 * camera.shift.y / size.y};
-}
 
 } // namespace
 
@@ -48,7 +43,7 @@ glm::dmat4 view_from_world_rotation(const Camera& camera) {
 
 glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size) {
     const double aspect = static_cast<double>(size.x) / size.y;
-    const glm::dvec2 shift = clip_shift(camera, size);
+    const glm::dvec2 shift(2.0 * camera.shift.x / size.x, -2.0 * camera.shift.y / size.y);
     glm::dmat4 clip(0.0);
     if (camera.projection == ProjectionKind::perspective) {
         const double scale = 1.0 / std::tan(0.5 * glm::radians(camera.vertical_fov));
@@ -118,8 +113,7 @@ Projected project(const Camera& camera, glm::ivec2 size, glm::dvec3 world) {
 
 Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Compass& compass) {
     const glm::dvec3 upward = direction_or(compass.up, {0.0, 0.0, 1.0});
-    glm::dvec3 east = glm::cross(compass.north, upward);
-    east = direction_or(east, {1.0, 0.0, 0.0});
+    const glm::dvec3 east = direction_or(glm::cross(compass.north, upward), {1.0, 0.0, 0.0});
     const glm::dvec3 north = glm::cross(upward, east);
     const double h = glm::radians(heading);
     const double p = glm::radians(pitch);
@@ -127,7 +121,6 @@ Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Co
     Camera camera;
     camera.eye = eye;
     camera.target = eye + std::cos(p) * ahead + std::sin(p) * upward;
-    // Straight up or down, the heading still says what is up in the picture.
     camera.up = std::cos(p) * upward - std::sin(p) * ahead;
     return camera;
 }

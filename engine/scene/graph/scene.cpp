@@ -13,8 +13,7 @@
 namespace reljef::scene {
 namespace {
 
-void visit_below(const Node& node, const glm::dmat4& world_from_parent,
-                 const std::function<void(const Node&, const glm::dmat4&)>& visit) {
+void visit_below(const Node& node, const glm::dmat4& world_from_parent, const NodeVisitor& visit) {
     if (!node.visible()) {
         return;
     }
@@ -30,8 +29,7 @@ Ray transformed(const glm::dmat4& to_from_from, const Ray& ray) {
             glm::dvec3(to_from_from * glm::dvec4(ray.direction, 0.0))};
 }
 
-// z of a terrain straight below `above`, world metres. A turned terrain has no height at x, y of
-// its own: the ray down finds it.
+// z of a terrain straight below `above`, world metres. A rotated terrain needs a ray.
 std::optional<double> height_of(const TerrainNode& terrain, const glm::dmat4& world_from_local,
                                 glm::dvec3 above) {
     const glm::dvec3 origin(world_from_local[3]);
@@ -44,13 +42,13 @@ std::optional<double> height_of(const TerrainNode& terrain, const glm::dmat4& wo
     return hit ? std::optional(above.z - hit->t) : std::nullopt;
 }
 
-// A node may have been taken out of the tree and be gone.
-bool holds(const Node& node, const Node* sought) {
-    return &node == sought || std::any_of(node.children().begin(), node.children().end(),
-                                          [&](const auto& child) { return holds(*child, sought); });
+// Also for a node that was removed from the tree and destroyed.
+bool contains(const Node& root, const Node* node) {
+    return &root == node || std::any_of(root.children().begin(), root.children().end(),
+                                        [&](const auto& child) { return contains(*child, node); });
 }
 
-// The option that does not go with them, and why; empty: none.
+// The option that excludes silhouettes, and why; empty if there is none.
 std::string_view reason_against_silhouettes(const TechniqueOptions& options) {
     if (!options.true_silhouettes) {
         return {};
@@ -156,12 +154,9 @@ Box Node::local_bounds() const {
 
 Box Node::world_bounds() const {
     Box bounds;
-    const glm::dmat4 world_from_parent =
-        parent_ != nullptr ? parent_->world_from_local() : glm::dmat4(1.0);
-    visit_below(*this, world_from_parent,
-                [&](const Node& node, const glm::dmat4& world_from_local) {
-                    bounds.add(reljef::transformed(world_from_local, node.local_bounds()));
-                });
+    visit_visible(*this, [&](const Node& node, const glm::dmat4& world_from_local) {
+        bounds.add(reljef::transformed(world_from_local, node.local_bounds()));
+    });
     return bounds;
 }
 
@@ -210,17 +205,14 @@ void Scene::set_active_camera(Node& node) {
 }
 
 Camera Scene::camera() const {
-    if (active_camera_ == nullptr || !holds(*root_, active_camera_)) {
+    if (active_camera_ == nullptr || !contains(*root_, active_camera_)) {
         return {};
     }
     Camera camera = *active_camera_->get<Camera>();
     const glm::dmat4 world_from_local = active_camera_->world_from_local();
-    const auto place = [&](glm::dvec3 p) {
-        return glm::dvec3(world_from_local * glm::dvec4(p, 1.0));
-    };
     camera.up = glm::dvec3(world_from_local * glm::dvec4(camera.up, 0.0));
-    camera.eye = place(camera.eye);
-    camera.target = place(camera.target);
+    camera.eye = glm::dvec3(world_from_local * glm::dvec4(camera.eye, 1.0));
+    camera.target = glm::dvec3(world_from_local * glm::dvec4(camera.target, 1.0));
     return camera;
 }
 
@@ -268,9 +260,7 @@ bool Scene::dispatch(const Event& event) const {
                        [&](const EventReceiver& receiver) { return receiver(event); });
 }
 
-void visit_visible(
-    const Node& root,
-    const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit) {
+void visit_visible(const Node& root, const NodeVisitor& visit) {
     visit_below(root,
                 root.parent() != nullptr ? root.parent()->world_from_local() : glm::dmat4(1.0),
                 visit);

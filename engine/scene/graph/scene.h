@@ -19,12 +19,11 @@ namespace reljef::scene {
 
 /// A light so far away that its rays are parallel.
 struct Light {
-    double azimuth = 300.0; ///< degrees clockwise from north, where it comes from
+    double azimuth = 300.0; ///< degrees clockwise from north, towards the light
     double altitude = 40.0; ///< degrees above the horizon
-    glm::vec3 color{1.70F, 1.60F,
-                    1.43F}; ///< linear, what a surface that faces it reflects at albedo 1
-    glm::vec3 ambient{0.30F, 0.35F,
-                      0.44F}; ///< linear, what a level surface reflects from the sky at albedo 1
+    // Linear radiance of a surface with albedo 1 that faces the light, or the sky.
+    glm::vec3 color{1.70F, 1.60F, 1.43F};
+    glm::vec3 ambient{0.30F, 0.35F, 0.44F};
 
     friend bool operator==(const Light&, const Light&) = default;
 };
@@ -32,20 +31,19 @@ struct Light {
 /// Unit vector towards the light.
 glm::dvec3 to_light(const Light& light);
 
-/// The light as its node's transform turns it.
+/// The light rotated by its node's transform.
 Light turned(Light light, const glm::dmat4& world_from_local);
 
-/// What is behind everything, and the air in between.
+/// The background, and the air in front of it.
 struct Sky {
     glm::vec3 zenith{0.13F, 0.30F, 0.62F};  ///< linear
     glm::vec3 horizon{0.62F, 0.74F, 0.87F}; ///< linear
-    /// Metres at which 2 % of the contrast is left (Koschmieder); 0: no fog.
-    double visibility = 0.0;
+    double visibility = 0.0;                ///< metres to 2 % contrast (Koschmieder); 0: no fog
 
     friend bool operator==(const Sky&, const Sky&) = default;
 };
 
-/// Share of the light that a metre of the air takes, 1/metre; 0 without fog.
+/// Extinction coefficient of the air, 1/metre; 0 without fog.
 double extinction(const Sky& sky);
 
 struct MeshNode {
@@ -55,20 +53,21 @@ struct MeshNode {
     friend bool operator==(const MeshNode&, const MeshNode&) = default;
 };
 
-/// Whether the technique can draw the mesh; one of a single colour is drawn by any. Fails, with the
-/// reason and the name of what works, where it is one for terrains.
+/// Fails if the technique cannot draw the mesh, with the reason and a technique that can. A mesh of
+/// one colour works with all.
 Result<void> check_technique(const Technique& technique, const MeshNode& mesh);
 
 class Node;
 
-/// Changes a node as time goes by; `time` in seconds since the scene began.
+/// Changes a node over time; `time`: seconds since the scene began.
 using Animator = std::function<void(Node& node, double time)>;
 
-/// Looks at an event and says whether it took it; the next receiver is asked only if not.
+/// Returns whether it handled the event; if not, the next receiver gets it.
 using EventReceiver = std::function<bool(const Event& event)>;
 
-/// A place in the scene: a transform, perhaps something to draw, and children that move along.
-/// Owned by its parent.
+using NodeVisitor = std::function<void(const Node& node, const glm::dmat4& world_from_local)>;
+
+/// A node of the scene graph: a transform, optional content, and children. Owned by its parent.
 class Node {
 public:
     using Content = std::variant<std::monostate, TerrainNode, MeshNode, Light, Camera>;
@@ -84,10 +83,10 @@ public:
     /// Precondition: `child` is not null.
     Node& add(std::unique_ptr<Node> child);
     Node& add(std::string name, Content content = {});
-    /// Takes a child out of the tree; null when it is none of this node's.
+    /// Removes a child from the tree; null if it is not a child of this node.
     std::unique_ptr<Node> remove(const Node& child);
 
-    /// The content, if it is a T.
+    /// The content if it is a T, otherwise null.
     template <class T> [[nodiscard]] T* get() { return std::get_if<T>(&content_); }
     template <class T> [[nodiscard]] const T* get() const { return std::get_if<T>(&content_); }
     [[nodiscard]] const Content& content() const { return content_; }
@@ -102,13 +101,13 @@ public:
     void set_position(glm::dvec3 position) { parent_from_local_[3] = glm::dvec4(position, 1.0); }
     [[nodiscard]] glm::dmat4 world_from_local() const;
 
-    /// Of the content, local metres; empty where there is nothing to draw.
+    /// Of the content, local metres; empty if there is nothing to draw.
     [[nodiscard]] Box local_bounds() const;
-    /// Of the content and all visible children, world metres.
+    /// Of the content and all visible descendants, world metres.
     [[nodiscard]] Box world_bounds() const;
 
     void add_animator(Animator animator) { animators_.push_back(std::move(animator)); }
-    /// Runs this node's animators and its children's.
+    /// Runs the animators of this node and of its descendants.
     void animate(double time);
 
 private:
@@ -121,7 +120,7 @@ private:
     bool visible_ = true;
 };
 
-/// The tree of nodes, what is around it, and who listens.
+/// The tree of nodes, its sky, and its event receivers.
 class Scene {
 public:
     Scene();
@@ -129,11 +128,11 @@ public:
     [[nodiscard]] Node& root() { return *root_; }
     [[nodiscard]] const Node& root() const { return *root_; }
 
-    /// Places the terrain; fails as TerrainSurface::create.
+    /// Fails as TerrainSurface::create.
     Result<Node*> add_terrain(terrain::Terrain terrain, const TerrainOptions& options = {});
     Node& add_mesh(Mesh mesh, const Material& material = {});
     Node& add_light(const Light& light = {});
-    /// Adds a camera; the first one becomes the active one.
+    /// The first camera becomes the active one.
     Node& add_camera(const Camera& camera = {});
 
     void set_sky(const Sky& sky) { sky_ = sky; }
@@ -142,24 +141,24 @@ public:
 
     /// Precondition: `node` holds a Camera and is in the tree as long as it is active.
     void set_active_camera(Node& node);
-    /// The active camera in world metres; the default one when there is none.
+    /// The active camera in world metres; a default one if there is none.
     [[nodiscard]] Camera camera() const;
 
-    /// The first visible light, as its node turns it.
+    /// The first visible light, in the world.
     [[nodiscard]] std::optional<Light> sun() const;
 
-    /// z of the highest terrain surface at world (x, y) below any of the visible terrain nodes.
+    /// z of the highest visible terrain at world (x, y).
     [[nodiscard]] std::optional<double> height_at(double x, double y) const;
-    /// The first terrain that a world ray meets.
     struct Pick {
         const Node* node = nullptr;
         terrain::SurfaceHit hit;
         glm::dvec3 world{0.0};
     };
+    /// The first visible terrain that a world ray hits.
     [[nodiscard]] std::optional<Pick> pick(const Ray& ray) const;
 
     void add_event_receiver(EventReceiver receiver) { receivers_.push_back(std::move(receiver)); }
-    /// Asks the receivers, the latest first, until one takes the event.
+    /// Offers the event to the receivers, the latest first, until one handles it.
     bool dispatch(const Event& event) const;
 
 private:
@@ -169,9 +168,7 @@ private:
     std::vector<EventReceiver> receivers_;
 };
 
-/// Calls `visit(node, world_from_local)` for every node of the tree that is visible, parents first.
-void visit_visible(
-    const Node& root,
-    const std::function<void(const Node& node, const glm::dmat4& world_from_local)>& visit);
+/// Visits every visible node of the tree, parents first.
+void visit_visible(const Node& root, const NodeVisitor& visit);
 
 } // namespace reljef::scene

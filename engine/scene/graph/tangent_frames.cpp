@@ -10,11 +10,11 @@
 namespace reljef::scene {
 namespace {
 
-// Where u and v grow, summed over triangles with their areas as weights.
+// The directions of u and v, summed over triangles with their areas as weights.
 struct Gradients {
-    glm::dvec3 tangent{0.0};   // unit vectors, weighted
-    glm::dvec3 bitangent{0.0}; // unit vectors, weighted
-    glm::dvec2 metres{0.0};    // that u and v take to grow by 1, weighted
+    glm::dvec3 tangent{0.0};   // weighted unit vectors
+    glm::dvec3 bitangent{0.0}; // weighted unit vectors
+    glm::dvec2 metres{0.0};    // weighted metres per unit of u and v
     double weight = 0.0;
 
     void operator+=(const Gradients& other) {
@@ -29,13 +29,9 @@ bool is_length(double length) {
     return std::isfinite(length) && length > 0.0;
 }
 
-// Of one triangle; all zero where its texture coordinates or its corners span nothing.
+// Of one triangle; all zero if its corners or texture coordinates have no area.
 Gradients gradients_of(const Mesh& mesh, std::size_t first) {
-    const TriangleEdges edges = triangle_edges(mesh, first);
-    const glm::dvec3 p = edges.p;
-    const glm::dvec3 q = edges.q;
-    const glm::dvec2 s = edges.s;
-    const glm::dvec2 t = edges.t;
+    const auto [corner, p, q, coordinate, s, t] = triangle_edges(mesh, first);
     const double area = glm::length(glm::cross(p, q));
     const double determinant = s.x * t.y - t.x * s.y;
     const glm::dvec3 along_u = (t.y * p - s.y * q) / determinant;
@@ -58,9 +54,8 @@ std::vector<Gradients> summed_gradients(const Mesh& mesh) {
     return sums;
 }
 
-// Any unit vector across a unit vector (Duff et al. 2017, Building an orthonormal basis,
-// revisited).
-glm::dvec3 any_across(glm::dvec3 n) {
+// Any unit vector orthogonal to n (Duff et al. 2017, Building an orthonormal basis, revisited).
+glm::dvec3 any_orthogonal(glm::dvec3 n) {
     const double sign = std::copysign(1.0, n.z);
     const double a = -1.0 / (sign + n.z);
     return {1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
@@ -71,7 +66,7 @@ glm::dvec3 unit_normal(glm::vec3 normal) {
     return is_length(length) ? glm::dvec3(normal) / length : glm::dvec3(0.0, 0.0, 1.0);
 }
 
-// Texture coordinates a metre; 0 where a float cannot hold that.
+// Texture coordinates per metre; 0 if a float cannot hold that.
 float density_of(double metres) {
     const double density = 1.0 / metres;
     return density <= static_cast<double>(std::numeric_limits<float>::max())
@@ -80,14 +75,13 @@ float density_of(double metres) {
 }
 
 TangentFrame frame_of(const Gradients& gradients, glm::vec3 vertex_normal) {
-    // What is left of a direction across the normal that rounding of a float normal (2^-24) turns
-    // by no more than 2^-4.
+    // Then rounding of the normal to floats (2^-24) rotates the tangent by at most 2^-4.
     constexpr double min_share = 0x1p-20;
     const glm::dvec3 normal = unit_normal(vertex_normal);
     const glm::dvec3 across = gradients.tangent - normal * glm::dot(normal, gradients.tangent);
     const double length = glm::length(across);
     if (!(length > min_share * gradients.weight)) {
-        return {glm::vec3(any_across(normal)), 1.0F, glm::vec2(0.0F)};
+        return {glm::vec3(any_orthogonal(normal)), 1.0F, glm::vec2(0.0F)};
     }
     const glm::dvec3 tangent = across / length;
     const double side = glm::dot(glm::cross(normal, tangent), gradients.bitangent);

@@ -18,7 +18,7 @@ Grid<std::uint8_t> visibility_of_sun(const TerrainSurface& surface, const Terrai
     const terrain::Heightfield& heightfield = surface.heightfield();
     const glm::dvec2 middle =
         0.5 * glm::dvec2(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
-    // How far the sun lies along each axis of the grid (a vector times a matrix: its columns).
+    // The components along the axes of the grid: a vector times a matrix.
     const glm::dvec3 to_sun_on_grid = glm::inverse(light.world_from_local) * to_light(light.sun) *
                                       terrain::grid_axes(heightfield, surface.placement(), middle);
     return terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,

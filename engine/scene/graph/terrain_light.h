@@ -12,7 +12,7 @@
 
 namespace reljef::scene {
 
-/// The sun over a terrain whose node may be turned or scaled.
+/// The sun over a terrain, and the transform of its node.
 struct TerrainLight {
     Light sun;
     glm::dmat3 world_from_local{1.0};
@@ -20,34 +20,33 @@ struct TerrainLight {
     friend bool operator==(const TerrainLight&, const TerrainLight&) = default;
 };
 
-/// The colour of the terrain itself: its imagery over the hypsometric tint, sRGB, opaque. Its
-/// outermost texels are the outermost samples.
+/// The imagery over the hypsometric tint, sRGB, opaque. Its outermost texels are the outermost
+/// samples.
 Image albedo_map(const TerrainSurface& surface);
 
-/// What a place reflects at albedo 1, linear.
+/// Linear radiance at albedo 1 from the sky and the sun.
 struct IrradianceParts {
     glm::vec3 sky{0.0F};
-    glm::vec3 sun{0.0F}; ///< as if nothing hid it; nothing from below the terrain's horizon
+    glm::vec3 sun{0.0F}; ///< without shadows; 0 while the sun is below the horizon
 };
 
-/// What every place of a terrain reflects at albedo 1, whichever way one looks (Lambert): the sun,
-/// as far as the terrain around does not hide it, and the sky.
+/// Linear Lambertian radiance of a terrain at albedo 1: the sun with the terrain's shadows, and the
+/// sky.
 class TerrainIrradiance {
 public:
-    /// Finds slope and visibility of the sun at every sample.
     TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light);
 
-    /// Linear; slope and visibility are bilinear between samples. `sample`: col, row inside the
+    /// Slope and visibility are bilinear between samples. `sample`: col, row inside the
     /// heightfield.
     [[nodiscard]] glm::vec3 at(glm::dvec2 sample) const;
 
-    /// The same where the surface's normal, its own up (both unit vectors of the local frame) and
-    /// the share of the sun that it sees are known: of a tile of the same terrain that is finer.
+    /// For a finer tile of the same terrain: its normal and up (unit vectors of the local frame),
+    /// and the visible share of the sun.
     [[nodiscard]] glm::vec3 at(glm::vec3 normal, glm::vec3 up, float visibility) const;
-    /// Share of the sun that the terrain around leaves to a place, [0, 1].
+    /// The share of the sun that the terrain does not hide, [0, 1].
     [[nodiscard]] float visibility(glm::dvec2 sample) const;
 
-    /// The same for those who find out themselves what the sun sees.
+    /// For callers that compute shadows themselves.
     [[nodiscard]] IrradianceParts parts_at(glm::dvec2 sample) const;
 
 private:

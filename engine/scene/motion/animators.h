@@ -5,14 +5,14 @@
 
 namespace reljef::scene {
 
-/// The camera where a path has it: upright, whatever it was before.
+/// The camera at a keyframe, upright.
 Camera at_key(Camera camera, const Keyframe& key);
 
-/// Moves a camera node along a path, again from its beginning where it ends.
+/// Moves a camera node along a path, in a loop.
 Animator camera_path_animator(CameraPath path);
 
-/// Turns a node about its own z axis, degrees a second, counter-clockwise from above; how it was
-/// turned and scaled when first run is kept beneath. One animator for each node.
+/// Rotates a node about its own z axis, counter-clockwise from above, in addition to the rotation
+/// and scale at the first call. One animator per node.
 Animator rotation_animator(double degrees_per_second);
 
 } // namespace reljef::scene

@@ -13,9 +13,8 @@ bool is_finite(glm::dvec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Slope at the middle of three values: zero at an extremum, else the harmonic mean of the two
-// secants, which keeps both pieces monotone. A secant may be infinite: the other one then limits
-// it.
+// Slope at the middle of three values: zero at an extremum, otherwise the harmonic mean of the two
+// secants, which keeps both pieces monotone. One secant may be infinite.
 double limited_slope(double before, double after) {
     const bool same_way = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
     return same_way ? 2.0 / (1.0 / before + 1.0 / after) : 0.0;
@@ -26,11 +25,12 @@ struct Knot {
     double value;
 };
 
-// The piece between b and c, with neighbours a and d; times ascend, a may equal b and c equal d.
+// The piece between b and c with neighbours a and d. Times ascend; a may equal b, and c may equal
+// d.
 double hermite(Knot a, Knot b, Knot c, Knot d, double time) {
     const double length = c.time - b.time;
     const double rise = c.value - b.value;
-    // Slopes are per length of the piece: all are finite, however close its neighbours' times.
+    // Slopes are relative to the piece's length, so that they are finite for close neighbours.
     const auto secant = [&](Knot from, Knot to) {
         const double share = (to.time - from.time) / length;
         return share > 0.0 ? (to.value - from.value) / share : 0.0;
@@ -117,7 +117,7 @@ CameraPath flyover_path(const Box& bounds, const std::function<double(double, do
         return glm::dvec2(middle.x + size.x * (-0.18 + 0.5 * share * share - 0.12 * bend),
                           middle.y + size.y * (-0.62 + 0.95 * share));
     };
-    // The flight stands off the highest ground near it, so that it clears ridges in good time.
+    // Relative to the highest ground nearby, so that the flight clears ridges.
     const auto altitude = [&](glm::dvec2 at, double above) {
         double highest = bounds.low.z;
         for (int j = -2; j <= 2; ++j) {

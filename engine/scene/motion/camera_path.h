@@ -10,21 +10,21 @@
 
 namespace reljef::scene {
 
-/// Where the camera is at a time, and what it looks at. Seconds, world metres.
+/// Seconds, world metres.
 struct Keyframe {
     double time = 0.0;
     glm::dvec3 eye{0.0};
     glm::dvec3 target{0.0};
 };
 
-/// A camera flight through keys: cubic Hermite pieces with tangents limited per coordinate so that
-/// no piece leaves the range of its two keys (Fritsch & Carlson 1980): it never overshoots, and
-/// stays finite with coincident keys. Before the first key and after the last it stands still; a
-/// time that is not a number counts as the beginning.
+/// Cubic Hermite pieces through keyframes, with tangents limited per coordinate so that no piece
+/// leaves the range of its two keys (Fritsch & Carlson 1980). Never overshoots; finite for
+/// coincident keys. Stands still before the first and after the last key. A time that is not a
+/// number is the beginning.
 class CameraPath {
 public:
-    /// Keys in any order; of keys at one time the last counts. Fails without a key, or with one
-    /// that is not finite.
+    /// Keys in any order; the last one at a time counts. Fails without keys, and on keys that are
+    /// not finite.
     static Result<CameraPath> create(std::vector<Keyframe> keys);
 
     [[nodiscard]] Keyframe at(double time) const;
@@ -38,11 +38,11 @@ private:
     std::vector<Keyframe> keys_; // ascending, distinct times
 };
 
-/// Once around the bounds, looking at their middle from above; `seconds` long.
+/// Once around the bounds, looking down at their middle.
 CameraPath orbit_path(const Box& bounds, double seconds = 20.0);
 
-/// In from the south over the middle and on to the north-east, low over the ground: `ground` gives
-/// the height of the surface, metres, at x, y.
+/// From the south over the middle to the north-east, low above the ground. `ground`: height of the
+/// surface at x, y, metres.
 CameraPath flyover_path(const Box& bounds, const std::function<double(double, double)>& ground,
                         double seconds = 20.0);
 

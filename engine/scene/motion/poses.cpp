@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace reljef::scene {
 namespace {
 
-constexpr std::array<std::pair<Pose, std::string_view>, 5> names{{{Pose::overview, "overview"},
-                                                                  {Pose::oblique, "oblique"},
-                                                                  {Pose::low, "low"},
-                                                                  {Pose::grazing, "grazing"},
-                                                                  {Pose::map, "map"}}};
+// In the order of Pose.
+constexpr std::array<std::string_view, 5> pose_names{"overview", "oblique", "low", "grazing",
+                                                     "map"};
 
 Camera map_camera(const Box& bounds) {
     Camera camera;
@@ -26,15 +23,13 @@ Camera map_camera(const Box& bounds) {
 } // namespace
 
 std::string_view to_string(Pose pose) {
-    return std::find_if(names.begin(), names.end(),
-                        [&](const auto& entry) { return entry.first == pose; })
-        ->second;
+    return pose_names.at(static_cast<std::size_t>(pose));
 }
 
 std::optional<Pose> pose_from_string(std::string_view text) {
-    const auto* const found = std::find_if(names.begin(), names.end(),
-                                           [&](const auto& entry) { return entry.second == text; });
-    return found == names.end() ? std::nullopt : std::optional(found->first);
+    const auto* const found = std::find(pose_names.begin(), pose_names.end(), text);
+    return found == pose_names.end() ? std::nullopt
+                                     : std::optional(static_cast<Pose>(found - pose_names.begin()));
 }
 
 Camera pose_camera(Pose pose, const Box& bounds,
@@ -46,12 +41,9 @@ Camera pose_camera(Pose pose, const Box& bounds,
     Camera camera;
     switch (pose) {
     case Pose::overview:
-        camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
-        camera.target = middle + glm::dvec3(0.0, -0.05 * w, h0);
-        return camera;
     case Pose::oblique:
         camera.eye = middle + glm::dvec3(0.0, -0.65 * w, h1 + 0.35 * w);
-        camera.target = middle + glm::dvec3(0.0, -0.05 * w, h1);
+        camera.target = middle + glm::dvec3(0.0, -0.05 * w, pose == Pose::overview ? h0 : h1);
         return camera;
     case Pose::low:
         camera.eye = middle + glm::dvec3(0.0, -0.3 * w, 0.0);

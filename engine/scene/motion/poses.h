@@ -9,20 +9,20 @@
 
 namespace reljef::scene {
 
-/// The standard viewpoints of the benchmarks; w = width (x) of the bounds centred at the origin,
-/// h0/h1 their lowest and highest z, vertical field of view 57.3°.
+/// The standard viewpoints of the benchmarks. w: width (x) of the bounds, centred at the origin;
+/// h0, h1: their lowest and highest z; vertical field of view 57.3°.
 enum class Pose {
-    overview, ///< eye (0, −0.65w, h1 + 0.35w), look (0, −0.05w, h0)
-    oblique, ///< eye (0, −0.65w, h1 + 0.35w), look (0, −0.05w, h1): of a relief sunk below z = 0
-    low,     ///< eye (0, −0.3w, ground + 0.15(h1 − h0)), look (0.05w, 0.4w, h0)
-    grazing, ///< eye (0, −0.6w, h1 + 0.03w), look (0, 0, h1)
-    map,     ///< straight down on all of it, north up, orthographic
+    overview, ///< eye (0, −0.65w, h1 + 0.35w), target (0, −0.05w, h0)
+    oblique,  ///< eye (0, −0.65w, h1 + 0.35w), target (0, −0.05w, h1): for reliefs below z = 0
+    low,      ///< eye (0, −0.3w, ground + 0.15(h1 − h0)), target (0.05w, 0.4w, h0)
+    grazing,  ///< eye (0, −0.6w, h1 + 0.03w), target (0, 0, h1)
+    map,      ///< straight down on everything, north up, orthographic
 };
 
 std::string_view to_string(Pose pose);
 std::optional<Pose> pose_from_string(std::string_view text);
 
-/// `ground` gives the height of the surface at x, y, scene metres.
+/// `ground`: height of the surface at x, y, scene metres.
 Camera pose_camera(Pose pose, const Box& bounds,
                    const std::function<double(double x, double y)>& ground);
 
