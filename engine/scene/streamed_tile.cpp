@@ -16,53 +16,43 @@
 namespace reljef::scene {
 namespace {
 
-// Vertices and one step around: sample (col + 1, row + 1) of `heights` is vertex (col, row).
+// Vertices and one step around: sample (col + 1, row + 1) is vertex (col, row).
 struct Surround {
     Grid<float> heights;
-    Grid<std::uint8_t> voids; // 1: none of the source's
+    Grid<std::uint8_t> voids; // 1: the source has no height
     Grid<glm::dvec3> places;  // local metres
 };
 
-// Voids get the overview's heights, the same for every tile and level.
-Grid<std::uint8_t> fill_from_overview(Grid<float>& heights, const TileBuilder& maker,
-                                      terrain::TreeTile tile) {
-    Grid<std::uint8_t> voids(heights.cols(), heights.rows());
-    const auto view = maker.overview().heightfield().heights.view();
-    for (int row = 0; row < heights.rows(); ++row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            float& height = heights(col, row);
+// Fills voids with the overview's heights, the same for every tile and level.
+Surround surround_of(const TileBuilder& builder, terrain::TreeTile tile, Grid<float> heights) {
+    const glm::ivec2 size(heights.cols(), heights.rows());
+    Surround around{std::move(heights), Grid<std::uint8_t>(size.x, size.y),
+                    Grid<glm::dvec3>(size.x, size.y)};
+    const auto overview = builder.overview().heightfield().heights.view();
+    for (int row = 0; row < size.y; ++row) {
+        for (int col = 0; col < size.x; ++col) {
+            const glm::ivec2 vertex(col - 1, row - 1);
+            float& height = around.heights(col, row);
             if (!std::isfinite(height)) {
-                const glm::dvec2 sample = maker.sample(tile, {col - 1, row - 1});
                 height = static_cast<float>(terrain::bilinear_height(
-                    view, maker.around_overview(maker.on_overview(sample))));
-                voids(col, row) = 1;
+                    overview,
+                    builder.around_overview(builder.on_overview(builder.sample(tile, vertex)))));
+                around.voids(col, row) = 1;
             }
-        }
-    }
-    return voids;
-}
-
-Surround surround_of(const TileBuilder& maker, terrain::TreeTile tile, Grid<float> heights) {
-    Surround around{std::move(heights), {}, {}};
-    around.voids = fill_from_overview(around.heights, maker, tile);
-    around.places = Grid<glm::dvec3>(around.heights.cols(), around.heights.rows());
-    for (int row = 0; row < around.heights.rows(); ++row) {
-        for (int col = 0; col < around.heights.cols(); ++col) {
-            around.places(col, row) =
-                maker.place(tile, {col - 1, row - 1}, around.heights(col, row));
+            around.places(col, row) = builder.place(tile, vertex, height);
         }
     }
     return around;
 }
 
-// Half the longest side is 2^30 of them, a whole number of metres' halves.
+// A power of two: half the longest side is at most 2^30 units.
 double unit_of(const Box& bounds) {
     const glm::dvec3 size = bounds.size();
     const double longest = std::max({size.x, size.y, size.z, 1.0});
     return std::ldexp(1.0, std::ilogb(longest) + 1 - 31);
 }
 
-// At a pole, where nothing lies east, it is up.
+// At a pole, where there is no east, the normal is up.
 glm::dvec3 normal_of(glm::dvec3 east, glm::dvec3 north, glm::dvec3 up) {
     constexpr double min_east = 1e-6;
     return glm::length(east) > min_east * glm::length(north)
@@ -95,12 +85,6 @@ void set_places(const Surround& around, const terrain::Placement& placement, Str
     }
 }
 
-terrain::HeightRange range_of_heights(const Grid<float>& heights) {
-    const auto [low, high] =
-        std::minmax_element(heights.samples().begin(), heights.samples().end());
-    return {*low, *high};
-}
-
 Grid<terrain::MinMax> blocks_of(const Grid<float>& heights) {
     const terrain::MinMaxPyramid pyramid(heights.view());
     constexpr int level = std::countr_zero(static_cast<unsigned>(cells_per_block));
@@ -108,29 +92,28 @@ Grid<terrain::MinMax> blocks_of(const Grid<float>& heights) {
 }
 
 double error_of(const Grid<float>& heights) {
-    float most = 0.0F;
+    float largest = 0.0F;
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 1; col + 1 < heights.cols(); col += 2) {
             const float middle = 0.5F * (heights(col - 1, row) + heights(col + 1, row));
-            most = std::max(most, std::abs(heights(col, row) - middle));
+            largest = std::max(largest, std::abs(heights(col, row) - middle));
         }
     }
     for (int row = 1; row + 1 < heights.rows(); row += 2) {
         for (int col = 0; col < heights.cols(); ++col) {
             const float middle = 0.5F * (heights(col, row - 1) + heights(col, row + 1));
-            most = std::max(most, std::abs(heights(col, row) - middle));
+            largest = std::max(largest, std::abs(heights(col, row) - middle));
         }
     }
-    return most;
+    return largest;
 }
 
-// Of a vertex and all around it.
+// Whether a vertex and its eight neighbours are at 0.
 bool is_sea(const Grid<float>& heights, int col, int row) {
     for (int r = row - 1; r <= row + 1; ++r) {
-        for (int c = col - 1; c <= col + 1; ++c) {
-            if (heights(c, r) != 0.0F) {
-                return false;
-            }
+        const auto neighbours = heights.row(r).subspan(static_cast<std::size_t>(col - 1), 3);
+        if (std::any_of(neighbours.begin(), neighbours.end(), [](float h) { return h != 0.0F; })) {
+            return false;
         }
     }
     return true;
@@ -142,7 +125,7 @@ bool is_void_at(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
     return !voids.empty() && voids.clamped(nearest.x, nearest.y) != 0;
 }
 
-// Over a square of so many samples a side.
+// The mean over a square of `side` samples.
 float average_around(const terrain::Heightfield& heightfield, glm::dvec2 sample, int side) {
     const auto view = heightfield.heights.view();
     double sum = 0.0;
@@ -208,7 +191,6 @@ glm::dvec2 TileBuilder::first(terrain::TreeTile tile) const {
 glm::dvec2 TileBuilder::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
     glm::dvec2 at(tree_.sample(tile, vertex));
     if (rows_.closing().east) {
-        // Around the Earth there are samples on either side.
         const int step = terrain::TileTree::step(tile);
         at.x += step * (std::min(vertex.x, 0) + std::max(vertex.x - tree_.cells(tile).x, 0));
     }
@@ -306,7 +288,7 @@ double TileBuilder::overview_error(terrain::TreeTile tile) const {
     const auto inside = [&](glm::dvec2 at) { return glm::clamp(glm::ivec2(at), {0, 0}, last); };
     const glm::ivec2 low = inside(glm::floor(on_overview(sample(tile, {0, 0}))));
     const glm::ivec2 high = inside(glm::ceil(on_overview(sample(tile, tree_.cells(tile)))));
-    float most = 0.0F;
+    float largest = 0.0F;
     for (int row = low.y; row <= high.y; ++row) {
         for (int col = low.x; col <= high.x; ++col) {
             const float along =
@@ -314,10 +296,10 @@ double TileBuilder::overview_error(terrain::TreeTile tile) const {
             const float across =
                 0.5F * (heights.clamped(col, row - 1) + heights.clamped(col, row + 1));
             const float height = heights(col, row);
-            most = std::max({most, std::abs(height - along), std::abs(height - across)});
+            largest = std::max({largest, std::abs(height - along), std::abs(height - across)});
         }
     }
-    return overview_->placement().exaggeration() * most;
+    return overview_->placement().exaggeration() * largest;
 }
 
 Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, float height) const {
@@ -362,7 +344,9 @@ StreamedTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
     made.id = tile;
     made.cells = cells;
     set_places(around, overview_->placement(), made);
-    made.range = range_of_heights(made.heights);
+    const auto [low, high] =
+        std::minmax_element(made.heights.samples().begin(), made.heights.samples().end());
+    made.range = {*low, *high};
     made.blocks = blocks_of(made.heights);
     made.error = overview_->placement().exaggeration() * error_of(made.heights);
     made.up = glm::vec3(overview_->placement().up(made.origin));
@@ -380,31 +364,31 @@ StreamedTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
 
 namespace {
 
-// Metres along a tile: on wider ones the ground bends by more than a degree.
-constexpr double widest_with_one_up = 100e3;
+// Metres: over larger tiles the vertical turns by more than a degree.
+constexpr double max_side_with_one_up = 100e3;
 
-glm::vec3 up_at(const TileBuilder& maker, const StreamedTile& tile, glm::ivec2 vertex) {
+glm::vec3 up_at(const TileBuilder& builder, const StreamedTile& tile, glm::ivec2 vertex) {
     const glm::dvec3 size = tile.bounds.size();
-    return std::max({size.x, size.y, size.z}) <= widest_with_one_up
+    return std::max({size.x, size.y, size.z}) <= max_side_with_one_up
                ? tile.up
-               : glm::vec3(maker.overview().placement().up(tile.place(vertex)));
+               : glm::vec3(builder.overview().placement().up(tile.place(vertex)));
 }
 
 } // namespace
 
-Image lit_tile(const TileBuilder& maker, const StreamedTile& tile,
+Image lit_tile(const TileBuilder& builder, const StreamedTile& tile,
                const TerrainIrradiance& irradiance) {
-    const Grid<float>& overview = maker.overview().heightfield().heights;
+    const Grid<float>& overview = builder.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     Grid<glm::vec3> light(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < light.rows(); ++row) {
         for (int col = 0; col < light.cols(); ++col) {
             const glm::dvec2 sample =
-                maker.around_overview(maker.on_overview(maker.sample(tile.id, {col, row})));
+                builder.around_overview(builder.on_overview(builder.sample(tile.id, {col, row})));
             const float visibility =
                 irradiance.visibility(glm::clamp(sample, glm::dvec2(0.0), last));
             light(col, row) =
-                irradiance.at(tile.normals(col, row), up_at(maker, tile, {col, row}), visibility);
+                irradiance.at(tile.normals(col, row), up_at(builder, tile, {col, row}), visibility);
         }
     }
     Image lit(tile.albedo.cols(), tile.albedo.rows());

@@ -17,31 +17,30 @@
 
 namespace reljef::scene {
 
-/// What images show of a tile: texels edge to edge over its vertices, alpha 0 where they show
-/// nothing; empty: none.
+/// The imagery of a tile: texels edge to edge over its vertices, alpha 0 where there is no image;
+/// empty: none.
 struct TilePicture {
     Image texels;
-    bool whole = true;     ///< false: more may be shown than was read, the overview knows
-    bool has_more = false; ///< finer texels are to be had
+    bool whole = true;     ///< false: parts were not read, the overview fills them
+    bool has_more = false; ///< there are finer texels
 };
 
-/// Cells along a side of the blocks that a streamed tile knows the range of.
+/// Cells along a side of the blocks with a height range.
 inline constexpr int cells_per_block = 8;
 
-/// What tiles are chosen by.
+/// Summary of a tile for selection.
 struct TileSummary {
     terrain::TreeTile id;
     Box bounds; ///< local metres
     terrain::HeightRange range;
-    /// Metres that the next finer level is about to move the surface: as far as every second vertex
-    /// of this one is from the middle between its neighbours. An estimate: finer detail is smaller
-    /// than coarser on natural ground.
+    /// Estimated error against the next finer level, metres: the largest distance of every second
+    /// vertex from the middle between its neighbours. Natural terrain has less detail at finer
+    /// levels.
     double error = 0.0;
-    /// Metres between texels where finer ones are to be had, else 0.
-    double coarse_texel = 0.0;
+    double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
 };
 
-/// A tile of a terrain that is read part by part, ready to be drawn.
+/// A tile of a streamed terrain, ready to be drawn.
 struct StreamedTile : TileSummary {
     glm::ivec2 cells{0};
     glm::dvec3 origin{0.0};     ///< local metres
@@ -50,100 +49,95 @@ struct StreamedTile : TileSummary {
     Grid<float> heights;        ///< true metres
     Grid<glm::vec3> normals;    ///< unit, local frame
     glm::vec3 up{0.0F, 0.0F, 1.0F};
-    Image albedo;                 ///< edge to edge over the vertices, at least a texel each, sRGB
-    Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; the last ones may be cut
+    Image albedo;                 ///< edge to edge, at least one texel per vertex, sRGB
+    Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; smaller at the far sides
     bool of_overview = false;     ///< the heights are TileBuilder::overview_heights
 
-    /// Of a vertex, local metres, to half a unit: 4 µm where the tile is 12 km wide.
+    /// A vertex in local metres, to half a unit: 4 µm for a tile of 12 km.
     [[nodiscard]] glm::dvec3 place(glm::ivec2 vertex) const {
         return origin + unit * glm::dvec3(positions(vertex.x, vertex.y));
     }
-    /// Where a texel of the albedo lies, in vertices.
+    /// The place of an albedo texel, in vertices.
     [[nodiscard]] glm::dvec2 vertex_of(glm::ivec2 texel) const;
-    /// At a place in vertices, unit.
     [[nodiscard]] glm::vec3 normal_at(glm::dvec2 vertex) const;
 
-    /// What it takes, drawn, bytes.
+    /// Memory of the drawn tile, bytes.
     [[nodiscard]] std::size_t bytes() const;
 };
 
-/// Memory of a tile of full size, drawn: here and with the driver, bytes.
-inline constexpr std::size_t bytes_of_bisection = 40; // a vertex, where triangles are chosen
+// Memory of a drawn tile of full size, on the CPU and on the GPU, bytes.
+inline constexpr std::size_t bytes_of_bisection = 40; // per vertex
 inline constexpr std::size_t bytes_per_vertex =
     2 * sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6 + bytes_of_bisection;
 inline constexpr std::size_t bytes_per_tile =
     bytes_per_vertex * (terrain::tile_cells + 1) * (terrain::tile_cells + 1);
-/// Of a texel that is more than one a vertex: here, and with mipmaps at the driver's.
+/// For texels beyond one per vertex; on the GPU with mipmaps.
 inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;
 
-/// Texels from vertex to vertex, at most: tiles are chosen so fine that with them none is seen
-/// larger than a pixel.
+/// Maximum texels between two vertices: then selected tiles show no texel larger than a pixel.
 inline constexpr int max_texels_per_cell = 4;
 
-/// Bytes of a drawn tile of full size with a picture of this many texels.
+/// Bytes of a drawn tile of full size with a picture.
 std::size_t bytes_of_tile(int texels_per_cell);
 
-/// Images that tiles show.
+/// The resolution of the tiles' imagery.
 struct ImageryDetail {
-    double finest_pixel = 0.0; ///< metres; 0: none
-    /// Samples of the tree's raster from sample to sample of the terrain's: more than 1 where
-    /// images are so much finer that even its finest tiles would show them coarsely.
+    double finest_pixel = 0.0; ///< metres; 0: no images
+    /// Samples of the tree per sample of the terrain: more than 1 if the finest tiles would show
+    /// the images too coarsely.
     int refinement = 1;
-    int max_texels = max_texels_per_cell; ///< from vertex to vertex: fewer take less memory
+    int max_texels = max_texels_per_cell; ///< between vertices; fewer take less memory
 };
 
-/// Makes tiles of a terrain from their samples. What an overview of the whole terrain knows holds
-/// for them too: where they stand, the scale of colours, the draped picture, the sun's shadows.
-/// Safe from several threads at a time.
+/// Builds the tiles of a terrain from their samples. Takes the placement, colours and shadows from
+/// an overview of the whole terrain. Thread-safe.
 class TileBuilder {
 public:
-    /// `reduction`: samples of the terrain a side in one of the overview's, which lies in the
-    /// middle of them. `closing`: of the tree's raster, where it goes all around the Earth.
+    /// `reduction`: an overview sample is the middle of reduction × reduction samples of the
+    /// terrain. `closing`: the wrap of the tree's raster around the Earth.
     TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
                 int reduction, const ImageryDetail& imagery = {},
                 const geo::GlobalWrap& closing = {});
 
     [[nodiscard]] const terrain::TileTree& tree() const { return tree_; }
     [[nodiscard]] const TerrainSurface& overview() const { return *overview_; }
-    /// Samples of the terrain from vertex to vertex.
+    /// Samples of the terrain between vertices.
     [[nodiscard]] double step(terrain::TreeTile tile) const;
-    /// The sample of the terrain where the tile begins, and where a vertex lies.
+    /// The first sample of a tile, and the sample of a vertex, in the terrain.
     [[nodiscard]] glm::dvec2 first(terrain::TreeTile tile) const;
     [[nodiscard]] glm::dvec2 sample(terrain::TreeTile tile, glm::ivec2 vertex) const;
-    /// In the tree's raster.
+    /// The sample of the tree for a sample of the terrain.
     [[nodiscard]] glm::dvec2 tree_sample(glm::dvec2 sample) const;
-    /// Where a sample of the terrain lies on the overview.
+    /// The sample of the overview for a sample of the terrain, and back.
     [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const;
     [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;
-    /// Within the overview's columns where it goes all around the Earth; else as it is.
+    /// Wraps a sample into the columns of an overview that goes around the Earth.
     [[nodiscard]] glm::dvec2 around_overview(glm::dvec2 overview_sample) const;
     /// The rows of the terrain's samples.
     [[nodiscard]] const geo::ClosedRows& rows() const { return rows_; }
-    /// Whether a tile has all samples of the terrain: finer ones show only images finer.
+    /// Whether a tile has all samples of the terrain. Finer tiles only have finer images.
     [[nodiscard]] bool has_all_samples(terrain::TreeTile tile) const;
-    /// Texels along the sides of a tile with a picture.
+    /// Texels of a tile's picture.
     [[nodiscard]] glm::ivec2 picture_size(terrain::TreeTile tile) const;
-    /// Metres between them.
+    /// Metres between texels.
     [[nodiscard]] double texel(int level) const;
-    /// Of a tile of full size, at most.
+    /// Maximum for a tile of full size.
     [[nodiscard]] std::size_t bytes_per_tile() const;
-    /// Metres from vertex to vertex at a level.
+    /// Metres between vertices.
     [[nodiscard]] double spacing(int level) const;
 
-    /// Heights as make() takes them, averages over a step, as far as the overview has them: NaN at
-    /// its voids.
+    /// Heights for make(): averages of the overview over a step, NaN at its voids.
     [[nodiscard]] Grid<float> overview_heights(terrain::TreeTile tile) const;
-    /// The error of a tile that is made of the overview but is finer: see StreamedTile::error, at
-    /// the overview's own samples. 0 for all others.
+    /// TileSummary::error at the overview's samples, for a tile made from it that is finer than the
+    /// overview; 0 for other tiles.
     [[nodiscard]] double overview_error(terrain::TreeTile tile) const;
-    /// `heights`: metres at the vertices and one step around them, NaN where there is none: those
-    /// voids are filled with what the overview has. The picture, where there is one, has
-    /// picture_size.
+    /// `heights`: metres at the vertices and one step around them. The overview fills voids (NaN).
+    /// Precondition: the picture is empty or has picture_size.
     [[nodiscard]] StreamedTile make(terrain::TreeTile tile, Grid<float> heights,
                                     const TilePicture& picture = {}) const;
-    /// The box of a tile whose heights are in `range`.
+    /// The box of a tile with heights in `range`.
     [[nodiscard]] Box bounds(terrain::TreeTile tile, terrain::HeightRange range) const;
-    /// Where a vertex stands at another height, local metres.
+    /// A vertex at another height, local metres.
     [[nodiscard]] glm::dvec3 place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const;
 
 private:
@@ -160,9 +154,8 @@ private:
     terrain::HeightTint tint_;
 };
 
-/// What a tile sends to the eye: its colour in the light, of the albedo's size, sRGB. Light is
-/// linear between vertices.
-Image lit_tile(const TileBuilder& maker, const StreamedTile& tile,
+/// The lit albedo, sRGB. The light is interpolated between vertices.
+Image lit_tile(const TileBuilder& builder, const StreamedTile& tile,
                const TerrainIrradiance& irradiance);
 
 } // namespace reljef::scene

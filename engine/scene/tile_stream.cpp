@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -13,8 +12,8 @@
 namespace reljef::scene {
 namespace {
 
-// Of a view's tiles those that are drawn: their ancestors stay too, a third as many, and what is
-// read ahead.
+// The drawn tiles' share of memory. The rest is for their ancestors, a third as many, and for tiles
+// that are read ahead.
 constexpr double drawn_share = 0.5;
 
 std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) {
@@ -22,9 +21,9 @@ std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) 
                                     static_cast<double>(bytes_per_tile));
 }
 
-// Tiles that went: within a 64th of the budget, or all that a view of the least tiles asks for.
+// Summaries of evicted tiles: a 64th of the budget, or enough for a view of min_drawn tiles.
 std::size_t max_remembered(std::size_t memory_budget) {
-    constexpr std::size_t bytes_of_node = 48; // about what a map adds
+    constexpr std::size_t bytes_of_node = 48; // of a map, about
     constexpr std::size_t bytes =
         sizeof(TileSummary) + 2 * sizeof(terrain::TreeTile) + bytes_of_node;
     return std::max(64 * TileStream::min_drawn, memory_budget / 64 / bytes);
@@ -46,7 +45,7 @@ TileStream::TileStream(TileBuilder maker, TileContentReader read, const TileStre
             threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
         } catch (const std::system_error&) {
             check(i > 0, "a thread to read tiles was expected");
-            return; // the system gives no more: those that run do all the work
+            return; // the running threads do all the work
         }
     }
 }
@@ -54,7 +53,7 @@ TileStream::TileStream(TileBuilder maker, TileContentReader read, const TileStre
 TileStream::~TileStream() {
     {
         const std::lock_guard lock(mutex_);
-        wanted_.clear();
+        requested_.clear();
         for (auto& [tile, source] : in_flight_) {
             source.request_stop();
         }
@@ -123,9 +122,9 @@ void TileStream::request(std::span<const terrain::TreeTile> missing,
                 found->second.used = view_;
             }
         }
-        std::vector<terrain::TreeTile> asked = asked_for(missing);
-        const std::set<terrain::TreeTile> now(asked.begin(), asked.end());
-        for (const terrain::TreeTile& tile : wanted_) {
+        std::vector<terrain::TreeTile> requests = requests_for(missing);
+        const std::set<terrain::TreeTile> now(requests.begin(), requests.end());
+        for (const terrain::TreeTile& tile : requested_) {
             stats_.cancelled += now.contains(tile) || in_flight_.contains(tile) ? 0 : 1;
         }
         for (auto& [tile, source] : in_flight_) {
@@ -133,29 +132,26 @@ void TileStream::request(std::span<const terrain::TreeTile> missing,
                 source.request_stop();
             }
         }
-        wanted_ = std::move(asked);
+        requested_ = std::move(requests);
         evict();
     }
     changed_.notify_all();
 }
 
-// Of tiles those that are not there; and what is there and seen without all of its picture.
+// The tiles that are not loaded, and the loaded tiles in use whose picture is incomplete.
 std::vector<terrain::TreeTile>
-TileStream::asked_for(std::span<const terrain::TreeTile> tiles) const {
-    std::vector<terrain::TreeTile> asked(tiles.begin(), tiles.end());
-    std::erase_if(asked, [&](terrain::TreeTile tile) { return !is_wanting(tile); });
-    const std::set<terrain::TreeTile> known(asked.begin(), asked.end());
+TileStream::requests_for(std::span<const terrain::TreeTile> tiles) const {
+    std::vector<terrain::TreeTile> requests(tiles.begin(), tiles.end());
+    std::erase_if(requests, [&](terrain::TreeTile tile) {
+        return tiles_.contains(tile) && !failures_.contains(tile);
+    });
+    const std::set<terrain::TreeTile> known(requests.begin(), requests.end());
     for (const auto& [tile, entry] : tiles_) {
         if (entry.used + 1 >= view_ && failures_.contains(tile) && !known.contains(tile)) {
-            asked.push_back(tile);
+            requests.push_back(tile);
         }
     }
-    return asked;
-}
-
-// Not there, or there without all of its picture.
-bool TileStream::is_wanting(terrain::TreeTile tile) const {
-    return !tiles_.contains(tile) || failures_.contains(tile);
+    return requests;
 }
 
 bool TileStream::is_settled() const {
@@ -163,7 +159,7 @@ bool TileStream::is_settled() const {
         const auto failure = failures_.find(tile);
         return failure != failures_.end() && failure->second.latest.has_failed_for_good();
     };
-    return std::all_of(wanted_.begin(), wanted_.end(), has_failed);
+    return std::all_of(requested_.begin(), requested_.end(), has_failed);
 }
 
 bool TileStream::wait(const std::stop_token& stop) {
@@ -189,9 +185,9 @@ std::uint64_t TileStream::revision() const {
     return revision_;
 }
 
-bool TileStream::take_news() {
+bool TileStream::take_arrivals() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(news_, false);
+    return std::exchange(has_arrivals_, false);
 }
 
 bool TileStream::is_busy() const {
@@ -211,7 +207,7 @@ std::vector<std::string> TileStream::take_notes() {
 
 std::size_t TileStream::failed_files() const {
     const std::lock_guard lock(mutex_);
-    return errors_.size();
+    return failed_files_.size();
 }
 
 TileStreamStats TileStream::stats() const {
@@ -221,9 +217,9 @@ TileStreamStats TileStream::stats() const {
     return stats;
 }
 
-// The most urgent tile that nobody reads and whose pause is over.
+// The most urgent tile that no thread reads and that does not pause.
 std::optional<terrain::TreeTile> TileStream::next_tile(Clock::time_point now) {
-    for (const terrain::TreeTile tile : wanted_) {
+    for (const terrain::TreeTile tile : requested_) {
         const auto failure = failures_.find(tile);
         const bool pauses = failure != failures_.end() && now < failure->second.latest.again();
         if (!pauses && !in_flight_.contains(tile)) {
@@ -235,7 +231,7 @@ std::optional<terrain::TreeTile> TileStream::next_tile(Clock::time_point now) {
 
 std::optional<TileStream::Clock::time_point> TileStream::next_attempt() const {
     std::optional<Clock::time_point> first;
-    for (const terrain::TreeTile tile : wanted_) {
+    for (const terrain::TreeTile tile : requested_) {
         const auto failure = failures_.find(tile);
         if (failure != failures_.end() && !in_flight_.contains(tile)) {
             const Clock::time_point again = failure->second.latest.again();
@@ -262,34 +258,34 @@ void TileStream::work(const std::stop_token& stop) {
         const auto entry = tiles_.find(*tile);
         const Made before = entry != tiles_.end() ? entry->second.made : Made{};
         lock.unlock();
-        TileContent reading = read_(*tile, cancelled);
+        TileContent content = read_(*tile, cancelled);
         const bool stopped = cancelled.stop_requested();
         Made made;
-        if (!stopped && reading.errors.empty()) {
-            made = make(*tile, reading, before);
+        if (!stopped && content.errors.empty()) {
+            made = make(*tile, content, before);
         }
         lock.lock();
-        finish(*tile, reading, std::move(made), stopped);
+        finish(*tile, content, std::move(made), stopped);
         changed_.notify_all();
     }
 }
 
-TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& reading,
+TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,
                                   const Made& before) const {
-    StreamedTile made = maker_.make(tile, std::move(reading.heights), reading.picture);
-    made.of_overview = reading.of_overview;
-    if (reading.of_overview) {
+    StreamedTile made = maker_.make(tile, std::move(content.heights), content.picture);
+    made.of_overview = content.of_overview;
+    if (content.of_overview) {
         made.error = std::max(made.error, maker_.overview_error(tile));
     }
     Made now{std::make_shared<const StreamedTile>(std::move(made)),
-             texels_shown(reading.picture.texels)};
+             texels_shown(content.picture.texels)};
     return before.tile == nullptr
                ? now
-               : better_of(before, std::move(now), reading.picture_errors.empty());
+               : better_of(before, std::move(now), content.picture_errors.empty());
 }
 
-// Of one that was there before heights stay, but for the overview's: its neighbours' borders lie on
-// them. Of pictures that are not whole the one that shows more counts.
+// Keeps the old heights, because its neighbours' borders lie on them, unless they are the
+// overview's. Of two incomplete pictures the one with more texels wins.
 TileStream::Made TileStream::better_of(const Made& before, Made now, bool has_whole_picture) {
     const bool heights_recovered = before.tile->of_overview && !now.tile->of_overview;
     const bool shows_more = has_whole_picture || now.shown > before.shown;
@@ -303,25 +299,25 @@ TileStream::Made TileStream::better_of(const Made& before, Made now, bool has_wh
     return {std::make_shared<const StreamedTile>(std::move(tile)), with_picture.shown};
 }
 
-void TileStream::finish(terrain::TreeTile tile, const TileContent& reading, Made made,
+void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made made,
                         bool stopped) {
     in_flight_.erase(tile);
-    stats_.bytes_read += reading.bytes_read;
-    new_notes_.insert(new_notes_.end(), reading.notes.begin(), reading.notes.end());
+    stats_.bytes_read += content.bytes_read;
+    new_notes_.insert(new_notes_.end(), content.notes.begin(), content.notes.end());
     if (stopped) {
         ++stats_.cancelled;
-        record_errors(reading.picture_errors);
+        record_errors(content.picture_errors);
         return;
     }
     if (made.tile == nullptr) {
-        note_failure(tile, reading.errors);
+        note_failure(tile, content.errors);
         return;
     }
-    if (reading.picture_errors.empty()) {
+    if (content.picture_errors.empty()) {
         forget_failure(tile);
-        std::erase(wanted_, tile);
+        std::erase(requested_, tile);
     } else {
-        note_failure(tile, reading.picture_errors);
+        note_failure(tile, content.picture_errors);
     }
     const auto before = tiles_.find(tile);
     if (before == tiles_.end() || before->second.made.tile != made.tile) {
@@ -335,21 +331,21 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
     stats_.read += before == nullptr ? 1 : 0;
     stats_.bytes += made.tile->bytes() - (before != nullptr ? before->bytes() : 0);
     entry = {std::move(made), view_};
-    news_ = true;
+    has_arrivals_ = true;
     ++revision_;
     evict();
     stats_.max_bytes = std::max(stats_.max_bytes, stats_.bytes);
 }
 
-// What is wrong with a file is wrong for each of its tiles: they wait together, so that a flight is
-// held up once by a file and not by every tile that comes into view.
+// All tiles of a bad file wait together: it delays a flight once, not for each new tile.
 void TileStream::note_failure(terrain::TreeTile tile,
                               std::span<const TileContent::FileError> errors) {
     ++stats_.failed;
     const auto now = Clock::now();
     TileFailure failure;
     for (const TileContent::FileError& error : errors) {
-        const BackOff& file = file_failure(error.file, now);
+        BackOff& file = file_failures_.try_emplace(error.file, options_.first_pause).first->second;
+        file.fail(now);
         if (failure.files.empty() || failure.latest.again() < file.again()) {
             failure.latest = file;
         }
@@ -358,12 +354,6 @@ void TileStream::note_failure(terrain::TreeTile tile,
     revision_ += failure.latest.has_failed_for_good() ? 1U : 0U; // has_given_up() changes
     failures_[tile] = std::move(failure);
     record_errors(errors);
-}
-
-const BackOff& TileStream::file_failure(const std::string& file, Clock::time_point now) {
-    BackOff& failure = file_failures_.try_emplace(file, options_.first_pause).first->second;
-    failure.fail(now);
-    return failure;
 }
 
 void TileStream::forget_failure(terrain::TreeTile tile) {
@@ -379,14 +369,13 @@ void TileStream::forget_failure(terrain::TreeTile tile) {
 
 void TileStream::record_errors(std::span<const TileContent::FileError> errors) {
     for (const TileContent::FileError& error : errors) {
-        if (errors_.emplace(error.file, error.message).second) {
+        if (failed_files_.insert(error.file).second) {
             new_errors_.push_back(error.message);
         }
     }
 }
 
-// Those of this view and of the one before stay, the others go while there are too many, the least
-// recently seen first.
+// Keeps the tiles of this view and of the one before.
 void TileStream::evict() {
     while (stats_.bytes > options_.memory_budget) {
         const auto oldest =
@@ -416,8 +405,7 @@ void TileStream::remember(const TileSummary& tile) {
 
 std::optional<double> height_at(const TerrainNode& terrain, double x, double y) {
     auto z = terrain.surface->height_at(x, y);
-    // On a curved Earth the vertical leans against z: see TerrainSurface::height_at.
-    constexpr int rounds = 3;
+    constexpr int rounds = 3; // see TerrainSurface::height_at
     for (int i = 0; z && terrain.stream != nullptr && i < rounds; ++i) {
         const terrain::Placement& placement = terrain.surface->placement();
         const auto sample = placement.sample_from_world({x, y, *z});

@@ -239,7 +239,7 @@ scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now
 bool take_arrivals(const scene::Scene& scene) {
     bool has_arrivals = false;
     for_each_stream(scene, [&](scene::TileStream& stream) {
-        has_arrivals = stream.take_news() || has_arrivals;
+        has_arrivals = stream.take_arrivals() || has_arrivals;
     });
     return has_arrivals;
 }

@@ -65,8 +65,8 @@ TEST(TileStreams, BringWhatIsWantedOnce) {
     EXPECT_TRUE(stream.wait({}));
     EXPECT_EQ(readings, 64);
     EXPECT_FALSE(stream.is_busy());
-    EXPECT_TRUE(stream.take_news());
-    EXPECT_FALSE(stream.take_news());
+    EXPECT_TRUE(stream.take_arrivals());
+    EXPECT_FALSE(stream.take_arrivals());
     EXPECT_EQ(stream.find({0, 5, 5})->id, (TreeTile{0, 5, 5}));
     EXPECT_EQ(stream.stats().tiles, 64U);
 }
