@@ -12,8 +12,7 @@
 
 namespace reljef::session {
 
-/// Runs a function on a thread of its own. When this object goes, the function is asked to stop and
-/// waited for.
+/// Runs a function on its own thread. The destructor requests a stop and waits.
 template <class T> class Background {
 public:
     using Work = std::function<Result<T>(const std::stop_token&)>;
@@ -29,8 +28,7 @@ public:
     [[nodiscard]] bool is_done() const { return done_; }
     void request_stop() { thread_.request_stop(); }
 
-    /// What the function returned, or what a library below it threw as an error; waits for it. Once
-    /// only.
+    /// Waits for the result; an exception of a library becomes an error. Call it once.
     Result<T> take() {
         thread_.join();
         return *std::move(result_);
@@ -47,7 +45,7 @@ private:
 
     std::optional<Result<T>> result_;
     std::atomic<bool> done_ = false;
-    std::jthread thread_; // last: it ends before the rest goes
+    std::jthread thread_; // last: it ends before other members are destroyed
 };
 
 } // namespace reljef::session

@@ -12,22 +12,22 @@
 namespace reljef::session {
 
 struct DeviceOptions {
-    /// Absent: EGL where it finds a hardware GPU, else OSMesa.
+    /// Absent: EGL if it finds a hardware GPU, otherwise OSMesa.
     std::optional<platform::ContextKind> context = {};
     glm::ivec2 size{1024, 768};            ///< of the picture, pixels
-    std::filesystem::path shader_dir = {}; ///< files there come before the built-in shaders
-    int samples = 1;                       ///< of a pixel, see render::DriverOptions
+    std::filesystem::path shader_dir = {}; ///< its files override the built-in shaders
+    int samples = 1;                       ///< per pixel, see render::DriverOptions
     int threads = 0;                       ///< of a software renderer; 0: its own choice
     bool selects_always = false;           ///< see SceneRendererOptions
 };
 
-/// How many threads software contexts made from now on draw with (llvmpipe); 0 changes nothing.
+/// Sets the threads of software contexts (llvmpipe) created later; 0 changes nothing.
 void limit_software_threads(int threads);
 
 /// A context without a visible window, and the renderer that draws with it.
 class Device {
 public:
-    /// Fails where there is no such context, and as SceneRenderer::create.
+    /// Fails without such a context, and as SceneRenderer::create.
     static Result<Device> create(const DeviceOptions& options = {});
 
     [[nodiscard]] const platform::Context& context() const { return *context_; }

@@ -17,7 +17,6 @@ namespace {
 
 using Set = std::shared_ptr<const material::ReliefMaterial>;
 
-// As the models show it: more of a tile than a fine material needs.
 constexpr double file_tile_width = 1.5; // metres
 
 scene::Mesh mesh_of(const terrains::GalleryModel& model) {
@@ -40,7 +39,7 @@ scene::Mesh mesh_of(const terrains::GalleryModel& model) {
     abort_with("a model without a shape");
 }
 
-// Planes stand as walls that look south.
+// Planes are upright and face south.
 glm::dmat4 place_of(const terrains::GalleryModel& model) {
     glm::dmat4 place = glm::translate(glm::dmat4(1.0), model.center);
     place = glm::rotate(place, glm::radians(-model.heading), {0.0, 0.0, 1.0});
@@ -49,17 +48,16 @@ glm::dmat4 place_of(const terrains::GalleryModel& model) {
     return stands ? glm::rotate(place, glm::radians(90.0), {1.0, 0.0, 0.0}) : place;
 }
 
-// The texture sets that were asked for, each made or read once.
+// The materials of the models, each generated or read once.
 class Sets {
 public:
-    Sets(std::string asked_for, const io::SceneDescription& description,
-         const SourceOptions& terrain, std::optional<scene::Technique> technique, Log& log,
-         std::stop_token stop)
-        : asked_for_(std::move(asked_for)), description_(description), terrain_(terrain),
+    Sets(std::string name, const io::SceneDescription& description, const SourceOptions& terrain,
+         std::optional<scene::Technique> technique, Log& log, std::stop_token stop)
+        : name_(std::move(name)), description_(description), terrain_(terrain),
           technique_(technique), log_(log), stop_(std::move(stop)) {}
 
     Result<Set> of(const terrains::GalleryModel& model) {
-        const std::string name = asked_for_ == "mixed" ? std::string(model.textures) : asked_for_;
+        const std::string name = name_ == "mixed" ? std::string(model.textures) : name_;
         if (const auto found = sets_.find(name); found != sets_.end()) {
             return found->second;
         }
@@ -83,16 +81,16 @@ public:
     }
 
 private:
-    std::string asked_for_;
+    std::string name_; // or "mixed"
     const io::SceneDescription& description_;
     const SourceOptions& terrain_;
-    std::optional<scene::Technique> technique_; // of all models; none: each its own, without cones
+    std::optional<scene::Technique> technique_; // of all models; empty: their own, without cones
     Log& log_;
     std::stop_token stop_;
     std::map<std::string, Set> sets_;
 };
 
-// None: each model's own.
+// Empty: each model has its own.
 Result<std::optional<scene::Technique>> chosen_technique(const io::SceneDescription& description,
                                                          const std::string& file,
                                                          const SceneOptions& view) {

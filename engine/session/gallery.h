@@ -10,9 +10,9 @@
 
 namespace reljef::session {
 
-/// Puts the gallery's models into the scene, each with its tile of detail; returns their nodes,
-/// which the scene owns. Fails on a texture set that is unknown or cannot be read, on a
-/// technique of the scene file that is none, and where it is stopped.
+/// Adds the gallery's models with their detail tiles; returns their nodes, which the scene owns.
+/// Fails on unknown or unreadable materials, on a bad technique in the scene file, and after a stop
+/// request.
 Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const io::SceneDescription& description,
                                               const SourceOptions& terrain,

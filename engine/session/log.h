@@ -11,51 +11,47 @@
 
 namespace reljef::session {
 
-/// What a message is about.
 enum class MessageKind {
-    note,         ///< something the user should know; the picture is as asked for
-    left_out,     ///< a source file that could not be read when the terrain was opened
-    shown_coarser ///< a source file that could not be read later; coarser tiles stand in for it
+    note,         ///< information; the picture is as requested
+    left_out,     ///< a source file could not be read when the terrain was opened
+    shown_coarser ///< a source file could not be read later; coarser tiles replace it
 };
 
-/// A long operation while it runs; it ends with the object.
+/// A long operation; it ends with the object. This one shows nothing.
 class Task {
 public:
     virtual ~Task() = default;
     /// `fraction` in [0,1]; any thread, one at a time.
-    virtual void update(double fraction) = 0;
-    /// For options that take a Progress; valid as long as this task.
+    virtual void update(double /*fraction*/) {}
+    /// Valid as long as this task.
     [[nodiscard]] Progress callback() {
         return [this](double fraction) { update(fraction); };
     }
 };
 
-/// Receives what a session reports. The session calls it on the thread that called the session.
-/// This one ignores everything.
+/// Receives messages and progress, on the thread that called the session. This one ignores them.
 class Log {
 public:
     virtual ~Log() = default;
-    /// One sentence without a line end.
+    /// `sentence`: without a line end.
     virtual void message(MessageKind /*kind*/, std::string_view /*sentence*/) {}
-    /// Begins a task, "reading alps.tif". Never null.
+    /// Begins a task such as "reading alps.tif". Never null.
     [[nodiscard]] virtual std::unique_ptr<Task> start(const std::string& label);
 
     void note(std::string_view sentence) { message(MessageKind::note, sentence); }
 };
 
-/// Takes messages and progress from a thread in the background and hands them to another thread.
+/// Passes messages and progress from a background thread to another thread.
 class RelayedLog : public Log {
 public:
     void message(MessageKind kind, std::string_view sentence) override;
     [[nodiscard]] std::unique_ptr<Task> start(const std::string& label) override;
 
-    /// Hands the messages since the last call to another log.
+    /// Passes the messages since the last call to another log.
     void relay_to(Log& log);
 
-    /// The task under way, "reading alps.tif", and how far it is, [0,1]; an empty label where there
-    /// is none.
     struct TaskProgress {
-        std::string label;
+        std::string label; ///< of the running task; empty if there is none
         double fraction = 0.0;
     };
     [[nodiscard]] TaskProgress progress() const;

@@ -10,6 +10,10 @@
 namespace reljef::session {
 namespace {
 
+bool is_same_side(const material::KnownCones& a, const material::KnownCones& b) {
+    return a.border == b.border && a.from_behind == b.from_behind;
+}
+
 // The sides of a detail texture that `cone` searches.
 std::vector<material::KnownCones> sides_of(const scene::Technique& technique) {
     const bool wraps =
@@ -26,22 +30,10 @@ std::vector<material::KnownCones> missing_sides(const material::ReliefMaterial& 
                                                 const scene::Technique& technique) {
     std::vector<material::KnownCones> sides = sides_of(technique);
     std::erase_if(sides, [&](const material::KnownCones& side) {
-        return std::any_of(
-            set.cones.begin(), set.cones.end(), [&](const material::KnownCones& known) {
-                return known.border == side.border && known.from_behind == side.from_behind;
-            });
+        return std::any_of(set.cones.begin(), set.cones.end(),
+                           [&](const auto& known) { return is_same_side(known, side); });
     });
     return sides;
-}
-
-// Two materials may share a set and need different sides of it.
-void add_missing_side(std::vector<material::KnownCones>& sides, const material::KnownCones& side) {
-    const auto is_same = [&](const material::KnownCones& other) {
-        return other.border == side.border && other.from_behind == side.from_behind;
-    };
-    if (std::none_of(sides.begin(), sides.end(), is_same)) {
-        sides.push_back(side);
-    }
 }
 
 Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& heights,
@@ -49,9 +41,10 @@ Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& 
                                                              Log& log,
                                                              const std::stop_token& stop) {
     const auto task = log.start("cones of " + name);
-    io::CacheOptions options{.folder = io::cache_folder(), .min_seconds = 1.0, .parallel = {}};
-    options.parallel = {static_cast<unsigned>(threads), stop, task->callback()};
-    auto cached = io::cached_cones(heights.view(), options);
+    auto cached = io::cached_cones(
+        heights.view(), {.folder = io::cache_folder(),
+                         .min_seconds = 1.0,
+                         .parallel = {static_cast<unsigned>(threads), stop, task->callback()}});
     if (!cached) {
         return Error{fmt::format("{}: stopped while its cones were made", name)};
     }
@@ -79,9 +72,10 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
                                                                const std::stop_token& stop) {
     const std::string& name = surface.terrain().name;
     const auto task = log.start("bounding the errors of " + name);
-    io::CacheOptions options{.folder = io::cache_folder(), .parallel = {}};
-    options.parallel = {static_cast<unsigned>(threads), stop, task->callback()};
-    auto cached = io::cached_bisection(surface.heightfield(), surface.placement(), options);
+    auto cached = io::cached_bisection(
+        surface.heightfield(), surface.placement(),
+        {.folder = io::cache_folder(),
+         .parallel = {static_cast<unsigned>(threads), stop, task->callback()}});
     if (!cached) {
         return Error{fmt::format("{}: stopped while its errors were bounded", name)};
     }
@@ -91,19 +85,6 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
     return std::move(cached->value);
 }
 
-void find_missing(MissingMaps& missing, const scene::TerrainNode& node,
-                  const scene::Technique& technique) {
-    const Grid<float>& heights = node.surface->heightfield().heights;
-    const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
-    missing.cones =
-        technique.id() == scene::TechniqueId::cone && has_cells && node.cones == nullptr;
-    missing.bisection =
-        scene::error_bound(technique) > 0.0 && node.stream == nullptr && node.bisection == nullptr;
-    if (missing.cones || missing.bisection) {
-        missing.surface = node.surface;
-    }
-}
-
 } // namespace
 
 MissingMaps missing_maps(const TerrainScene& scene,
@@ -111,7 +92,11 @@ MissingMaps missing_maps(const TerrainScene& scene,
     MissingMaps missing;
     if (scene.models.empty()) {
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
-        find_missing(missing, node, technique.value_or(node.material.technique));
+        const scene::Technique shown = technique.value_or(node.material.technique);
+        missing.cones = shown.id() == scene::TechniqueId::cone && node.cones == nullptr;
+        missing.bisection =
+            scene::error_bound(shown) > 0.0 && node.stream == nullptr && node.bisection == nullptr;
+        missing.surface = missing.cones || missing.bisection ? node.surface : nullptr;
         return missing;
     }
     for (const scene::Material* const material : scene.materials()) {
@@ -120,8 +105,13 @@ MissingMaps missing_maps(const TerrainScene& scene,
         if (set == nullptr || shown.id() != scene::TechniqueId::cone) {
             continue;
         }
+        // Two materials may share a set and need different sides of it.
         for (const material::KnownCones& side : missing_sides(*set, shown)) {
-            add_missing_side(missing.set_cones[set], side);
+            std::vector<material::KnownCones>& sides = missing.set_cones[set];
+            if (std::none_of(sides.begin(), sides.end(),
+                             [&](const auto& other) { return is_same_side(other, side); })) {
+                sides.push_back(side);
+            }
         }
     }
     return missing;

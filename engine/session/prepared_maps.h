@@ -16,51 +16,49 @@
 
 namespace reljef::session {
 
-/// The maps that a technique lacks in a scene and that take long to make. Shares what they are made
-/// of, so that making them needs no scene.
+/// The slow maps that a technique lacks. Shares their inputs, so that making them needs no scene.
 struct MissingMaps {
     using Set = std::shared_ptr<const material::ReliefMaterial>;
 
-    std::shared_ptr<const scene::TerrainSurface> surface; ///< whose maps are missing; null: none
+    std::shared_ptr<const scene::TerrainSurface> surface; ///< null: it lacks no maps
     bool bisection = false;                               ///< for polygons with an error bound
     bool cones = false;                                   ///< for the technique cone
-    std::map<Set, std::vector<material::KnownCones>> set_cones; ///< of detail textures: which sides
-    std::optional<render::LightRequest> light; ///< not looked for by missing_maps()
+    std::map<Set, std::vector<material::KnownCones>> set_cones; ///< sides of detail textures
+    std::optional<render::LightRequest> light;                  ///< missing_maps() leaves it empty
 
     [[nodiscard]] bool empty() const { return surface == nullptr && set_cones.empty() && !light; }
 };
 
-/// What the scene lacks to be drawn with a technique; absent: with the techniques of its materials.
-/// A renderer would make it itself, in the middle of a frame.
+/// The maps that the scene lacks for a technique; absent: for those of its materials. Otherwise the
+/// renderer makes them during a frame.
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique = std::nullopt);
 
-/// The terrain's light as a technique needs it. Nothing in the gallery, whose models are lit as
-/// they are drawn. `largest_side`: of its maps, texels; SceneRenderer::max_texture_side().
+/// The terrain's light for a technique; empty in the gallery, whose models are lit by shaders.
+/// `largest_side`: of its maps, texels; SceneRenderer::max_texture_side().
 std::optional<render::LightRequest> light_request(const TerrainScene& scene,
                                                   const scene::Light& light,
                                                   const scene::Technique& technique,
                                                   int largest_side);
 
-/// Maps that were made, or read from the cache.
 struct PreparedMaps {
-    std::shared_ptr<const scene::TerrainSurface> surface; ///< whose maps these are
+    std::shared_ptr<const scene::TerrainSurface> surface; ///< of the maps
     std::shared_ptr<const terrain::Bisection> bisection;
     std::shared_ptr<const material::ConeMaps> cones;
-    std::map<MissingMaps::Set, MissingMaps::Set> sets;  ///< the same detail textures with cones
+    std::map<MissingMaps::Set, MissingMaps::Set> sets; ///< detail textures, and the same with cones
     std::shared_ptr<const render::PreparedLight> light; ///< for SceneRenderer::add_light()
 };
 
-/// Makes them, or reads them from the cache; on any thread. `threads` 0: as many as the machine
-/// has. Fails when it was stopped.
+/// Makes the maps or reads them from the cache, on any thread. `threads` 0: as many as the machine
+/// has. Fails after a stop request.
 Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& log,
                                   const std::stop_token& stop);
 
-/// Puts maps into the scene they were made for; the light is the renderer's.
+/// Puts the maps, except the light, into the scene they were made for.
 void apply_maps(TerrainScene& scene, const PreparedMaps& maps);
 
-/// Puts the cones over the sides of a detail texture that the technique sees, with its border, into
-/// the set; nothing where the technique needs none. Fails when it was stopped.
+/// Adds the missing cones of a detail texture for `cone`; other techniques need none. Fails after a
+/// stop request.
 Result<void> add_cones(material::ReliefMaterial& set, const scene::Technique& technique,
                        int threads, Log& log, const std::stop_token& stop);
 

@@ -11,9 +11,9 @@
 #include "engine/scene/motion/animators.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
+#include "engine/session/material_source.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/streaming.h"
-#include "engine/session/terrain_detail.h"
 
 namespace reljef::session {
 namespace {

@@ -20,9 +20,7 @@
 namespace reljef::session {
 namespace {
 
-using Visit = std::function<void(scene::TileStream&)>;
-
-void for_each_stream(const scene::Scene& scene, const Visit& visit) {
+template <class Visit> void for_each_stream(const scene::Scene& scene, const Visit& visit) {
     scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4&) {
         const auto* terrain = node.get<scene::TerrainNode>();
         if (terrain != nullptr && terrain->stream != nullptr) {
@@ -31,66 +29,68 @@ void for_each_stream(const scene::Scene& scene, const Visit& visit) {
     });
 }
 
-// glibc takes freed blocks for the size that is worth a mapping of its own, and so keeps more and
-// more of what tiles leave behind: a flight would take half as much again as its tiles.
+// glibc raises its threshold for mapped blocks when they are freed, and then keeps the memory of
+// evicted tiles: a flight would take half as much memory again as its tiles.
 void return_freed_blocks() {
 #ifdef __GLIBC__
-    // The smallest array of a tile, bytes: not the blocks of 64 kB that a software renderer takes
-    // and frees with each frame.
+    // The smallest array of a tile, bytes. It exceeds the 64 kB blocks that a software renderer
+    // allocates in each frame.
     constexpr int vertices_a_side = terrain::tile_cells + 1;
     constexpr int mapped_from = vertices_a_side * vertices_a_side * int{sizeof(float)};
     ::mallopt(M_MMAP_THRESHOLD, mapped_from);
 #endif
 }
 
-scene::TileContent reading_of(const io::TileWindow& window) {
-    scene::TileContent reading;
-    reading.bytes_read = window.bytes_read;
-    reading.heights = Grid<float>(window.heights.cols(), window.heights.rows());
-    for (std::size_t i = 0; i < window.heights.size(); ++i) {
-        reading.heights.samples()[i] = static_cast<float>(window.heights.samples()[i]);
+void add_errors(std::vector<scene::TileContent::FileError>& errors,
+                std::span<const io::FileError> added) {
+    for (const io::FileError& error : added) {
+        errors.push_back({error.file.string(), error.message});
     }
-    for (const io::FileError& error : window.errors) {
-        reading.errors.push_back({error.file.string(), error.message});
-    }
-    return reading;
 }
 
-scene::TileContent overview_reading(const scene::TileBuilder& maker, terrain::TreeTile tile) {
-    scene::TileContent reading;
-    reading.heights = maker.overview_heights(tile);
-    reading.of_overview = true;
-    return reading;
+scene::TileContent content_of(const io::TileWindow& window) {
+    scene::TileContent content;
+    content.bytes_read = window.bytes_read;
+    content.heights = Grid<float>(window.heights.cols(), window.heights.rows());
+    const auto heights = window.heights.samples();
+    std::transform(heights.begin(), heights.end(), content.heights.samples().begin(),
+                   [](double height) { return static_cast<float>(height); });
+    add_errors(content.errors, window.errors);
+    return content;
 }
 
-// Where its files fail, a tile that is no finer than the overview is made of it, and read again: no
-// file keeps those of others from being drawn. What fails is told as faults of the picture: those
-// are of tiles that are drawn as they are.
-scene::TileContent reading_or_overview(const scene::TileBuilder& maker, int reduction,
-                                       terrain::TreeTile tile, scene::TileContent reading) {
-    if (reading.errors.empty() || maker.step(tile) < reduction) {
-        return reading;
+scene::TileContent overview_content(const scene::TileBuilder& maker, terrain::TreeTile tile) {
+    scene::TileContent content;
+    content.heights = maker.overview_heights(tile);
+    content.of_overview = true;
+    return content;
+}
+
+// If a tile's files fail and it is no finer than the overview, it is made from the overview and
+// read again later, so that its neighbours can be drawn. The errors become errors of the picture,
+// because those do not prevent drawing.
+scene::TileContent content_or_overview(const scene::TileBuilder& maker, int reduction,
+                                       terrain::TreeTile tile, scene::TileContent content) {
+    if (content.errors.empty() || maker.step(tile) < reduction) {
+        return content;
     }
-    scene::TileContent coarse = overview_reading(maker, tile);
-    coarse.bytes_read = reading.bytes_read;
-    coarse.notes = std::move(reading.notes);
-    coarse.picture_errors = std::move(reading.errors);
+    scene::TileContent coarse = overview_content(maker, tile);
+    coarse.bytes_read = content.bytes_read;
+    coarse.notes = std::move(content.notes);
+    coarse.picture_errors = std::move(content.errors);
     return coarse;
 }
 
-// Adds what images show of a tile.
 void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
                  const scene::TileBuilder& maker, terrain::TreeTile tile,
-                 const std::stop_token& stop, scene::TileContent& reading) {
+                 const std::stop_token& stop, scene::TileContent& content) {
     const glm::ivec2 cells = maker.tree().cells(tile);
     io::ImageryWindow window =
         images.read(io::picture_grid(grid, tile, cells, maker.picture_size(tile)),
                     maker.texel(tile.level), stop);
     io::close_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
-    reading.picture = {std::move(window.texels), window.whole, window.has_more};
-    for (const io::FileError& error : window.errors) {
-        reading.picture_errors.push_back({error.file.string(), error.message});
-    }
+    content.picture = {std::move(window.texels), window.whole, window.has_more};
+    add_errors(content.picture_errors, window.errors);
 }
 
 void log_errors(scene::TileStream& stream, Log& log) {
@@ -119,19 +119,16 @@ int readings_of(const scene::Scene& scene) {
     return readings;
 }
 
-// The mean of a row: of a pole's the height that it has everywhere.
-double mean_of_row(const Grid<float>& heights, int row) {
-    const auto values = heights.row(row);
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Of a pole, as the file has it; where it has a void or cannot be read, as the overview.
+// From the file; for voids and after errors the mean of the overview's row.
 double pole_height(const io::HeightAnswer& answer, const Grid<float>& overview, int row) {
-    return answer.kind == io::HeightAnswer::Kind::height ? answer.height
-                                                         : mean_of_row(overview, row);
+    const auto values = overview.row(row);
+    return answer.kind == io::HeightAnswer::Kind::height
+               ? answer.height
+               : std::accumulate(values.begin(), values.end(), 0.0) /
+                     static_cast<double>(values.size());
 }
 
-// The samples that tiles are of.
+// The samples of the tiles.
 io::ClosedGrid ground_of(const io::TileSet& tiles, const StreamSource& stream,
                          const Grid<float>& overview) {
     io::ClosedGrid ground = io::closed_grid(stream.plan.grid, tiles.closing(stream.plan.grid),
@@ -155,7 +152,6 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const scene::ImageryDetail imagery = source.stream->imagery;
     const io::ClosedGrid ground =
         ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
-    // On a plane the two ends of a globe are far apart.
     const bool wraps_longitude =
         ground.closing.around && overview->placement().kind() == terrain::PlacementKind::ellipsoid;
     const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, wraps_longitude);
@@ -166,19 +162,19 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
                        step_of_overview = source.stream->step_of_overview,
                        gaps = source.stream->gaps](terrain::TreeTile tile,
                                                    const std::stop_token& stop) {
-        scene::TileContent reading =
+        scene::TileContent content =
             step_of_overview > 0 && maker.step(tile) >= step_of_overview
-                ? overview_reading(maker, tile)
-                : reading_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));
-        reading.notes = tiles.take_new_notes();
+                ? overview_content(maker, tile)
+                : content_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));
+        content.notes = tiles.take_new_notes();
         if (stop.stop_requested()) {
-            return reading;
+            return content;
         }
-        reading = reading_or_overview(maker, reduction, tile, std::move(reading));
-        if (images && reading.errors.empty()) {
-            add_picture(*images, ground.grid, maker, tile, stop, reading);
+        content = content_or_overview(maker, reduction, tile, std::move(content));
+        if (images && content.errors.empty()) {
+            add_picture(*images, ground.grid, maker, tile, stop, content);
         }
-        return reading;
+        return content;
     };
     scene::TileStreamOptions options;
     options.memory_budget = source.stream->memory_budget;
@@ -209,7 +205,7 @@ void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelec
                     Log& log, const std::stop_token& stop) {
     std::optional<int> before;
     while (true) {
-        const int readings = readings_of(scene); // before the requests, which may be done at once
+        const int readings = readings_of(scene); // before the requests, which may finish at once
         const view::FrameView& frame = selector.select(scene, size);
         request_tiles(frame.requests);
         const bool is_whole =

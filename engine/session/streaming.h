@@ -24,7 +24,7 @@ void request_tiles(std::span<const view::TileRequests> requests);
 
 /// Selects the scene's view, loads its missing tiles and selects again, until all tiles are in
 /// memory or have failed for good, or `stop` is requested. The last selection is the frame to draw.
-/// Logs faults meanwhile, as log_stream_faults().
+/// Logs errors meanwhile, as log_stream_errors().
 void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelector& selector,
                     Log& log, const std::stop_token& stop);
 
@@ -37,9 +37,9 @@ bool take_arrivals(const scene::Scene& scene);
 /// Whether requested tiles are still missing.
 bool awaits_tiles(const scene::Scene& scene);
 
-/// Logs the faults of streams, once per file, and their notes.
+/// Logs the errors of streams, once per file, and their notes.
 void log_stream_errors(const scene::Scene& scene, Log& log);
-/// Files that had faults.
+/// Files with errors.
 std::size_t failed_files(const scene::Scene& scene);
 
 /// Counts of each stream: tiles read, evicted and kept. Empty if nothing is streamed.
