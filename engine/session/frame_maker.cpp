@@ -16,8 +16,8 @@ namespace {
 constexpr double megabyte = 1e6;
 constexpr int max_rises_of_frame = 4;
 
-// As many triangles as a view of a terrain has, of few vertices: software renderers keep what they
-// are about to draw, tens of megabytes, whatever draws with them.
+// As many triangles as a view of a terrain, of few vertices: software renderers allocate tens of
+// megabytes for triangles.
 scene::Scene busy_scene() {
     scene::Mesh mesh = scene::plane_mesh(glm::vec2(0.01F));
     const std::vector<std::uint32_t> once = mesh.indices;
@@ -48,7 +48,7 @@ std::string streams_text(std::span<const scene::TileStreamStats> streams) {
     return text;
 }
 
-// Raises the camera above the ground that its view shows. A raised camera may show higher ground.
+// Repeated, because a raised camera may see higher ground.
 void raise(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop, int max_rises) {
     for (int i = 0; i < max_rises; ++i) {
         maker.wait_for_tiles(scene.scene, stop);
@@ -92,7 +92,7 @@ void DeviceFrames::wait_for_tiles(const scene::Scene& scene, const std::stop_tok
     const Stopwatch waiting;
     SceneRenderer& renderer = device_.renderer();
     session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log_, stop);
-    // The last selection is that of the frame, and counts as drawing.
+    // The last selection counts as drawing.
     waited_ms_ += waiting.milliseconds() - renderer.selector().milliseconds();
     ready_for_ = scene.camera();
 }

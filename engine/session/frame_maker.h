@@ -23,9 +23,9 @@ namespace reljef::session {
 class FrameMaker {
 public:
     virtual ~FrameMaker() = default;
-    /// Waits for the tiles of the next frame. Drawing waits, too.
+    /// Waits for the tiles of the next frame; drawing waits, too.
     virtual void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) = 0;
-    /// Draws a frame; progress counts this frame only.
+    /// Progress counts this frame only.
     virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
     virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                         const ParallelOptions& parallel) = 0;
@@ -37,7 +37,7 @@ public:
 struct FrameTimes {
     std::vector<double> waiting_ms; ///< of each frame, for streamed tiles
     std::vector<double> drawing_ms; ///< of each frame, selection included
-    std::size_t memory_before = 0;  ///< largest of the process before the terrain was read, bytes
+    std::size_t memory_before = 0;  ///< process maximum before the terrain was read, bytes
 };
 
 struct DeviceFramesOptions {
@@ -47,7 +47,7 @@ struct DeviceFramesOptions {
 /// Draws with OpenGL.
 class DeviceFrames : public FrameMaker {
 public:
-    /// `log` receives the faults of streamed tiles and outlives this.
+    /// `log` receives the errors of streamed tiles and outlives this object.
     DeviceFrames(Device device, Log& log, const DeviceFramesOptions& options = {});
     void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) override;
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
@@ -64,8 +64,8 @@ private:
     Log& log_;
     DeviceFramesOptions options_;
     FrameTimes times_;
-    std::optional<scene::Camera> ready_for_; // since the last frame: the view whose tiles are there
-    double waited_ms_ = 0.0;                 // the same
+    std::optional<scene::Camera> ready_for_; // the next view, if its tiles are loaded
+    double waited_ms_ = 0.0;                 // for the next view
     view::FrameStats stats_;
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };
@@ -91,18 +91,18 @@ private:
     double draw_ms_ = 0.0;
 };
 
-/// What happens to cameras below the ground.
+/// Treatment of cameras below the ground.
 enum class Underground { lifted, allowed };
 
-/// Moves the camera as fly_to, then raises it above the ground that the frame shows (see
-/// keep_above_ground in ground.h), for which it waits. A camera that is close to the ground is
-/// raised, too: then Lift::depth is 0. Does not raise a camera that may be underground.
+/// Moves the camera as fly_to, waits for its tiles and raises it above the ground (see
+/// keep_above_ground in ground.h) unless it may be underground. A camera close above the ground is
+/// raised, too: then Lift::depth is 0.
 Lift fly_above_ground(TerrainScene& scene, const scene::CameraPath& path, int index, int frames,
                       FrameMaker& maker, const std::stop_token& stop,
                       Underground underground = Underground::lifted);
 
-/// Lifts a camera that is below the ground (see lift_camera in ground.h). Waits for the ground that
-/// its view shows before, and again after each lift.
+/// Lifts a camera that is below the ground (see lift_camera in ground.h). Waits for the tiles of
+/// its view before, and after each lift.
 Lift stand_above_ground(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop,
                         Underground underground = Underground::lifted);
 

@@ -13,9 +13,9 @@ namespace reljef::session {
 namespace {
 
 constexpr double clearance_in_widths = 1e-3;
-constexpr double max_clearance = 0.5; // metres: a flight a metre above the ground is none too low
+constexpr double max_clearance = 0.5; // metres
 
-// The sample below or above a place; nothing beside the terrain.
+// The sample below or above a place; empty off the terrain.
 std::optional<glm::dvec3> sample_of(const scene::TerrainSurface& surface, glm::dvec3 world) {
     const Grid<float>& heights = surface.heightfield().heights;
     const auto sample = surface.placement().sample_from_world(world);
@@ -24,7 +24,7 @@ std::optional<glm::dvec3> sample_of(const scene::TerrainSurface& surface, glm::d
     return inside ? sample : std::nullopt;
 }
 
-// The highest that any triangulation of a cell and the bilinear surface have at a sample.
+// The highest point of the bilinear surface and of both triangulations of its cell at a sample.
 double highest_of(GridView<const float> heights, glm::dvec2 sample) {
     const int col = std::clamp(static_cast<int>(sample.x), 0, heights.cols() - 2);
     const int row = std::clamp(static_cast<int>(sample.y), 0, heights.rows() - 2);
@@ -41,9 +41,9 @@ double highest_of(GridView<const float> heights, glm::dvec2 sample) {
     return std::max({falling, rising, terrain::bilinear_height(heights, sample)});
 }
 
-// Heights around a place, and the place on them.
+// A grid of heights and a place on it.
 struct Around {
-    std::shared_ptr<const scene::StreamedTile> tile; // null: of the whole terrain
+    std::shared_ptr<const scene::StreamedTile> tile; // null: the whole terrain
     GridView<const float> heights;
     glm::dvec2 place;
 };
@@ -62,7 +62,7 @@ double highest_at(const scene::TerrainNode& terrain, glm::dvec2 sample) {
     return highest_of(there.heights, there.place);
 }
 
-// From a place up to a height along its own vertical: at the same latitude and longitude.
+// The vector to another height along the local vertical.
 glm::dvec3 way_up(const terrain::Placement& placement, glm::dvec3 sample, double height) {
     return placement.world_from_sample({sample.x, sample.y, height}) -
            placement.world_from_sample(sample);
@@ -72,9 +72,10 @@ std::string metres_text(double metres) {
     return metres < 10.0 ? fmt::format("{:.2g}", metres) : fmt::format("{:.1f}", metres);
 }
 
-constexpr double largest_share = 0.25; // of the height above the ground, for a step along a ray
-constexpr double min_share = 1e-3;     // of the way so far
-constexpr double step_in_sides = 1e-3; // of the box that holds the ground, where none is below
+// Lengths of steps along a ray.
+constexpr double max_share = 0.25;     // of the height above the ground
+constexpr double min_share = 1e-3;     // of the distance so far
+constexpr double step_in_sides = 1e-3; // of the longest side of the box, off the terrain
 constexpr int max_steps_of_ray = 4096;
 constexpr int halvings = 30;
 
@@ -83,7 +84,7 @@ double longest_side(const Box& box) {
     return std::max({size.x, size.y, size.z});
 }
 
-// Of all that is read part by part, which may rise above its averages in the overview.
+// Bounds all tiles, which may exceed the averages in the overview.
 Box box_of_tiles(const scene::TerrainSurface& surface) {
     const terrain::HeightRange& range = surface.heightfield().range;
     Box box = surface.bounds();
@@ -94,23 +95,18 @@ Box box_of_tiles(const scene::TerrainSurface& surface) {
     return box;
 }
 
-bool is_under_ground(const scene::TerrainNode& terrain, glm::dvec3 place) {
-    const auto height = height_above_ground(terrain, place);
-    return height && *height <= 0.0;
-}
-
-// Where a ray goes under the ground, between a place over or beside it and one under it.
-double distance_between(const scene::TerrainNode& terrain, const Ray& ray, double over,
-                        double under) {
+// Bisects the interval in which a ray enters the ground.
+double distance_between(const scene::TerrainNode& terrain, const Ray& ray, double above,
+                        double below) {
     for (int i = 0; i < halvings; ++i) {
-        const double middle = 0.5 * (over + under);
-        (is_under_ground(terrain, ray.at(middle)) ? under : over) = middle;
+        const double middle = 0.5 * (above + below);
+        const auto height = height_above_ground(terrain, ray.at(middle));
+        (height && *height <= 0.0 ? below : above) = middle;
     }
-    return under;
+    return below;
 }
 
-// Along a ray of unit length, to a thousandth: where the terrain is read part by part, by what is
-// there of it.
+// Along a ray of unit length, to a thousandth, on the loaded tiles.
 std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const Ray& ray) {
     const Box box = box_of_tiles(*terrain.surface);
     const auto part = intersect(ray, box);
@@ -127,7 +123,7 @@ std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const
         }
         before = distance;
         const double least = std::max(std::min(min_share * distance, beside), 1e-3);
-        distance += height ? std::max(largest_share * *height, least) : std::max(beside, least);
+        distance += height ? std::max(max_share * *height, least) : std::max(beside, least);
     }
     return std::nullopt;
 }

@@ -18,7 +18,7 @@
 namespace reljef::session {
 namespace {
 
-// The air of a clear day over a scene: a fifth of the contrast is gone after one and a half widths.
+// Clear air: a fifth of the contrast is gone after one and a half widths.
 constexpr double visibility_in_widths = 25.0;
 
 scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOptions& view,
@@ -36,10 +36,6 @@ scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOp
     return options;
 }
 
-scene::Compass compass_at(const terrain::Placement& placement, glm::dvec3 eye) {
-    return {placement.up(eye), placement.north(eye)};
-}
-
 Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
                                       const GeodeticView& view) {
     const terrain::Placement& placement = surface.placement();
@@ -49,7 +45,8 @@ Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
             fmt::format("--camera: {} is not georeferenced, --eye and --look were expected",
                         surface.terrain().name)};
     }
-    return scene::camera_from_angles(*eye, view.heading, view.pitch, compass_at(placement, *eye));
+    return scene::camera_from_angles(*eye, view.heading, view.pitch,
+                                     {placement.up(*eye), placement.north(*eye)});
 }
 
 Result<scene::Camera> choose_camera(const TerrainScene& scene,
@@ -87,8 +84,7 @@ keyframes_of(const TerrainScene& scene, const io::Flight& flight, const std::str
     return keyframes;
 }
 
-// The nearest depth drawn: so close that nothing in reach of the eye is cut, and far above the
-// smallest normal float.
+// The near plane: close enough to cut nothing, and far above the smallest normal float.
 constexpr double near_in_widths = 1e-6;
 
 void set_projection(scene::Camera& camera, const Box& bounds, const SceneOptions& view) {
@@ -102,13 +98,12 @@ void set_projection(scene::Camera& camera, const Box& bounds, const SceneOptions
     }
 }
 
-// What draws nothing of the kind is a mistake where an option names it.
+// A usage error if an option names the technique.
 Error refused_technique(const Error& reason, const SceneOptions& view) {
     return view.technique ? usage_error(reason.message) : reason;
 }
 
-// How the terrain is drawn.
-Result<void> choose_look(TerrainScene& scene, const SceneOptions& view) {
+Result<void> choose_technique(TerrainScene& scene, const SceneOptions& view) {
     if (view.mixed) {
         return usage_error(
             "--technique: mixed found, the gallery was expected: a terrain is drawn with one "
@@ -179,7 +174,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
                 return refused_technique(good.error(), view);
             }
         }
-    } else if (auto done = choose_look(result, view); !done) {
+    } else if (auto done = choose_technique(result, view); !done) {
         return done.error();
     }
 

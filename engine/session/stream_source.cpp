@@ -11,13 +11,12 @@
 namespace reljef::session {
 namespace {
 
-// Shares of the memory where not all of a terrain fits: an eighth each for its overview, for GDAL's
-// blocks, and for what is being read or uploaded; the rest is for tiles.
+// Shares of the memory if the terrain does not fit: an eighth each for its overview, for GDAL's
+// block cache, and for reading and uploading; the rest is for tiles.
 constexpr std::size_t overview_part = 8;
 constexpr std::size_t blocks_part = 8;
 constexpr std::size_t work_part = 8;
-// Where only images do not fit the heights may take up to a half with the overview's picture, which
-// takes a quarter of that.
+// If only images do not fit, the overview may take up to a half; a quarter of that is its picture.
 constexpr std::size_t whole_part = 2;
 
 std::size_t bytes_of(const io::TileGrid& grid) {
@@ -29,18 +28,16 @@ std::size_t with_picture(std::size_t bytes_of_heights) {
     return bytes_of_heights / 3 * 4;
 }
 
-// Files halve their samples again and again for their own overviews: of the next such reduction
-// there is least to be read before the first picture.
+// The overviews of files are halvings: such a reduction reads the least before the first picture.
 std::size_t budget_of_halves(const io::TileSet::TerrainPlan& plan) {
     const auto reduction = std::bit_ceil(static_cast<unsigned>(plan.reduction));
     return bytes_of(io::TileSet::reduced(plan.grid, static_cast<int>(reduction)));
 }
 
-// What a thread takes to read a tile of heights, and one with a picture, bytes.
+// Memory of a thread that reads tiles of heights, or with pictures, bytes.
 constexpr std::size_t bytes_of_reader = std::size_t{4} << 20U;
 constexpr std::size_t bytes_of_picture_reader = std::size_t{8} << 20U;
 
-// No more threads than fit what is for reading.
 unsigned readers_within(const io::TileTerrainOptions& options) {
     const std::size_t each =
         options.raster.imagery.empty() ? bytes_of_reader : bytes_of_picture_reader;
@@ -53,11 +50,10 @@ bool fits(const Result<io::TileSet::TerrainPlan>& plan) {
     return plan && plan->reduction == 1;
 }
 
-// The terrain's overview and what it may take, bytes.
 struct OverviewPlan {
     io::TileSet::TerrainPlan plan;
-    std::size_t budget = 0;
-    std::size_t share = 0; // of the memory
+    std::size_t budget = 0; // bytes
+    std::size_t share = 0;  // of the memory, bytes
 };
 
 std::optional<OverviewPlan> overview_plan(const io::TileSet& tiles, io::TileTerrainOptions options,
@@ -80,7 +76,7 @@ std::optional<OverviewPlan> overview_plan(const io::TileSet& tiles, io::TileTerr
                 : std::nullopt;
 }
 
-// So that a texel of the finest tiles is no larger than a pixel of the finest image.
+// Makes texels of the finest tiles at most as large as pixels of the finest image.
 int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double texel) {
     constexpr int max_refinement = 64;
     const int most =

@@ -11,11 +11,11 @@
 
 namespace reljef::session {
 
-/// The images over a terrain that may be streamed. They are opened once, because finding the white
-/// point of 16-bit images takes seconds.
+/// The images over a terrain that may be streamed. Opened once, because the white point of 16-bit
+/// images takes seconds.
 struct OpenImagery {
-    std::shared_ptr<const io::ImagerySet> set; ///< null: none needed, or none that can be opened
-    std::string fault;                         ///< why none can be opened
+    std::shared_ptr<const io::ImagerySet> set; ///< null: not needed, or an error
+    std::string error;                         ///< why they cannot be opened
 
     [[nodiscard]] std::optional<double> white() const {
         return set != nullptr ? std::optional(set->white()) : std::nullopt;
@@ -30,8 +30,8 @@ OpenImagery open_imagery(const io::TileSet& tiles, const SourceOptions& choice,
 bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& options,
                         const OpenImagery& imagery);
 
-/// How tiles are read on demand; nothing if all fits the memory or streaming is off.
-/// Then GDAL's block cache is limited to its share of the memory.
+/// How tiles are read on demand; empty if all fits in memory or streaming is off. Otherwise limits
+/// GDAL's block cache to its share of the memory.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const SourceOptions& choice,
                                           io::TileTerrainOptions options,
                                           const OpenImagery& imagery);

@@ -78,24 +78,22 @@ io::TileTerrainOptions tile_options(const SourceOptions& choice,
     return options;
 }
 
-// Files of heights as tiles, and the images over them.
 struct SetToRead {
     io::TileSet tiles;
     OpenImagery imagery;
 };
 struct SetOrImagery {
     std::optional<SetToRead> set;
-    std::optional<double> imagery_white; // where it is known
+    std::optional<double> imagery_white; // if known
 };
 
-// What the coarsest views of a terrain that is read part by part take, beside the libraries.
+// For the coarsest views of a streamed terrain, without the libraries.
 constexpr int min_megabytes = 64;
 
-// Samples from vertex to vertex of a tile that is read out of a file without overviews: 4096 a
-// side.
+// Largest step of tiles that are read from a file without overviews: 4096 samples a side.
 constexpr int max_step_read = 4096 / terrain::tile_cells;
 
-// Of which heights tiles are made of the overview, and what is to be told of all that.
+// Chooses which levels come from the overview; adds notes.
 void set_heights_of_tiles(const io::TileSet& tiles, const SourceOptions& choice,
                           StreamSource& stream, std::vector<std::string>& notes) {
     const bool is_whole = stream.plan.reduction == 1;
@@ -119,11 +117,10 @@ void set_heights_of_tiles(const io::TileSet& tiles, const SourceOptions& choice,
     }
 }
 
-// The images of a streamed terrain, of which the overview has coarse colours already.
 void add_imagery(const OpenImagery& imagery, TerrainSource& source) {
     std::vector<std::string>& notes = source.terrain.notes;
     if (imagery.set == nullptr) {
-        notes.push_back(fmt::format("finer tiles show the imagery coarsely: {}", imagery.fault));
+        notes.push_back(fmt::format("finer tiles show the imagery coarsely: {}", imagery.error));
         return;
     }
     if (auto missing = imagery.set->missing_overviews()) {
@@ -163,8 +160,8 @@ Result<TerrainSource> read_tiles(SetToRead set, const SourceOptions& choice,
     return source;
 }
 
-// A single file that does not fit the memory, or whose images do not, is read as a set of one, if
-// it can be; what is known of its images else.
+// A single file is streamed as a set if it, or its imagery, does not fit in memory. Otherwise
+// returns the white point of its imagery.
 SetOrImagery set_to_stream(const SourceOptions& choice, const io::SceneDescription& description,
                            const std::stop_token& stop) {
     if (!choice.streamed || !description.generator.empty() || description.spacing) {
@@ -201,14 +198,9 @@ Result<terrain::Terrain> read(const SourceOptions& choice, const io::SceneDescri
     return io::read_terrain(description.heights, options);
 }
 
-bool is_folder(const fs::path& path) {
+bool has_many_files(const io::SceneDescription& description) {
     std::error_code ignored;
-    return fs::is_directory(path, ignored);
-}
-
-// Whether its heights are many files.
-bool is_set(const io::SceneDescription& description) {
-    return is_folder(description.heights) || io::is_web_tiles(description.heights);
+    return fs::is_directory(description.heights, ignored) || io::is_web_tiles(description.heights);
 }
 
 Result<void> refuse_folder_options(const SourceOptions& choice,
@@ -225,7 +217,7 @@ Result<void> refuse_folder_options(const SourceOptions& choice,
 
 Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescription description,
                                   Log& log, const std::stop_token& stop) {
-    if (is_set(description)) {
+    if (has_many_files(description)) {
         auto tiles = open_set(choice, description, stop);
         if (!tiles) {
             return tiles.error();
@@ -253,7 +245,7 @@ bool is_egm96(const std::string& datum) {
     return datum.find("EGM96") != std::string::npos;
 }
 
-// The geoid that the user names, or the installed one where it is the terrain's own.
+// The geoid of the options, or the installed one if it is the terrain's datum.
 std::optional<fs::path> geoid_file(const SourceOptions& choice, const std::string& datum) {
     if (choice.geoid == "none") {
         return std::nullopt;
@@ -379,7 +371,7 @@ Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_t
                                  "Earth",
                                  description->name)};
     }
-    if (!is_set(*description)) {
+    if (!has_many_files(*description)) {
         if (auto fits = refuse_folder_options(choice, *description); !fits) {
             return fits.error();
         }

@@ -20,11 +20,11 @@ struct StreamSource {
     io::Gaps gaps = io::Gaps::holes;
     std::size_t memory_budget = 0;   ///< bytes, for tiles
     std::size_t overview_budget = 0; ///< bytes
-    /// If only the images do not fit the memory: --memory with which the overview has all samples.
+    /// If only the images do not fit in memory: the --memory for an overview with all samples.
     std::optional<std::size_t> megabytes_for_all_heights;
     unsigned threads = 0;
-    /// Tiles with at least this many samples between vertices come from the overview, because
-    /// reading them from files without overviews takes too long. 0: none do.
+    /// Tiles with at least this step come from the overview: reading them from files without
+    /// overviews takes too long. 0: none do.
     int step_of_overview = 0;
     scene::ImageryDetail imagery;
 };
@@ -46,13 +46,12 @@ std::optional<geo::GeodeticArea> area_of(const SourceOptions& options,
 /// path.
 Result<io::SceneDescription> describe(const std::string& terrain);
 
-/// Opens what the options name. The log gets the progress, and the terrain's notes and faults.
-/// Errors name the terrain, what was found and what was expected; options that do not fit such a
-/// terrain are usage errors.
+/// Opens the terrain of the options. Logs progress, notes and errors of files. Errors name the
+/// terrain, what was found and what was expected; options that do not fit it are usage errors.
 Result<TerrainSource> open_terrain(const SourceOptions& options, Log& log,
                                    const std::stop_token& stop);
 
-/// The same for a scene that is described already; `options.terrain` is not read.
+/// The same with a known description; ignores `options.terrain`.
 Result<TerrainSource> open_terrain(io::SceneDescription description, const SourceOptions& options,
                                    Log& log, const std::stop_token& stop);
 
@@ -62,11 +61,11 @@ struct HeightSource {
     std::optional<geo::GeodeticArea> area; ///< absent: all
 };
 
-/// Indexes the files and reads none. Fails for generated terrains, and as open_terrain does. Later
-/// reads keep within half of the memory.
+/// Indexes the files and reads no heights. Fails for generated terrains, and as open_terrain. Later
+/// reads take at most half of the memory.
 Result<HeightSource> open_heights(const SourceOptions& options, const std::stop_token& stop);
 
-/// The error at the end (exit status 1) if files of the terrain could not be read.
+/// The final error (exit status 1) if files of the terrain could not be read.
 Result<void> report_errors(const std::string& terrain, std::size_t errors);
 
 } // namespace reljef::session
