@@ -42,20 +42,6 @@ double default_height(const terrain::Heightfield& heightfield, const geo::Geodet
            (is_inside ? terrain::bilinear_height(heightfield.heights.view(), *sample) : 0.0);
 }
 
-void sort_by_time(std::vector<io::GeodeticKey>& keys) {
-    std::stable_sort(keys.begin(), keys.end(),
-                     [](const auto& a, const auto& b) { return a.time < b.time; });
-    std::vector<io::GeodeticKey> distinct;
-    for (const io::GeodeticKey& key : keys) {
-        if (!distinct.empty() && distinct.back().time == key.time) {
-            distinct.pop_back();
-        }
-        distinct.push_back(key);
-    }
-    keys = std::move(distinct);
-}
-
-// The places of a flight, found one after the other.
 class Route {
 public:
     Route(const scene::TerrainSurface& surface, std::span<const io::GeodeticKey> keys)
@@ -188,7 +174,7 @@ std::vector<scene::Keyframe> with_targets(const terrain::Placement& placement,
 Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& surface,
                                                  std::vector<io::GeodeticKey> keys,
                                                  const std::string& name) {
-    sort_by_time(keys);
+    scene::sort_by_time(keys);
     const auto places = Route(surface, keys).waypoints(name);
     if (!places) {
         return places.error();

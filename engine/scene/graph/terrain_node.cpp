@@ -14,6 +14,26 @@ Error for_meshes_only(TechniqueId id) {
                              moves ? "shapes" : "lights")};
 }
 
+// The option or placement that excludes a terrain, and why; empty if there is none.
+std::string_view reason_against_terrain(const Technique& technique, const TerrainSurface& surface) {
+    if (technique.options.two_sided) {
+        return "sides=two found, sides=one was expected: a terrain is not seen from beneath, "
+               "detail tiles are";
+    }
+    if (technique.options.true_silhouettes) {
+        return "silhouettes=true found, none was expected: a terrain has its own, detail tiles on "
+               "meshes have not";
+    }
+    if (technique.options.border) {
+        return "option 'border' found, none was expected: a terrain ends at its border, detail "
+               "tiles go on";
+    }
+    const bool is_bent = surface.placement().kind() != terrain::PlacementKind::plane;
+    return needs_plane(technique.id()) && is_bent
+               ? "placement ellipsoid found, plane was expected; polygons draws both"
+               : std::string_view();
+}
+
 bool shows_detail(TechniqueId id) {
     return id != TechniqueId::polygons && id != TechniqueId::displacement &&
            id != TechniqueId::prewarp && !looks_for_layers(id);
@@ -103,32 +123,10 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
     if (!draws_terrain(technique.id())) {
         return for_meshes_only(technique.id());
     }
-    const std::string_view name = technique_info(technique.id()).name;
-    if (technique.options.two_sided) {
-        return Error{fmt::format("technique {}: sides=two found, sides=one was expected: a terrain "
-                                 "is not seen from beneath, detail tiles are",
-                                 name)};
-    }
-    if (technique.options.true_silhouettes) {
-        return Error{
-            fmt::format("technique {}: silhouettes=true found, none was expected: a terrain "
-                        "has its own, detail tiles on meshes have not",
-                        name)};
-    }
-    if (technique.options.border) {
-        return Error{
-            fmt::format("technique {}: option 'border' found, none was expected: a terrain "
-                        "ends at its border, detail tiles go on",
-                        name)};
-    }
-    if (!needs_plane(technique.id()) ||
-        surface.placement().kind() == terrain::PlacementKind::plane) {
-        return {};
-    }
-    return Error{
-        fmt::format("technique {}: placement ellipsoid found, plane was expected; polygons "
-                    "draws both",
-                    name)};
+    const std::string_view reason = reason_against_terrain(technique, surface);
+    return reason.empty() ? Result<void>()
+                          : Error{fmt::format("technique {}: {}",
+                                              technique_info(technique.id()).name, reason)};
 }
 
 Result<void> check_terrain_detail_technique(const Technique& technique) {

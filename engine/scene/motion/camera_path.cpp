@@ -1,6 +1,5 @@
 #include "engine/scene/motion/camera_path.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -54,17 +53,8 @@ Result<CameraPath> CameraPath::create(std::vector<Keyframe> keys) {
             return Error{fmt::format("fly path: key {} is not finite", i + 1)};
         }
     }
-    std::stable_sort(keys.begin(), keys.end(),
-                     [](const Keyframe& a, const Keyframe& b) { return a.time < b.time; });
-    std::vector<Keyframe> distinct;
-    for (const Keyframe& key : keys) {
-        if (!distinct.empty() && distinct.back().time == key.time) {
-            distinct.back() = key;
-        } else {
-            distinct.push_back(key);
-        }
-    }
-    return CameraPath(std::move(distinct));
+    sort_by_time(keys);
+    return CameraPath(std::move(keys));
 }
 
 Keyframe CameraPath::at(double time) const {

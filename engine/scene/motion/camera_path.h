@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -16,6 +17,16 @@ struct Keyframe {
     glm::dvec3 eye{0.0};
     glm::dvec3 target{0.0};
 };
+
+/// Sorts keys by time and keeps the last one at each time.
+template <class Key> void sort_by_time(std::vector<Key>& keys) {
+    std::stable_sort(keys.begin(), keys.end(),
+                     [](const Key& a, const Key& b) { return a.time < b.time; });
+    const auto kept = std::unique(keys.rbegin(), keys.rend(), [](const Key& a, const Key& b) {
+                          return a.time == b.time;
+                      }).base();
+    keys.erase(keys.begin(), kept);
+}
 
 /// Cubic Hermite pieces through keyframes, with tangents limited per coordinate so that no piece
 /// leaves the range of its two keys (Fritsch & Carlson 1980). Never overshoots; finite for

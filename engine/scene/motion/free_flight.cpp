@@ -12,14 +12,14 @@ namespace reljef::scene {
 namespace {
 
 constexpr double degrees_per_pixel = 0.15;
-constexpr double steepest_pitch = 89.9; // degrees
+constexpr double max_pitch = 89.9; // degrees
 constexpr double speed_per_wheel_step = 1.25;
-constexpr double slowest = 1e-2; // metres a second
-constexpr double fastest = 1e7;
+constexpr double min_speed = 1e-2; // metres a second
+constexpr double max_speed = 1e7;
 constexpr double shift_factor = 4.0;
-constexpr double longest_step = 0.25; // seconds
+constexpr double max_step = 0.25; // seconds
 
-// Where a key steers: to the right, ahead, up.
+// Right, ahead, up.
 struct Steering {
     Key key;
     glm::dvec3 direction;
@@ -82,7 +82,7 @@ glm::dvec3 SteeringKeys::direction() const {
 }
 
 FreeFlight::FreeFlight(const Camera& start, FreeFlightOptions options)
-    : options_(std::move(options)), speed_(std::clamp(options_.speed, slowest, fastest)) {
+    : options_(std::move(options)), speed_(std::clamp(options_.speed, min_speed, max_speed)) {
     set_camera(start);
 }
 
@@ -99,7 +99,7 @@ Compass FreeFlight::compass() const {
     return compass;
 }
 
-// Degrees; of a direction what is level of it counts.
+// Degrees; the horizontal part of the direction counts.
 double FreeFlight::heading_of(glm::dvec3 direction) const {
     const ViewAxes north = view_axes(camera_from_angles(camera_.eye, 0.0, 0.0, compass()));
     return glm::degrees(
@@ -111,8 +111,8 @@ void FreeFlight::set_camera(const Camera& camera) {
     const ViewAxes axes = view_axes(camera);
     const glm::dvec3 upward = up();
     const double rise = std::clamp(glm::dot(axes.forward, upward), -1.0, 1.0);
-    pitch_ = std::clamp(glm::degrees(std::asin(rise)), -steepest_pitch, steepest_pitch);
-    // Straight down, what is up in the picture says where it heads.
+    pitch_ = std::clamp(glm::degrees(std::asin(rise)), -max_pitch, max_pitch);
+    // Straight up or down the heading is up in the picture.
     const bool is_steep = std::abs(rise) > 1.0 - 1e-12;
     const glm::dvec3 level = is_steep ? -std::copysign(1.0, rise) * axes.up : axes.forward;
     heading_ = heading_of(level);
@@ -132,10 +132,6 @@ Camera FreeFlight::camera() const {
 void FreeFlight::set_mouse_look(bool on) {
     mouse_look_ = on;
     pointer_.reset();
-}
-
-void FreeFlight::set_follow_ground(bool on) {
-    follows_ground_ = on;
 }
 
 bool FreeFlight::is_steered() const {
@@ -173,7 +169,7 @@ bool FreeFlight::receive(const Event& event) {
 bool FreeFlight::receive_scroll(const ScrollEvent& event) {
     const double speed = speed_ * std::pow(speed_per_wheel_step, event.offset.y);
     if (!std::isnan(speed)) {
-        speed_ = std::clamp(speed, slowest, fastest);
+        speed_ = std::clamp(speed, min_speed, max_speed);
     }
     return true;
 }
@@ -188,13 +184,13 @@ bool FreeFlight::receive_move(const MouseMoveEvent& event) {
         return true;
     }
     heading_ = std::fmod(heading_ + degrees_per_pixel * moved.x, 360.0);
-    pitch_ = std::clamp(pitch_ - degrees_per_pixel * moved.y, -steepest_pitch, steepest_pitch);
+    pitch_ = std::clamp(pitch_ - degrees_per_pixel * moved.y, -max_pitch, max_pitch);
     turned_ = turned_ || moved != glm::dvec2(0.0);
     return true;
 }
 
 bool FreeFlight::advance(double seconds) {
-    const double step = seconds > 0.0 ? std::min(seconds, longest_step) : 0.0;
+    const double step = seconds > 0.0 ? std::min(seconds, max_step) : 0.0;
     const double way = step * speed_ * (keys_.is_fast() ? shift_factor : 1.0);
     const glm::dvec3 desired = way * keys_.direction();
     const glm::dvec3 from = camera_.eye;

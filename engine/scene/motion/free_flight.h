@@ -13,17 +13,15 @@
 namespace reljef::scene {
 
 /// The keys that steer: W S or up and down, A D or left and right, Q E or page down and page up,
-/// and shift. A key that was tapped counts as held until forget_taps(), so that none is lost in a
-/// slow frame.
+/// and shift. A tapped key counts as held until forget_taps(), so that slow frames lose no key.
 class SteeringKeys {
 public:
-    /// Says whether the key is one of them. With control, alt or super it is not, but for its
-    /// release.
+    /// Returns whether it handled the key. Ignores keys pressed with control, alt or super.
     bool receive(const KeyEvent& event);
     void release_all();
     void forget_taps() { tapped_.clear(); }
 
-    /// To the right, ahead and up; of length 1, or zero.
+    /// Right, ahead, up; of length 1, or zero.
     [[nodiscard]] glm::dvec3 direction() const;
     [[nodiscard]] bool is_fast() const { return is_down(Key::shift); }
 
@@ -39,46 +37,45 @@ private:
 /// The ground at a place, world metres.
 struct GroundAt {
     double height = 0.0;  ///< z of the surface
-    double highest = 0.0; ///< z that nothing drawn there exceeds, at least `height`
+    double highest = 0.0; ///< upper bound of z of everything drawn there
 };
 
 struct FreeFlightOptions {
-    double speed = 100.0;   ///< metres a second at first
-    double clearance = 2.0; ///< metres that the eye stays above the highest that is drawn below it
-    /// Nothing where there is no ground; absent: nowhere.
+    double speed = 100.0;   ///< initial speed, metres a second
+    double clearance = 2.0; ///< smallest height above GroundAt::highest, metres
+    /// Returns nothing where there is no ground; absent: there is none.
     std::function<std::optional<GroundAt>(double x, double y)> ground;
-    /// Unit vector away from the Earth; absent: z.
+    /// Local vertical, a unit vector; absent: z.
     std::function<glm::dvec3(glm::dvec3 world)> up;
-    /// Unit vector towards north at a place, level there; absent: y.
+    /// Horizontal unit vector to the north; absent: y.
     std::function<glm::dvec3(glm::dvec3 world)> north;
 };
 
-/// A camera flown by hand: the mouse (left button held) turns, the steering keys move, the wheel
-/// changes the speed, shift is four times as fast. The eye keeps its height above the ground until
-/// it is told to rise or sink; without follow_ground it flies where it looks. It is never under the
-/// ground. It goes straight on, over a pole too: what changes on the way is the heading.
+/// A camera with manual control: the mouse (left button held) turns, the steering keys move, the
+/// wheel changes the speed, shift is four times as fast. The eye keeps its height above the ground
+/// unless keys change it; without follow_ground it moves along the view. It is never below the
+/// ground. It moves along great circles, even across a pole: the heading changes on the way.
 class FreeFlight {
 public:
     FreeFlight(const Camera& start, FreeFlightOptions options);
 
-    /// Takes the events it knows and says whether it did.
+    /// Returns whether it handled the event.
     bool receive(const Event& event);
 
-    /// Moves on by `seconds` (clamped to [0, 0.25]: a stall is no leap; not a number: 0). Returns
-    /// whether the camera changed since the last call.
+    /// Moves by `seconds`, clamped to [0, 0.25] (not a number: 0). Returns whether the camera
+    /// changed since the last call.
     bool advance(double seconds);
 
     /// Whether the next advance() may change the camera.
     [[nodiscard]] bool is_steered() const;
-    /// As if all keys and buttons were released.
+    /// Releases all keys and buttons.
     void let_go();
 
-    /// Turns with every move of the mouse, not only with the button held.
+    /// Turns with every move of the mouse, even without the button.
     void set_mouse_look(bool on);
-    void set_follow_ground(bool on);
+    void set_follow_ground(bool on) { follows_ground_ = on; }
     [[nodiscard]] bool follows_ground() const { return follows_ground_; }
 
-    /// Takes over from elsewhere, such as a fly path.
     void set_camera(const Camera& camera);
     [[nodiscard]] Camera camera() const;
     [[nodiscard]] double speed() const { return speed_; } ///< metres a second
@@ -97,7 +94,7 @@ private:
     double pitch_ = 0.0;   // degrees above the horizon
     double speed_;
     bool follows_ground_ = true;
-    std::optional<double> height_; // metres above the ground, where there is any
+    std::optional<double> height_; // metres above the ground; empty without ground
     SteeringKeys keys_;
     bool mouse_look_ = false;
     bool button_held_ = false;

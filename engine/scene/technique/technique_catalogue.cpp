@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <iterator>
+
+#include <fmt/format.h>
 
 #include "engine/scene/technique/technique.h"
 
@@ -120,98 +123,81 @@ constexpr std::array emboss_parameters{
                                    .high = 64.0,
                                    .meaning = "texels towards the light to the second height"})};
 
-struct TechniqueText {
-    std::string_view name;
-    std::string_view meaning;
-    std::string_view source;
-};
-
 template <class Kind>
-constexpr TechniqueInfo technique_row(const TechniqueText& text,
+constexpr TechniqueInfo technique_row(std::string_view name, std::string_view meaning,
+                                      std::string_view source,
                                       std::span<const ParameterInfo> parameters = {}) {
     const TechniqueParameters defaults = Kind{};
-    return {static_cast<TechniqueId>(defaults.index()),
-            text.name,
-            text.meaning,
-            text.source,
-            defaults,
-            parameters};
+    const auto id = static_cast<TechniqueId>(defaults.index());
+    return {id, name, meaning, source, defaults, parameters};
 }
 
 constexpr std::array catalogue{
     technique_row<Texture>(
-        {"texture", "diffuse colour over the flat reference surface, lit by the height gradient",
-         "GPU surface-detail survey (2008) ch. 1; Janković 2010 ch. 2"}),
+        "texture", "diffuse colour over the flat reference surface, lit by the height gradient",
+        "GPU surface-detail survey (2008) ch. 1; Janković 2010 ch. 2"),
     technique_row<Polygons>(
-        {"polygons",
-         "the heightfield as triangles: all, fewer by distance, or as few as an error allows",
-         "Janković 2010 ch. 2.7 test 4; Lindstrom and Pascucci 2001"},
-        polygons_parameters),
+        "polygons",
+        "the heightfield as triangles: all, fewer by distance, or as few as an error allows",
+        "Janković 2010 ch. 2.7 test 4; Lindstrom and Pascucci 2001", polygons_parameters),
     technique_row<Displacement>(
-        {"displacement", "a mesh cut fine, its vertices moved along the normal by the height",
-         "GPU surface-detail survey (2008) ch. 3.1; Cook 1984"},
-        displacement_parameters),
-    technique_row<Bump>(
-        {"bump", "a mesh lit by the height's derivatives: N + F_u (N x P_v) - F_v (N x P_u)",
-         "Janković 2010 ch. 2.2; Blinn 1978"}),
+        "displacement", "a mesh cut fine, its vertices moved along the normal by the height",
+        "GPU surface-detail survey (2008) ch. 3.1; Cook 1984", displacement_parameters),
+    technique_row<Bump>("bump",
+                        "a mesh lit by the height's derivatives: N + F_u (N x P_v) - F_v (N x P_u)",
+                        "Janković 2010 ch. 2.2; Blinn 1978"),
     technique_row<Emboss>(
-        {"emboss", "h(t) - h(t + delta l.xy) added to a mesh's diffuse light; nothing shines",
-         "GPU surface-detail survey (2008) ch. 3.3; Schlag 1994"},
-        emboss_parameters),
+        "emboss", "h(t) - h(t + delta l.xy) added to a mesh's diffuse light; nothing shines",
+        "GPU surface-detail survey (2008) ch. 3.3; Schlag 1994", emboss_parameters),
     technique_row<Normal>(
-        {"normal", "a mesh lit by its normal map, with half vector and ambient light",
-         "GPU surface-detail survey (2008) ch. 3.4; Cohen, Olano and Manocha 1998"}),
+        "normal", "a mesh lit by its normal map, with half vector and ambient light",
+        "GPU surface-detail survey (2008) ch. 3.4; Cohen, Olano and Manocha 1998"),
     technique_row<Parallax>(
-        {"parallax",
-         "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
-         "Janković 2010 ch. 2.3; Kaneko et al. 2001"},
-        parallax_parameters),
-    technique_row<ParallaxLimited>({"parallax-limited",
-                                    "parallax with offset limiting: t + (h + b) s v.xy",
-                                    "GPU surface-detail survey (2008) ch. 3.5; Welsh 2004"},
-                                   limited_parameters),
+        "parallax",
+        "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
+        "Janković 2010 ch. 2.3; Kaneko et al. 2001", parallax_parameters),
+    technique_row<ParallaxLimited>(
+        "parallax-limited", "parallax with offset limiting: t + (h + b) s v.xy",
+        "GPU surface-detail survey (2008) ch. 3.5; Welsh 2004", limited_parameters),
     technique_row<ParallaxIterated>(
-        {"parallax-iterated", "parallax looked at again from where it led, the heights averaged",
-         "GPU surface-detail survey (2008) ch. 3.5"},
-        iterated_parameters),
-    technique_row<Steep>({"steep", "equal steps along the ray until one lies below the surface",
-                          "GPU surface-detail survey (2008) ch. 3.6.1; McGuire and McGuire 2005"},
+        "parallax-iterated", "parallax looked at again from where it led, the heights averaged",
+        "GPU surface-detail survey (2008) ch. 3.5", iterated_parameters),
+    technique_row<Steep>("steep", "equal steps along the ray until one lies below the surface",
+                         "GPU surface-detail survey (2008) ch. 3.6.1; McGuire and McGuire 2005",
                          steep_parameters),
-    technique_row<Relief>({"relief", "equal steps, then the bracket halved",
-                           "Janković 2010 ch. 2.4.6; Policarpo, Oliveira and Comba 2005"},
+    technique_row<Relief>("relief", "equal steps, then the bracket halved",
+                          "Janković 2010 ch. 2.4.6; Policarpo, Oliveira and Comba 2005",
                           relief_parameters),
-    technique_row<Interval>({"interval", "equal steps, then chords through the bracket",
-                             "Janković 2010 ch. 2.4.9; Risser, Shah and Pattanaik 2006"},
+    technique_row<Interval>("interval", "equal steps, then chords through the bracket",
+                            "Janković 2010 ch. 2.4.9; Risser, Shah and Pattanaik 2006",
                             interval_parameters),
-    technique_row<Pom>({"pom", "steps by the angle of view, then one chord",
-                        "Janković 2010 ch. 2.3.3; Tatarchuk 2005"},
-                       pom_parameters),
-    technique_row<Cone>({"cone", "from cone to cone that holds nothing, or one crossing",
-                         "Dummer 2006; Policarpo and Oliveira 2007 (GPU Gems 3 ch. 18)"},
+    technique_row<Pom>("pom", "steps by the angle of view, then one chord",
+                       "Janković 2010 ch. 2.3.3; Tatarchuk 2005", pom_parameters),
+    technique_row<Cone>("cone", "from cone to cone that holds nothing, or one crossing",
+                        "Dummer 2006; Policarpo and Oliveira 2007 (GPU Gems 3 ch. 18)",
                         cone_parameters),
-    technique_row<Exact>({"exact",
-                          "the ray against the bilinear surface itself: the true first hit",
-                          "Tevs, Ihrke and Seidel 2008"}),
+    technique_row<Exact>("exact", "the ray against the bilinear surface itself: the true first hit",
+                         "Tevs, Ihrke and Seidel 2008"),
     technique_row<Lattice>(
-        {"lattice", "a mesh as a sheet with its heights on both sides of it: height 0 is a hole",
-         "GPU surface-detail survey (2008) ch. 3.6.9"},
-        layers_parameters<Lattice>),
+        "lattice", "a mesh as a sheet with its heights on both sides of it: height 0 is a hole",
+        "GPU surface-detail survey (2008) ch. 3.6.9", layers_parameters<Lattice>),
     technique_row<DualLayer>(
-        {"dual-layer", "a mesh as a sheet with one height map on its front and another on its back",
-         "GPU surface-detail survey (2008) ch. 3.6.10"},
-        layers_parameters<DualLayer>),
+        "dual-layer", "a mesh as a sheet with one height map on its front and another on its back",
+        "GPU surface-detail survey (2008) ch. 3.6.10", layers_parameters<DualLayer>),
     technique_row<MultiLayer>(
-        {"multi-layer", "a mesh as two solids, one over the other: four heights a place",
-         "GPU surface-detail survey (2008) ch. 3.6.11; Policarpo and Oliveira 2006"},
+        "multi-layer", "a mesh as two solids, one over the other: four heights a place",
+        "GPU surface-detail survey (2008) ch. 3.6.11; Policarpo and Oliveira 2006",
         layers_parameters<MultiLayer>),
     technique_row<Prewarp>(
-        {"prewarp",
-         "the surface warped forward onto the reference plane, rows and then columns, each frame: "
-         "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
-         "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000"})};
+        "prewarp",
+        "the surface warped forward onto the reference plane, rows and then columns, each frame: "
+        "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
+        "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000")};
 
-static_assert(catalogue.size() == std::variant_size_v<TechniqueParameters>,
-              "every technique has its row");
+static_assert(catalogue.size() == std::variant_size_v<TechniqueParameters>);
+constexpr auto last_index = static_cast<std::size_t>(TechniqueId::multi_layer);
+static_assert(
+    std::is_same_v<std::variant_alternative_t<last_index, TechniqueParameters>, MultiLayer>);
 static_assert(std::all_of(catalogue.begin(), catalogue.end(),
                           [](const TechniqueInfo& info) {
                               return std::all_of(info.parameters.begin(), info.parameters.end(),
@@ -223,6 +209,22 @@ static_assert(std::all_of(catalogue.begin(), catalogue.end(),
               "every default lies in its range");
 
 } // namespace
+
+Result<double> parse_number(std::string_view subject, const NumberInfo& number,
+                            std::string_view text) {
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_number = code == std::errc{} && end == text.data() + text.size();
+    if (!is_number || !number.allows(value)) {
+        const bool has_gap = number.min_above_low > number.low;
+        return Error{fmt::format("{}: {}={} found, {}a {}number from {} to {} was expected",
+                                 subject, number.name, text,
+                                 has_gap ? fmt::format("{} or ", number.low) : std::string(),
+                                 number.whole ? "whole " : "",
+                                 has_gap ? number.min_above_low : number.low, number.high)};
+    }
+    return value;
+}
 
 double ParameterInfo::get(const Technique& technique) const {
     return getter(technique);

@@ -1,15 +1,55 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
-#include "engine/scene/technique/number_info.h"
+#include "engine/core/result.h"
 #include "engine/scene/technique/technique_parameters.h"
 
 namespace reljef::scene {
 
 struct Technique;
+
+/// A number of a technique or an option: one row of the table.
+struct NumberInfo {
+    std::string_view name; ///< the key that a user types
+    double default_value = 0.0;
+    double low = 0.0;   ///< smallest allowed value
+    double high = 0.0;  ///< largest allowed value
+    bool whole = false; ///< whole numbers only
+    std::string_view meaning;
+    bool is_tacit = false; ///< part of a technique's text only if it differs from its default
+    /// If it exceeds `low`: the smallest allowed value except `low` itself.
+    double min_above_low = std::numeric_limits<double>::lowest();
+
+    [[nodiscard]] constexpr bool allows(double value) const {
+        const bool is_in_range =
+            value >= low && value <= high && (value == low || value >= min_above_low);
+        return is_in_range &&
+               (!whole || value == static_cast<double>(static_cast<long long>(value)));
+    }
+};
+
+/// Completes the row of a member: its default is the struct's; integers are whole; a bool is 0 or
+/// 1.
+template <class Owner, class Value>
+constexpr NumberInfo number_of(Value Owner::*member, NumberInfo row) {
+    row.default_value = static_cast<double>(Owner{}.*member);
+    row.whole = !std::is_floating_point_v<Value>;
+    if constexpr (std::is_same_v<Value, bool>) {
+        row.low = 0.0;
+        row.high = 1.0;
+    }
+    return row;
+}
+
+/// Parses a number that its row allows. Errors name `subject`, the number, what was found and what
+/// was expected.
+Result<double> parse_number(std::string_view subject, const NumberInfo& number,
+                            std::string_view text);
 
 /// Allowed error bounds of polygons, pixels. The rasterizer's own error takes most of a smaller
 /// one.

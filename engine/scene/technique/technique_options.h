@@ -9,7 +9,7 @@
 
 #include "engine/core/result.h"
 #include "engine/material/wrap_mode.h"
-#include "engine/scene/technique/number_info.h"
+#include "engine/scene/technique/technique_catalogue.h"
 #include "engine/scene/technique/technique_parameters.h"
 
 namespace reljef::scene {
