@@ -61,6 +61,10 @@ glm::dvec3 away_from(glm::dvec3 point, const Box& box) {
     return point - glm::clamp(point, box.low, box.high);
 }
 
+bool is_flat(const scene::TerrainNode& terrain) {
+    return scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
+}
+
 bool has_streamed_tiles(const scene::TerrainNode& terrain) {
     return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
 }
@@ -68,11 +72,8 @@ bool has_streamed_tiles(const scene::TerrainNode& terrain) {
 // Adds visible nodes to the frame.
 class Selector {
 public:
-    Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options,
-             std::size_t max_tiles)
-        : list_(frame.list), requests_(frame.requests), frustum_(frustum), options_(options) {
-        seen_.reserve(max_tiles);
-    }
+    Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options)
+        : list_(frame.list), requests_(frame.requests), frustum_(frustum), options_(options) {}
 
     void add(const SeenNode& seen) {
         if (const auto* mesh = seen.node->get<scene::MeshNode>()) {
@@ -109,7 +110,7 @@ private:
     };
 
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        if (scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::box) {
+        if (scene::looks_for_surface(terrain.material.technique.id())) {
             add_relief(terrain, world_from_local);
         } else if (!add_streamed(terrain, world_from_local)) {
             add_tiles(terrain, world_from_local);
@@ -144,8 +145,7 @@ private:
         if (!has_streamed_tiles(terrain)) {
             return false;
         }
-        const bool flat =
-            scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
+        const bool flat = is_flat(terrain);
         TileSelection choice = select_tiles(terrain, list_.camera, list_.size, world_from_local,
                                             {.keeps_hidden = !options_.occlusion});
         requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
@@ -167,8 +167,7 @@ private:
     }
 
     void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        const bool flat =
-            scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
+        const bool flat = is_flat(terrain);
         const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
         const Frustum frustum = frustum_.in_local(world_from_local);
         const std::size_t before = seen_.size();
@@ -239,15 +238,6 @@ std::optional<terrain::Horizon> horizon_of(const DrawList& list, const TileDraw&
                 : std::nullopt;
 }
 
-std::size_t max_tiles(const SceneView& view) {
-    std::size_t most = 0;
-    for (const SeenNode& seen : view.nodes()) {
-        const auto* const terrain = seen.node->get<scene::TerrainNode>();
-        most += terrain != nullptr ? terrain->surface->tiles().size() : 0;
-    }
-    return most;
-}
-
 } // namespace
 
 FrameView select(const scene::Scene& scene, glm::ivec2 size, const SelectOptions& options) {
@@ -265,7 +255,7 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }
     const Frustum frustum(scene::clip_from_world(list.camera, list.size));
-    Selector selector(frame, frustum, options, max_tiles(view));
+    Selector selector(frame, frustum, options);
     for (const SeenNode& seen : view.nodes()) {
         selector.add(seen);
     }

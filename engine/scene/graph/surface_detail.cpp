@@ -12,22 +12,6 @@
 namespace reljef::scene {
 namespace {
 
-// Twice the area of a mesh, in metres² and in texture coordinates.
-struct Areas {
-    double surface = 0.0;
-    double texture = 0.0;
-};
-
-Areas areas_of(const Mesh& mesh) {
-    Areas areas;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const TriangleEdges edges = triangle_edges(mesh, i);
-        areas.surface += glm::length(glm::cross(edges.p, edges.q));
-        areas.texture += std::abs(edges.s.x * edges.t.y - edges.s.y * edges.t.x);
-    }
-    return areas;
-}
-
 // The longest edge of a triangle, in texels of the heights.
 double longest_edge(const Mesh& mesh, std::size_t first, glm::dvec2 texels_per_coordinate) {
     double longest = 0.0;
@@ -124,9 +108,16 @@ template <class Visit> void visit_places(const Mesh& mesh, const Visit& visit) {
 } // namespace
 
 double tile_width(const Mesh& mesh, glm::vec2 repeats) {
-    const Areas areas = areas_of(mesh);
-    const double tiles = areas.texture * static_cast<double>(repeats.x) * repeats.y;
-    return tiles > 0.0 ? std::sqrt(areas.surface / tiles) : 0.0;
+    // Twice the area of the mesh, in metres² and in texture coordinates.
+    double surface_area = 0.0;
+    double texture_area = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const auto [corner, p, q, coordinate, s, t] = triangle_edges(mesh, i);
+        surface_area += glm::length(glm::cross(p, q));
+        texture_area += std::abs(s.x * t.y - s.y * t.x);
+    }
+    const double tiles = texture_area * static_cast<double>(repeats.x) * repeats.y;
+    return tiles > 0.0 ? std::sqrt(surface_area / tiles) : 0.0;
 }
 
 double relief_height(const Mesh& mesh, const SurfaceDetail& detail) {

@@ -27,9 +27,8 @@ auto named(const auto& infos, std::string_view name) {
 
 // Splits at the first `separator`; without one the second part is empty.
 std::pair<std::string_view, std::string_view> split(std::string_view text, char separator) {
-    const auto at = text.find(separator);
-    return at == std::string_view::npos ? std::pair{text, std::string_view{}}
-                                        : std::pair{text.substr(0, at), text.substr(at + 1)};
+    const auto at = std::min(text.find(separator), text.size());
+    return {text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
 }
 
 Result<void> set_parameter(Technique& technique, std::string_view assignment) {
@@ -57,8 +56,7 @@ std::string_view take_assignment(std::string_view& list) {
     auto end = std::min(list.find(','), list.size());
     if (is_option(list.substr(0, end)) && end < list.size()) {
         const auto next = std::min(list.find(',', end + 1), list.size());
-        const bool belongs = list.substr(end, next - end).find('=') == std::string_view::npos;
-        end = belongs ? next : end;
+        end = list.substr(end, next - end).find('=') == std::string_view::npos ? next : end;
     }
     const auto assignment = list.substr(0, end);
     list = list.substr(std::min(end + 1, list.size()));
@@ -83,7 +81,7 @@ bool is_default(const Technique& technique, const ParameterInfo& parameter) {
 }
 
 bool is_replaced(const Technique& technique, const ParameterInfo& parameter) {
-    const ParameterInfo* const other =
+    const auto* const other =
         named(technique_info(technique.id()).parameters, parameter.replaced_by);
     return other != nullptr && !is_default(technique, *other);
 }
@@ -152,7 +150,7 @@ bool looks_for_layers(TechniqueId id) {
 }
 
 bool needs_plane(TechniqueId id) {
-    return geometry_of(id) == Geometry::box || id == TechniqueId::prewarp;
+    return looks_for_surface(id) || id == TechniqueId::prewarp;
 }
 
 bool is_two_sided(const Technique& technique) {

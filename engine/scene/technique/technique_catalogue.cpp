@@ -38,10 +38,7 @@ constexpr double max_halvings = 32.0;
 
 constexpr std::array polygons_parameters{
     parameter_row<&Polygons::max_levels>(
-        {.name = "lods",
-         .low = 1.0,
-         .high = 5.0,
-         .meaning = "levels of detail at most, by distance; 1: every sample is a vertex"},
+        {"lods", 1.0, 5.0, "levels of detail at most, by distance; 1: every sample is a vertex"},
         "error"),
     parameter_row<&Polygons::error>(
         {.name = "error",
@@ -52,76 +49,60 @@ constexpr std::array polygons_parameters{
          .min_above_low = min_polygons_error}),
     parameter_row<&Polygons::morph>(
         {.name = "morph",
+         .high = 1.0,
          .meaning = "with error, 1: vertices rise to their places as the view nears, so that "
                     "nothing jumps",
          .is_tacit = true})};
 
 template <class Kind>
 constexpr ParameterInfo offset_parameter =
-    parameter_row<&Kind::offset>({.name = "offset",
-                                  .low = -1.0,
-                                  .high = 0.0,
-                                  .meaning = "where the reference plane lies: 0 lowest, -1 highest "
-                                             "height; a mesh lies at its material's"});
+    parameter_row<&Kind::offset>({"offset", -1.0, 0.0,
+                                  "where the reference plane lies: 0 lowest, -1 highest "
+                                  "height; a mesh lies at its material's"});
 
 constexpr std::array parallax_parameters{offset_parameter<Parallax>};
 constexpr std::array limited_parameters{offset_parameter<ParallaxLimited>};
 constexpr std::array iterated_parameters{
     offset_parameter<ParallaxIterated>,
     parameter_row<&ParallaxIterated::iterations>(
-        {.name = "k", .low = 1.0, .high = 64.0, .meaning = "times the height is looked at again"})};
+        {"k", 1.0, 64.0, "times the height is looked at again"})};
 
 template <class Kind>
-constexpr ParameterInfo linear_steps_parameter = parameter_row<&Kind::linear_steps>(
-    {.name = "n", .low = 1.0, .high = max_step_count, .meaning = "equal steps along the ray"});
+constexpr ParameterInfo linear_steps_parameter =
+    parameter_row<&Kind::linear_steps>({"n", 1.0, max_step_count, "equal steps along the ray"});
 
 constexpr std::array steep_parameters{linear_steps_parameter<Steep>};
 constexpr std::array relief_parameters{
-    linear_steps_parameter<Relief>,
-    parameter_row<&Relief::bisection_steps>(
-        {.name = "k", .high = max_halvings, .meaning = "times the bracket is halved"})};
+    linear_steps_parameter<Relief>, parameter_row<&Relief::bisection_steps>(
+                                        {"k", 0.0, max_halvings, "times the bracket is halved"})};
 constexpr std::array interval_parameters{
     linear_steps_parameter<Interval>,
-    parameter_row<&Interval::secant_steps>(
-        {.name = "k", .low = 1.0, .high = 32.0, .meaning = "chords drawn through the bracket"})};
+    parameter_row<&Interval::secant_steps>({"k", 1.0, 32.0, "chords drawn through the bracket"})};
 constexpr std::array pom_parameters{
-    parameter_row<&Pom::min_steps>({.name = "min",
-                                    .low = 1.0,
-                                    .high = max_step_count,
-                                    .meaning = "equal steps seen from straight above"}),
-    parameter_row<&Pom::max_steps>({.name = "max",
-                                    .low = 1.0,
-                                    .high = max_step_count,
-                                    .meaning = "equal steps seen along the ground"})};
+    parameter_row<&Pom::min_steps>(
+        {"min", 1.0, max_step_count, "equal steps seen from straight above"}),
+    parameter_row<&Pom::max_steps>(
+        {"max", 1.0, max_step_count, "equal steps seen along the ground"})};
 
 template <class Kind>
 constexpr ParameterInfo halvings_parameter = parameter_row<&Kind::bisection_steps>(
-    {.name = "k", .high = max_halvings, .meaning = "times the bracket is halved before the chord"});
+    {"k", 0.0, max_halvings, "times the bracket is halved before the chord"});
 
 constexpr std::array cone_parameters{
     parameter_row<&Cone::relaxed>(
-        {.name = "relaxed", .meaning = "1: cones that a ray may meet the surface in once"}),
-    parameter_row<&Cone::max_steps>(
-        {.name = "n", .low = 1.0, .high = max_step_count, .meaning = "cones at the most"}),
+        {"relaxed", 0.0, 1.0, "1: cones that a ray may meet the surface in once"}),
+    parameter_row<&Cone::max_steps>({"n", 1.0, max_step_count, "cones at the most"}),
     halvings_parameter<Cone>,
     parameter_row<&Cone::min_step>(
-        {.name = "step",
-         .high = 16.0,
-         .meaning = "samples a step goes at least; 0: passes over nothing"})};
+        {"step", 0.0, 16.0, "samples a step goes at least; 0: passes over nothing"})};
 
 template <class Kind>
 constexpr std::array layers_parameters{linear_steps_parameter<Kind>, halvings_parameter<Kind>};
 
 constexpr std::array displacement_parameters{parameter_row<&Displacement::max_texels>(
-    {.name = "texels",
-     .low = 1.0,
-     .high = 256.0,
-     .meaning = "of the heights between two vertices, at most"})};
-constexpr std::array emboss_parameters{
-    parameter_row<&Emboss::delta>({.name = "delta",
-                                   .low = 0.25,
-                                   .high = 64.0,
-                                   .meaning = "texels towards the light to the second height"})};
+    {"texels", 1.0, 256.0, "of the heights between two vertices, at most"})};
+constexpr std::array emboss_parameters{parameter_row<&Emboss::delta>(
+    {"delta", 0.25, 64.0, "texels towards the light to the second height"})};
 
 template <class Kind>
 constexpr TechniqueInfo technique_row(std::string_view name, std::string_view meaning,

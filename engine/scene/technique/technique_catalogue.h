@@ -16,14 +16,14 @@ struct Technique;
 /// A number of a technique or an option: one row of the table.
 struct NumberInfo {
     std::string_view name; ///< the key that a user types
-    double default_value = 0.0;
-    double low = 0.0;   ///< smallest allowed value
-    double high = 0.0;  ///< largest allowed value
-    bool whole = false; ///< whole numbers only
+    double low = 0.0;      ///< smallest allowed value
+    double high = 0.0;     ///< largest allowed value
     std::string_view meaning;
     bool is_tacit = false; ///< part of a technique's text only if it differs from its default
     /// If it exceeds `low`: the smallest allowed value except `low` itself.
     double min_above_low = std::numeric_limits<double>::lowest();
+    double default_value = 0.0; ///< see number_of()
+    bool whole = false;         ///< whole numbers only; see number_of()
 
     [[nodiscard]] constexpr bool allows(double value) const {
         const bool is_in_range =
@@ -33,16 +33,11 @@ struct NumberInfo {
     }
 };
 
-/// Completes the row of a member: its default is the struct's; integers are whole; a bool is 0 or
-/// 1.
+/// Completes the row of a member with its default. Integers and bools are whole.
 template <class Owner, class Value>
 constexpr NumberInfo number_of(Value Owner::*member, NumberInfo row) {
     row.default_value = static_cast<double>(Owner{}.*member);
     row.whole = !std::is_floating_point_v<Value>;
-    if constexpr (std::is_same_v<Value, bool>) {
-        row.low = 0.0;
-        row.high = 1.0;
-    }
     return row;
 }
 

@@ -35,42 +35,31 @@ template <auto option, auto member> constexpr OptionNumberInfo number_row(Number
 constexpr auto steps_member = &TechniqueOptions::steps;
 constexpr auto fade_member = &TechniqueOptions::fade;
 constexpr std::array steps_numbers{
-    number_row<steps_member, &StepRange::low>({.name = "min",
-                                               .low = 1.0,
-                                               .high = 4096.0,
-                                               .meaning = "equal steps seen from straight above"}),
-    number_row<steps_member, &StepRange::high>({.name = "max",
-                                                .low = 1.0,
-                                                .high = 4096.0,
-                                                .meaning = "equal steps seen along the ground"})};
+    number_row<steps_member, &StepRange::low>(
+        {"min", 1.0, 4096.0, "equal steps seen from straight above"}),
+    number_row<steps_member, &StepRange::high>(
+        {"max", 1.0, 4096.0, "equal steps seen along the ground"})};
 constexpr std::array fade_numbers{
-    number_row<fade_member, &Fade::low>(
-        {.name = "min", .high = 1.0, .meaning = "of the heights, seen along the ground"}),
+    number_row<fade_member, &Fade::low>({"min", 0.0, 1.0, "of the heights, seen along the ground"}),
     number_row<fade_member, &Fade::high>(
-        {.name = "max", .high = 1.0, .meaning = "of the heights, seen from straight above"}),
+        {"max", 0.0, 1.0, "of the heights, seen from straight above"}),
     number_row<fade_member, &Fade::power>({.name = "k",
                                            .low = 1.0,
                                            .high = 64.0,
                                            .meaning = "the greater, the later they fade",
                                            .is_tacit = true})};
 constexpr std::array shadow_numbers{number_row<&TechniqueOptions::shadow, &Shadow::depth>(
-    {.name = "M",
-     .low = 0.001,
-     .high = 1.0,
-     .meaning =
-         "soft: how deep in the surface, of the range of heights, a ray has no light left"})};
+    {"M", 0.001, 1.0,
+     "soft: how deep in the surface, of the range of heights, a ray has no light left"})};
 constexpr std::array edges_numbers{
     number_row<&TechniqueOptions::smooth_edges, &SmoothEdges::distance>(
-        {.name = "E",
-         .low = 1e-6,
-         .high = 1.0,
-         .meaning = "smooth: over the surface, of the range of heights, where a ray shows nothing "
-                    "of it"})};
+        {"E", 1e-6, 1.0,
+         "smooth: over the surface, of the range of heights, where a ray shows nothing "
+         "of it"})};
 
 constexpr std::array<std::string_view, 3> shadow_words{"none", "hard", "soft"};
 constexpr std::array<std::string_view, 2> edges_words{"none", "smooth"};
 constexpr std::array<std::string_view, 2> sides_words{"one", "two"};
-
 constexpr std::array<std::string_view, 3> border_words{"wrap", "clamp", "discard"};
 constexpr std::array<std::string_view, 2> depth_words{"none", "write"};
 constexpr std::array<std::string_view, 2> silhouettes_words{"none", "true"};
@@ -303,12 +292,9 @@ Result<void> set_range(TechniqueOptions& options, const OptionInfo& info, const 
     const OptionNumberInfo& low = info.numbers[0];
     const OptionNumberInfo& high = info.numbers[1];
     const auto low_value = number_in(info, low, low_text);
-    if (!low_value) {
-        return low_value.error();
-    }
     const auto high_value = number_in(info, high, *high_text);
-    if (!high_value) {
-        return high_value.error();
+    if (!low_value || !high_value) {
+        return low_value ? high_value.error() : low_value.error();
     }
     if (*low_value > *high_value) {
         return Error{fmt::format("option {}: {}..{} found, the smaller number first was expected",
