@@ -28,14 +28,12 @@ struct TilePicture {
 /// Cells along a side of the blocks with a height range.
 inline constexpr int cells_per_block = 8;
 
-/// Summary of a tile for selection.
 struct TileSummary {
     terrain::TreeTile id;
     Box bounds; ///< local metres
     terrain::HeightRange range;
     /// Estimated error against the next finer level, metres: the largest distance of every second
-    /// vertex from the middle between its neighbours. Natural terrain has less detail at finer
-    /// levels.
+    /// vertex from the middle between its neighbours.
     double error = 0.0;
     double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
 };
@@ -113,18 +111,13 @@ public:
     [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;
     /// Wraps a sample into the columns of an overview that goes around the Earth.
     [[nodiscard]] glm::dvec2 around_overview(glm::dvec2 overview_sample) const;
-    /// The rows of the terrain's samples.
     [[nodiscard]] const geo::ClosedRows& rows() const { return rows_; }
     /// Whether a tile has all samples of the terrain. Finer tiles only have finer images.
     [[nodiscard]] bool has_all_samples(terrain::TreeTile tile) const;
-    /// Texels of a tile's picture.
     [[nodiscard]] glm::ivec2 picture_size(terrain::TreeTile tile) const;
-    /// Metres between texels.
-    [[nodiscard]] double texel(int level) const;
-    /// Maximum for a tile of full size.
-    [[nodiscard]] std::size_t bytes_per_tile() const;
-    /// Metres between vertices.
-    [[nodiscard]] double spacing(int level) const;
+    [[nodiscard]] double texel(int level) const;      ///< metres between texels
+    [[nodiscard]] double spacing(int level) const;    ///< metres between vertices
+    [[nodiscard]] std::size_t bytes_per_tile() const; ///< maximum
 
     /// Heights for make(): averages of the overview over a step, NaN at its voids.
     [[nodiscard]] Grid<float> overview_heights(terrain::TreeTile tile) const;
@@ -135,7 +128,6 @@ public:
     /// Precondition: the picture is empty or has picture_size.
     [[nodiscard]] StreamedTile make(terrain::TreeTile tile, Grid<float> heights,
                                     const TilePicture& picture = {}) const;
-    /// The box of a tile with heights in `range`.
     [[nodiscard]] Box bounds(terrain::TreeTile tile, terrain::HeightRange range) const;
     /// A vertex at another height, local metres.
     [[nodiscard]] glm::dvec3 place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const;

@@ -60,9 +60,8 @@ struct TileStreamStats {
     std::size_t bytes_read = 0; ///< from files
 };
 
-/// The loaded tiles of a terrain, and the threads that read requested ones. The only part of a
-/// scene that changes by itself. Tiles are shared and immutable. When memory runs out, the least
-/// recently used tiles are evicted.
+/// The loaded tiles of a terrain, and the threads that read requested ones. Tiles are shared and
+/// immutable. When memory runs out, the least recently used ones are evicted.
 class TileStream {
 public:
     TileStream(TileBuilder maker, TileContentReader read, const TileStreamOptions& options = {});
@@ -100,9 +99,7 @@ public:
     bool wait(const std::stop_token& stop);
     /// The same with a time limit; false if it was reached.
     bool wait_for(const std::stop_token& stop, std::chrono::milliseconds longest);
-    /// Then a file's tiles pause for half a minute before each further attempt, and nobody waits
-    /// for them.
-    static constexpr int max_attempts = BackOff::max_attempts;
+    static constexpr int max_attempts = BackOff::max_attempts; ///< then pauses of half a minute
 
     /// Whether a tile is missing because it failed max_attempts times.
     [[nodiscard]] bool has_given_up(terrain::TreeTile tile) const;
@@ -115,9 +112,7 @@ public:
     [[nodiscard]] bool is_busy() const;
     /// Errors since the last call, one per file in the stream's life.
     std::vector<std::string> take_errors();
-    /// Notes since the last call.
     std::vector<std::string> take_notes();
-    /// Files with errors so far.
     [[nodiscard]] std::size_t failed_files() const;
     [[nodiscard]] TileStreamStats stats() const;
 

@@ -25,7 +25,6 @@ public:
     virtual ~FrameMaker() = default;
     /// Waits for the tiles of the next frame; drawing waits, too.
     virtual void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) = 0;
-    /// Progress counts this frame only.
     virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
     virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                         const ParallelOptions& parallel) = 0;
@@ -33,7 +32,6 @@ public:
     [[nodiscard]] virtual std::string stats() const = 0;
 };
 
-/// Times and memory of all frames.
 struct FrameTimes {
     std::vector<double> waiting_ms; ///< of each frame, for streamed tiles
     std::vector<double> drawing_ms; ///< of each frame, selection included
@@ -44,7 +42,6 @@ struct DeviceFramesOptions {
     bool timed = false; ///< waits for the end of each frame
 };
 
-/// Draws with OpenGL.
 class DeviceFrames : public FrameMaker {
 public:
     /// `log` receives the errors of streamed tiles and outlives this object.
@@ -56,7 +53,6 @@ public:
     [[nodiscard]] std::string stats() const override;
     [[nodiscard]] const FrameTimes& times() const { return times_; }
     [[nodiscard]] const platform::Context& context() const { return device_.context(); }
-    /// Views selected so far.
     [[nodiscard]] int selections() { return device_.renderer().selector().count(); }
 
 private:
@@ -91,18 +87,16 @@ private:
     double draw_ms_ = 0.0;
 };
 
-/// Treatment of cameras below the ground.
 enum class Underground { lifted, allowed };
 
-/// Moves the camera as fly_to, waits for its tiles and raises it above the ground (see
-/// keep_above_ground in ground.h) unless it may be underground. A camera close above the ground is
-/// raised, too: then Lift::depth is 0.
+/// Moves the camera as fly_to, waits for its tiles and raises it as keep_above_ground (ground.h).
+/// Lift::depth is 0 for a camera that was above the ground.
 Lift fly_above_ground(TerrainScene& scene, const scene::CameraPath& path, int index, int frames,
                       FrameMaker& maker, const std::stop_token& stop,
                       Underground underground = Underground::lifted);
 
-/// Lifts a camera that is below the ground (see lift_camera in ground.h). Waits for the tiles of
-/// its view before, and after each lift.
+/// Lifts the camera as lift_camera (ground.h). Waits for the tiles of its view before, and after
+/// each lift.
 Lift stand_above_ground(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop,
                         Underground underground = Underground::lifted);
 

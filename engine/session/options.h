@@ -18,7 +18,6 @@
 
 namespace reljef::session {
 
-/// The terrain to open, and how to read it.
 struct SourceOptions {
     /// A built-in name, a scene file (.toml), a DEM file or its address, a folder of them, or web
     /// tiles.
@@ -41,7 +40,6 @@ struct SourceOptions {
     bool pictures_streamed = false;
 };
 
-/// A camera on Earth.
 struct GeodeticView {
     double latitude = 0.0;
     double longitude = 0.0;
@@ -50,7 +48,6 @@ struct GeodeticView {
     double pitch = 0.0;   ///< degrees above the horizon
 };
 
-/// A detail texture over the terrain.
 struct DetailChoice {
     std::string textures;        ///< a built-in material or a folder
     std::optional<double> width; ///< metres; absent: the scene file's, else 4
@@ -60,7 +57,6 @@ struct DetailChoice {
 /// The default error bound if no technique is named either, pixels.
 inline constexpr double default_max_error = 1.0;
 
-/// How a terrain is drawn, and from where.
 struct SceneOptions {
     std::optional<scene::Technique> technique; ///< absent: polygons; in the gallery each model's
     bool mixed = false; ///< each model of the gallery has its own, despite the scene file

@@ -31,7 +31,6 @@ public:
     /// Draws the frame selected last; `wait`: until it is finished. Precondition: the scene has not
     /// changed since.
     Result<view::FrameStats> draw_selected(bool wait = false);
-    /// Precondition as draw_selected().
     Result<HitBuffer> draw_selected_hits();
 
     /// Selects and draws; FrameStats::cpu_ms includes the selection.

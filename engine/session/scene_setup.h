@@ -13,7 +13,6 @@
 
 namespace reljef::session {
 
-/// A terrain with a sun, a sky and a camera.
 struct TerrainScene {
     scene::Scene scene;
     scene::Node* terrain = nullptr;   ///< owned by the scene

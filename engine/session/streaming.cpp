@@ -66,9 +66,8 @@ scene::TileContent overview_content(const scene::TileBuilder& maker, terrain::Tr
     return content;
 }
 
-// If a tile's files fail and it is no finer than the overview, it is made from the overview and
-// read again later, so that its neighbours can be drawn. The errors become errors of the picture,
-// because those do not prevent drawing.
+// Replaces unreadable heights by the overview's unless the tile is finer, so that its neighbours
+// can be drawn. The errors become errors of the picture, which do not prevent drawing.
 scene::TileContent content_or_overview(const scene::TileBuilder& maker, int reduction,
                                        terrain::TreeTile tile, scene::TileContent content) {
     if (content.errors.empty() || maker.step(tile) < reduction) {
@@ -128,7 +127,6 @@ double pole_height(const io::HeightAnswer& answer, const Grid<float>& overview, 
                      static_cast<double>(values.size());
 }
 
-// The samples of the tiles.
 io::ClosedGrid ground_of(const io::TileSet& tiles, const StreamSource& stream,
                          const Grid<float>& overview) {
     io::ClosedGrid ground = io::closed_grid(stream.plan.grid, tiles.closing(stream.plan.grid),

@@ -39,7 +39,6 @@ bool awaits_tiles(const scene::Scene& scene);
 
 /// Logs the errors of streams, once per file, and their notes.
 void log_stream_errors(const scene::Scene& scene, Log& log);
-/// Files with errors.
 std::size_t failed_files(const scene::Scene& scene);
 
 /// Counts of each stream: tiles read, evicted and kept. Empty if nothing is streamed.

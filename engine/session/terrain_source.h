@@ -14,7 +14,6 @@
 
 namespace reljef::session {
 
-/// A tile set whose samples are read on demand.
 struct StreamSource {
     io::TileSet::TerrainPlan plan; ///< the terrain is its overview
     io::Gaps gaps = io::Gaps::holes;
@@ -29,7 +28,6 @@ struct StreamSource {
     scene::ImageryDetail imagery;
 };
 
-/// A terrain that was read or generated, with its scene description.
 struct TerrainSource {
     terrain::Terrain terrain;
     io::SceneDescription description;

@@ -69,7 +69,6 @@ bool has_streamed_tiles(const scene::TerrainNode& terrain) {
     return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
 }
 
-// Adds visible nodes to the frame.
 class Selector {
 public:
     Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options)

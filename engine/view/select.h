@@ -13,7 +13,6 @@
 
 namespace reljef::view {
 
-/// The tiles that a view needs from a stream.
 struct TileRequests {
     std::shared_ptr<scene::TileStream> stream;
     std::vector<terrain::TreeTile> missing; ///< to load, the most urgent first
@@ -37,17 +36,14 @@ struct SelectOptions {
 /// range of an orthographic camera to the scene. Reads the view and the loaded tiles of its
 /// streams, and changes nothing: the same view gives the same frame.
 FrameView select(const SceneView& view, const SelectOptions& options = {});
-/// Selects what the scene's camera sees.
 FrameView select(const scene::Scene& scene, glm::ivec2 size, const SelectOptions& options = {});
 
 /// The tiles that the view of another camera needs, to load them ahead.
 std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::Camera& camera,
                                         glm::ivec2 size);
 
-/// Drops the tiles behind nearer ground of the same terrain, of which no pixel is visible
-/// (terrain/horizon.h), and hidden streamed tiles (tile_selection.h). Only in perspective, from an
-/// eye above the ground. Keeps terrains on an ellipsoid, tiles with levels by distance, and
-/// wireframes. Counts what it drops.
+/// Drops tiles behind nearer ground of the same terrain (terrain/field/horizon.h), and hidden
+/// streamed tiles. Keeps terrains on an ellipsoid, tiles with levels by distance, and wireframes.
 void drop_occluded(DrawList& list);
 
 /// Selects a scene's frames one after the other: a view that has not changed keeps its frame. Holds
@@ -65,9 +61,7 @@ public:
 
     void forget();
 
-    /// Views selected so far.
     [[nodiscard]] int count() const { return count_; }
-    /// Duration of the last selection.
     [[nodiscard]] double milliseconds() const { return milliseconds_; }
 
 private:

@@ -61,13 +61,11 @@ terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) 
     return {tile.range.low - margin, tile.range.high + margin};
 }
 
-// A loaded or an evicted tile.
 struct KnownTile {
     scene::TileSummary summary;
     std::shared_ptr<const scene::StreamedTile> tile; // null: evicted
 };
 
-// The projection of a stream's tiles.
 class StreamView {
 public:
     StreamView(const scene::TerrainNode& terrain, const scene::Camera& camera, glm::ivec2 size,

@@ -28,7 +28,6 @@ struct Light {
     friend bool operator==(const Light&, const Light&) = default;
 };
 
-/// Unit vector towards the light.
 glm::dvec3 to_light(const Light& light);
 
 /// The light rotated by its node's transform.
@@ -86,7 +85,6 @@ public:
     /// Removes a child from the tree; null if it is not a child of this node.
     std::unique_ptr<Node> remove(const Node& child);
 
-    /// The content if it is a T, otherwise null.
     template <class T> [[nodiscard]] T* get() { return std::get_if<T>(&content_); }
     template <class T> [[nodiscard]] const T* get() const { return std::get_if<T>(&content_); }
     [[nodiscard]] const Content& content() const { return content_; }
@@ -107,7 +105,6 @@ public:
     [[nodiscard]] Box world_bounds() const;
 
     void add_animator(Animator animator) { animators_.push_back(std::move(animator)); }
-    /// Runs the animators of this node and of its descendants.
     void animate(double time);
 
 private:
@@ -128,7 +125,6 @@ public:
     [[nodiscard]] Node& root() { return *root_; }
     [[nodiscard]] const Node& root() const { return *root_; }
 
-    /// Fails as TerrainSurface::create.
     Result<Node*> add_terrain(terrain::Terrain terrain, const TerrainOptions& options = {});
     Node& add_mesh(Mesh mesh, const Material& material = {});
     Node& add_light(const Light& light = {});

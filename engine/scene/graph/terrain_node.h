@@ -78,9 +78,8 @@ private:
 /// techniques for meshes, rays on the ellipsoid, and options that only detail tiles have.
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface);
 
-/// A detail tile that repeats over a terrain drawn as polygons. Its colour covers the terrain's;
-/// its heights lie below the triangles, and rays meet them in the plane of the triangle. It fades
-/// with distance and does not change hits.
+/// A detail tile that repeats over a terrain drawn as polygons, below the plane of each triangle.
+/// It fades with distance and does not change hits.
 struct TerrainDetail {
     std::shared_ptr<const material::ReliefMaterial> set; ///< as completed() returned it
     double width = 4.0;            ///< of a tile, metres, [terrain::min_tile_width, max_tile_width]
@@ -89,8 +88,7 @@ struct TerrainDetail {
 };
 
 /// Fails if a technique cannot show a detail tile on a terrain, with the reason and techniques that
-/// can: it must not move vertices, warp or search layers, and only `steps` and `shadow` are
-/// allowed options.
+/// can. Only the options `steps` and `shadow` are allowed.
 Result<void> check_terrain_detail_technique(const Technique& technique);
 
 class TileStream;
