@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "engine/geo/place.h"
-#include "engine/scene/motion/animators.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/session/ground.h"
 #include "engine/session/streaming.h"

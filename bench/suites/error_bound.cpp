@@ -12,7 +12,6 @@
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
 
-#include "engine/scene/motion/animators.h"
 #include "engine/scene/motion/camera_path.h"
 #include "engine/truth/geometric_error.h"
 

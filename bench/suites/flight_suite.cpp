@@ -9,7 +9,7 @@
 #include "app/cli/progress_line.h"
 #include "engine/core/process_memory.h"
 #include "engine/core/stopwatch.h"
-#include "engine/scene/motion/animators.h"
+#include "engine/scene/motion/camera_path.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 #include "engine/session/terrain_source.h"

@@ -8,7 +8,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/io/formats/flight_file.h"
-#include "engine/scene/motion/animators.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
 #include "engine/session/material_source.h"

@@ -44,6 +44,13 @@ double hermite(Knot a, Knot b, Knot c, Knot d, double time) {
 
 } // namespace
 
+Camera at_key(Camera camera, const Keyframe& key) {
+    camera.eye = key.eye;
+    camera.target = key.target;
+    camera.up = {0.0, 0.0, 1.0};
+    return camera;
+}
+
 Result<CameraPath> CameraPath::create(std::vector<Keyframe> keys) {
     if (keys.empty()) {
         return Error{"fly path: no key found, at least one was expected"};

@@ -8,6 +8,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
+#include "engine/scene/graph/camera.h"
 
 namespace reljef::scene {
 
@@ -17,6 +18,9 @@ struct Keyframe {
     glm::dvec3 eye{0.0};
     glm::dvec3 target{0.0};
 };
+
+/// The camera at a keyframe, upright.
+Camera at_key(Camera camera, const Keyframe& key);
 
 /// Sorts keys by time and keeps the last one at each time.
 template <class Key> void sort_by_time(std::vector<Key>& keys) {
