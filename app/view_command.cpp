@@ -12,7 +12,6 @@
 #include "app/viewer/viewer.h"
 #include "app/viewer/window_loop.h"
 #include "engine/platform/window.h"
-#include "engine/session/device.h"
 #include "engine/session/ground.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"

@@ -19,7 +19,7 @@
 #include "engine/core/memory_file.h"
 #include "engine/render/residency/terrain_maps.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/session/device.h"
+#include "engine/session/scene_renderer.h"
 #include "engine/session/terrain_source.h"
 
 namespace reljef::bench {

@@ -11,7 +11,7 @@
 
 #include "bench/runner/suite_options.h"
 #include "engine/core/result.h"
-#include "engine/session/device.h"
+#include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"

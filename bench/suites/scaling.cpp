@@ -19,7 +19,7 @@
 #include "engine/core/process_memory.h"
 #include "engine/core/stopwatch.h"
 #include "engine/scene/tile_stream.h"
-#include "engine/session/device.h"
+#include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 #include "engine/truth/geometric_error.h"

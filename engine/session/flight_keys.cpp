@@ -176,10 +176,9 @@ Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& su
                                                  const std::string& name) {
     scene::sort_by_time(keys);
     const auto places = Route(surface, keys).waypoints(name);
-    if (!places) {
-        return places.error();
-    }
-    return with_targets(surface.placement(), keys, *places);
+    return places ? Result<std::vector<scene::Keyframe>>(
+                        with_targets(surface.placement(), keys, *places))
+                  : places.error();
 }
 
 } // namespace reljef::session

@@ -11,9 +11,9 @@
 #include "engine/core/parallel_for.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/tile_stream.h"
-#include "engine/session/device.h"
 #include "engine/session/ground.h"
 #include "engine/session/log.h"
+#include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/truth/draw.h"
 

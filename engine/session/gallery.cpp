@@ -49,45 +49,38 @@ glm::dmat4 place_of(const terrains::GalleryModel& model) {
 }
 
 // The materials of the models, each generated or read once.
-class Sets {
-public:
-    Sets(std::string name, const io::SceneDescription& description, const SourceOptions& terrain,
-         std::optional<scene::Technique> technique, Log& log, std::stop_token stop)
-        : name_(std::move(name)), description_(description), terrain_(terrain),
-          technique_(technique), log_(log), stop_(std::move(stop)) {}
+struct Sets {
+    std::string requested; // or "mixed"
+    const io::SceneDescription& description;
+    const SourceOptions& terrain;
+    std::optional<scene::Technique> technique; // of all models; empty: their own, without cones
+    Log& log;
+    std::stop_token stop;
+    std::map<std::string, Set> by_name = {};
 
     Result<Set> of(const terrains::GalleryModel& model) {
-        const std::string name = name_ == "mixed" ? std::string(model.textures) : name_;
-        if (const auto found = sets_.find(name); found != sets_.end()) {
+        const std::string name = requested == "mixed" ? std::string(model.textures) : requested;
+        if (const auto found = by_name.find(name); found != by_name.end()) {
             return found->second;
         }
         auto set = open_material(
-            {name, terrain_.textures ? std::filesystem::path(name) : description_.gallery_folder,
-             terrain_.textures ? "--textures" : terrain_.terrain, description_.seed,
-             file_tile_width, std::nullopt, "mixed, "},
-            terrain_);
+            {name, terrain.textures ? std::filesystem::path(name) : description.gallery_folder,
+             terrain.textures ? "--textures" : terrain.terrain, description.seed, file_tile_width,
+             std::nullopt, "mixed, "},
+            terrain);
         if (!set) {
             return set.error();
         }
-        if (technique_) {
-            if (auto made = add_cones(*set, *technique_, terrain_.threads, log_, stop_); !made) {
+        if (technique) {
+            if (auto made = add_cones(*set, *technique, terrain.threads, log, stop); !made) {
                 return made.error();
             }
         }
-        log_material_notes(*set, log_);
-        return sets_
+        log_material_notes(*set, log);
+        return by_name
             .emplace(name, std::make_shared<const material::ReliefMaterial>(std::move(*set)))
             .first->second;
     }
-
-private:
-    std::string name_; // or "mixed"
-    const io::SceneDescription& description_;
-    const SourceOptions& terrain_;
-    std::optional<scene::Technique> technique_; // of all models; empty: their own, without cones
-    Log& log_;
-    std::stop_token stop_;
-    std::map<std::string, Set> sets_;
 };
 
 // Empty: each model has its own.
@@ -144,8 +137,12 @@ Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
     if (!technique) {
         return technique.error();
     }
-    Sets sets(terrain.textures.value_or(description.gallery_textures), description, terrain,
-              *technique, log, stop);
+    Sets sets{terrain.textures.value_or(description.gallery_textures),
+              description,
+              terrain,
+              *technique,
+              log,
+              stop};
     std::vector<scene::Node*> nodes;
     for (const terrains::GalleryModel& model : terrains::gallery_models()) {
         const auto set = sets.of(model);

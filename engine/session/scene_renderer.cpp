@@ -1,15 +1,15 @@
 #include "engine/session/scene_renderer.h"
 
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 namespace reljef::session {
 
 Result<SceneRenderer> SceneRenderer::create(const SceneRendererOptions& options) {
     auto driver = render::Driver::create(options.driver);
-    if (!driver) {
-        return driver.error();
-    }
-    return SceneRenderer(std::move(*driver), options);
+    return driver ? Result<SceneRenderer>(SceneRenderer(std::move(*driver), options))
+                  : driver.error();
 }
 
 Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
@@ -34,6 +34,34 @@ Result<view::FrameStats> SceneRenderer::draw(const scene::Scene& scene, bool wai
 Result<HitBuffer> SceneRenderer::draw_hits(const scene::Scene& scene) {
     select(scene);
     return draw_selected_hits();
+}
+
+void limit_software_threads(int threads) {
+    if (threads > 0) {
+        ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    }
+}
+
+Result<Device> Device::create(const DeviceOptions& options) {
+    limit_software_threads(options.threads);
+    const platform::ContextOptions hidden{.size = options.size, .visible = false};
+    auto context = options.context ? platform::make_context(*options.context, hidden)
+                                   : platform::make_headless_context(hidden);
+    if (!context) {
+        return context.error();
+    }
+    auto renderer = SceneRenderer::create({.driver = {.size = options.size,
+                                                      .shader_dir = options.shader_dir,
+                                                      .software = (*context)->is_software(),
+                                                      .samples = options.samples},
+                                           .selects_always = options.selects_always});
+    if (!renderer) {
+        return renderer.error();
+    }
+    Device device;
+    device.context_ = std::move(*context);
+    device.renderer_ = std::make_unique<SceneRenderer>(std::move(*renderer));
+    return device;
 }
 
 } // namespace reljef::session

@@ -273,10 +273,7 @@ Result<scene::CameraPath> open_path(const TerrainScene& scene, const std::string
         log.note(note);
     }
     auto keyframes = keyframes_of(scene, *flight, name);
-    if (!keyframes) {
-        return keyframes.error();
-    }
-    return scene::CameraPath::create(std::move(*keyframes));
+    return keyframes ? scene::CameraPath::create(std::move(*keyframes)) : keyframes.error();
 }
 
 bool is_path_file(const std::string& name) {

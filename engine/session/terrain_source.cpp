@@ -336,10 +336,8 @@ std::optional<geo::GeodeticArea> area_of(const SourceOptions& choice,
 Result<TerrainSource> open_terrain(const SourceOptions& choice, Log& log,
                                    const std::stop_token& stop) {
     auto description = describe(choice.terrain);
-    if (!description) {
-        return description.error();
-    }
-    return open_terrain(std::move(*description), choice, log, stop);
+    return description ? open_terrain(std::move(*description), choice, log, stop)
+                       : description.error();
 }
 
 Result<TerrainSource> open_terrain(io::SceneDescription description, const SourceOptions& choice,

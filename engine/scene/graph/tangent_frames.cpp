@@ -93,10 +93,6 @@ TangentFrame frame_of(const Gradients& gradients, glm::vec3 vertex_normal) {
 
 } // namespace
 
-glm::vec3 bitangent(const TangentFrame& frame, glm::vec3 normal) {
-    return frame.handedness * glm::cross(normal, frame.tangent);
-}
-
 std::vector<TangentFrame> tangent_frames(const Mesh& mesh) {
     check(mesh.normals.size() == mesh.positions.size() &&
               mesh.texture_coordinates.size() == mesh.positions.size(),

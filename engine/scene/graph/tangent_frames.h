@@ -16,9 +16,6 @@ struct TangentFrame {
     glm::vec2 density{0.0F}; ///< u and v per metre along tangent and bitangent; 0: unknown
 };
 
-/// The direction of v. Precondition: `normal` is the normal of the vertex.
-glm::vec3 bitangent(const TangentFrame& frame, glm::vec3 normal);
-
 /// A frame for every vertex: the gradients of the texture coordinates over the triangles around it,
 /// weighted by area and made orthogonal to the normal (Gram-Schmidt; Lengyel, Foundations of Game
 /// Engine Development 2, ch. 7.5). Without gradients (no area, equal texture coordinates, opposite

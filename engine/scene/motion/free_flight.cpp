@@ -19,28 +19,23 @@ constexpr double max_speed = 1e7;
 constexpr double shift_factor = 4.0;
 constexpr double max_step = 0.25; // seconds
 
-// Right, ahead, up.
 struct Steering {
     Key key;
-    glm::dvec3 direction;
+    Key alternative;
+    glm::dvec3 direction; // right, ahead, up
 };
-constexpr std::array<Steering, 12> steerings{{{Key::w, {0.0, 1.0, 0.0}},
-                                              {Key::up, {0.0, 1.0, 0.0}},
-                                              {Key::s, {0.0, -1.0, 0.0}},
-                                              {Key::down, {0.0, -1.0, 0.0}},
-                                              {Key::d, {1.0, 0.0, 0.0}},
-                                              {Key::right, {1.0, 0.0, 0.0}},
-                                              {Key::a, {-1.0, 0.0, 0.0}},
-                                              {Key::left, {-1.0, 0.0, 0.0}},
-                                              {Key::e, {0.0, 0.0, 1.0}},
-                                              {Key::page_up, {0.0, 0.0, 1.0}},
-                                              {Key::q, {0.0, 0.0, -1.0}},
-                                              {Key::page_down, {0.0, 0.0, -1.0}}}};
+constexpr std::array<Steering, 6> steerings{{{Key::w, Key::up, {0.0, 1.0, 0.0}},
+                                             {Key::s, Key::down, {0.0, -1.0, 0.0}},
+                                             {Key::d, Key::right, {1.0, 0.0, 0.0}},
+                                             {Key::a, Key::left, {-1.0, 0.0, 0.0}},
+                                             {Key::e, Key::page_up, {0.0, 0.0, 1.0}},
+                                             {Key::q, Key::page_down, {0.0, 0.0, -1.0}}}};
 
 bool is_steering_key(Key key) {
-    return key == Key::shift ||
-           std::any_of(steerings.begin(), steerings.end(),
-                       [&](const Steering& steering) { return steering.key == key; });
+    const auto has_key = [&](const Steering& steering) {
+        return steering.key == key || steering.alternative == key;
+    };
+    return key == Key::shift || std::any_of(steerings.begin(), steerings.end(), has_key);
 }
 
 bool is_finite(glm::dvec2 v) {
@@ -73,8 +68,8 @@ void SteeringKeys::release_all() {
 glm::dvec3 SteeringKeys::direction() const {
     glm::dvec3 desired{0.0};
     for (const Steering& steering : steerings) {
-        if (is_down(steering.key)) {
-            desired += steering.direction;
+        for (const Key key : {steering.key, steering.alternative}) {
+            desired += is_down(key) ? steering.direction : glm::dvec3(0.0);
         }
     }
     const double length = glm::length(desired);

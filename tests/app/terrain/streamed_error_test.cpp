@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/tile_stream.h"
-#include "engine/session/device.h"
+#include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 #include "engine/terrain/field/heightfield.h"

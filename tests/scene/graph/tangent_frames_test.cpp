@@ -12,6 +12,10 @@
 namespace reljef::scene {
 namespace {
 
+glm::vec3 bitangent(const TangentFrame& frame, glm::vec3 normal) {
+    return frame.handedness * glm::cross(normal, frame.tangent);
+}
+
 constexpr float unit_error = 1e-6F; // a few roundings of a float near 1
 
 void expect_orthonormal(const Mesh& mesh, const std::vector<TangentFrame>& frames) {
