@@ -155,11 +155,13 @@ TileStream::requests_for(std::span<const terrain::TreeTile> tiles) const {
 }
 
 bool TileStream::is_settled() const {
-    const auto has_failed = [&](terrain::TreeTile tile) {
-        const auto failure = failures_.find(tile);
-        return failure != failures_.end() && failure->second.latest.has_failed_for_good();
-    };
-    return std::all_of(requested_.begin(), requested_.end(), has_failed);
+    return std::all_of(requested_.begin(), requested_.end(),
+                       [&](terrain::TreeTile tile) { return has_failed_for_good(tile); });
+}
+
+bool TileStream::has_failed_for_good(terrain::TreeTile tile) const {
+    const auto failure = failures_.find(tile);
+    return failure != failures_.end() && failure->second.latest.has_failed_for_good();
 }
 
 bool TileStream::wait(const std::stop_token& stop) {
@@ -175,9 +177,7 @@ bool TileStream::wait_for(const std::stop_token& stop, std::chrono::milliseconds
 
 bool TileStream::has_given_up(terrain::TreeTile tile) const {
     const std::lock_guard lock(mutex_);
-    const auto failure = failures_.find(tile);
-    return failure != failures_.end() && failure->second.latest.has_failed_for_good() &&
-           !tiles_.contains(tile);
+    return has_failed_for_good(tile) && !tiles_.contains(tile);
 }
 
 std::uint64_t TileStream::revision() const {

@@ -145,6 +145,7 @@ private:
     void evict();
     void remember(const TileSummary& tile);
     [[nodiscard]] bool is_settled() const;
+    [[nodiscard]] bool has_failed_for_good(terrain::TreeTile tile) const;
 
     const TileBuilder maker_;
     const TileContentReader read_;

@@ -55,15 +55,11 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
     if (view.geodetic) {
         return geodetic_camera(*scene.terrain->get<scene::TerrainNode>()->surface, *view.geodetic);
     }
-    if (view.eye) {
-        camera.eye = *view.eye;
-        camera.target = *view.target;
-        return camera;
-    }
     const bool is_map = view.projection == scene::ProjectionKind::orthographic;
-    if (!view.pose && !is_map && description.eye && description.target) {
-        camera.eye = *description.eye;
-        camera.target = *description.target;
+    const bool is_described = !view.pose && !is_map && description.eye && description.target;
+    if (view.eye || is_described) {
+        camera.eye = view.eye ? *view.eye : *description.eye;
+        camera.target = view.eye ? *view.target : *description.target;
         return camera;
     }
     const auto ground = [&](double x, double y) { return scene.ground(x, y); };

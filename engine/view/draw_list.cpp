@@ -1,6 +1,9 @@
 #include "engine/view/draw_list.h"
 
+#include <cmath>
 #include <utility>
+
+#include <glm/trigonometric.hpp>
 
 namespace reljef::view {
 
@@ -32,6 +35,40 @@ std::optional<scene::TerrainLight> light_on(const DrawList& list,
         return std::nullopt;
     }
     return scene::TerrainLight{*list.sun, glm::dmat3(world_from_local)};
+}
+
+glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain) {
+    const double error = scene::error_bound(terrain.material.technique);
+    return glm::vec2(1.0, 2.0) * static_cast<float>(error > 0.0 ? error : 1.0);
+}
+
+glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size) {
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        return {camera.view_height / size.y, 0.0};
+    }
+    return {0.0, 2.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / size.y};
+}
+
+DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                        glm::ivec2 size, double distance) {
+    if (terrain.detail == nullptr ||
+        terrain.material.technique.id() != scene::TechniqueId::polygons) {
+        return DetailLevel::none;
+    }
+    const scene::TerrainDetail& detail = *terrain.detail;
+    const glm::dvec2 metres(metres_a_pixel(camera, size));
+    const double pixel = metres.x + metres.y * distance;
+    const auto is_seen = [&](double size_on_ground, float min_pixels) {
+        return size_on_ground > static_cast<double>(min_pixels) * pixel;
+    };
+    if (!is_seen(detail.width, seen_tile_pixels.x)) {
+        return DetailLevel::none;
+    }
+    const double lift = static_cast<double>(detail.scale) * detail.width;
+    return scene::looks_for_surface(detail.technique.id()) &&
+                   is_seen(lift, seen_height_pixels(terrain).x)
+               ? DetailLevel::relief
+               : DetailLevel::light;
 }
 
 } // namespace reljef::view

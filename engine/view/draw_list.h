@@ -15,9 +15,15 @@
 #include "engine/scene/streamed_tile.h"
 #include "engine/terrain/mesh/bisection_mesh.h"
 #include "engine/view/frame_stats.h"
-#include "engine/view/ground_view.h"
 
 namespace reljef::view {
+
+/// How much of the detail tile over a terrain is visible.
+enum class DetailLevel {
+    none,  ///< too far: the terrain alone
+    light, ///< its colour and its light
+    relief ///< its heights, if the technique searches for them
+};
 
 /// How coarse a terrain's tiles may be: by error, or by the levels of patches
 /// (terrain/mesh/patch_mesh.h).
@@ -92,5 +98,19 @@ Result<void> check_techniques(const DrawList& list);
 /// The list's sun over a terrain; empty without a sun.
 std::optional<scene::TerrainLight> light_on(const DrawList& list,
                                             const glm::dmat4& world_from_local);
+
+/// Widths of a detail tile on the picture between which it fades in, pixels.
+inline constexpr glm::vec2 seen_tile_pixels{8.0F, 32.0F};
+
+/// Heights of a detail tile on the picture between which its relief fades in, pixels: the error
+/// bound of the polygons, or one pixel, and twice that.
+glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain);
+
+/// Width of a pixel, metres: x at the eye, plus y per metre of distance.
+glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size);
+
+/// The level at a distance of at least `distance` metres.
+DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                        glm::ivec2 size, double distance);
 
 } // namespace reljef::view

@@ -1,4 +1,4 @@
-#include "engine/view/ground_view.h"
+#include "engine/view/draw_list.h"
 
 #include <cmath>
 #include <limits>

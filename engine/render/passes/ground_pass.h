@@ -5,7 +5,7 @@
 #include "engine/gl/program.h"
 #include "engine/render/passes/frame_context.h"
 #include "engine/render/shaders/shader_library.h"
-#include "engine/view/ground_view.h"
+#include "engine/view/draw_list.h"
 
 namespace reljef::render {
 

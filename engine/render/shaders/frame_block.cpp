@@ -1,8 +1,8 @@
 #include "engine/render/shaders/frame_block.h"
 
 #include "engine/render/shaders/view_values.h"
+#include "engine/view/draw_list.h"
 #include "engine/view/error_view.h"
-#include "engine/view/ground_view.h"
 
 namespace reljef::render {
 namespace {
