@@ -7,6 +7,7 @@
 #include "engine/scene/technique/technique.h"
 #include "tests/app/command_line.h"
 #include "tests/golden/golden_picture.h"
+#include "tests/scene/technique/terrain_techniques.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_context.h"

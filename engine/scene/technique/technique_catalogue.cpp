@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -226,13 +225,6 @@ const TechniqueInfo& technique_info(TechniqueId id) {
                      [&](const TechniqueInfo& info) { return info.id == id; });
     check(found != catalogue.end(), "technique without a catalogue entry");
     return *found;
-}
-
-std::vector<TechniqueInfo> terrain_techniques() {
-    std::vector<TechniqueInfo> infos;
-    std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(infos),
-                 [](const TechniqueInfo& info) { return draws_terrain(info.id); });
-    return infos;
 }
 
 } // namespace reljef::scene

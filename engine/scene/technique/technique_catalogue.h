@@ -4,7 +4,6 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/scene/technique/technique_parameters.h"
@@ -77,7 +76,5 @@ struct TechniqueInfo {
 /// All techniques, in the order of the sources.
 std::span<const TechniqueInfo> technique_catalogue();
 const TechniqueInfo& technique_info(TechniqueId id);
-/// The techniques that draw terrains.
-std::vector<TechniqueInfo> terrain_techniques();
 
 } // namespace reljef::scene

@@ -10,6 +10,7 @@
 #include "app/viewer/viewer.h"
 #include "engine/geo/place.h"
 #include "tests/app/made_hill.h"
+#include "tests/scene/technique/terrain_techniques.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/terrain/made_heightfield.h"
 

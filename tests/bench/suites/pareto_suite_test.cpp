@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/bench_program.h"
+#include "tests/scene/technique/terrain_techniques.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
@@ -19,7 +20,8 @@ using testing::HasSubstr;
 
 std::vector<double> values_between(double default_value, double low, double high,
                                    bool whole = false) {
-    return values_over_range({"x", default_value, low, high, whole, ""});
+    return values_over_range(
+        {.name = "x", .low = low, .high = high, .default_value = default_value, .whole = whole});
 }
 
 TEST(ValuesOverRange, go_in_even_steps_of_the_range_or_of_its_logarithm) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/bench_program.h"
+#include "tests/scene/technique/terrain_techniques.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/scene/technique/terrain_techniques.h"
 #include "tests/terrain/chance.h"
 #include "tests/truth/techniques/relief_stage.h"
 

@@ -17,6 +17,7 @@
 #include "terrains/generators.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
+#include "tests/scene/technique/terrain_techniques.h"
 #include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 
