@@ -197,10 +197,6 @@ glm::dvec2 TileBuilder::sample(terrain::TreeTile tile, glm::ivec2 vertex) const 
     return at / static_cast<double>(imagery_.refinement);
 }
 
-glm::dvec2 TileBuilder::tree_sample(glm::dvec2 sample) const {
-    return sample * static_cast<double>(imagery_.refinement);
-}
-
 glm::dvec2 TileBuilder::on_overview(glm::dvec2 sample) const {
     sample.y = rows_.source_row(sample.y);
     const glm::dvec2 at = (sample - 0.5 * (reduction_ - 1)) / static_cast<double>(reduction_);

@@ -105,7 +105,9 @@ public:
     [[nodiscard]] glm::dvec2 first(terrain::TreeTile tile) const;
     [[nodiscard]] glm::dvec2 sample(terrain::TreeTile tile, glm::ivec2 vertex) const;
     /// The sample of the tree for a sample of the terrain.
-    [[nodiscard]] glm::dvec2 tree_sample(glm::dvec2 sample) const;
+    [[nodiscard]] glm::dvec2 tree_sample(glm::dvec2 sample) const {
+        return sample * static_cast<double>(imagery_.refinement);
+    }
     /// The sample of the overview for a sample of the terrain, and back.
     [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const;
     [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;

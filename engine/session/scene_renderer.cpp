@@ -22,10 +22,6 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     return stats;
 }
 
-Result<HitBuffer> SceneRenderer::draw_selected_hits() {
-    return driver_.draw_hits(selector_.selected());
-}
-
 Result<view::FrameStats> SceneRenderer::draw(const scene::Scene& scene, bool wait) {
     select(scene);
     return draw_selected(wait);

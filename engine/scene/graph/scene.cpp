@@ -169,8 +169,6 @@ void Node::animate(double time) {
     }
 }
 
-Scene::Scene() : root_(std::make_unique<Node>("root")) {}
-
 Result<Node*> Scene::add_terrain(terrain::Terrain terrain, const TerrainOptions& options) {
     std::string name = terrain.name;
     auto surface = TerrainSurface::create(

@@ -120,8 +120,6 @@ private:
 /// The tree of nodes, its sky, and its event receivers.
 class Scene {
 public:
-    Scene();
-
     [[nodiscard]] Node& root() { return *root_; }
     [[nodiscard]] const Node& root() const { return *root_; }
 
@@ -158,7 +156,7 @@ public:
     bool dispatch(const Event& event) const;
 
 private:
-    std::unique_ptr<Node> root_;
+    std::unique_ptr<Node> root_ = std::make_unique<Node>("root");
     std::optional<Sky> sky_;
     Node* active_camera_ = nullptr;
     std::vector<EventReceiver> receivers_;

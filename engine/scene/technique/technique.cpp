@@ -111,10 +111,6 @@ Result<Technique> without_contradiction(const Technique& technique) {
 
 } // namespace
 
-TechniqueId Technique::id() const {
-    return static_cast<TechniqueId>(parameters.index());
-}
-
 Geometry geometry_of(TechniqueId id) {
     switch (id) {
     case TechniqueId::texture:

@@ -15,7 +15,7 @@ struct Technique {
     TechniqueParameters parameters = Polygons{};
     TechniqueOptions options{};
 
-    [[nodiscard]] TechniqueId id() const;
+    [[nodiscard]] TechniqueId id() const { return static_cast<TechniqueId>(parameters.index()); }
 
     friend bool operator==(const Technique&, const Technique&) = default;
 };

@@ -206,10 +206,6 @@ Result<double> parse_number(std::string_view subject, const NumberInfo& number,
     return value;
 }
 
-double ParameterInfo::get(const Technique& technique) const {
-    return getter(technique);
-}
-
 void ParameterInfo::set(Technique& technique, double value) const {
     check(allows(value), "a parameter out of its range");
     setter(technique, value);

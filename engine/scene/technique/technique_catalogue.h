@@ -17,7 +17,7 @@ struct NumberInfo {
     std::string_view name; ///< the key that a user types
     double low = 0.0;      ///< smallest allowed value
     double high = 0.0;     ///< largest allowed value
-    std::string_view meaning;
+    std::string_view meaning = {};
     bool is_tacit = false; ///< part of a technique's text only if it differs from its default
     /// If it exceeds `low`: the smallest allowed value except `low` itself.
     double min_above_low = std::numeric_limits<double>::lowest();
@@ -59,7 +59,7 @@ struct ParameterInfo : NumberInfo {
     void (*setter)(Technique&, double) = nullptr;
 
     /// Precondition: it is a parameter of this technique.
-    [[nodiscard]] double get(const Technique& technique) const;
+    [[nodiscard]] double get(const Technique& technique) const { return getter(technique); }
     /// Preconditions: the same, and allows(value).
     void set(Technique& technique, double value) const;
 };

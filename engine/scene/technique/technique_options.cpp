@@ -346,10 +346,6 @@ std::string value_text(const OptionInfo& info, std::size_t word, const Technique
 
 } // namespace
 
-std::optional<double> OptionNumberInfo::get(const TechniqueOptions& options) const {
-    return getter(options);
-}
-
 void OptionNumberInfo::set(TechniqueOptions& options, double value) const {
     check(allows(value), "a number of an option out of its range");
     setter(options, value);

@@ -62,7 +62,9 @@ struct OptionNumberInfo : NumberInfo {
     void (*setter)(TechniqueOptions&, double) = nullptr;
 
     /// Absent if the option is off.
-    [[nodiscard]] std::optional<double> get(const TechniqueOptions& options) const;
+    [[nodiscard]] std::optional<double> get(const TechniqueOptions& options) const {
+        return getter(options);
+    }
     /// Preconditions: the option is on, and allows(value).
     void set(TechniqueOptions& options, double value) const;
 };
