@@ -36,6 +36,14 @@ std::vector<material::KnownCones> missing_sides(const material::ReliefMaterial& 
     return sides;
 }
 
+// Two materials may share a set and need different sides of it.
+void add_missing_side(std::vector<material::KnownCones>& sides, const material::KnownCones& side) {
+    if (std::none_of(sides.begin(), sides.end(),
+                     [&](const auto& other) { return is_same_side(other, side); })) {
+        sides.push_back(side);
+    }
+}
+
 Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& heights,
                                                              const std::string& name, int threads,
                                                              Log& log,
@@ -105,13 +113,8 @@ MissingMaps missing_maps(const TerrainScene& scene,
         if (set == nullptr || shown.id() != scene::TechniqueId::cone) {
             continue;
         }
-        // Two materials may share a set and need different sides of it.
         for (const material::KnownCones& side : missing_sides(*set, shown)) {
-            std::vector<material::KnownCones>& sides = missing.set_cones[set];
-            if (std::none_of(sides.begin(), sides.end(),
-                             [&](const auto& other) { return is_same_side(other, side); })) {
-                sides.push_back(side);
-            }
+            add_missing_side(missing.set_cones[set], side);
         }
     }
     return missing;
