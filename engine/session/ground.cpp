@@ -13,7 +13,8 @@ namespace reljef::session {
 namespace {
 
 constexpr double clearance_in_widths = 1e-3;
-constexpr double max_clearance = 0.5; // metres
+constexpr double max_clearance = 0.5;    // metres
+constexpr double ground_rounding = 1e-3; // rounding error of heights in the scene, metres
 
 // The sample below or above a place; empty off the terrain.
 std::optional<glm::dvec3> sample_of(const scene::TerrainSurface& surface, glm::dvec3 world) {

@@ -36,9 +36,6 @@ struct Lift {
     explicit operator bool() const { return metres > 0.0; }
 };
 
-/// Rounding error of heights in the scene, metres: a smaller depth is not below the ground.
-inline constexpr double ground_rounding = 1e-3;
-
 /// Lifts an eye below the ground to `clearance` metres above everything drawn there. No lift for an
 /// eye on or above the ground, off the terrain or over a void.
 Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance);

@@ -26,6 +26,8 @@ constexpr double margin_of_range = 0.25;
 constexpr double errors_seen = 1.0;
 constexpr double errors_hidden = 16.0;
 
+constexpr double default_error = 1.0; // pixels, if the technique has no bound
+
 // The tiles' share of the error bound; the rest is for fewer triangles.
 constexpr double share_of_tiles = 0.5;
 
@@ -34,8 +36,7 @@ constexpr double share_of_tiles = 0.5;
 // whole bound.
 constexpr double errors_of_horizon = 2.0 * (share_of_tiles + share_of_tiles) + 1.0;
 
-// Largest distance between texels if there are finer images, pixels.
-constexpr double max_texel = 1.0;
+constexpr double max_texel = 1.0; // pixels between texels, if there are finer images
 
 // Requests of one view. These tiles may make less urgent ones unnecessary.
 constexpr std::size_t max_requests = 16;
@@ -74,7 +75,7 @@ public:
           frustum_(scene::clip_from_world(camera, size)) {
         const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons;
         const double error = scene::error_bound(terrain.material.technique);
-        max_error_ = error > 0.0 ? error : default_tile_error;
+        max_error_ = error > 0.0 ? error : default_error;
         is_perspective_ = camera.projection == scene::ProjectionKind::perspective;
         pixels_per_metre_ = is_perspective_
                                 ? 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov))
@@ -154,7 +155,7 @@ private:
     const glm::dmat4& world_from_local_;
     Frustum frustum_;
     glm::dvec3 eye_{0.0}; // local metres
-    double max_error_ = default_tile_error;
+    double max_error_ = default_error;
     bool is_perspective_ = true;
     double pixels_per_metre_ = 1.0; // in perspective: at a distance of one metre
     std::optional<terrain::HorizonView> horizon_;

@@ -28,8 +28,6 @@ struct TileSelection {
     int hidden_unread = 0; ///< hidden tiles that are not loaded
 };
 
-/// The error bound for streamed tiles if the technique has none, pixels.
-inline constexpr double default_tile_error = 1.0;
 /// Largest distance between samples on the picture, in error bounds.
 inline constexpr double samples_apart_in_errors = 4.0;
 
