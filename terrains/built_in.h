@@ -5,9 +5,9 @@
 
 namespace reljef::terrains {
 
-/// A scene file of terrains/ that is part of the program.
+/// A scene file that is part of the program.
 struct BuiltInScene {
-    std::string_view name; ///< what TERRAIN is called on the command line
+    std::string_view name; ///< TERRAIN on the command line
     std::string_view text; ///< the scene file
 };
 

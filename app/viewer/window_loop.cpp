@@ -1,6 +1,5 @@
 #include "app/viewer/window_loop.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iterator>

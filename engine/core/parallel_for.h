@@ -22,4 +22,15 @@ struct ParallelOptions {
 bool parallel_for(int count, const std::function<void(int index)>& body,
                   const ParallelOptions& options = {});
 
+/// parallel_for() over the rows of a grid: calls `body(col, row)` once for every cell.
+template <class Body>
+bool for_each_cell(int cols, int rows, const ParallelOptions& options, const Body& body) {
+    const auto do_row = [&](int row) {
+        for (int col = 0; col < cols; ++col) {
+            body(col, row);
+        }
+    };
+    return parallel_for(rows, do_row, options);
+}
+
 } // namespace reljef

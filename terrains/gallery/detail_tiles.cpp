@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,8 +10,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/parallel_for.h"
-#include "terrains/gallery/detail_cells.h"
-#include "terrains/gallery/sheet_tiles.h"
 #include "terrains/natural/noise.h"
 
 namespace reljef::terrains {
@@ -21,14 +18,11 @@ namespace {
 constexpr int min_side = 16;
 constexpr int max_side = 4096;
 
-// What a tile is made of at a place.
+// Surface at a point of the texture.
 struct Stuff {
-    float height = 0.0F;    // of no particular range
+    float height = 0.0F;    // any range
     glm::vec3 albedo{0.5F}; // linear
 };
-
-// The stuff at a place of the tile, in [0,1)².
-using Make = std::function<Stuff(glm::vec2 place, std::uint32_t seed)>;
 
 float noise(std::uint32_t seed, glm::vec2 place, int cells, int octaves = 4) {
     return fractal_noise(seed, place * static_cast<float>(cells), {octaves, 0.5F, cells});
@@ -41,7 +35,7 @@ glm::vec3 chosen(std::span<const glm::vec3> palette, float random) {
                     at - static_cast<float>(index));
 }
 
-// Distance to a rectangle of half sides `half` with round corners, negative inside.
+// Signed distance to a rectangle with round corners, negative inside.
 float to_round_box(glm::vec2 place, glm::vec2 half, float radius) {
     const glm::vec2 beyond = glm::abs(place) - half + radius;
     return glm::length(glm::max(beyond, 0.0F)) + std::min(std::max(beyond.x, beyond.y), 0.0F) -
@@ -51,10 +45,10 @@ float to_round_box(glm::vec2 place, glm::vec2 half, float radius) {
 struct Brick {
     glm::ivec2 id{0};
     glm::vec2 place{0.0F}; // from its middle, in [-½, ½] of its own sides
-    glm::vec2 sides{0.0F}; // in tile widths
+    glm::vec2 sides{0.0F}; // in texture widths
 };
 
-// Stretcher bond: each course half a brick off the one above.
+// Stretcher bond: each course is shifted by half a brick.
 Brick brick_at(glm::vec2 place) {
     constexpr int bricks = 4;
     constexpr int courses = 8;
@@ -70,7 +64,7 @@ Stuff brick_wall(glm::vec2 place, std::uint32_t seed) {
         glm::vec3(0.33F, 0.095F, 0.055F), glm::vec3(0.40F, 0.145F, 0.080F),
         glm::vec3(0.20F, 0.070F, 0.050F), glm::vec3(0.46F, 0.205F, 0.120F)};
     constexpr glm::vec3 lime(0.44F, 0.40F, 0.34F);
-    constexpr float joint = 0.0075F; // half its width, in tile widths
+    constexpr float joint = 0.0075F; // half its width, in texture widths
     const Brick brick = brick_at(place);
     const float random = unit_hash(seed, brick.id.x, brick.id.y);
     const glm::vec2 tilt(unit_hash(seed + 1, brick.id.x, brick.id.y) - 0.5F,
@@ -119,7 +113,7 @@ Stuff cobbles(glm::vec2 place, std::uint32_t seed) {
                          glm::smoothstep(0.0F, 0.05F, inside))};
 }
 
-// Slabs that broke along planes, one leaning this way, the next that.
+// Broken slabs that lean in random directions.
 float slabs(glm::vec2 place, std::uint32_t seed, int cells) {
     const glm::vec2 wobble(noise(seed + 1, place, 2 * cells, 3),
                            noise(seed + 2, place, 2 * cells, 3));
@@ -149,10 +143,10 @@ Stuff rock_face(glm::vec2 place, std::uint32_t seed) {
     return {height, grown * (0.75F + 0.35F * height + 0.35F * grain)};
 }
 
-// Round wires, crossing; a height of 1 is as thick as they are.
+// Crossing round wires; a height of 1 is their radius.
 Stuff wire_fence(glm::vec2 place, std::uint32_t seed) {
     constexpr int wires = 3;
-    constexpr float radius = 0.13F; // of the way from wire to wire
+    constexpr float radius = 0.13F; // share of the distance between wires
     float height = 0.0F;
     for (const float along : {place.x + place.y, place.x - place.y}) {
         const float off = std::abs(glm::fract(along * wires) - 0.5F) / radius;
@@ -165,7 +159,6 @@ Stuff wire_fence(glm::vec2 place, std::uint32_t seed) {
     return {height, glm::mix(zinc, brown, 0.75F * rust)};
 }
 
-// Copper, dented by a hammer, dent beside dent.
 Stuff hammered_copper(glm::vec2 place, std::uint32_t seed) {
     constexpr int dents = 9;
     const VoronoiCell cell = voronoi(seed, place * static_cast<float>(dents), dents, 0.75F);
@@ -180,7 +173,7 @@ Stuff hammered_copper(glm::vec2 place, std::uint32_t seed) {
     return {dish + 0.12F * random + 0.006F * grain, glm::mix(copper, green, 0.55F * stain)};
 }
 
-// What the rings of layers are made of; they are put in their place by themselves.
+// Material of the rings. hang_rings() makes their shape.
 Stuff brass(glm::vec2 place, std::uint32_t seed) {
     const float rough = noise(seed, place, 48, 4);
     const float dull = glm::smoothstep(0.0F, 0.5F, noise(seed + 1, place, 6, 4));
@@ -188,14 +181,73 @@ Stuff brass(glm::vec2 place, std::uint32_t seed) {
                       (1.0F + 0.18F * rough)};
 }
 
-constexpr int ring_rows = 3;
+// A curtain of rings. Rings of one row lean along +x, those of the next along -x. Each ring passes
+// through its four neighbours, and at most two rings cover a point. With these lengths, in ring
+// radii, no two rings touch.
+constexpr int ring_rows = 3; // along each side, for each lean
+constexpr double ring_wire = 0.11;
+constexpr double ring_distance = 1.14; // to the next ring of the other lean, along x and y
+constexpr double ring_lean = 0.42;     // rise over run along x
+constexpr double ring_room = 0.02;     // above and below the rings, share of the height range
+constexpr int ring_vertices = 96;
+constexpr int wire_vertices = 20;
+constexpr double ring_radius = 1.0 / (2.0 * ring_distance * ring_rows); // in texture widths
+// Half the height range.
+constexpr double ring_range = (ring_lean + ring_wire) / (1.0 - 2.0 * ring_room);
+
+struct RingMesh {
+    std::vector<glm::vec3> positions; // x, y in texture widths; z in [0,1]
+    std::vector<std::uint32_t> indices;
+};
+
+// A point of the wire, in ring radii.
+glm::dvec3 ring_point(int along, int across, double lean) {
+    const double turn = 2.0 * std::acos(-1.0);
+    const double angle = turn * along / ring_vertices;
+    const glm::dvec3 middle(std::cos(angle), std::sin(angle), lean * std::cos(angle));
+    const glm::dvec3 out = glm::normalize(middle);
+    const glm::dvec3 off = glm::normalize(glm::dvec3(-lean, 0.0, 1.0));
+    const double wire_angle = turn * across / wire_vertices;
+    return middle + ring_wire * (std::cos(wire_angle) * out + std::sin(wire_angle) * off);
+}
+
+void add_ring(glm::dvec2 center, double lean, RingMesh& mesh) {
+    constexpr glm::dvec3 scale(ring_radius, ring_radius, 0.5 / ring_range);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto vertex = [&](int along, int across) {
+        return first + static_cast<std::uint32_t>((along % ring_vertices) * wire_vertices +
+                                                  across % wire_vertices);
+    };
+    for (int along = 0; along < ring_vertices; ++along) {
+        for (int across = 0; across < wire_vertices; ++across) {
+            mesh.positions.emplace_back(glm::dvec3(center, 0.5) +
+                                        ring_point(along, across, lean) * scale);
+            mesh.indices.insert(mesh.indices.end(),
+                                {vertex(along, across), vertex(along, across + 1),
+                                 vertex(along + 1, across), vertex(along + 1, across),
+                                 vertex(along, across + 1), vertex(along + 1, across + 1)});
+        }
+    }
+}
 
 void hang_rings(material::ReliefMaterial& set) {
-    set.layers = ring_layers(ring_rows, set.heights.cols());
+    // Off the texels' centres, so that no vertical ray meets an edge.
+    constexpr double off = 1.0 / 7919.0;
+    RingMesh mesh;
+    for (int row = 0; row < ring_rows; ++row) {
+        for (int col = 0; col < ring_rows; ++col) {
+            const glm::dvec2 middle = (glm::dvec2(col, row) + 0.25 + off) / glm::dvec2(ring_rows);
+            add_ring(middle, ring_lean, mesh);
+            add_ring(middle + 0.5 / ring_rows, -ring_lean, mesh);
+        }
+    }
+    const int size = set.heights.cols();
+    set.layers =
+        material::layers_of_mesh({mesh.positions, mesh.indices}, size, size).value().layers;
     set.heights = material::top_heights(*set.layers);
 }
 
-// Ribs behind the dents.
+// Ribs on the back.
 void add_ribs(material::ReliefMaterial& set) {
     constexpr float ribs = 12.0F;
     const float turn = 2.0F * std::acos(-1.0F);
@@ -209,8 +261,6 @@ void add_ribs(material::ReliefMaterial& set) {
     }
 }
 
-void add_nothing(material::ReliefMaterial& /*set*/) {}
-
 void spread_over_unit(Grid<float>& heights) {
     const auto [low, high] =
         std::minmax_element(heights.samples().begin(), heights.samples().end());
@@ -221,22 +271,21 @@ void spread_over_unit(Grid<float>& heights) {
     }
 }
 
-// The mean of the heights a way off in eight directions, less the height: how much of the sky the
-// neighbours hide.
-float hollow(const Grid<float>& heights, glm::ivec2 texel, int way) {
+// Mean rise of the neighbours at a distance in eight directions; lower neighbours count as level.
+float hollow(const Grid<float>& heights, glm::ivec2 texel, int distance) {
     constexpr std::array<glm::ivec2, 8> directions{
         glm::ivec2(1, 0),  glm::ivec2(1, 1),   glm::ivec2(0, 1),  glm::ivec2(-1, 1),
         glm::ivec2(-1, 0), glm::ivec2(-1, -1), glm::ivec2(0, -1), glm::ivec2(1, -1)};
     const glm::ivec2 size(heights.cols(), heights.rows());
     float sum = 0.0F;
     for (const glm::ivec2 direction : directions) {
-        const glm::ivec2 other = (texel + way * direction + size) % size;
+        const glm::ivec2 other = (texel + distance * direction + size) % size;
         sum += std::max(heights(other.x, other.y) - heights(texel.x, texel.y), 0.0F);
     }
     return 0.125F * sum;
 }
 
-// Share of the sky's light that reaches a texel, from two distances.
+// Share of the sky's light that reaches a texel.
 float open_to_sky(const Grid<float>& heights, glm::ivec2 texel) {
     const int near = std::max(heights.cols() / 128, 1);
     const float hidden =
@@ -244,51 +293,49 @@ float open_to_sky(const Grid<float>& heights, glm::ivec2 texel) {
     return glm::clamp(1.0F - hidden, 0.25F, 1.0F);
 }
 
-material::ReliefMaterial made(const Make& make, const DetailOptions& options) {
-    const int size = options.size;
-    Grid<glm::vec3> albedo(size, size);
-    material::ReliefMaterial set;
-    set.heights = Grid<float>(size, size);
-    set.color = Image(size, size);
-    const ParallelOptions parallel{options.threads, {}, {}};
-    parallel_for(
-        size,
-        [&](int row) {
-            for (int col = 0; col < size; ++col) {
-                const glm::vec2 place = (glm::vec2(col, row) + 0.5F) / static_cast<float>(size);
-                const Stuff stuff = make(place, options.seed * 1009U);
-                set.heights(col, row) = stuff.height;
-                albedo(col, row) = stuff.albedo;
-            }
-        },
-        parallel);
-    spread_over_unit(set.heights);
-    parallel_for(
-        size,
-        [&](int row) {
-            for (int col = 0; col < size; ++col) {
-                set.color(col, row) =
-                    rgba8_from_linear(albedo(col, row) * open_to_sky(set.heights, {col, row}));
-            }
-        },
-        parallel);
-    return set;
-}
-
 struct Kind {
     std::string_view name;
-    Stuff (*make)(glm::vec2 place, std::uint32_t seed);
+    Stuff (*surface)(glm::vec2 place, std::uint32_t seed); // place in [0,1)²
     float scale;
     float specular;
     float shininess;
-    void (*add_sides)(material::ReliefMaterial& set) = &add_nothing; // beside its heights
+    void (*add_sides)(material::ReliefMaterial& set) = nullptr; // adds layers or back heights
 };
 
+material::ReliefMaterial generate(const Kind& kind, const DetailOptions& options) {
+    const int size = options.size;
+    const ParallelOptions parallel{options.threads, {}, {}};
+    Grid<glm::vec3> albedo(size, size);
+    material::ReliefMaterial set;
+    set.name = std::string(kind.name);
+    set.scale = kind.scale;
+    set.specular = kind.specular;
+    set.shininess = kind.shininess;
+    set.heights = Grid<float>(size, size);
+    set.color = Image(size, size);
+    for_each_cell(size, size, parallel, [&](int col, int row) {
+        const glm::vec2 place = (glm::vec2(col, row) + 0.5F) / static_cast<float>(size);
+        const Stuff stuff = kind.surface(place, options.seed * 1009U);
+        set.heights(col, row) = stuff.height;
+        albedo(col, row) = stuff.albedo;
+    });
+    spread_over_unit(set.heights);
+    for_each_cell(size, size, parallel, [&](int col, int row) {
+        set.color(col, row) =
+            rgba8_from_linear(albedo(col, row) * open_to_sky(set.heights, {col, row}));
+    });
+    if (kind.add_sides != nullptr) {
+        kind.add_sides(set);
+    }
+    return set;
+}
+
+constexpr auto ring_scale = static_cast<float>(2.0 * ring_range * ring_radius);
 constexpr std::array<Kind, 6> kinds{{{"brick", &brick_wall, 0.05F, 0.04F, 12.0F},
                                      {"rock", &rock_face, 0.10F, 0.06F, 16.0F},
                                      {"cobble", &cobbles, 0.08F, 0.16F, 40.0F},
                                      {"fence", &wire_fence, 0.0613F, 0.35F, 40.0F},
-                                     {"rings", &brass, 0.0F, 0.45F, 50.0F, &hang_rings},
+                                     {"rings", &brass, ring_scale, 0.45F, 50.0F, &hang_rings},
                                      {"copper", &hammered_copper, 0.06F, 0.40F, 36.0F, &add_ribs}}};
 constexpr auto names = [] {
     std::array<std::string_view, kinds.size()> list;
@@ -315,13 +362,7 @@ Result<material::ReliefMaterial> generate_detail(std::string_view name,
         return Error{fmt::format("texture set {}: a size of {} found, {} to {} was expected", name,
                                  options.size, min_side, max_side)};
     }
-    material::ReliefMaterial set = made(kind->make, options);
-    set.name = std::string(name);
-    set.scale = kind->scale > 0.0F ? kind->scale : ring_scale(ring_rows);
-    set.specular = kind->specular;
-    set.shininess = kind->shininess;
-    kind->add_sides(set);
-    return material::completed(std::move(set), material::WrapMode::wrap);
+    return material::completed(generate(*kind, options), material::WrapMode::wrap);
 }
 
 } // namespace reljef::terrains

@@ -15,13 +15,12 @@ struct DetailOptions {
     unsigned threads = 0; ///< 0: as many as the machine has
 };
 
-/// brick, rock, cobble; of sheets: fence, rings, copper.
+/// brick, rock, cobble; and the sheets fence, rings, copper.
 std::span<const std::string_view> detail_names();
 
-/// A tile of surface detail whose opposite borders fit together, its heights in [0,1]: a wall of
-/// bricks, cracked rock, cobbles in sand; a fence of wires with holes, a curtain of rings in
-/// layers, hammered copper with ribs on its back. The same seed gives the same bits. Fails on an
-/// unknown name, with the known ones, and on a size out of range.
+/// A detail texture that repeats without seams, with heights in [0,1]. Fence and rings have holes,
+/// rings has layers, copper has a back with ribs. The same seed gives the same bits. Errors: an
+/// unknown name, a size out of range.
 Result<material::ReliefMaterial> generate_detail(std::string_view name,
                                                  const DetailOptions& options = {});
 

@@ -16,7 +16,7 @@ namespace reljef::terrains {
 namespace {
 
 constexpr double floor_width = 40.0; // metres
-constexpr int color_side = 1024;     // texels of the floor's picture
+constexpr int color_side = 1024;     // texels of the floor's image
 
 constexpr std::string_view solid_look = "relief";
 constexpr float through_the_middle = -0.5F;
@@ -92,7 +92,7 @@ constexpr GalleryModel shell_model{.shape = GalleryShape::bowl,
 constexpr std::array models{plane_model,    box_model,   sphere_model,  torus_model,
                             cylinder_model, fence_model, curtain_model, shell_model};
 
-// Metres from a place on the floor to what a model covers of it; 0 below it.
+// Metres from a place on the floor to the model's footprint; 0 inside it.
 double distance_to_foot(const GalleryModel& model, glm::dvec2 place) {
     const double turn = glm::radians(model.heading);
     const glm::dvec2 off = place - glm::dvec2(model.center);
@@ -116,7 +116,7 @@ double distance_to_foot(const GalleryModel& model, glm::dvec2 place) {
     }
 }
 
-// Share of the sky that a place on the floor sees past the models: half beside a wall, all far off.
+// Share of the sky that is visible from a place on the floor, in (0,1].
 double sky_seen(glm::dvec2 place) {
     double seen = 1.0;
     for (const GalleryModel& model : models) {
@@ -130,7 +130,6 @@ double sky_seen(glm::dvec2 place) {
     return seen;
 }
 
-// Slabs of pale stone a few feet wide.
 glm::vec3 floor_albedo(glm::vec2 place, std::uint32_t seed) {
     constexpr float slab = 1.6F;
     const glm::vec2 at = place / slab;
@@ -143,21 +142,17 @@ glm::vec3 floor_albedo(glm::vec2 place, std::uint32_t seed) {
     return stone * glm::mix(0.62F, 1.0F, joint);
 }
 
-// Nothing when it is stopped.
-std::optional<Image> floor_picture(const GeneratorOptions& options) {
-    Image picture(color_side, color_side);
-    const bool done = parallel_for(
-        color_side,
-        [&](int row) {
-            for (int col = 0; col < color_side; ++col) {
-                const glm::dvec2 share = glm::dvec2(col, row) / (color_side - 1.0) - 0.5;
-                const glm::dvec2 place(share.x * floor_width, -share.y * floor_width);
-                picture(col, row) = rgba8_from_linear(floor_albedo(glm::vec2(place), options.seed) *
-                                                      static_cast<float>(sky_seen(place)));
-            }
-        },
-        {options.threads, options.stop, options.progress});
-    return done ? std::optional(std::move(picture)) : std::nullopt;
+// Empty when stopped.
+std::optional<Image> floor_image(const GeneratorOptions& options) {
+    Image image(color_side, color_side);
+    const ParallelOptions parallel{options.threads, options.stop, options.progress};
+    const bool done = for_each_cell(color_side, color_side, parallel, [&](int col, int row) {
+        const glm::dvec2 share = glm::dvec2(col, row) / (color_side - 1.0) - 0.5;
+        const glm::dvec2 place(share.x * floor_width, -share.y * floor_width);
+        image(col, row) = rgba8_from_linear(floor_albedo(glm::vec2(place), options.seed) *
+                                            static_cast<float>(sky_seen(place)));
+    });
+    return done ? std::optional(std::move(image)) : std::nullopt;
 }
 
 } // namespace
@@ -179,12 +174,11 @@ Result<terrain::Terrain> generate_gallery(const GeneratorOptions& options) {
     terrain.name = "gallery";
     terrain.heightfield.heights = Grid<float>(options.size, options.size, 0.0F);
     terrain.heightfield.spacing = {spacing, spacing};
-    terrain.heightfield.range = {0.0, 0.0};
-    auto picture = floor_picture(options);
-    if (!picture) {
+    auto image = floor_image(options);
+    if (!image) {
         return Error{"gallery: generating was stopped"};
     }
-    terrain.color = std::move(*picture);
+    terrain.color = std::move(*image);
     return terrain;
 }
 

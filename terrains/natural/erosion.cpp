@@ -12,18 +12,18 @@ namespace {
 
 constexpr float diagonal = 1.41421356F;
 
-/// How far a cell stands higher over its lowest neighbour than is stable, `stable` over straight
-/// ones.
-float excess_over(const Grid<float>& heights, int col, int row, float stable) {
-    float screen_space_error = 0.0F;
+/// Largest excess of the drops to the neighbours over the stable drop, which is `stable` metres
+/// along columns and rows.
+float unstable_height(const Grid<float>& heights, int col, int row, float stable) {
+    float excess = 0.0F;
     for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
-            const float reach = stable * (x != 0 && y != 0 ? diagonal : 1.0F);
+            const float limit = stable * (x != 0 && y != 0 ? diagonal : 1.0F);
             const float drop = heights(col, row) - heights.clamped(col + x, row + y);
-            screen_space_error = std::max(screen_space_error, drop - reach);
+            excess = std::max(excess, drop - limit);
         }
     }
-    return screen_space_error;
+    return excess;
 }
 
 } // namespace
@@ -58,8 +58,7 @@ void FlowRouter::route(std::span<const float> heights, std::span<const std::uint
                        unsigned threads) {
     heights_ = heights;
     outlets_ = outlets;
-    parallel_for(rows_, [&](int row) { find_steepest(row); },
-                 {.threads = threads, .stop = {}, .progress = {}});
+    parallel_for(rows_, [&](int row) { find_steepest(row); }, {threads, {}, {}});
     drain_pits();
     accumulate();
 }
@@ -70,7 +69,7 @@ bool FlowRouter::is_inside(std::int32_t cell, const Neighbour& neighbour) const 
     return col >= 0 && row >= 0 && col < cols_ && row < rows_;
 }
 
-// Equal heights are told apart by their place, so that no water runs in a circle.
+// Ties go to the lower number, so that no water runs in a circle.
 bool FlowRouter::is_lower(std::int32_t cell, std::int32_t than) const {
     const float height = heights_[cell_index(cell)];
     return height < heights_[cell_index(than)] ||
@@ -103,7 +102,7 @@ void FlowRouter::find_steepest(int row) {
     }
 }
 
-// The lowest pit comes first: a way may end on an earlier one, whose end lies lower still.
+// The lowest pit comes first: a path may end on an earlier path, which ends lower still.
 void FlowRouter::drain_pits() {
     std::vector<std::int32_t> pits;
     for (std::int32_t cell = 0; cell < cols_ * rows_; ++cell) {
@@ -113,8 +112,8 @@ void FlowRouter::drain_pits() {
     }
     std::sort(pits.begin(), pits.end(),
               [&](std::int32_t one, std::int32_t other) { return is_lower(one, other); });
-    std::fill(cut_.begin(), cut_.end(), std::uint8_t{0});
-    std::fill(seen_by_.begin(), seen_by_.end(), no_cell);
+    cut_.assign(cut_.size(), 0);
+    seen_by_.assign(seen_by_.size(), no_cell);
     for (const std::int32_t pit : pits) {
         drain(pit);
     }
@@ -146,7 +145,7 @@ void FlowRouter::drain(std::int32_t pit) {
     }
 }
 
-/// Lets the cells of the way that a search has gone drain along it.
+/// Makes the cells of a search path drain along it.
 void FlowRouter::cut(std::int32_t pit, std::int32_t end) {
     for (std::int32_t cell = end; cell != pit;) {
         const std::int32_t before = came_from_[cell_index(cell)];
@@ -158,10 +157,10 @@ void FlowRouter::cut(std::int32_t pit, std::int32_t end) {
     }
 }
 
-// Follows every stream from its springs until it meets one that is not yet complete.
+// Follows every stream from its springs to the first cell that waits for another donor.
 void FlowRouter::accumulate() {
-    std::fill(donors_.begin(), donors_.end(), std::uint8_t{0});
-    std::fill(drainage_.area.begin(), drainage_.area.end(), 1.0F);
+    donors_.assign(donors_.size(), 0);
+    drainage_.area.assign(drainage_.area.size(), 1.0F);
     for (std::size_t cell = 0; cell < donors_.size(); ++cell) {
         const std::size_t receiver = cell_index(drainage_.receiver[cell]);
         if (receiver != cell) {
@@ -211,13 +210,10 @@ void slide(Grid<float>& heights, std::span<const float> talus, float spacing, in
     const std::size_t cols = cell_index(heights.cols());
     for (int pass = 0; pass < passes; ++pass) {
         before = heights;
-        const auto slide_row = [&](int row) {
-            for (int col = 0; col < heights.cols(); ++col) {
-                const float stable = spacing * talus[cell_index(row) * cols + cell_index(col)];
-                heights(col, row) -= 0.5F * excess_over(before, col, row, stable);
-            }
-        };
-        parallel_for(heights.rows(), slide_row, {.threads = threads, .stop = {}, .progress = {}});
+        for_each_cell(heights.cols(), heights.rows(), {threads, {}, {}}, [&](int col, int row) {
+            const float stable = spacing * talus[cell_index(row) * cols + cell_index(col)];
+            heights(col, row) -= 0.5F * unstable_height(before, col, row, stable);
+        });
     }
 }
 

@@ -10,14 +10,13 @@
 
 namespace reljef::terrains {
 
-/// The number of a cell that is not there.
 inline constexpr std::int32_t no_cell = -1;
 
 inline std::size_t cell_index(std::int32_t cell) {
     return static_cast<std::size_t>(cell);
 }
 
-/// Where the water of every cell goes. Cells are numbered row * cols + col.
+/// The drainage network of a grid. Cell (col, row) has the number row * cols + col.
 struct Drainage {
     std::vector<std::int32_t> order;    ///< every cell once, each after its receiver
     std::vector<std::int32_t> receiver; ///< the neighbour a cell drains to; an outlet: itself
@@ -25,32 +24,29 @@ struct Drainage {
     std::vector<float> area;            ///< cells that drain through a cell, itself included
 };
 
-/// What the rock and the climate do in one step of `erode`.
+/// Parameters of erode(), one value per cell.
 struct ErosionStep {
-    std::span<const float> uplift;      ///< metres, one per cell
-    std::span<const float> erodibility; ///< one per cell: the metres that one metre of slope loses
-                                        ///< at a catchment of 1 m², per metre of the cell's size
-    std::span<const float> talus;       ///< steepest stable slope, one per cell
+    std::span<const float> uplift;      ///< metres
+    std::span<const float> erodibility; ///< metres that one metre of slope loses at a catchment of
+                                        ///< 1 m², per metre of the cell's size
+    std::span<const float> talus;       ///< steepest stable slope
     float spacing = 1.0F;               ///< metres between cells
 };
 
-/// Finds the drainage of heights: every cell drains to its steepest neighbour, and a pit along the
-/// lowest way to something lower, as if a canyon were cut (Soille et al. 2003). Scratch memory is
-/// kept between calls.
+/// Computes drainage. Every cell drains to its steepest neighbour. A pit drains along the lowest
+/// path to a lower cell, as if a canyon were cut (Soille et al. 2003).
 class FlowRouter {
 public:
-    /// Distances between neighbours are disturbed by up to the part `disorder` of them, by `seed`,
-    /// as if the cells lay unevenly: against the grid's preferred directions. Precondition: cols,
-    /// rows
-    /// >= 1, 0 <= disorder < 1.
+    /// The distances between neighbours vary by up to `disorder` of their length, by `seed`: this
+    /// hides the grid's preferred directions. Preconditions: cols, rows >= 1, 0 <= disorder < 1.
     FlowRouter(int cols, int rows, std::uint32_t seed, float disorder);
 
-    /// `outlets` is 1 where water leaves. The same result on any number of threads. Precondition:
-    /// both hold cols * rows values, the heights all finite, one outlet at least.
+    /// `outlets` is 1 where water leaves. The result does not depend on the number of threads.
+    /// Preconditions: cols * rows finite heights, as many outlet flags, at least one outlet.
     void route(std::span<const float> heights, std::span<const std::uint8_t> outlets,
                unsigned threads);
 
-    /// What the last call of `route` found.
+    /// The result of the last route().
     [[nodiscard]] const Drainage& drainage() const& { return drainage_; }
     [[nodiscard]] Drainage drainage() && { return std::move(drainage_); }
 
@@ -59,8 +55,8 @@ private:
         int x = 0;
         int y = 0;
         std::int32_t offset = 0; // in cells
-        float distance[16] = {}; // as disturbed by each of 16 chances, in cells
-        float nearness[16] = {}; // one over it
+        float distance[16] = {}; // in cells, one for each of 16 random numbers
+        float nearness[16] = {}; // 1 / distance
     };
 
     [[nodiscard]] bool is_inside(std::int32_t cell, const Neighbour& neighbour) const;
@@ -77,20 +73,20 @@ private:
     Neighbour neighbours_[8];
     std::span<const float> heights_;
     std::span<const std::uint8_t> outlets_;
-    std::vector<std::uint8_t> cut_;       // 1 on the way from a pit
-    std::vector<std::int32_t> seen_by_;   // the pit whose search has seen a cell
+    std::vector<std::uint8_t> cut_;       // 1 on the path from a pit
+    std::vector<std::int32_t> seen_by_;   // the pit whose search reached a cell last
     std::vector<std::int32_t> came_from_; // in that search
-    std::vector<std::uint8_t> donors_;    // that have not been followed yet
+    std::vector<std::uint8_t> donors_;    // number of donors that are not processed
     Drainage drainage_;
 };
 
 /// One implicit step of uplift and stream power erosion, dh/dt = U - K A^½ S, from the outlets
-/// upwards (Braun & Willett 2013), after which no cell stands steeper over its receiver than
-/// `talus` nor lies below it. Outlets keep their height.
+/// upwards (Braun & Willett 2013). Afterwards the slope from each cell to its receiver lies between
+/// 0 and `talus`. Outlets keep their height.
 void erode(std::span<float> heights, const Drainage& drainage, const ErosionStep& step);
 
-/// Lets slopes above `talus` slide: `passes` times, every cell gives a part of the excess to its
-/// lowest neighbour's height. The same bits on any number of threads.
+/// Lowers slopes above `talus`: in each pass a cell loses half of its excess over its neighbours.
+/// The result does not depend on the number of threads.
 void slide(Grid<float>& heights, std::span<const float> talus, float spacing, int passes,
            unsigned threads);
 

@@ -1,7 +1,6 @@
 #include "terrains/generators.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,7 +10,7 @@
 namespace reljef::terrains {
 namespace {
 
-constexpr int margin = 24;            // cells around the land, cut off: nothing shows its border
+constexpr int margin = 24;            // cells that are cut off: they hide the border
 constexpr float base_height = 300.0F; // metres of the lowest outlet
 
 std::optional<Error> refusal(const GeneratorOptions& options) {
@@ -46,29 +45,32 @@ Result<terrain::Terrain> generate_natural(const GeneratorOptions& options) {
     }
     const natural::LandOptions land_options{options.size + 2 * margin, options.seed,
                                             options.threads, options.progress, options.stop};
-    const auto done = [&](double part) {
+    const auto report = [&](double part) {
         if (options.progress) {
             options.progress(part);
         }
-        return !options.stop.stop_requested();
     };
-    const Error stopped{"natural: generating was stopped"};
+    struct Step {
+        void (*work)(natural::Land& land, const natural::LandOptions& options);
+        double progress;
+    };
     natural::Land land = natural::make_relief(land_options);
-    if (!done(0.6)) {
-        return stopped;
+    report(0.6);
+    for (const auto& [work, progress] :
+         {Step{natural::shape_valleys, 0.8}, Step{natural::draw_streams, 0.85}}) {
+        if (options.stop.stop_requested()) {
+            break;
+        }
+        work(land, land_options);
+        report(progress);
     }
-    natural::shape_valleys(land, land_options);
-    if (!done(0.8)) {
-        return stopped;
-    }
-    natural::draw_streams(land, land_options);
-    if (!done(0.85)) {
-        return stopped;
+    if (options.stop.stop_requested()) {
+        return Error{"natural: generating was stopped"};
     }
     terrain::Terrain terrain;
     terrain.name = "natural";
     terrain.color = without_margin(natural::paint_cover(land, land_options), options.size);
-    done(1.0);
+    report(1.0);
     terrain::Heightfield& field = terrain.heightfield;
     field.heights = without_margin(land.heights, options.size);
     const double spacing =

@@ -15,7 +15,7 @@ namespace {
 
 using Tint = glm::vec3; // sRGB-encoded, of 255
 
-constexpr float base_height = 300.0F; // metres that generate_natural adds
+constexpr float base_height = 300.0F; // metres that generate_natural() adds
 constexpr float tree_line = 1640.0F;
 constexpr float snow_line = 2290.0F;
 
@@ -36,53 +36,51 @@ constexpr Tint gravel{166.0F, 161.0F, 150.0F};
 constexpr Tint stream_water{82.0F, 101.0F, 100.0F};
 constexpr Tint lake_water{36.0F, 62.0F, 72.0F};
 
-/// Noise slow enough to be kept at every `cells`-th cell of the land.
+/// Low-frequency noise, sampled at every `cells`-th cell of the land.
 struct SlowNoise {
     int cells = 1;
     Grid<float> values;
 };
 
-/// The way down at a cell, of unit length or shorter, and a random number in [-0.5,0.5).
 struct Fall {
-    glm::vec2 direction{0.0F};
-    float luck = 0.0F;
+    glm::vec2 direction{0.0F}; // downhill, at most 1 long
+    float random = 0.0F;       // [-0.5,0.5)
 };
 
-/// Grids beside the land's that the cover is decided by.
 struct Surroundings {
-    Grid<float> near; // heights averaged over some 100 m
-    Grid<float> far;  // over some 600 m
+    Grid<float> near; // heights averaged over about 100 m
+    Grid<float> far;  // heights averaged over about 600 m
     Grid<Fall> fall;  // of `near`
     SlowNoise broad;
     SlowNoise patch;
 };
 
-/// What is known of one cell.
+/// The properties of a cell that decide its cover.
 struct Site {
     glm::vec2 place{0.0F}; // col, row
     float height = 0.0F;   // metres above the sea
     float slope = 0.0F;
-    float north = 0.0F;  // how steeply the ground falls to the north
-    float hollow = 0.0F; // metres under the surroundings, near
-    float basin = 0.0F;  // the same, far
+    float north = 0.0F;  // slope down to the north
+    float hollow = 0.0F; // metres below the near average
+    float basin = 0.0F;  // metres below the far average
     float above_water = 0.0F;
-    float streak = 0.0F; // noise drawn out along the fall line, about [-1,1]
+    float streak = 0.0F; // noise along the fall line, about [-1,1]
     float broad = 0.0F;  // noise over 2 km, about [-1,1]
-    float patch = 0.0F;  // over 400 m
-    float grain = 0.0F;  // of every cell for itself
-    float crowns = 0.0F; // of cells and the ones beside them, about [-0.5,0.5]
+    float patch = 0.0F;  // noise over 400 m
+    float grain = 0.0F;  // noise per cell
+    float crowns = 0.0F; // noise over 2×2 cells, about [-0.5,0.5]
 };
 
-/// Random numbers averaged along the line of steepest descent (Cabral & Leedom 1993): gullies, runs
-/// of scree and of avalanches.
+/// Random numbers averaged along the line of steepest descent (Cabral & Leedom 1993), for gullies,
+/// scree and avalanche tracks.
 float streak_at(const Grid<Fall>& falls, int col, int row) {
     constexpr int steps = 6;
     float sum = 0.0F;
     for (const float stride : {-0.8F, 0.8F}) {
-        glm::vec2 place{static_cast<float>(col) + 0.5F, static_cast<float>(row) + 0.5F};
+        glm::vec2 place = glm::vec2(col, row) + 0.5F;
         for (int step = 0; step < steps; ++step) {
             const Fall& fall = falls.clamped(static_cast<int>(place.x), static_cast<int>(place.y));
-            sum += fall.luck;
+            sum += fall.random;
             place += stride * fall.direction;
         }
     }
@@ -105,7 +103,7 @@ Site site_at(const Land& land, const Surroundings& around, int col, int row, std
     const float east = (heights.clamped(col + 1, row) - heights.clamped(col - 1, row)) / run;
     const float south = (heights.clamped(col, row + 1) - heights.clamped(col, row - 1)) / run;
     Site site;
-    site.place = {static_cast<float>(col), static_cast<float>(row)};
+    site.place = glm::vec2(col, row);
     site.height = heights(col, row) + base_height;
     site.slope = std::sqrt(east * east + south * south);
     site.north = std::clamp(south, -1.0F, 1.0F);
@@ -115,9 +113,9 @@ Site site_at(const Land& land, const Surroundings& around, int col, int row, std
     site.streak = streak_at(around.fall, col, row);
     site.broad = value_at(around.broad, col, row);
     site.patch = value_at(around.patch, col, row);
-    site.crowns = 0.5F * (around.fall(col, row).luck + around.fall.clamped(col + 1, row).luck +
-                          around.fall.clamped(col, row + 1).luck +
-                          around.fall.clamped(col + 1, row + 1).luck);
+    site.crowns = 0.5F * (around.fall(col, row).random + around.fall.clamped(col + 1, row).random +
+                          around.fall.clamped(col, row + 1).random +
+                          around.fall.clamped(col + 1, row + 1).random);
     site.grain = 2.0F * unit_hash(seed + 77, col, row) - 1.0F;
     return site;
 }
@@ -140,7 +138,7 @@ Tint rock(const Site& site) {
             0.05F * smoothstep(2.0F, 14.0F, site.hollow));
 }
 
-/// Parcels of grass and crops on a floor, on a lattice that turns from place to place.
+/// Parcels of grass and crops on a valley floor, on a lattice whose direction varies.
 Tint parcels(const Site& site, std::uint32_t seed) {
     const float turn = std::floor(2.0F * gradient_noise(seed + 81, site.place / 70.0F) + 0.5F);
     const glm::vec2 axis = glm::vec2{1.0F, 0.35F + 0.6F * turn} /
@@ -166,7 +164,7 @@ Tint trees(const Site& site) {
                    0.06F * site.broad);
 }
 
-/// How much of the cell trees cover.
+/// Share of the cell under trees.
 float forest(const Site& site) {
     const float line = tree_line + 220.0F * site.broad + 300.0F * site.patch +
                        110.0F * site.streak - 4.0F * std::max(site.hollow, 0.0F) -
@@ -180,7 +178,7 @@ float forest(const Site& site) {
     return below * steady * dense;
 }
 
-/// 1 on the floors of the valleys, which are cleared.
+/// 1 on the cleared valley floors.
 float meadow(const Site& site) {
     const float flat = 1.0F - smoothstep(0.14F, 0.30F, site.slope + 0.10F * site.patch);
     const float low = 1.0F - smoothstep(1200.0F, 1600.0F, site.height);
@@ -215,12 +213,12 @@ float loose(const Site& site) {
     return std::max(alpine, apron * smoothstep(-0.1F, 0.3F, site.streak + 0.5F * site.patch));
 }
 
-/// Light that the sky lends to hollows and crests: soft, from everywhere.
+/// Ambient light in hollows and on crests.
 float occlusion(const Site& site) {
     return std::clamp(1.0F - 0.0075F * site.hollow - 0.0011F * site.basin, 0.76F, 1.09F);
 }
 
-/// Lays `tint()` over `under`, and works it out only where it shows.
+/// Blends `tint()` over `under`; evaluates it only where it is visible.
 template <class Work> void lay(Tint& under, float part, const Work& tint) {
     if (part > 0.0F) {
         under = glm::mix(under, tint(), part);
@@ -260,14 +258,10 @@ SlowNoise slow_noise(std::uint32_t seed, int cells, float scale, const FractalOp
                      const LandOptions& options) {
     const int size = options.size / cells + 2;
     SlowNoise noise{cells, Grid<float>(size, size)};
-    const auto fill_row = [&](int row) {
-        for (int col = 0; col < size; ++col) {
-            const glm::vec2 place{static_cast<float>(col), static_cast<float>(row)};
-            noise.values(col, row) =
-                fractal_noise(seed, place * (static_cast<float>(cells) / scale), fractal);
-        }
-    };
-    parallel_for(size, fill_row, {.threads = options.threads, .stop = {}, .progress = {}});
+    for_each_cell(size, size, {options.threads, {}, {}}, [&](int col, int row) {
+        noise.values(col, row) =
+            fractal_noise(seed, glm::vec2(col, row) * (static_cast<float>(cells) / scale), fractal);
+    });
     return noise;
 }
 
@@ -282,17 +276,12 @@ Surroundings surroundings_of(const Land& land, const LandOptions& options) {
     blur(around.near, 2, 2, options.threads);
     around.far = around.near;
     blur(around.far, 15, 2, options.threads);
-    const ParallelOptions parallel{.threads = options.threads, .stop = {}, .progress = {}};
-    const auto fall_row = [&](int row) {
-        for (int col = 0; col < size; ++col) {
-            const glm::vec2 fall{
-                around.near.clamped(col - 1, row) - around.near.clamped(col + 1, row),
-                around.near.clamped(col, row - 1) - around.near.clamped(col, row + 1)};
-            around.fall(col, row) = {fall / (glm::length(fall) + 1.0e-3F),
-                                     unit_hash(options.seed + 71, col, row) - 0.5F};
-        }
-    };
-    parallel_for(size, fall_row, parallel);
+    for_each_cell(size, size, {options.threads, {}, {}}, [&](int col, int row) {
+        const glm::vec2 fall{around.near.clamped(col - 1, row) - around.near.clamped(col + 1, row),
+                             around.near.clamped(col, row - 1) - around.near.clamped(col, row + 1)};
+        around.fall(col, row) = {fall / (glm::length(fall) + 1.0e-3F),
+                                 unit_hash(options.seed + 71, col, row) - 0.5F};
+    });
     return around;
 }
 
@@ -308,13 +297,10 @@ Rgba8 encoded(Tint tint) {
 Image paint_cover(const Land& land, const LandOptions& options) {
     const Surroundings around = surroundings_of(land, options);
     Image image(land.heights.cols(), land.heights.rows());
-    const auto paint_row = [&](int row) {
-        for (int col = 0; col < image.cols(); ++col) {
-            const Site site = site_at(land, around, col, row, options.seed);
-            image(col, row) = encoded(cover_at(land, site, col, row, options.seed));
-        }
-    };
-    parallel_for(image.rows(), paint_row, {.threads = options.threads, .stop = {}, .progress = {}});
+    for_each_cell(image.cols(), image.rows(), {options.threads, {}, {}}, [&](int col, int row) {
+        const Site site = site_at(land, around, col, row, options.seed);
+        image(col, row) = encoded(cover_at(land, site, col, row, options.seed));
+    });
     return image;
 }
 

@@ -13,18 +13,14 @@ namespace {
 
 constexpr int coarsest = 3; // levels of halved resolution
 constexpr float highest = 3000.0F;
+constexpr float max_uplift = 60.0F; // metres a step
+constexpr int steps_of_level[coarsest + 1] = {1, 2, 6, 30};
 
-struct LevelPlan {
-    int steps;    // pairs of them on one drainage
-    float uplift; // metres a step where the land rises fastest
-};
-constexpr LevelPlan plan_of_level[coarsest + 1] = {{1, 60.0F}, {2, 60.0F}, {6, 60.0F}, {30, 60.0F}};
-
-/// What one level of resolution works on.
+/// One level of resolution.
 struct Level {
     Grid<float> heights;
-    Grid<float> uplift;      // of the fastest, (0,1]
-    Grid<float> erodibility; // of the middling, about [0.6,1.6]
+    Grid<float> uplift;      // share of max_uplift, (0,1]
+    Grid<float> erodibility; // relative, about [0.6,1.6]
     Grid<float> talus;       // steepest stable slope
 };
 
@@ -32,11 +28,7 @@ int cells_at(int size, int level) {
     return ((size - 1) >> level) + 2;
 }
 
-template <class Body> void for_rows(int rows, unsigned threads, const Body& body) {
-    parallel_for(rows, body, {.threads = threads, .stop = {}, .progress = {}});
-}
-
-/// The quadratic B-spline of a grid's samples: smooth, within their range.
+/// The quadratic B-spline of a grid's samples.
 float spline(const Grid<float>& grid, float x, float y) {
     const float col = std::floor(x + 0.5F);
     const float row = std::floor(y + 0.5F);
@@ -56,7 +48,7 @@ float spline(const Grid<float>& grid, float x, float y) {
     return sum;
 }
 
-/// The mean of the coarse samples around the sample (col, row) of a grid of twice the resolution.
+/// Linear interpolation at the sample (col, row) of a grid with twice the resolution.
 float between(const Grid<float>& coarse, int col, int row) {
     const int x = col / 2;
     const int y = row / 2;
@@ -66,39 +58,32 @@ float between(const Grid<float>& coarse, int col, int row) {
                     coarse.clamped(right, below));
 }
 
-/// A grid of twice the resolution, linear between the coarse one's samples.
+/// A grid of twice the resolution, linear between the coarse samples.
 Grid<float> refined(const Grid<float>& coarse, int size, unsigned threads) {
     Grid<float> fine(size, size);
-    for_rows(size, threads, [&](int row) {
-        for (int col = 0; col < size; ++col) {
-            fine(col, row) = between(coarse, col, row);
-        }
-    });
+    for_each_cell(size, size, {threads, {}, {}},
+                  [&](int col, int row) { fine(col, row) = between(coarse, col, row); });
     return fine;
 }
 
-/// A smooth grid of twice the resolution, bent by noise: valleys lose the grid's straight
-/// directions.
-Grid<float> bent(const Grid<float>& coarse, int size, const LandOptions& options) {
+/// A smooth grid of twice the resolution. Noise moves the samples, so that valleys lose the grid's
+/// straight directions.
+Grid<float> warped(const Grid<float>& coarse, int size, const LandOptions& options) {
+    const ParallelOptions parallel{options.threads, {}, {}};
     Grid<float> east(coarse.cols(), coarse.rows());
     Grid<float> south(coarse.cols(), coarse.rows());
-    for_rows(coarse.rows(), options.threads, [&](int row) {
-        for (int col = 0; col < coarse.cols(); ++col) {
-            const glm::vec2 place{static_cast<float>(col), static_cast<float>(row)};
-            east(col, row) = 1.1F * gradient_noise(options.seed + 51, place / 5.3F) +
-                             2.2F * gradient_noise(options.seed + 52, place / 13.0F);
-            south(col, row) = 1.1F * gradient_noise(options.seed + 53, place / 5.3F) +
-                              2.2F * gradient_noise(options.seed + 54, place / 13.0F);
-        }
+    for_each_cell(coarse.cols(), coarse.rows(), parallel, [&](int col, int row) {
+        const glm::vec2 place(col, row);
+        east(col, row) = 1.1F * gradient_noise(options.seed + 51, place / 5.3F) +
+                         2.2F * gradient_noise(options.seed + 52, place / 13.0F);
+        south(col, row) = 1.1F * gradient_noise(options.seed + 53, place / 5.3F) +
+                          2.2F * gradient_noise(options.seed + 54, place / 13.0F);
     });
     Grid<float> fine(size, size);
-    for_rows(size, options.threads, [&](int row) {
-        for (int col = 0; col < size; ++col) {
-            const float x = 0.5F * static_cast<float>(col);
-            const float y = 0.5F * static_cast<float>(row);
-            fine(col, row) =
-                spline(coarse, x + between(east, col, row), y + between(south, col, row));
-        }
+    for_each_cell(size, size, parallel, [&](int col, int row) {
+        const glm::vec2 place = 0.5F * glm::vec2(col, row);
+        fine(col, row) =
+            spline(coarse, place.x + between(east, col, row), place.y + between(south, col, row));
     });
     return fine;
 }
@@ -108,42 +93,39 @@ Level first_level(const LandOptions& options) {
     const float kilometres = design_spacing * static_cast<float>(1 << coarsest) * 0.001F;
     Level level{Grid<float>(size, size), Grid<float>(size, size), Grid<float>(size, size),
                 Grid<float>(size, size, 0.8F)};
-    for_rows(size, options.threads, [&](int row) {
-        for (int col = 0; col < size; ++col) {
-            const glm::vec2 place =
-                kilometres * glm::vec2{static_cast<float>(col), static_cast<float>(row)};
-            const float range = fractal_noise(options.seed, place / 13.0F, {.octaves = 3});
-            const float rock = fractal_noise(options.seed + 11, place / 3.5F, {.octaves = 3});
-            level.uplift(col, row) = 0.26F + 0.74F * smoothstep(-0.35F, 0.35F, range);
-            level.erodibility(col, row) =
-                rock > 0.0F ? 1.0F + 1.2F * rock : 1.0F / (1.0F - 1.2F * rock);
-            level.heights(col, row) =
-                120.0F * unit_hash(options.seed + 17, col, row) + 300.0F * level.uplift(col, row);
-        }
+    for_each_cell(size, size, {options.threads, {}, {}}, [&](int col, int row) {
+        const glm::vec2 place = kilometres * glm::vec2(col, row);
+        const float range = fractal_noise(options.seed, place / 13.0F, {.octaves = 3});
+        const float rock = fractal_noise(options.seed + 11, place / 3.5F, {.octaves = 3});
+        level.uplift(col, row) = 0.26F + 0.74F * smoothstep(-0.35F, 0.35F, range);
+        level.erodibility(col, row) =
+            rock > 0.0F ? 1.0F + 1.2F * rock : 1.0F / (1.0F - 1.2F * rock);
+        level.heights(col, row) =
+            120.0F * unit_hash(options.seed + 17, col, row) + 300.0F * level.uplift(col, row);
     });
     return level;
 }
 
-/// The parts of the border where the land rises slowest: there the water leaves.
+/// The outlets: the eighth of the border cells with the slowest uplift.
 Grid<std::uint8_t> low_border(const Grid<float>& uplift) {
     const int last = uplift.cols() - 1;
     std::vector<float> around;
     for (int i = 0; i <= last; ++i) {
         around.insert(around.end(), {uplift(i, 0), uplift(i, last), uplift(0, i), uplift(last, i)});
     }
-    const auto tenth = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 8);
-    std::nth_element(around.begin(), tenth, around.end());
+    const auto eighth = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 8);
+    std::nth_element(around.begin(), eighth, around.end());
     Grid<std::uint8_t> outlets(last + 1, last + 1);
     for (int i = 0; i <= last; ++i) {
-        outlets(i, 0) = uplift(i, 0) <= *tenth ? 1 : 0;
-        outlets(i, last) = uplift(i, last) <= *tenth ? 1 : 0;
-        outlets(0, i) = uplift(0, i) <= *tenth ? 1 : 0;
-        outlets(last, i) = uplift(last, i) <= *tenth ? 1 : 0;
+        for (const glm::ivec2 cell :
+             {glm::ivec2(i, 0), glm::ivec2(i, last), glm::ivec2(0, i), glm::ivec2(last, i)}) {
+            outlets(cell.x, cell.y) = uplift(cell.x, cell.y) <= *eighth ? 1 : 0;
+        }
     }
     return outlets;
 }
 
-/// Outlets of a level from those of the coarser one; outlets stay on the border.
+/// The outlets of the next finer level.
 Grid<std::uint8_t> refined(const Grid<std::uint8_t>& coarse, int size) {
     Grid<std::uint8_t> fine(size, size);
     for (int i = 0; i < size; ++i) {
@@ -157,24 +139,21 @@ Grid<std::uint8_t> refined(const Grid<std::uint8_t>& coarse, int size) {
 
 Grid<float> talus_of(const Grid<float>& heights, float kilometres, const LandOptions& options) {
     Grid<float> talus(heights.cols(), heights.rows());
-    for_rows(heights.rows(), options.threads, [&](int row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            const glm::vec2 place =
-                kilometres * glm::vec2{static_cast<float>(col), static_cast<float>(row)};
-            const float rock = fractal_noise(options.seed + 23, place / 0.7F, {.octaves = 3});
-            const float alpine = smoothstep(300.0F, 2300.0F, heights(col, row));
-            talus(col, row) =
-                (0.52F + 0.30F * alpine) * (1.0F + (0.5F + 0.9F * alpine) * std::max(rock, -0.35F));
-        }
+    const ParallelOptions parallel{options.threads, {}, {}};
+    for_each_cell(heights.cols(), heights.rows(), parallel, [&](int col, int row) {
+        const glm::vec2 place = kilometres * glm::vec2(col, row);
+        const float rock = fractal_noise(options.seed + 23, place / 0.7F, {.octaves = 3});
+        const float alpine = smoothstep(300.0F, 2300.0F, heights(col, row));
+        talus(col, row) =
+            (0.52F + 0.30F * alpine) * (1.0F + (0.5F + 0.9F * alpine) * std::max(rock, -0.35F));
     });
     return talus;
 }
 
 void roughen(Grid<float>& heights, float spacing, const LandOptions& options) {
-    for_rows(heights.rows(), options.threads, [&](int row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            heights(col, row) += 0.12F * spacing * (unit_hash(options.seed + 31, col, row) - 0.5F);
-        }
+    const ParallelOptions parallel{options.threads, {}, {}};
+    for_each_cell(heights.cols(), heights.rows(), parallel, [&](int col, int row) {
+        heights(col, row) += 0.12F * spacing * (unit_hash(options.seed + 31, col, row) - 0.5F);
     });
 }
 
@@ -191,18 +170,18 @@ void fit_height(Level& level) {
 Drainage wear(Level& level, const Grid<std::uint8_t>& outlets, int halvings,
               const LandOptions& options) {
     const float spacing = design_spacing * static_cast<float>(1 << halvings);
-    const LevelPlan plan = plan_of_level[halvings];
     std::vector<float> uplift(level.heights.size());
     std::vector<float> erodibility(level.heights.size());
     constexpr float slope_at_one_square_kilometre = 0.29F;
     for (std::size_t cell = 0; cell < uplift.size(); ++cell) {
-        uplift[cell] = plan.uplift * level.uplift.samples()[cell];
-        erodibility[cell] = plan.uplift / (slope_at_one_square_kilometre * 1000.0F) *
+        uplift[cell] = max_uplift * level.uplift.samples()[cell];
+        erodibility[cell] = max_uplift / (slope_at_one_square_kilometre * 1000.0F) *
                             level.erodibility.samples()[cell];
     }
     FlowRouter router(level.heights.cols(), level.heights.rows(), options.seed + 41,
                       halvings > 0 ? 0.45F : 0.2F);
-    for (int step = 0; step < plan.steps && !options.stop.stop_requested(); ++step) {
+    const int steps = steps_of_level[halvings];
+    for (int step = 0; step < steps && !options.stop.stop_requested(); ++step) {
         router.route(level.heights.samples(), outlets.samples(), options.threads);
         for (int repeat = 0; repeat < 2; ++repeat) { // valleys move little in one step
             erode(level.heights.samples(), router.drainage(),
@@ -224,7 +203,7 @@ Land make_relief(const LandOptions& options) {
     for (int halvings = coarsest; halvings >= 0; --halvings) {
         land.drainage = wear(level, outlets, halvings, options);
         if (options.progress) {
-            options.progress(0.6 * std::pow(0.25, halvings)); // a level costs four times the last
+            options.progress(0.6 * std::pow(0.25, halvings)); // each level takes four times as long
         }
         if (halvings == 0 || options.stop.stop_requested()) {
             break;
@@ -235,7 +214,7 @@ Land make_relief(const LandOptions& options) {
         const float kilometres = design_spacing * static_cast<float>(1 << halvings) * 0.001F;
         level.talus = talus_of(level.heights, kilometres, options);
         const int size = halvings > 1 ? cells_at(options.size, halvings - 1) : options.size;
-        level.heights = bent(level.heights, size, options);
+        level.heights = warped(level.heights, size, options);
         level.talus = refined(level.talus, size, options.threads);
         level.uplift = refined(level.uplift, size, options.threads);
         level.erodibility = refined(level.erodibility, size, options.threads);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float min_catchment = 0.7F; // km² above which a stream is drawn
 
-/// A stream's points, each after the one it flows to.
+/// A point of a stream. The points downstream of it come first.
 struct Point {
     glm::vec2 place{0.0F};       // col, row
     std::int32_t next = no_cell; // downstream
@@ -70,7 +70,6 @@ void smooth(std::vector<Point>& points, int passes) {
     }
 }
 
-/// Rivers swing over their floors.
 void meander(std::vector<Point>& points, const LandOptions& options) {
     const float last = static_cast<float>(options.size - 1);
     for (Point& point : points) {
@@ -78,12 +77,11 @@ void meander(std::vector<Point>& points, const LandOptions& options) {
         const glm::vec2 from = point.place / 12.0F;
         point.place += swing * glm::vec2{gradient_noise(options.seed + 61, from),
                                          gradient_noise(options.seed + 62, from)};
-        point.place = {std::clamp(point.place.x, 0.0F, last),
-                       std::clamp(point.place.y, 0.0F, last)};
+        point.place = glm::clamp(point.place, 0.0F, last);
     }
 }
 
-/// Water runs down from every point to the next one.
+/// Sets water levels that fall downstream.
 void find_levels(std::vector<Point>& points, const Land& land) {
     constexpr float min_fall = 0.01F;
     for (Point& point : points) {
@@ -96,14 +94,14 @@ void find_levels(std::vector<Point>& points, const Land& land) {
     }
 }
 
-/// A stretch between two points, and what it does to the cell at `place`.
+/// A piece of a stream between two points.
 struct Stretch {
     Point from;
     Point to;
     std::uint32_t seed;
 
     void draw(Land& land, int col, int row) const {
-        const glm::vec2 place{static_cast<float>(col), static_cast<float>(row)};
+        const glm::vec2 place(col, row);
         const glm::vec2 along = to.place - from.place;
         const float length2 = glm::dot(along, along);
         const float part =
@@ -128,13 +126,11 @@ struct Stretch {
 
 void draw(Land& land, const Stretch& stretch) {
     const float reach = 3.5F + 2.0F * stretch.to.half_width;
-    const glm::vec2 low = glm::min(stretch.from.place, stretch.to.place) - reach;
-    const glm::vec2 high = glm::max(stretch.from.place, stretch.to.place) + reach;
+    const glm::ivec2 low(glm::min(stretch.from.place, stretch.to.place) - reach);
+    const glm::ivec2 high(glm::max(stretch.from.place, stretch.to.place) + reach);
     const int last = land.heights.cols() - 1;
-    for (int row = std::max(0, static_cast<int>(low.y));
-         row <= std::min(last, static_cast<int>(high.y)); ++row) {
-        for (int col = std::max(0, static_cast<int>(low.x));
-             col <= std::min(last, static_cast<int>(high.x)); ++col) {
+    for (int row = std::max(0, low.y); row <= std::min(last, high.y); ++row) {
+        for (int col = std::max(0, low.x); col <= std::min(last, high.x); ++col) {
             stretch.draw(land, col, row);
         }
     }

@@ -15,9 +15,9 @@ namespace {
 
 constexpr float stream_catchment = 1.5F; // km² above which a stream has a floor
 constexpr float lake_spacing = 6000.0F;  // metres between lakes, at least
-constexpr float lake_depth = 7.0F;       // metres over the level at which the shore is drawn
+constexpr float lake_depth = 7.0F;       // metres; largest distance of a shore from the lake level
 
-/// The donor with the largest catchment, or no_cell.
+/// The donor with the largest catchment of each cell, or no_cell.
 std::vector<std::int32_t> main_donors(const Drainage& drainage) {
     std::vector<std::int32_t> donors(drainage.receiver.size(), no_cell);
     for (const std::int32_t cell : drainage.order) {
@@ -31,7 +31,7 @@ std::vector<std::int32_t> main_donors(const Drainage& drainage) {
     return donors;
 }
 
-/// A piece of a river that a lake may drown: its cells upstream from the outlet.
+/// A piece of a river that a lake may cover: its cells upstream from the outlet.
 struct Reach {
     std::vector<std::int32_t> cells;
     std::vector<float> distance; // along the river from the outlet, metres
@@ -96,11 +96,11 @@ std::vector<Reach> lake_reaches(const Land& land, const std::vector<std::int32_t
     return reaches;
 }
 
-/// Lowers a river to the level of its lake's outlet, and what stands over it less and less.
+/// Lowers rivers to the level of their lake's outlet. Cells that stand higher are lowered less.
 void lower_to_lakes(Land& land, const std::vector<Reach>& reaches) {
     const std::size_t cells = land.heights.size();
-    std::vector<float> lowering(cells, 0.0F); // at the river a cell drains to
-    std::vector<float> river(cells, 0.0F);    // its height before
+    std::vector<float> lowering(cells, 0.0F); // of the river that a cell drains to
+    std::vector<float> river(cells, 0.0F);    // old height of that river
     const auto heights = land.heights.samples();
     for (const Reach& reach : reaches) {
         const float level = heights[cell_index(reach.cells.front())];
@@ -126,7 +126,7 @@ void lower_to_lakes(Land& land, const std::vector<Reach>& reaches) {
     }
 }
 
-/// Per cell, the cell of the stream that it drains to.
+/// The stream cell that each cell drains to.
 std::vector<std::int32_t> streams_of(const Drainage& drainage) {
     std::vector<std::int32_t> stream(drainage.receiver.size());
     for (const std::int32_t cell : drainage.order) {
@@ -138,13 +138,13 @@ std::vector<std::int32_t> streams_of(const Drainage& drainage) {
     return stream;
 }
 
-/// Metres of alluvium that a stream has laid over its bed of rock.
+/// Metres of alluvium over the rock of a stream's bed.
 float alluvium(float square_kilometres) {
     constexpr float least = 1.2247449F; // the root of stream_catchment
     return std::clamp(14.0F * (std::sqrt(square_kilometres) - least), 0.0F, 190.0F);
 }
 
-/// The level of the floor at every stream: a side valley is filled from the main one too.
+/// The floor level at every stream. The floor of a side valley lies above that of the main valley.
 std::vector<float> floor_levels(const Land& land, const std::vector<std::int32_t>& stream) {
     constexpr float slope = 0.002F;
     const auto heights = land.heights.samples();
@@ -161,7 +161,7 @@ std::vector<float> floor_levels(const Land& land, const std::vector<std::int32_t
     return level;
 }
 
-/// Lays flat floors into the valleys, with a soft foot of the walls.
+/// Makes flat valley floors that blend into the walls.
 void fill_floors(Land& land, const std::vector<std::int32_t>& stream, unsigned threads) {
     const std::vector<float> level = floor_levels(land, stream);
     const auto heights = land.heights.samples();
@@ -192,8 +192,8 @@ void measure_height_above(Land& land, const std::vector<std::int32_t>& stream) {
     }
 }
 
-/// Sets the cells around one of a lake's river that lie low enough under water.
-void drown(Land& land, glm::ivec2 river, float level, float reach) {
+/// Floods the low cells around a river cell, `reach` cells far.
+void flood(Land& land, glm::ivec2 river, float level, float reach) {
     const glm::ivec2 last{land.heights.cols() - 1, land.heights.rows() - 1};
     const glm::ivec2 low = glm::max(river - static_cast<int>(reach), glm::ivec2{0});
     const glm::ivec2 high = glm::min(river + static_cast<int>(reach), last);
@@ -218,53 +218,48 @@ void fill_lakes(Land& land, const std::vector<Reach>& reaches) {
             const float part = reach.distance[i] / reach.distance.back();
             const float ends =
                 smoothstep(-0.05F, 0.15F, part) * (1.0F - smoothstep(0.4F, 0.6F, part));
-            const auto luck = static_cast<float>(reach.cells[i] % 7);
+            const auto random = static_cast<float>(reach.cells[i] % 7);
             if (ends > 0.05F) {
-                drown(land, place_of(reach.cells[i], land.heights.cols()), level,
-                      ends * (20.0F + luck));
+                flood(land, place_of(reach.cells[i], land.heights.cols()), level,
+                      ends * (20.0F + random));
             }
         }
     }
 }
 
-template <class Next>
-void blur_line(Grid<float>& to, const Grid<float>& from, int line, int radius, const Next& sample) {
-    const int count = from.cols();
-    double sum = 0.0; // exact enough to give the same on every run along the line
-    for (int i = -radius; i <= radius; ++i) {
-        sum += static_cast<double>(sample(from, std::clamp(i, 0, count - 1), line));
+void blur_row(Grid<float>& to, const Grid<float>& from, int row, int radius) {
+    double sum = 0.0; // a running sum in floats would drift along the row
+    for (int col = -radius; col <= radius; ++col) {
+        sum += from.clamped(col, row);
     }
     const double weight = 1.0 / (2 * radius + 1);
-    for (int i = 0; i < count; ++i) {
-        to(i, line) = static_cast<float>(sum * weight);
-        sum += static_cast<double>(sample(from, std::min(i + radius + 1, count - 1), line)) -
-               static_cast<double>(sample(from, std::max(i - radius, 0), line));
+    for (int col = 0; col < from.cols(); ++col) {
+        to(col, row) = static_cast<float>(sum * weight);
+        sum += static_cast<double>(from.clamped(col + radius + 1, row)) -
+               static_cast<double>(from.clamped(col - radius, row));
+    }
+}
+
+void blur_down(Grid<float>& to, const Grid<float>& from, int row, int radius) {
+    const float weight = 1.0F / static_cast<float>(2 * radius + 1);
+    std::fill(to.row(row).begin(), to.row(row).end(), 0.0F);
+    for (int y = row - radius; y <= row + radius; ++y) {
+        for (int col = 0; col < from.cols(); ++col) {
+            to(col, row) += weight * from.clamped(col, y);
+        }
     }
 }
 
 } // namespace
 
 void blur(Grid<float>& values, int radius, int passes, unsigned threads) {
-    const auto along_rows = [](const Grid<float>& grid, int i, int line) { return grid(i, line); };
-    const ParallelOptions parallel{.threads = threads, .stop = {}, .progress = {}};
+    const ParallelOptions parallel{threads, {}, {}};
     Grid<float> across(values.cols(), values.rows());
     for (int pass = 0; pass < passes; ++pass) {
         parallel_for(
-            values.rows(), [&](int row) { blur_line(across, values, row, radius, along_rows); },
-            parallel);
-        const auto down = [&](int row) {
-            const float weight = 1.0F / static_cast<float>(2 * radius + 1);
-            for (int col = 0; col < values.cols(); ++col) {
-                values(col, row) = 0.0F;
-            }
-            for (int y = row - radius; y <= row + radius; ++y) {
-                const int from = std::clamp(y, 0, values.rows() - 1);
-                for (int col = 0; col < values.cols(); ++col) {
-                    values(col, row) += weight * across(col, from);
-                }
-            }
-        };
-        parallel_for(values.rows(), down, parallel);
+            values.rows(), [&](int row) { blur_row(across, values, row, radius); }, parallel);
+        parallel_for(
+            values.rows(), [&](int row) { blur_down(values, across, row, radius); }, parallel);
     }
 }
 

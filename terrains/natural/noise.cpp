@@ -1,6 +1,11 @@
 #include "terrains/natural/noise.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace reljef::terrains {
 namespace {
@@ -9,7 +14,7 @@ float fade(float t) {
     return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
 }
 
-// Cheaper than std::lerp, whose branches keep promises that noise does not need.
+// Cheaper than std::lerp, which has branches for exact ends.
 float mix(float a, float b, float t) {
     return a + t * (b - a);
 }
@@ -30,6 +35,25 @@ float corner(std::uint32_t seed, std::int32_t x, std::int32_t y, glm::vec2 offse
         {-1.0F, 0.0F}, {-diagonal, -diagonal}, {0.0F, -1.0F}, {diagonal, -diagonal}};
     const glm::vec2 direction = directions[hash(seed, x, y) >> 29U];
     return direction.x * offset.x + direction.y * offset.y;
+}
+
+glm::ivec2 wrap(glm::ivec2 cell, int period) {
+    return {wrap(cell.x, period), wrap(cell.y, period)};
+}
+
+glm::vec2 seed_point(std::uint32_t seed, glm::ivec2 cell, int period, float jitter) {
+    const glm::ivec2 id = wrap(cell, period);
+    const glm::vec2 random(unit_hash(seed, id.x, id.y), unit_hash(seed + 1, id.x, id.y));
+    return glm::vec2(cell) + 0.5F + jitter * (random - 0.5F);
+}
+
+// Calls `visit(cell)` for the squares up to `reach` squares away from `middle`.
+template <class Visit> void for_each_near(glm::ivec2 middle, int reach, const Visit& visit) {
+    for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+            visit(middle + glm::ivec2(x, y));
+        }
+    }
 }
 
 } // namespace
@@ -82,6 +106,28 @@ float fractal_noise(std::uint32_t seed, glm::vec2 point, const FractalOptions& o
         period *= 2;
     }
     return sum / amplitudes;
+}
+
+VoronoiCell voronoi(std::uint32_t seed, glm::vec2 point, int period, float jitter) {
+    const glm::ivec2 square(glm::floor(point));
+    glm::ivec2 nearest = square;
+    glm::vec2 place = seed_point(seed, square, period, jitter);
+    for_each_near(square, 1, [&](glm::ivec2 cell) {
+        const glm::vec2 other = seed_point(seed, cell, period, jitter);
+        if (glm::distance(point, other) < glm::distance(point, place)) {
+            nearest = cell;
+            place = other;
+        }
+    });
+    float to_edge = std::numeric_limits<float>::max();
+    for_each_near(nearest, 2, [&](glm::ivec2 cell) {
+        if (cell != nearest) {
+            const glm::vec2 other = seed_point(seed, cell, period, jitter);
+            const glm::vec2 across = glm::normalize(other - place);
+            to_edge = std::min(to_edge, glm::dot(0.5F * (place + other) - point, across));
+        }
+    });
+    return {wrap(nearest, period), point - place, to_edge};
 }
 
 } // namespace reljef::terrains

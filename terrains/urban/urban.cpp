@@ -5,7 +5,6 @@
 
 #include "engine/core/parallel_for.h"
 #include "terrains/generators.h"
-#include "terrains/urban/urban_light.h"
 #include "terrains/urban/urban_tile.h"
 
 namespace reljef::terrains {
@@ -17,7 +16,7 @@ constexpr int tile_size = 64;
 constexpr double default_spacing = 0.5;
 constexpr double min_spacing = 0.05;
 constexpr double max_spacing = 4.0;
-constexpr float min_city = 640.0F; ///< metres; what a small window is cut from
+constexpr float min_city = 640.0F; ///< metres; smaller terrains show a part of it
 
 std::optional<Error> complaint(const GeneratorOptions& options) {
     if (options.size < 16 || options.size > 4096) {
@@ -38,55 +37,46 @@ Raster raster_of(const GeneratorOptions& options, float spacing, float period) {
     return {options.size, spacing, {x, random.unit() * period}, hash(options.seed, 2, 2)};
 }
 
-/// A block and where one of its copies on the repeating plane touches a tile.
-struct Visit {
+/// A copy of a block on the repeating plane.
+struct BlockCopy {
     const Block* block;
     glm::vec2 shift;
 };
 
-std::vector<Visit> visits_of(const City& city, const Tile& tile) {
+// The copies that touch a tile.
+std::vector<BlockCopy> copies_in(const City& city, const Tile& tile) {
     const float period = city.plan.period;
     const auto first = [&](float from, float to) { return std::ceil((from - to) / period); };
-    std::vector<Visit> visits;
+    std::vector<BlockCopy> copies;
     for (const Block& block : city.blocks) {
         const Box& b = block.bounds;
         for (float y = first(tile.bounds.low.y, b.high.y);
              b.low.y + y * period <= tile.bounds.high.y; y += 1.0F) {
             for (float x = first(tile.bounds.low.x, b.high.x);
                  b.low.x + x * period <= tile.bounds.high.x; x += 1.0F) {
-                visits.push_back({&block, {x * period, y * period}});
+                copies.push_back({&block, {x * period, y * period}});
             }
         }
     }
-    return visits;
+    return copies;
 }
 
 void paint(Tile& tile, const City& city) {
-    const std::vector<Visit> visits = visits_of(city, tile);
-    const Warp& warp = city.plan.warp;
-    for (const auto& [block, shift] : visits) {
-        paint_ground(tile, city.plan, *block, shift);
+    const std::vector<BlockCopy> copies = copies_in(city, tile);
+    for (const BlockCopy& copy : copies) {
+        paint_ground(tile, city.plan, *copy.block, copy.shift);
     }
-    for (const auto& [block, shift] : visits) {
-        for (const Patch& patch : block->patches) {
-            paint_patch(tile, warp, patch, shift);
+    const auto paint_each = [&](auto Block::*objects, const auto& paint_object) {
+        for (const BlockCopy& copy : copies) {
+            for (const auto& object : copy.block->*objects) {
+                paint_object(tile, city.plan.warp, object, copy.shift);
+            }
         }
-    }
-    for (const auto& [block, shift] : visits) {
-        for (const Building& building : block->buildings) {
-            paint_building(tile, warp, building, shift);
-        }
-    }
-    for (const auto& [block, shift] : visits) {
-        for (const Prism& prism : block->prisms) {
-            paint_prism(tile, warp, prism, shift);
-        }
-    }
-    for (const auto& [block, shift] : visits) {
-        for (const Tree& tree : block->trees) {
-            paint_tree(tile, warp, tree, shift);
-        }
-    }
+    };
+    paint_each(&Block::patches, paint_patch);
+    paint_each(&Block::buildings, paint_building);
+    paint_each(&Block::prisms, paint_prism);
+    paint_each(&Block::trees, paint_tree);
 }
 
 void store(const Tile& tile, terrain::Terrain& terrain) {

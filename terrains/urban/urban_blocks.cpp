@@ -14,7 +14,7 @@ Frame shrunk(Frame frame, float by) {
     return frame;
 }
 
-/// One edge of a block with the edge of its courtyard behind.
+/// One edge of a block and the edge of its courtyard behind it.
 struct Side {
     glm::vec2 from;
     glm::vec2 to;
@@ -41,7 +41,7 @@ void ring_house(BlockBuilder& builder, const Convex& shape, float eaves, bool pi
     }
 }
 
-// What lies behind a house: a garden or a yard, a shed, a tree.
+// A garden or yard behind a house, with a shed and a tree.
 void back_lot(BlockBuilder& builder, const Side& side, float middle, float width) {
     Random& random = builder.random;
     const glm::vec2 axis = normalized(side.to - side.from);
@@ -96,7 +96,7 @@ void build_side(BlockBuilder& builder, const Side& side, const RingStyle& style)
     }
 }
 
-// The courtyard's corners, if each still belongs to a corner of the block.
+// The courtyard; empty if the block is too small or has sharp corners.
 Convex courtyard_of(const Convex& lot, float depth) {
     Convex yard;
     for (std::size_t i = 0; i < lot.size(); ++i) {
@@ -121,7 +121,7 @@ Convex courtyard_of(const Convex& lot, float depth) {
     return yard;
 }
 
-// A house in the middle of a lot, with what belongs to a garden.
+// A house in the middle of a lot, with driveway, garage and pool.
 void build_house(BlockBuilder& builder, const Convex& lot, const Convex& block) {
     Random& random = builder.random;
     const Frame frame = frame_of(lot);
@@ -192,7 +192,6 @@ void build_tower(BlockBuilder& builder, const Convex& base, float height) {
     }
 }
 
-// A shaft for light and air in a deep house.
 void light_well(BlockBuilder& builder, const Convex& lot) {
     const Frame frame = frame_of(lot);
     if (frame.half.x > 11.0F && frame.half.y > 8.0F) {

@@ -9,7 +9,7 @@
 namespace reljef::terrains::urban {
 namespace {
 
-/// Which side of which street a cell's edge is.
+/// The side of a street along an edge of a cell.
 struct Curb {
     const Street& street;
     glm::vec2 from;
@@ -20,7 +20,7 @@ struct Curb {
     [[nodiscard]] glm::vec2 at(float along, float across) const {
         return from + tangent * along + inward * across;
     }
-    /// Metres to the nearest crossing roadway, negative inside it.
+    /// Signed distance to the nearest crossing roadway, metres; negative inside it.
     [[nodiscard]] float clearance(float along) const {
         const float place = street.along(at(along, 0.0F));
         float least = 1e9F;
@@ -95,7 +95,7 @@ void plant_median(const Curb& curb, BlockBuilder& builder) {
 
 enum class Use : std::uint8_t { perimeter, downtown, houses, slabs, halls, park, square };
 
-// Small cities show a bit of everything, large ones have districts.
+// Small cities have blocks of all uses, large ones have districts.
 Use use_of(const Block& block, int index, int count, float period, std::uint32_t seed) {
     constexpr std::array<Use, 10> mixed{Use::perimeter, Use::downtown,  Use::perimeter, Use::houses,
                                         Use::park,      Use::perimeter, Use::downtown,  Use::square,
@@ -147,8 +147,7 @@ Block block_of(const StreetPlan& plan, const Cell& cell) {
     return block;
 }
 
-} // namespace
-
+// Adds trees and cars along the streets of a cell.
 void furnish_streets(const StreetPlan& plan, const Cell& cell, BlockBuilder& builder) {
     for (std::size_t i = 0; i < cell.outline.size(); ++i) {
         const glm::vec2 from = cell.outline.corner(i);
@@ -163,6 +162,8 @@ void furnish_streets(const StreetPlan& plan, const Cell& cell, BlockBuilder& bui
     }
 }
 
+} // namespace
+
 City build_city(float period, std::uint32_t seed, unsigned threads) {
     City city;
     city.plan = plan_streets(period, seed);
@@ -173,8 +174,7 @@ City build_city(float period, std::uint32_t seed, unsigned threads) {
                      const Cell& cell = city.plan.cells[static_cast<std::size_t>(index)];
                      Block& block = city.blocks[static_cast<std::size_t>(index)];
                      block = block_of(city.plan, cell);
-                     block.seed = hash(seed, 21, index);
-                     BlockBuilder builder(block, block.seed);
+                     BlockBuilder builder(block, hash(seed, 21, index));
                      if (!block.lot.empty() && area(block.lot) > 60.0F) {
                          build(use_of(block, index, count, period, seed), builder);
                      }

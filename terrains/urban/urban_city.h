@@ -24,10 +24,10 @@ enum class Surface : std::uint8_t {
     pool,
     path,
     court,
-    stalls ///< asphalt with the white lines of parking places across its frame
+    stalls ///< asphalt with the white lines of parking places
 };
 
-/// Ground cover.
+/// An area with one ground cover.
 struct Patch {
     Footprint shape;
     Frame frame;
@@ -42,18 +42,18 @@ struct Building {
     glm::vec2 axis{1.0F, 0.0F};
     float eaves = 9.0F;       ///< metres above the street
     float slope = 0.0F;       ///< rise over run from the sloped edges; 0: flat
-    float rise_limit = 1e9F;  ///< a flat top above a mansard
+    float rise_limit = 1e9F;  ///< metres from the eaves to the flat top of a mansard roof
     float parapet = 0.0F;     ///< metres above a flat roof
     std::uint32_t sloped = 0; ///< bit i: the roof rises from edge i
     Cover cover = Cover::gravel;
     Color color{0.5F, 0.5F, 0.5F};
-    Color rim{0.6F, 0.6F, 0.6F}; ///< parapet or gutter: also the colour that walls take
+    Color rim{0.6F, 0.6F, 0.6F}; ///< parapet or gutter
     std::uint32_t seed = 0;
 };
 
 enum class PrismKind : std::uint8_t { box, car, hedge, panel, glass, well };
 
-/// An upright box: a car, a machine on a roof, a hedge. A well goes down to `top`.
+/// An upright box, for example a car or a hedge. A well goes down to `top`.
 struct Prism {
     Frame frame;
     float top = 1.0F; ///< metres above the street
@@ -68,20 +68,19 @@ struct Tree {
     Color color{0.25F, 0.32F, 0.17F};
 };
 
-/// One cell of the plan with all that stands in it.
+/// A cell of the plan with its contents.
 struct Block {
     Cell cell;
-    Convex lot; ///< inside the sidewalks; empty where streets take all
+    Convex lot; ///< inside the sidewalks; may be empty
     Surface ground = Surface::paving;
-    std::uint32_t seed = 0;
-    Box bounds; ///< of everything
+    Box bounds; ///< of the block and its contents
     std::vector<Patch> patches;
     std::vector<Building> buildings;
     std::vector<Prism> prisms;
     std::vector<Tree> trees;
 };
 
-/// Adds to a block; the means all block builders share.
+/// Adds objects to a block.
 class BlockBuilder {
 public:
     BlockBuilder(Block& block, std::uint32_t seed) : random(seed), block_(block) {}
@@ -91,17 +90,16 @@ public:
     [[nodiscard]] const Convex& lot() const { return block_.lot; }
     void ground(Surface surface) { block_.ground = surface; }
     void patch(const Convex& shape, Surface surface);
-    /// Parking places on both long sides of a frame (one if it is narrow), and cars on them.
+    /// Parking places and cars on both long sides of a frame, on one side if it is narrow.
     void parking(const Frame& frame);
     void tree(glm::vec2 center, float size = 1.0F);
-    /// About one tree per `spacing`^2, at random places of the shape.
+    /// About one tree per `spacing`² square metres, at random places.
     void grove(const Convex& shape, float spacing, float size = 1.0F);
     void box(const Frame& frame, float top, Color color, PrismKind kind = PrismKind::box);
     void car(glm::vec2 center, glm::vec2 axis);
     void hedge(glm::vec2 from, glm::vec2 to);
-    /// Adds as it is.
     void building(const Convex& shape, Building building);
-    /// A flat roof and what stands on it.
+    /// A building with a flat roof and objects on it.
     void flat_building(const Convex& shape, float eaves);
     /// `sloped`: see Building.
     void pitched_building(const Convex& shape, float eaves, std::uint32_t sloped);
@@ -115,22 +113,13 @@ private:
     Block& block_;
 };
 
-/// Rings of houses around courtyards.
-void build_perimeter(BlockBuilder& builder);
-/// Lots built over, with towers.
-void build_downtown(BlockBuilder& builder);
-/// Houses in gardens.
-void build_houses(BlockBuilder& builder);
-/// Slabs on lawns, with parking.
-void build_slabs(BlockBuilder& builder);
-/// Halls, yards and parking.
-void build_halls(BlockBuilder& builder);
+void build_perimeter(BlockBuilder& builder); ///< rings of houses around courtyards
+void build_downtown(BlockBuilder& builder);  ///< dense lots with towers
+void build_houses(BlockBuilder& builder);    ///< houses in gardens
+void build_slabs(BlockBuilder& builder);     ///< slabs on lawns, with parking
+void build_halls(BlockBuilder& builder);     ///< halls, yards and parking
 void build_park(BlockBuilder& builder);
-/// A paved square with a church.
-void build_square(BlockBuilder& builder);
-
-/// Trees and cars along the streets of a cell.
-void furnish_streets(const StreetPlan& plan, const Cell& cell, BlockBuilder& builder);
+void build_square(BlockBuilder& builder); ///< a paved square with a church
 
 struct City {
     StreetPlan plan;

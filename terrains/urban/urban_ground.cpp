@@ -9,7 +9,7 @@ namespace {
 constexpr Color paint_white{0.76F, 0.75F, 0.72F};
 constexpr float sidewalk_height = 0.15F;
 
-/// The bare colours, and how much each noise changes them.
+/// The base colour and the strength of each noise.
 struct SurfaceLook {
     Color color;
     float grain;
@@ -29,18 +29,18 @@ constexpr std::array<SurfaceLook, 11> looks{{{{0.405F, 0.400F, 0.395F}, 0.030F, 
                                              {{0.520F, 0.350F, 0.270F}, 0.020F, 0.02F, 0.05F},
                                              {{0.425F, 0.420F, 0.410F}, 0.030F, 0.03F, 0.07F}}};
 
-/// A street as one cell sees it.
+/// A street at the border of a cell.
 struct Arm {
-    HalfPlane middle; ///< distance from the middle of the street, into the cell
+    HalfPlane middle; ///< its distance counts from the middle of the street into the cell
     const Street* street = nullptr;
     float tone = 1.0F;
 };
 
-// A place on a street, metres: along it, across from its middle, and before the next junction.
+// A place on a street, metres.
 struct RoadPlace {
     float along = 0.0F;
-    float across = 0.0F;
-    float clear = 0.0F;
+    float across = 0.0F; // from the middle
+    float clear = 0.0F;  // to the next junction
 };
 
 struct GroundPainter {
@@ -61,7 +61,7 @@ private:
     void line(std::size_t i, float across, float half, float strength);
 };
 
-// The two edges of the block that a sample is farthest outside of.
+// The two edges of the block with the largest distance to a sample outside.
 struct Outside {
     int first = -1;
     int second = -1;
@@ -86,7 +86,7 @@ Outside outside(const std::vector<Arm>& arms, glm::vec2 place) {
     return found;
 }
 
-// Distance to the block, round about its corners.
+// Distance to the block.
 float block_distance(const Outside& out, const std::vector<Arm>& arms) {
     const float a = out.first_depth;
     const float b = out.second_depth;
@@ -132,7 +132,7 @@ void GroundPainter::markings(std::size_t i, const Arm& arm, float along, float a
     }
     if (clear < 4.5F) {
         if (crossing && clear > 0.8F && clear < 3.9F && across < street.roadway() - 0.4F) {
-            line(i, fraction(across / 1.25F) * 1.25F - 0.62F, 0.31F, 0.8F);
+            line(i, fract(across / 1.25F) * 1.25F - 0.62F, 0.31F, 0.8F);
         }
         return;
     }
@@ -152,7 +152,7 @@ void GroundPainter::markings(std::size_t i, const Arm& arm, float along, float a
 
 void GroundPainter::lanes(std::size_t i, const Street& street, const RoadPlace& place) {
     const bool near = place.clear < 22.0F;
-    const bool dash = near || fraction(place.along / 9.0F) < 0.45F;
+    const bool dash = near || fract(place.along / 9.0F) < 0.45F;
     if (street.kind == StreetKind::boulevard) {
         line(i, place.across - 1.7F, 0.09F, 0.6F);
         line(i, place.across - 5.1F, 0.08F, dash ? 0.6F : 0.0F);
@@ -192,7 +192,7 @@ void GroundPainter::roadway(std::size_t i, glm::vec2 place, int arms_here, const
                             float across) {
     const float along = arm.street->along(place);
     Color color = surface_color(Surface::asphalt, tile, i) * arm.tone;
-    const float wheel = std::abs(fraction(across / 1.75F) - 0.5F);
+    const float wheel = std::abs(fract(across / 1.75F) - 0.5F);
     color *= 1.0F + (wheel < 0.2F ? -0.022F : 0.012F);
     if (unit_hash(arm.street->seed, static_cast<std::int32_t>(std::floor(along / 13.0F)),
                   static_cast<std::int32_t>(across / 3.3F)) > 0.93F) {
@@ -205,7 +205,7 @@ void GroundPainter::roadway(std::size_t i, glm::vec2 place, int arms_here, const
     }
 }
 
-// Between two streets the one that is nearer counts more.
+// Blends the widths of two streets at a corner.
 float sidewalk_width(const Outside& out, const std::vector<Arm>& arms) {
     const float first = arms[static_cast<std::size_t>(out.first)].street->sidewalk;
     if (out.second < 0) {
@@ -218,7 +218,7 @@ float sidewalk_width(const Outside& out, const std::vector<Arm>& arms) {
 }
 
 void GroundPainter::sidewalk(std::size_t i, glm::vec2 place, const Arm& arm, float curb) {
-    const bool joint = fraction(dot(place, arm.street->tangent) / 3.0F) < 0.12F;
+    const bool joint = fract(dot(place, arm.street->tangent) / 3.0F) < 0.12F;
     const float light = 0.97F + 0.06F * arm.tone - (joint ? 0.03F : 0.0F);
     tile.color[i] = surface_color(Surface::paving, tile, i) * light;
     blend(tile.color[i], {0.63F, 0.62F, 0.59F}, 0.6F * coverage(tile, 0.2F - std::abs(curb)));
@@ -269,12 +269,12 @@ void GroundPainter::sample(std::size_t i, glm::vec2 place) {
     }
 }
 
-// White lines across the long axis, both sides of a lane.
+// White lines across the long axis, on both sides of a lane.
 void stall_lines(Tile& tile, std::size_t i, const Frame& frame, glm::vec2 place) {
     const glm::vec2 local{dot(frame.axis, place - frame.center),
                           dot(turned(frame.axis), place - frame.center)};
     const float edge = frame.half.y - std::abs(local.y);
-    const float phase = fraction((local.x + frame.half.x) / 2.6F) * 2.6F;
+    const float phase = fract((local.x + frame.half.x) / 2.6F) * 2.6F;
     if (edge < 5.0F && (local.y < 0.0F || frame.half.y > 7.0F)) {
         blend(tile.color[i], paint_white,
               0.5F * coverage(tile, 0.1F - std::min(phase, 2.6F - phase)));
@@ -305,38 +305,28 @@ void paint_ground(Tile& tile, const StreetPlan& plan, const Block& block, glm::v
         painter.arms.push_back({edge_plane(block.cell.outline, k), &street, tone});
         box.add(block.cell.outline.corners[k] + shift, 0.1F);
     }
-    const Span span = span_of(tile, plan.warp, box);
-    for (int y = span.y0; y < span.y1; ++y) {
-        for (int x = span.x0; x < span.x1; ++x) {
-            const std::size_t i = tile.index(x, y);
-            painter.sample(i, tile.place[i] - shift);
-        }
-    }
+    for_each_sample(tile, plan.warp, box,
+                    [&](std::size_t i) { painter.sample(i, tile.place[i] - shift); });
 }
 
 void paint_patch(Tile& tile, const Warp& warp, const Patch& patch, glm::vec2 shift) {
-    const Box box{patch.shape.bounds.low + shift, patch.shape.bounds.high + shift};
-    const Span span = span_of(tile, warp, box);
     const float tone = 0.9F + 0.2F * unit_hash(patch.seed, 2, 2);
     const bool sunken = patch.surface == Surface::water || patch.surface == Surface::pool;
-    for (int y = span.y0; y < span.y1; ++y) {
-        for (int x = span.x0; x < span.x1; ++x) {
-            const std::size_t i = tile.index(x, y);
-            const glm::vec2 place = tile.place[i] - shift;
-            const float distance = patch.shape.distance(place);
-            const float cover = coverage(tile, distance);
-            if (cover <= 0.0F) {
-                continue;
-            }
-            blend(tile.color[i], surface_color(patch.surface, tile, i) * tone, cover);
-            if (patch.surface == Surface::stalls && distance > 0.0F) {
-                stall_lines(tile, i, patch.frame, place);
-            }
-            if (sunken && distance > 0.0F) {
-                tile.height[i] = -0.3F;
-            }
+    for_each_sample(tile, warp, patch.shape.bounds.moved(shift), [&](std::size_t i) {
+        const glm::vec2 place = tile.place[i] - shift;
+        const float distance = patch.shape.distance(place);
+        const float cover = coverage(tile, distance);
+        if (cover <= 0.0F) {
+            return;
         }
-    }
+        blend(tile.color[i], surface_color(patch.surface, tile, i) * tone, cover);
+        if (patch.surface == Surface::stalls && distance > 0.0F) {
+            stall_lines(tile, i, patch.frame, place);
+        }
+        if (sunken && distance > 0.0F) {
+            tile.height[i] = -0.3F;
+        }
+    });
 }
 
 } // namespace reljef::terrains::urban

@@ -1,10 +1,8 @@
-#include "terrains/urban/urban_light.h"
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "engine/core/parallel_for.h"
+#include "terrains/urban/urban_tile.h"
 
 namespace reljef::terrains::urban {
 namespace {
@@ -17,43 +15,33 @@ int outside_to_inside(int index, int size, bool tileable) {
     return std::clamp(index, 0, size - 1);
 }
 
-// The average over a square of 2 * radius + 1 samples, of what `at(k)` gives for k in [0, size).
-template <class At, class Put>
-void slide(int size, int radius, bool tileable, const At& at, const Put& put) {
-    float sum = 0.0F;
-    for (int k = -radius; k <= radius; ++k) {
-        sum += at(outside_to_inside(k, size, tileable));
-    }
-    const float part = 1.0F / static_cast<float>(2 * radius + 1);
-    for (int k = 0; k < size; ++k) {
-        put(k, sum * part);
-        sum += at(outside_to_inside(k + radius + 1, size, tileable)) -
-               at(outside_to_inside(k - radius, size, tileable));
-    }
+// Averages over 2 * radius + 1 samples of a row, transposed.
+Grid<float> blurred_rows(const Grid<float>& heights, int radius, const HollowOptions& options) {
+    const int size = heights.cols();
+    Grid<float> blurred(size, size);
+    const auto blur_row = [&](int row) {
+        const auto at = [&](int col) {
+            return heights(outside_to_inside(col, size, options.tileable), row);
+        };
+        float sum = 0.0F;
+        for (int col = -radius; col <= radius; ++col) {
+            sum += at(col);
+        }
+        const float part = 1.0F / static_cast<float>(2 * radius + 1);
+        for (int col = 0; col < size; ++col) {
+            blurred(row, col) = sum * part;
+            sum += at(col + radius + 1) - at(col - radius);
+        }
+    };
+    parallel_for(size, blur_row, {options.threads, {}, {}});
+    return blurred;
 }
 
 Grid<float> blurred(const Grid<float>& heights, int radius, const HollowOptions& options) {
-    const int size = heights.cols();
-    Grid<float> rows(size, size);
-    Grid<float> both(size, size);
-    parallel_for(size,
-                 [&](int row) {
-                     slide(
-                         size, radius, options.tileable, [&](int k) { return heights(k, row); },
-                         [&](int k, float value) { rows(k, row) = value; });
-                 },
-                 {options.threads, {}, {}});
-    parallel_for(size,
-                 [&](int col) {
-                     slide(
-                         size, radius, options.tileable, [&](int k) { return rows(col, k); },
-                         [&](int k, float value) { both(col, k) = value; });
-                 },
-                 {options.threads, {}, {}});
-    return both;
+    return blurred_rows(blurred_rows(heights, radius, options), radius, options);
 }
 
-// The largest reduction to samples of at most about 2 m that keeps a tile's period.
+// The largest reduction to samples of at most about 2 m that keeps the period of the terrain.
 int reduction_of(int size, const HollowOptions& options) {
     int reduction = std::clamp(static_cast<int>(2.0F / options.spacing), 1, 8);
     while (options.tileable && size % reduction != 0) {
@@ -66,22 +54,18 @@ int reduction_of(int size, const HollowOptions& options) {
 Grid<float> reduced(const Grid<float>& heights, int reduction, unsigned threads) {
     const int size = (heights.cols() + reduction - 1) / reduction;
     Grid<float> small(size, size);
-    parallel_for(size,
-                 [&](int row) {
-                     for (int col = 0; col < size; ++col) {
-                         float sum = 0.0F;
-                         for (int k = 0; k < reduction * reduction; ++k) {
-                             sum += heights.clamped(col * reduction + k % reduction,
-                                                    row * reduction + k / reduction);
-                         }
-                         small(col, row) = sum / static_cast<float>(reduction * reduction);
-                     }
-                 },
-                 {threads, {}, {}});
+    for_each_cell(size, size, {threads, {}, {}}, [&](int col, int row) {
+        float sum = 0.0F;
+        for (int k = 0; k < reduction * reduction; ++k) {
+            sum +=
+                heights.clamped(col * reduction + k % reduction, row * reduction + k / reduction);
+        }
+        small(col, row) = sum / static_cast<float>(reduction * reduction);
+    });
     return small;
 }
 
-// Bilinear, with the other side or the edge itself beyond an edge.
+// Bilinear interpolation. Beyond an edge the terrain repeats, or its edge samples continue.
 float value_at(const Grid<float>& grid, glm::vec2 at, bool tileable) {
     const float x = std::floor(at.x);
     const float y = std::floor(at.y);
@@ -95,7 +79,6 @@ float value_at(const Grid<float>& grid, glm::vec2 at, bool tileable) {
     return top + (low - top) * (at.y - y);
 }
 
-/// The heights' surroundings, ready for every sample.
 struct Hollows {
     const Grid<float>& heights;
     const HollowOptions& options;
@@ -109,7 +92,7 @@ private:
     [[nodiscard]] float walls(int col, int row, int reach) const;
 };
 
-// Part of the sky that what stands `reach` samples away hides.
+// Share of the sky that samples at a distance of `reach` samples hide.
 float Hollows::walls(int col, int row, int reach) const {
     constexpr std::array<std::array<int, 2>, 8> around{
         {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
@@ -129,8 +112,7 @@ float Hollows::walls(int col, int row, int reach) const {
 float Hollows::light(int col, int row) const {
     const float here = heights(col, row);
     const float scale = 1.0F / static_cast<float>(reduction);
-    const glm::vec2 at{(static_cast<float>(col) + 0.5F) * scale - 0.5F,
-                       (static_cast<float>(row) + 0.5F) * scale - 0.5F};
+    const glm::vec2 at = (glm::vec2(col, row) + 0.5F) * scale - 0.5F;
     const float low = std::clamp((value_at(near, at, options.tileable) - here) / 16.0F, 0.0F, 1.0F);
     const float deep = std::clamp((value_at(far, at, options.tileable) - here) / 30.0F, 0.0F, 1.0F);
     const int reach = std::max(1, static_cast<int>(1.6F / options.spacing));
@@ -158,18 +140,11 @@ void darken_hollows(terrain::Terrain& terrain, const HollowOptions& options) {
     };
     const Hollows hollows{heights, options, reduction, blurred(small, radius(5.0F), options),
                           blurred(small, radius(16.0F), options)};
-    parallel_for(size,
-                 [&](int row) {
-                     for (int col = 0; col < size; ++col) {
-                         Rgba8& color = terrain.color(col, row);
-                         const float light = hollows.light(col, row) / 255.0F;
-                         color =
-                             encoded(Color{static_cast<float>(color.r), static_cast<float>(color.g),
-                                           static_cast<float>(color.b)} *
-                                     light);
-                     }
-                 },
-                 {options.threads, {}, {}});
+    for_each_cell(size, size, {options.threads, {}, {}}, [&](int col, int row) {
+        Rgba8& color = terrain.color(col, row);
+        const float light = hollows.light(col, row) / 255.0F;
+        color = encoded(Color(color.r, color.g, color.b) * light);
+    });
 }
 
 } // namespace reljef::terrains::urban

@@ -6,10 +6,10 @@
 namespace reljef::terrains::urban {
 namespace {
 
-/// Where a sample lies on a pitched roof.
+/// Position of a sample on a pitched roof.
 struct Slope {
     float run = 0.0F;   ///< metres from the eaves
-    float ridge = 0.0F; ///< metres to the line where another slope meets
+    float ridge = 0.0F; ///< metres to the ridge or hip
     std::size_t facet = 0;
 };
 
@@ -38,7 +38,7 @@ Slope slope_at(const Building& building, glm::vec2 place) {
 Color pitched_color(const Building& building, const Slope& slope, const Tile& tile, std::size_t i) {
     const bool metal = building.cover == Cover::metal;
     const float facet = unit_hash(building.seed, static_cast<std::int32_t>(slope.facet), 3) - 0.5F;
-    const float rows = fraction(slope.run / 1.1F) < 0.4F ? -0.025F : 0.012F;
+    const float rows = fract(slope.run / 1.1F) < 0.4F ? -0.025F : 0.012F;
     float light = 1.0F + 0.11F * facet + rows + (metal ? 0.03F : 0.075F) * tile.grain[i] +
                   0.05F * tile.fine[i] + 0.10F * tile.broad[i];
     light *= slope.run < 0.45F ? 0.86F : 1.0F;
@@ -48,13 +48,13 @@ Color pitched_color(const Building& building, const Slope& slope, const Tile& ti
 }
 
 float seams(const Building& building, glm::vec2 place, float step) {
-    const float along = fraction(dot(building.axis, place) / step);
+    const float along = fract(dot(building.axis, place) / step);
     return along * step < 0.4F ? 1.0F : 0.0F;
 }
 
 Color flat_color(const Building& building, glm::vec2 place, float inside, const Tile& tile,
                  std::size_t i) {
-    /// Grain, clumps, stains, seams.
+    // Strengths of grain, fine and broad noise, and seams.
     constexpr std::array<std::array<float, 4>, 7> looks{{{0.09F, 0.06F, 0.09F, 0.0F},
                                                          {0.04F, 0.08F, 0.14F, 0.05F},
                                                          {0.02F, 0.03F, 0.07F, 0.045F},
@@ -93,10 +93,6 @@ RoofSample roof_sample(const Building& building, glm::vec2 place, float inside, 
     return {building.eaves + (inside < wall ? building.parapet : 0.0F), color};
 }
 
-Box moved(const Box& box, glm::vec2 shift) {
-    return {box.low + shift, box.high + shift};
-}
-
 Box bounds_of(const Frame& frame, glm::vec2 shift) {
     const glm::vec2 side = turned(frame.axis);
     const glm::vec2 half{std::abs(frame.axis.x) * frame.half.x + std::abs(side.x) * frame.half.y,
@@ -104,7 +100,6 @@ Box bounds_of(const Frame& frame, glm::vec2 shift) {
     return {frame.center + shift - half, frame.center + shift + half};
 }
 
-// Body, windscreens and roof, by the place along a car.
 Color car_at(const Prism& car, glm::vec2 local) {
     const float u = local.x / car.frame.half.x;
     const bool glass = (u > 0.12F && u < 0.42F) || (u < -0.58F && u > -0.8F);
@@ -118,7 +113,7 @@ Color prism_color(const Prism& prism, glm::vec2 local, const Tile& tile, std::si
     case PrismKind::hedge:
         return prism.color * (1.0F + 0.12F * tile.grain[i] + 0.2F * tile.fine[i]);
     case PrismKind::panel:
-        return prism.color * (fraction(local.x / 1.5F) < 0.2F ? 1.35F : 1.0F);
+        return prism.color * (fract(local.x / 1.5F) < 0.2F ? 1.35F : 1.0F);
     default:
         return prism.color * (1.0F + 0.04F * tile.grain[i]);
     }
@@ -127,69 +122,54 @@ Color prism_color(const Prism& prism, glm::vec2 local, const Tile& tile, std::si
 } // namespace
 
 void paint_building(Tile& tile, const Warp& warp, const Building& building, glm::vec2 shift) {
-    const Span span = span_of(tile, warp, moved(building.shape.bounds, shift));
-    for (int y = span.y0; y < span.y1; ++y) {
-        for (int x = span.x0; x < span.x1; ++x) {
-            const std::size_t i = tile.index(x, y);
-            const glm::vec2 place = tile.place[i] - shift;
-            const float inside = building.shape.distance(place);
-            const float cover = coverage(tile, inside);
-            if (cover <= 0.0F || tile.height[i] >= building.eaves + 60.0F) {
-                continue;
-            }
-            const RoofSample roof = roof_sample(building, place, inside, tile, i);
-            if (roof.height > tile.height[i]) {
-                blend(tile.color[i], roof.color, cover);
-                tile.height[i] = inside > 0.0F ? roof.height : tile.height[i];
-            }
+    for_each_sample(tile, warp, building.shape.bounds.moved(shift), [&](std::size_t i) {
+        const glm::vec2 place = tile.place[i] - shift;
+        const float inside = building.shape.distance(place);
+        const float cover = coverage(tile, inside);
+        if (cover <= 0.0F || tile.height[i] >= building.eaves + 60.0F) {
+            return;
         }
-    }
+        const RoofSample roof = roof_sample(building, place, inside, tile, i);
+        if (roof.height > tile.height[i]) {
+            blend(tile.color[i], roof.color, cover);
+            tile.height[i] = inside > 0.0F ? roof.height : tile.height[i];
+        }
+    });
 }
 
 void paint_prism(Tile& tile, const Warp& warp, const Prism& prism, glm::vec2 shift) {
-    const Span span = span_of(tile, warp, bounds_of(prism.frame, shift));
     const bool well = prism.kind == PrismKind::well;
-    for (int y = span.y0; y < span.y1; ++y) {
-        for (int x = span.x0; x < span.x1; ++x) {
-            const std::size_t i = tile.index(x, y);
-            const glm::vec2 from = tile.place[i] - shift - prism.frame.center;
-            const glm::vec2 local{dot(prism.frame.axis, from), dot(turned(prism.frame.axis), from)};
-            const float inside = std::min(prism.frame.half.x - std::abs(local.x),
-                                          prism.frame.half.y - std::abs(local.y));
-            const float cover = coverage(tile, inside);
-            if (cover <= 0.0F || (tile.height[i] >= prism.top) != well) {
-                continue;
-            }
-            blend(tile.color[i], prism_color(prism, local, tile, i), cover);
-            tile.height[i] = inside > 0.0F ? prism.top : tile.height[i];
+    for_each_sample(tile, warp, bounds_of(prism.frame, shift), [&](std::size_t i) {
+        const glm::vec2 from = tile.place[i] - shift - prism.frame.center;
+        const glm::vec2 local{dot(prism.frame.axis, from), dot(turned(prism.frame.axis), from)};
+        const glm::vec2 margin = prism.frame.half - glm::abs(local);
+        const float inside = std::min(margin.x, margin.y);
+        const float cover = coverage(tile, inside);
+        if (cover <= 0.0F || (tile.height[i] >= prism.top) != well) {
+            return;
         }
-    }
+        blend(tile.color[i], prism_color(prism, local, tile, i), cover);
+        tile.height[i] = inside > 0.0F ? prism.top : tile.height[i];
+    });
 }
 
 void paint_tree(Tile& tile, const Warp& warp, const Tree& tree, glm::vec2 shift) {
     Box box;
     box.add(tree.center + shift, tree.radius * 1.2F);
-    const Span span = span_of(tile, warp, box);
-    for (int y = span.y0; y < span.y1; ++y) {
-        for (int x = span.x0; x < span.x1; ++x) {
-            const std::size_t i = tile.index(x, y);
-            const float away = length(tile.place[i] - shift - tree.center) / tree.radius;
-            const float part = away * (1.0F + 0.35F * tile.fine[i]);
-            const float cover = coverage(tile, (1.0F - part) * tree.radius);
-            if (cover <= 0.0F) {
-                continue;
-            }
-            const float dome = std::sqrt(std::max(0.0F, 1.0F - part * part));
-            const float top = tree.height * (0.5F + 0.5F * dome) *
-                              (1.0F + 0.06F * tile.fine[i] + 0.05F * tile.grain[i]);
-            if (top <= tile.height[i]) {
-                continue;
-            }
-            const float light = 0.74F + 0.36F * dome + 0.13F * tile.grain[i] + 0.22F * tile.fine[i];
-            blend(tile.color[i], tree.color * light, cover);
-            tile.height[i] = part < 1.0F ? top : tile.height[i];
+    for_each_sample(tile, warp, box, [&](std::size_t i) {
+        const float away = length(tile.place[i] - shift - tree.center) / tree.radius;
+        const float part = away * (1.0F + 0.35F * tile.fine[i]);
+        const float cover = coverage(tile, (1.0F - part) * tree.radius);
+        const float dome = std::sqrt(std::max(0.0F, 1.0F - part * part));
+        const float top = tree.height * (0.5F + 0.5F * dome) *
+                          (1.0F + 0.06F * tile.fine[i] + 0.05F * tile.grain[i]);
+        if (cover <= 0.0F || top <= tile.height[i]) {
+            return;
         }
-    }
+        const float light = 0.74F + 0.36F * dome + 0.13F * tile.grain[i] + 0.22F * tile.fine[i];
+        blend(tile.color[i], tree.color * light, cover);
+        tile.height[i] = part < 1.0F ? top : tile.height[i];
+    });
 }
 
 } // namespace reljef::terrains::urban

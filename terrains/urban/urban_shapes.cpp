@@ -1,31 +1,12 @@
 #include "terrains/urban/urban_shapes.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reljef::terrains::urban {
 
-float dot(glm::vec2 a, glm::vec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
-float length(glm::vec2 v) {
-    return std::sqrt(dot(v, v));
-}
 glm::vec2 normalized(glm::vec2 v) {
     const float size = length(v);
     return size > 0.0F ? v * (1.0F / size) : glm::vec2{1.0F, 0.0F};
-}
-glm::vec2 turned(glm::vec2 v) {
-    return {-v.y, v.x};
-}
-
-void Box::add(const Box& other) {
-    low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y)};
-    high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y)};
-}
-
-void Box::add(glm::vec2 point, float margin) {
-    add(Box{{point.x - margin, point.y - margin}, {point.x + margin, point.y + margin}});
 }
 
 HalfPlane edge_plane(const Convex& shape, std::size_t i) {
@@ -91,10 +72,6 @@ Convex inset(const Convex& shape, float distance) {
     return inner;
 }
 
-glm::vec2 Frame::at(float along, float across) const {
-    return center + axis * along + turned(axis) * across;
-}
-
 Frame frame_along(const Convex& shape, glm::vec2 axis) {
     Box local;
     for (const glm::vec2 corner : shape.corners) {
@@ -138,10 +115,7 @@ std::vector<Convex> lots_of(const Convex& shape, const LotOptions& options, Rand
         if (piece.empty()) {
             continue;
         }
-        Frame frame = frame_of(piece);
-        if (frame.half.y > frame.half.x) {
-            frame = {frame.center, turned(frame.axis), {frame.half.y, frame.half.x}};
-        }
+        const Frame frame = frame_of(piece).lengthwise();
         if (area(piece) <= options.area || frame.half.x < options.min_width) {
             lots.push_back(piece);
             continue;

@@ -1,18 +1,18 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "terrains/natural/noise.h"
 
 namespace reljef::terrains::urban {
 
-/// A stream of numbers of a seed: the same on every machine.
+/// Random numbers that are the same on every machine.
 class Random {
 public:
     explicit Random(std::uint32_t seed) : seed_(seed) {}
@@ -32,36 +32,38 @@ private:
     std::int32_t count_ = 0;
 };
 
-/// What is over the next lower whole number, in [0, 1).
-inline float fraction(float value) {
-    return value - std::floor(value);
-}
-float dot(glm::vec2 a, glm::vec2 b);
-float length(glm::vec2 v);
+using glm::dot;
+using glm::fract;
+using glm::length;
+
+/// Unit vector; (1,0) for a vector of length 0.
 glm::vec2 normalized(glm::vec2 v);
-/// A quarter turn: the inward normal of an edge of a Convex.
-glm::vec2 turned(glm::vec2 v);
+/// A quarter turn counter-clockwise: the inward normal of an edge of a Convex.
+inline glm::vec2 turned(glm::vec2 v) {
+    return {-v.y, v.x};
+}
 
 /// Points with distance(p) >= 0; `normal` is a unit vector.
 struct HalfPlane {
     glm::vec2 normal{0.0F, 1.0F};
     float offset = 0.0F;
 
-    [[nodiscard]] float distance(glm::vec2 point) const {
-        return normal.x * point.x + normal.y * point.y - offset;
-    }
+    [[nodiscard]] float distance(glm::vec2 point) const { return dot(normal, point) - offset; }
 };
 
 struct Box {
     glm::vec2 low{1e30F, 1e30F};
     glm::vec2 high{-1e30F, -1e30F};
 
-    void add(const Box& other);
-    void add(glm::vec2 point, float margin = 0.0F);
+    void add(const Box& other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+    void add(glm::vec2 point, float margin = 0.0F) { add(Box{point - margin, point + margin}); }
+    [[nodiscard]] Box moved(glm::vec2 shift) const { return {low + shift, high + shift}; }
 };
 
-/// A convex polygon, metres; fewer than three corners mean that nothing is left. Inward is `turned`
-/// of an edge's direction.
+/// A convex polygon, counter-clockwise, metres. Polygons with fewer than three corners are empty.
 struct Convex {
     std::vector<glm::vec2> corners;
 
@@ -77,33 +79,39 @@ glm::vec2 centroid(const Convex& shape);
 /// Least distance to an edge's line, negative outside. Precondition: not empty.
 float inner_distance(const Convex& shape, glm::vec2 point);
 Convex clipped(const Convex& shape, const HalfPlane& keep);
-/// Every edge moved inward by `distance`; edges may vanish, and so may the whole.
+/// Moves every edge inward by `distance`. The result may have fewer edges or be empty.
 Convex inset(const Convex& shape, float distance);
 
-/// A box along the longest edge of a shape.
+/// An oriented rectangle.
 struct Frame {
     glm::vec2 center{0.0F, 0.0F};
-    glm::vec2 axis{1.0F, 0.0F}; ///< unit, along the longest edge
+    glm::vec2 axis{1.0F, 0.0F}; ///< unit vector
     glm::vec2 half{0.0F, 0.0F}; ///< half extents along axis and turned(axis)
 
-    [[nodiscard]] glm::vec2 at(float along, float across) const;
+    [[nodiscard]] glm::vec2 at(float along, float across) const {
+        return center + axis * along + turned(axis) * across;
+    }
+    /// The same rectangle with its axis along the longer side.
+    [[nodiscard]] Frame lengthwise() const {
+        return half.x >= half.y ? *this : Frame{center, turned(axis), {half.y, half.x}};
+    }
 };
+/// The bounding rectangle along the longest edge.
 Frame frame_of(const Convex& shape);
-/// The box around `shape` along a given unit vector.
+/// The bounding rectangle along a given unit vector.
 Frame frame_along(const Convex& shape, glm::vec2 axis);
 Convex rectangle(const Frame& frame);
-/// A regular polygon of eight corners.
 Convex octagon(glm::vec2 center, glm::vec2 half);
 
 struct LotOptions {
-    float area = 600.0F;    ///< pieces above this are cut, m^2
-    float jitter = 0.1F;    ///< the cut's place about the middle, as a part of the length
-    float min_width = 9.0F; ///< no piece gets narrower
+    float area = 600.0F;    ///< largest piece, m²
+    float jitter = 0.1F;    ///< offset of a cut from the middle, share of the length
+    float min_width = 9.0F; ///< of a piece, metres
 };
-/// A shape cut across its longest side until its pieces are small.
+/// Cuts a shape across its longest side until its pieces are small.
 std::vector<Convex> lots_of(const Convex& shape, const LotOptions& options, Random& random);
 
-/// What the painter needs of a convex shape.
+/// A convex shape with precomputed edges.
 struct Footprint {
     std::vector<HalfPlane> planes;
     Box bounds;

@@ -10,7 +10,7 @@ namespace {
 struct Planner {
     StreetPlan plan;
     Random random;
-    float scale = 1.0F; ///< of street widths, below 1 only where the whole city is tiny
+    float scale = 1.0F; ///< of street widths; below 1 in tiny cities
 
     explicit Planner(std::uint32_t seed) : random(seed) {}
 };
@@ -65,7 +65,7 @@ StreetKind kind_for(float length) {
     return length > 150.0F ? StreetKind::street : StreetKind::lane;
 }
 
-// A line across `frame.axis`, off the middle and off the square.
+// A line across `frame.axis` with a random offset and angle.
 HalfPlane cutting_line(const Frame& frame, Planner& planner) {
     Random& random = planner.random;
     const bool diagonal = frame.half.y > 100.0F && random.chance(0.22F);
@@ -87,15 +87,7 @@ bool good_piece(const Planner& planner, const Cell& cell) {
     return !inset(cell.outline, widest + 9.0F * planner.scale).empty();
 }
 
-Frame long_frame(const Convex& shape) {
-    const Frame frame = frame_of(shape);
-    if (frame.half.x >= frame.half.y) {
-        return frame;
-    }
-    return {frame.center, turned(frame.axis), {frame.half.y, frame.half.x}};
-}
-
-// The pieces of `cells` on both sides of one new street; nothing when a piece would be too thin.
+// The pieces of `cells` on both sides of a new street; none if a piece would be too thin.
 std::vector<Cell> divided(Planner& planner, const std::vector<Cell>& cells, const HalfPlane& line,
                           StreetKind kind) {
     const int street = add_street(planner, street_of(kind, planner), line);
@@ -137,7 +129,7 @@ void subdivide(Planner& planner, Cell domain) {
     while (!open.empty()) {
         const Cell cell = std::move(open.back());
         open.pop_back();
-        const Frame frame = long_frame(cell.outline);
+        const Frame frame = frame_of(cell.outline).lengthwise();
         std::vector<Cell> pieces;
         if (!is_block(frame, planner.random)) {
             pieces = pieces_of(planner, cell, frame);
@@ -149,7 +141,7 @@ void subdivide(Planner& planner, Cell domain) {
     }
 }
 
-// Upright boulevards that pass the seam of the period, with the west-east border street or river.
+// The cells between north-south boulevards and the west-east street or river at the seam.
 std::vector<Cell> columns(Planner& planner) {
     const float period = planner.plan.period;
     const bool large = period > 420.0F;
@@ -213,9 +205,9 @@ void find_junctions(StreetPlan& plan) {
     }
 }
 
-// Two parabolas instead of a sine: the same bits everywhere.
+// Two parabolas instead of a sine: they give the same bits on every machine.
 float wave(float turns) {
-    const float s = 2.0F * (turns - std::floor(turns)) - 1.0F;
+    const float s = 2.0F * fract(turns) - 1.0F;
     return 4.0F * s * (1.0F - std::abs(s));
 }
 

@@ -13,16 +13,16 @@ enum class StreetKind : std::uint8_t { lane, street, avenue, boulevard, river };
 struct Junction {
     float at = 0.0F;       ///< metres along this street
     float half = 0.0F;     ///< half the width of the other roadway along this street
-    bool crossing = false; ///< zebra stripes on this street's arms
+    bool crossing = false; ///< this street has zebra stripes here
 };
 
-/// A straight street of the plan.
+/// A straight street.
 struct Street {
     glm::vec2 origin{0.0F, 0.0F};
     glm::vec2 tangent{1.0F, 0.0F};
     float half_width = 8.0F; ///< from the middle to the blocks
     float sidewalk = 3.0F;
-    float water = 0.0F; ///< half the width of the water of a river, else 0
+    float water = 0.0F; ///< half the width of a river's water, else 0
     StreetKind kind = StreetKind::street;
     std::uint32_t seed = 0;
     std::vector<Junction> junctions; ///< by `at`
@@ -31,13 +31,13 @@ struct Street {
     [[nodiscard]] float along(glm::vec2 point) const { return dot(tangent, point - origin); }
 };
 
-/// What lies between the middles of the streets around one block.
+/// The area between the middles of the streets around a block.
 struct Cell {
     Convex outline;
     std::vector<int> streets; ///< index of the street under each edge
 };
 
-/// A gentle periodic bend of the plane: what makes straight streets sweep.
+/// A periodic deformation of the plane that makes straight streets curve.
 class Warp {
 public:
     Warp() = default;
@@ -45,12 +45,12 @@ public:
 
     [[nodiscard]] glm::vec2 city_from_ground(glm::vec2 ground) const;
     [[nodiscard]] glm::vec2 ground_from_city(glm::vec2 city) const;
-    /// No distance changes by more than this part.
+    /// Largest relative change of a distance.
     static constexpr float strain = 0.22F;
 
 private:
     struct Wave {
-        glm::vec2 turns{0.0F, 0.0F}; ///< whole waves per metre
+        glm::vec2 turns{0.0F, 0.0F}; ///< waves per metre
         glm::vec2 amplitude{0.0F, 0.0F};
         float phase = 0.0F;
     };
@@ -65,8 +65,8 @@ struct StreetPlan {
     Warp warp;
 };
 
-/// A hierarchical subdivision: boulevards and perhaps a river first, then avenues, streets and
-/// lanes, crossing or ending at each other. Precondition: period > 0.
+/// Divides a city by boulevards and a river, then by avenues, streets and lanes.
+/// Precondition: period > 0.
 StreetPlan plan_streets(float period, std::uint32_t seed);
 
 } // namespace reljef::terrains::urban

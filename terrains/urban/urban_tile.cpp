@@ -14,7 +14,7 @@ struct NoiseScale {
     std::uint32_t seed = 0;
 };
 
-// Noise on every step-th sample of the raster, and straight lines between.
+// Noise at every step-th sample of the raster, bilinear between them.
 std::vector<float> noise_of(const Raster& raster, const Tile& tile, const NoiseScale& scale) {
     const float extent = static_cast<float>(raster.size) * raster.spacing;
     const auto period = std::max(1, static_cast<std::int32_t>(std::lround(extent / scale.cell)));
@@ -24,9 +24,9 @@ std::vector<float> noise_of(const Raster& raster, const Tile& tile, const NoiseS
     Grid<float> nodes(nodes_x, nodes_y);
     for (int y = 0; y < nodes_y; ++y) {
         for (int x = 0; x < nodes_x; ++x) {
-            const glm::vec2 point{static_cast<float>(tile.col + x * scale.step) * per_sample,
-                                  static_cast<float>(tile.row + y * scale.step) * per_sample};
-            nodes(x, y) = fractal_noise(scale.seed, point, {scale.octaves, 0.6F, period});
+            const glm::vec2 sample(tile.col + x * scale.step, tile.row + y * scale.step);
+            nodes(x, y) =
+                fractal_noise(scale.seed, sample * per_sample, {scale.octaves, 0.6F, period});
         }
     }
     std::vector<float> values(tile.place.size());
@@ -49,10 +49,8 @@ void place_samples(Tile& tile, const Raster& raster, const Warp& warp) {
     for (int y = 0; y < tile.rows; ++y) {
         for (int x = 0; x < tile.cols; ++x) {
             const std::size_t i = tile.index(x, y);
-            const glm::vec2 ground{
-                raster.origin.x + static_cast<float>(tile.col + x) * raster.spacing,
-                raster.origin.y + static_cast<float>(tile.row + y) * raster.spacing};
-            tile.place[i] = warp.city_from_ground(ground);
+            const glm::vec2 sample(tile.col + x, tile.row + y);
+            tile.place[i] = warp.city_from_ground(raster.origin + sample * raster.spacing);
             tile.bounds.add(tile.place[i]);
             tile.grain[i] = 2.0F * unit_hash(raster.seed, tile.col + x, tile.row + y) - 1.0F;
         }
@@ -72,8 +70,7 @@ Tile make_tile(const Raster& raster, const Warp& warp, int col, int row, int col
     tile.cols = cols;
     tile.rows = rows;
     tile.spacing = raster.spacing;
-    tile.origin = {raster.origin.x + static_cast<float>(col) * raster.spacing,
-                   raster.origin.y + static_cast<float>(row) * raster.spacing};
+    tile.origin = raster.origin + glm::vec2(col, row) * raster.spacing;
     const std::size_t count = static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows);
     tile.place.resize(count);
     tile.color.resize(count, Color{0.4F, 0.4F, 0.4F});

@@ -1,9 +1,7 @@
 #include "engine/terrain/field/heightfield.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 #include "engine/core/check.h"
 

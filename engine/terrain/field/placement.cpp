@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 namespace reljef::terrain {
 

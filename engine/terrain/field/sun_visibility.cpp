@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
 namespace reljef::terrain {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "engine/terrain/mesh/bisection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

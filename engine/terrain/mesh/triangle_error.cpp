@@ -1,7 +1,6 @@
 #include "engine/terrain/mesh/triangle_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>

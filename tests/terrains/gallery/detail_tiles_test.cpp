@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "terrains/gallery/detail_cells.h"
+#include "terrains/natural/noise.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::terrains {
