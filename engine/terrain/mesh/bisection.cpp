@@ -10,37 +10,34 @@
 #include "engine/terrain/mesh/tile_layout.h"
 #include "engine/terrain/mesh/triangle_error.h"
 
-// The error of a triangle. On a plane a point of it is vertically off by what triangle_error()
-// gives, times the exaggeration X. On an ellipsoid a sample lies at G + X h N with the ground G and
-// the vertical N at its place, and a point that is the mean of the corners with the weights w is
-// off by
+// Error of a triangle. On a plane it is triangle_error() times the exaggeration X. On an ellipsoid
+// a sample lies at G + X h N with the ground G and the vertical N. A point with the barycentric
+// weights w has the error
 //   (Σ w G - G) + X Σ w (h - m) (N_corner - N) + X m (Σ w N - N) + X (Σ w h - h) N
-// for any height m. The first and third are a mean less the value of G + X m N, at most H² C / 8
-// for a longest edge of H samples and second derivatives up to C (the corners of a right triangle
-// lie on a circle of radius H/2 around its middle, and a linear interpolant is off by at most half
-// its square times C). With m in the middle of the corners' heights, which span R, and verticals
-// that turn by T a sample, the second is at most X R/2 · T · H/2, since Σ w |corner - point| <= H/2
-// (its square is at most Σ w |corner - point|² = (H/2)² - |point - middle|²).
+// for any height m. H is the longest edge in samples, C bounds the second derivatives.
+// - Terms 1 and 3 are together at most H² C / 8: the corners of a right triangle lie on a circle of
+//   radius H/2, and a linear interpolant has an error of at most half its square times C.
+// - Term 2 is at most X R/2 · T · H/2, with m in the middle of the corners' heights, which span R,
+//   and verticals that turn by T per sample: Σ w |corner - point| <= H/2, because its square is at
+//   most Σ w |corner - point|² = (H/2)² - |point - middle|².
 //
-// Inside a cell with twist t, half a square of size s <= 1 is off by X |t| s²/4 (the parabola along
-// its diagonal), and halved once more by a quarter of that. Heights in a square of size s span at
-// most g s, g the greatest differences of the cell along columns plus along rows. That makes
+// In a cell with twist t, half a square of size s <= 1 has the error X |t| s²/4 (the parabola along
+// its diagonal), and a quarter of that after one more split. Heights in the square span at most
+// g s; g is the largest difference of the cell along columns plus that along rows. This gives
 //   s²/4 (X |t|   + C   + √2 X g T) before the split at its middle (H = √2 s) and
 //   s²/4 (X |t|/4 + C/2 +    X g T) before those on its sides (H = s).
 //
-// What is below a split: splits below that in the middle of a square of size s lie within 1.5 s of
-// it in col and row, below that on a side within 1 s (s/2 + s/4 + s/4 + s/8 + …). So inside cells
-// the greatest over the cells in that reach bounds all below; at samples the greatest of the four
-// splits that need it.
+// Descendants of a split in the middle of a square of size s lie within 1.5 s of it in col and row,
+// those of a split on a side within 1 s (s/2 + s/4 + s/4 + s/8 + …). So the maximum over the cells
+// within that distance bounds all descendants. At samples it is the maximum of the four children.
 
 namespace reljef::terrain {
 namespace {
 
 constexpr double must_split = std::numeric_limits<double>::infinity();
 
-// Above the rounding of the sums in doubles and of the places in floats, and below all that counts:
-// balls grow by so much of their radius from one split to the one it needs.
-constexpr double ball_growth = 1.0 + 0x1p-20;
+// Spheres grow by this factor from child to parent, for the rounding of sums and positions.
+constexpr double sphere_growth = 1.0 + 0x1p-20;
 
 float rounded_up(double value) {
     const auto nearest = static_cast<float>(value);
@@ -56,15 +53,15 @@ void for_runs(int count, int at_once, const ParallelOptions& parallel, const Bod
                  {parallel.threads, parallel.stop, {}});
 }
 
-// Rows of samples that a thread does at a time.
+// Rows of samples per work item.
 constexpr int samples_at_once = 16;
 
 int floor_div(int value, int by) {
     return value >= 0 ? value / by : -((by - 1 - value) / by);
 }
 
-// Derivatives of the placement are differences over this part of the heightfield. They change
-// little over it; so much is added for what lies between.
+// Derivatives of the placement are differences on a lattice of 16×16 cells. The margins cover the
+// points in between.
 constexpr int lattice = 16;
 constexpr double first_margin = 1.0 + 0x1p-4;
 constexpr double second_margin = 2.0;
@@ -104,15 +101,14 @@ bool is_inside(GridView<const float> heights, glm::ivec2 sample) {
     return sample.x >= 0 && sample.y >= 0 && sample.x < heights.cols() && sample.y < heights.rows();
 }
 
-// Whether a part of the triangle lies on the heightfield, judged by the box around it: triangles
-// that end at a cell's border are never cut.
+// Whether the bounding box of the triangle overlaps the heightfield.
 bool reaches_in(GridView<const float> heights, const SampleTriangle& triangle) {
     const glm::ivec2 low = glm::min(triangle[0], glm::min(triangle[1], triangle[2]));
     const glm::ivec2 high = glm::max(triangle[0], glm::max(triangle[1], triangle[2]));
     return high.x > 0 && high.y > 0 && low.x < heights.cols() - 1 && low.y < heights.rows() - 1;
 }
 
-// The two triangles that a split at a sample halves; apexes first.
+// The two triangles of a split at a sample; apexes first.
 std::array<SampleTriangle, 2> halved_at(glm::ivec2 place, int size, bool on_side) {
     const auto [along, across] = halving_at(place, size, on_side);
     return {SampleTriangle{place + across, place - along, place + along},
@@ -127,14 +123,13 @@ Halving halving_at(glm::ivec2 place, int size, bool on_side) {
         const glm::ivec2 along = place.y % size == 0 ? glm::ivec2(half, 0) : glm::ivec2(0, half);
         return {along, {along.y, along.x}};
     }
-    // The diagonal of a square comes from the middle of the square around it and its three
-    // neighbours.
+    // The diagonal of a square ends in the middle of its parent square.
     const bool falls = (place.x / size + place.y / size) % 2 == 0;
     const int down = falls ? half : -half;
     return {{half, down}, {half, -down}};
 }
 
-// Finds the errors and balls of one level of splits from those of the level below.
+// Computes the errors and spheres of one level of splits from their children.
 class Bisection::LevelBuilder {
 public:
     LevelBuilder(Bisection& bisection, int size, bool on_side)
@@ -165,14 +160,14 @@ private:
     void build_split(glm::ivec2 place) {
         double error = own_error(place);
         double radius = 0.0;
-        const glm::dvec3 center = bisection_.place_of(place.x, place.y);
-        for_each_below(place, [&](const Split& below) {
-            error = std::max(error, below.error);
-            radius = std::max(radius, glm::distance(center, below.center) + below.radius);
+        const glm::dvec3 center = bisection_.position(place.x, place.y);
+        for_each_child(place, [&](const Split& child) {
+            error = std::max(error, child.error);
+            radius = std::max(radius, glm::distance(center, child.center) + child.radius);
         });
-        bisection_.kept(place, size_, on_side_) = {rounded_up(error),
-                                                   rounded_up(radius * ball_growth),
-                                                   bisection_.heights_(place.x, place.y)};
+        bisection_.stored(place, size_, on_side_) = {rounded_up(error),
+                                                     rounded_up(radius * sphere_growth),
+                                                     bisection_.heights_(place.x, place.y)};
     }
 
     double own_error(glm::ivec2 place) const {
@@ -202,17 +197,17 @@ private:
         return error;
     }
 
-    // The four that need this one, those beyond the border left out.
-    template <class Visit> void for_each_below(glm::ivec2 place, const Visit& visit) const {
+    // The up to four children on the heightfield.
+    template <class Visit> void for_each_child(glm::ivec2 place, const Visit& visit) const {
         const int reach = steps_per_sample * size_ / (on_side_ ? 4 : 2);
         const int size = steps_per_sample * size_ / (on_side_ ? 2 : 1);
         for (int i = 0; i < 4; ++i) {
             const glm::ivec2 offset = on_side_ ? glm::ivec2(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1)
                                                : glm::ivec2((i - 1) % 2, (i - 2) % 2);
-            const glm::ivec2 below = steps_per_sample * place + reach * offset;
-            if (below.x >= 0 && below.y >= 0 && below.x <= bisection_.end_.x &&
-                below.y <= bisection_.end_.y) {
-                visit(bisection_.split(below, size, !on_side_));
+            const glm::ivec2 child = steps_per_sample * place + reach * offset;
+            if (child.x >= 0 && child.y >= 0 && child.x <= bisection_.end_.x &&
+                child.y <= bisection_.end_.y) {
+                visit(bisection_.split(child, size, !on_side_));
             }
         }
     }
@@ -222,21 +217,31 @@ private:
     bool on_side_;
 };
 
-Bisection::Bisection(const Heightfield& heightfield, const Placement& placement, Empty)
+Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
+                     const ParallelOptions& parallel, CellsOnly)
     : heights_(heightfield.heights.view()), placement_(&placement),
       end_(steps_per_sample * glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
       middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
       metres_(heightfield.spacing, placement.exaggeration()),
       bending_(bending_of(heightfield, placement)) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
-    make_levels();
+    const glm::ivec2 samples(heights_.cols(), heights_.rows());
+    for (std::size_t level = 0; level < levels; ++level) {
+        const glm::ivec2 middles = splits_in_middles(samples, level);
+        in_middles_[level] = Grid<StoredSplit>(middles.x, middles.y);
+        if (level > 0) {
+            const glm::ivec2 sides = splits_on_sides(samples, level);
+            on_sides_[level] = Grid<StoredSplit>(sides.x, sides.y);
+        }
+    }
+    store_positions(parallel);
+    for_runs(in_middles_[0].rows(), samples_at_once, parallel,
+             [&](int first, int last) { store_cell_rows(first, last); });
 }
 
 Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      const ParallelOptions& parallel)
-    : Bisection(heightfield, placement, Empty{}) {
-    keep_places(parallel);
-    keep_cells(parallel);
+    : Bisection(heightfield, placement, parallel, CellsOnly{}) {
     double done = 0.0;
     for (int size = 2; size <= tile_cells; size *= 2) {
         LevelBuilder(*this, size, true).build(parallel);
@@ -244,7 +249,7 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
             LevelBuilder(*this, size, false).build(parallel);
         }
         if (parallel.progress) {
-            parallel.progress(++done / (levels - 1.0)); // each takes about as long
+            parallel.progress(++done / (levels - 1.0)); // all take about the same time
         }
     }
 }
@@ -268,7 +273,7 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
     return {first_margin * most.first, second_margin * most.second, first_margin * most.turn};
 }
 
-void Bisection::keep_places(const ParallelOptions& parallel) {
+void Bisection::store_positions(const ParallelOptions& parallel) {
     if (placement_->kind() == PlacementKind::plane) {
         return;
     }
@@ -282,38 +287,16 @@ void Bisection::keep_places(const ParallelOptions& parallel) {
                 {(i + 0.5) * tile_cells, (j + 0.5) * tile_cells, 0.0});
         }
     }
-    parallel_for(heights_.rows(),
-                 [&](int row) {
-                     for (int col = 0; col < heights_.cols(); ++col) {
-                         const glm::dvec3 world =
-                             placement_->world_from_sample({col, row, heights_(col, row)});
-                         offsets_(col, row) =
-                             glm::vec3(world - origins_(col / tile_cells, row / tile_cells));
-                     }
-                 },
-                 {parallel.threads, parallel.stop, {}});
+    const ParallelOptions silent{parallel.threads, parallel.stop, {}};
+    for_each_cell(heights_.cols(), heights_.rows(), silent, [&](int col, int row) {
+        const glm::dvec3 world = placement_->world_from_sample({col, row, heights_(col, row)});
+        offsets_(col, row) = glm::vec3(world - origins_(col / tile_cells, row / tile_cells));
+    });
 }
 
-void Bisection::make_levels() {
-    const glm::ivec2 samples(heights_.cols(), heights_.rows());
-    for (std::size_t level = 0; level < levels; ++level) {
-        const glm::ivec2 middles = splits_in_middles(samples, level);
-        in_middles_[level] = Grid<KeptSplit>(middles.x, middles.y);
-        if (level > 0) {
-            const glm::ivec2 sides = splits_on_sides(samples, level);
-            on_sides_[level] = Grid<KeptSplit>(sides.x, sides.y);
-        }
-    }
-}
-
-void Bisection::keep_cells(const ParallelOptions& parallel) {
-    for_runs(in_middles_[0].rows(), samples_at_once, parallel,
-             [&](int first, int last) { keep_cell_rows(first, last); });
-}
-
-void Bisection::keep_cell_rows(int first, int last) {
+void Bisection::store_cell_rows(int first, int last) {
     const int low = std::max(first - 1, 0);
-    Grid<KeptSplit>& cells = in_middles_[0];
+    Grid<StoredSplit>& cells = in_middles_[0];
     const int high = std::min(last + 1, cells.rows());
     Grid<CellBend> bends(cells.cols(), high - low);
     for (int row = low; row < high; ++row) {
@@ -330,27 +313,27 @@ void Bisection::keep_cell_rows(int first, int last) {
                 most.reach = std::max(most.reach, near.reach);
             }
             cells(col, row) = {rounded_up(0.25 * std::max(most.middle, most.side)),
-                               rounded_up(1.5 * most.reach * ball_growth + bending_.curvature),
+                               rounded_up(1.5 * most.reach * sphere_growth + bending_.curvature),
                                0.0F};
         }
     }
 }
 
-glm::dvec3 Bisection::place_of(int col, int row) const {
+glm::dvec3 Bisection::position(int col, int row) const {
     return offsets_.empty()
                ? placement_->world_from_sample({col, row, heights_(col, row)})
                : origins_(col / tile_cells, row / tile_cells) + glm::dvec3(offsets_(col, row));
 }
 
-// Bilinear between the cell's corners: on an ellipsoid off by less than its curvature.
-glm::dvec3 Bisection::place_in_cell(glm::ivec2 place) const {
+// Bilinear between the cell's corners. On an ellipsoid the error is below the curvature.
+glm::dvec3 Bisection::position_in_cell(glm::ivec2 place) const {
     const glm::ivec2 cell = glm::min(place, end_ - 1) / steps_per_sample;
     const glm::dvec2 part =
         glm::dvec2(place - steps_per_sample * cell) / static_cast<double>(steps_per_sample);
     const glm::dvec3 north =
-        glm::mix(place_of(cell.x, cell.y), place_of(cell.x + 1, cell.y), part.x);
+        glm::mix(position(cell.x, cell.y), position(cell.x + 1, cell.y), part.x);
     const glm::dvec3 south =
-        glm::mix(place_of(cell.x, cell.y + 1), place_of(cell.x + 1, cell.y + 1), part.x);
+        glm::mix(position(cell.x, cell.y + 1), position(cell.x + 1, cell.y + 1), part.x);
     return glm::mix(north, south, part.y);
 }
 
@@ -373,8 +356,8 @@ Bisection::CellBend Bisection::bend_of_cell(int col, int row) const {
 
 Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
     if (size == steps_per_sample && !on_side) {
-        const KeptSplit& cell = kept(place / steps_per_sample, 1, false);
-        return {cell.error, place_in_cell(place), cell.radius};
+        const StoredSplit& cell = stored(place / steps_per_sample, 1, false);
+        return {cell.error, position_in_cell(place), cell.radius};
     }
     const int reach = on_side ? size : 3 * size / 2;
     const glm::ivec2 last_cell = end_ / steps_per_sample - 1;
@@ -395,8 +378,8 @@ Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
         }
     }
     const double samples = static_cast<double>(size) / steps_per_sample;
-    return {0.25 * samples * samples * bend, place_in_cell(place),
-            longest * reach / steps_per_sample * ball_growth + bending_.curvature};
+    return {0.25 * samples * samples * bend, position_in_cell(place),
+            longest * reach / steps_per_sample * sphere_growth + bending_.curvature};
 }
 
 double Bisection::height(glm::ivec2 place) const {
@@ -410,7 +393,7 @@ double Bisection::height(glm::ivec2 place) const {
 glm::dvec3 Bisection::world(glm::ivec2 place) const {
     const glm::ivec2 sample = place / steps_per_sample;
     return steps_per_sample * sample == place
-               ? place_of(sample.x, sample.y)
+               ? position(sample.x, sample.y)
                : placement_->world_from_sample(
                      {glm::dvec2(place) / static_cast<double>(steps_per_sample), height(place)});
 }

@@ -27,7 +27,7 @@ std::size_t Bisection::bounds_count(glm::ivec2 samples) {
     return 2 * splits;
 }
 
-template <class Self, class Visit> void Bisection::for_each_kept(Self& self, const Visit& visit) {
+template <class Self, class Visit> void Bisection::for_each_stored(Self& self, const Visit& visit) {
     for (std::size_t level = 1; level < levels; ++level) {
         const int half = 1 << (level - 1);
         auto& middles = self.in_middles_[level];
@@ -49,7 +49,7 @@ template <class Self, class Visit> void Bisection::for_each_kept(Self& self, con
 std::vector<float> Bisection::bounds() const {
     std::vector<float> bounds;
     bounds.reserve(bounds_count({heights_.cols(), heights_.rows()}));
-    for_each_kept(*this, [&](const KeptSplit& split, glm::ivec2) {
+    for_each_stored(*this, [&](const StoredSplit& split, glm::ivec2) {
         bounds.push_back(split.error);
         bounds.push_back(split.radius);
     });
@@ -58,13 +58,11 @@ std::vector<float> Bisection::bounds() const {
 
 Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      std::span<const float> bounds, const ParallelOptions& parallel)
-    : Bisection(heightfield, placement, Empty{}) {
+    : Bisection(heightfield, placement, parallel, CellsOnly{}) {
     check(bounds.size() == bounds_count({heights_.cols(), heights_.rows()}),
           "the bounds of another bisection");
-    keep_places(parallel);
-    keep_cells(parallel);
     auto next = bounds.begin();
-    for_each_kept(*this, [&](KeptSplit& split, glm::ivec2 sample) {
+    for_each_stored(*this, [&](StoredSplit& split, glm::ivec2 sample) {
         split.error = *next++;
         split.radius = *next++;
         if (sample.x < heights_.cols() && sample.y < heights_.rows()) {

@@ -8,13 +8,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-// Vertices that rise. M(t) be the triangles for the error t, and what is drawn their mean over all
-// t from f E to E, for the most error E: no point of it is farther from its place than E, as none
-// of those is, and it follows the view without a step. The splits of each M(t) are among those of
-// M(f E), so the mean is linear over the triangles of that one. A vertex v that splits the edge
-// from a to b is a vertex of M(t) for the share w of these t that lies below its own error, and so
-// are then a and b; else it is in their middle. So
-//   mean(v) = w v + (mean(a) - w a + mean(b) - w b) / 2, or, with the moves d = mean - own place,
+// Geomorphing. M(t) is the mesh for the error bound t, E is max_error and f is morph_from. The
+// drawn mesh is the mean of M(t) over all t from f E to E. Its error is at most E, as that of each
+// M(t), and it changes continuously with the view. Each M(t) has a subset of the splits of M(f E),
+// so the mean is linear over the triangles of M(f E). A vertex v splits the edge from a to b. It is
+// a vertex of M(t), as are a and b, for the share w of these t that lies below its own error. For
+// the others it is the middle of a and b. So
+//   mean(v) = w v + (mean(a) - w a + mean(b) - w b) / 2, or, with the moves d = mean - position,
 //   d(v) = (d(a) + d(b)) / 2 - (1 - w) (v - (a + b) / 2).
 
 namespace reljef::terrain {
@@ -27,7 +27,7 @@ struct BisectionTriangle {
     glm::ivec2 right;
 };
 
-// Which split halves a triangle: in the middle of a square of `size` steps, or of one of its sides.
+// The split of a triangle: in the middle of a square of `size` steps, or of one of its sides.
 struct SplitKind {
     int size = 0;
     bool on_side = true;
@@ -38,15 +38,14 @@ SplitKind kind_below(SplitKind kind) {
 }
 
 constexpr std::uint16_t no_vertex = std::numeric_limits<std::uint16_t>::max();
-// Three vertices more must fit.
-constexpr std::size_t max_vertices = no_vertex - 3;
+constexpr std::size_t max_vertices = no_vertex - 3; // a triangle more must fit
 
 std::uint64_t key_of(glm::ivec2 place) {
     return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.x)) << 32U) |
            static_cast<std::uint32_t>(place.y);
 }
 
-// Numbers the vertices that triangles name.
+// Numbers vertices.
 class TriangulationWriter {
 public:
     explicit TriangulationWriter(const Tile& tile)
@@ -97,51 +96,57 @@ private:
     std::vector<Triangulation> parts_;
 };
 
-enum class Sight { none, part, whole };
+enum class Visibility { none, part, whole };
 
-Sight sight_of(const ErrorView& view, const Split& split) {
+Visibility visibility_of(const ErrorView& view, const Split& split) {
     double least = std::numeric_limits<double>::infinity();
     for (const glm::dvec4& side : view.sides) {
         least = std::min(least, glm::dot(glm::dvec3(side), split.center) + side.w);
     }
-    return least < -split.radius ? Sight::none : least > split.radius ? Sight::whole : Sight::part;
+    return least < -split.radius  ? Visibility::none
+           : least > split.radius ? Visibility::whole
+                                  : Visibility::part;
 }
 
-// Whether more than the most error may be seen of a split that is in sight. Precondition: its error
-// is finite.
-bool shows_more(const ErrorView& view, const Split& split) {
-    if (!view.perspective) {
-        return view.scale * split.error > view.max_error;
-    }
+// Smallest depth of a split's sphere.
+double depth_of(const ErrorView& view, const Split& split) {
     const double reach = view.stretch * split.radius;
-    const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
-    const double shown = view.scale * split.error;
-    // shown * (lateral + reach) > max_error * depth², without a root.
-    const double room = view.max_error * depth * depth - shown * reach;
-    const glm::dvec3 lateral = view.lateral_axes * split.center + view.lateral_origin;
-    return split.error > 0.0 &&
-           (depth <= 0.0 || room < 0.0 || shown * shown * glm::dot(lateral, lateral) > room * room);
+    return glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
 }
 
-// The error that is seen over the most. Precondition: it is seen, and finite.
-double shown_share(const ErrorView& view, const Split& split) {
+// Whether the screen-space error of a visible split may exceed the bound. Precondition: its error
+// is finite.
+bool exceeds_bound(const ErrorView& view, const Split& split) {
+    const double scaled = view.scale * split.error;
+    if (!view.perspective) {
+        return scaled > view.max_error;
+    }
+    const double depth = depth_of(view, split);
+    // scaled * (lateral + reach) > max_error * depth², without a root.
+    const double room = view.max_error * depth * depth - scaled * (view.stretch * split.radius);
+    const glm::dvec3 lateral = view.lateral_axes * split.center + view.lateral_origin;
+    return split.error > 0.0 && (depth <= 0.0 || room < 0.0 ||
+                                 scaled * scaled * glm::dot(lateral, lateral) > room * room);
+}
+
+// Screen-space error over max_error. Precondition: visible, with a finite error.
+double relative_error(const ErrorView& view, const Split& split) {
     if (!view.perspective) {
         return view.scale * split.error / view.max_error;
     }
-    const double reach = view.stretch * split.radius;
-    const double depth = glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
-    const double lateral =
-        glm::length(view.lateral_axes * split.center + view.lateral_origin) + reach;
+    const double depth = depth_of(view, split);
+    const double lateral = glm::length(view.lateral_axes * split.center + view.lateral_origin) +
+                           view.stretch * split.radius;
     return depth <= 0.0 ? std::numeric_limits<double>::infinity()
                         : view.scale * split.error * lateral / (view.max_error * depth * depth);
 }
 
-// The vertices of a tile that are not at their places.
-class RisingVertices {
+// The vertices of a tile that are not at their own positions.
+class MorphedVertices {
 public:
-    explicit RisingVertices(const Bisection& bisection) : bisection_(bisection) {}
+    explicit MorphedVertices(const Bisection& bisection) : bisection_(bisection) {}
 
-    // `share`: of its rise, in [0, 1].
+    // `share`: of the move from the edge to the own position, in [0, 1].
     void add(glm::ivec2 place, glm::ivec2 from, glm::ivec2 to, double share) {
         const VertexMove a = move_of(from);
         const VertexMove b = move_of(to);
@@ -169,20 +174,17 @@ private:
     std::unordered_map<std::uint64_t, VertexMove> moves_;
 };
 
-ErrorView view_of_first_rise(ErrorView view) {
-    view.max_error *= view.morph_from;
-    return view;
-}
-
 class TileBisector {
 public:
-    // `kept`: the splits that are made anyway; then none below the samples are.
+    // `required`: splits that are always made; then there are none below the samples.
     TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view,
-                 const Grid<std::uint8_t>* kept = nullptr)
-        : bisection_(bisection), morphed_(view), view_(view_of_first_rise(view)),
-          morphs_(view.morph_from < 1.0), kept_(kept), rising_(bisection),
-          first_(tile.col, tile.row), is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
-          at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {}
+                 const Grid<std::uint8_t>* required = nullptr)
+        : bisection_(bisection), morphed_(view), view_(view), morphs_(view.morph_from < 1.0),
+          required_(required), morphed_vertices_(bisection), first_(tile.col, tile.row),
+          is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
+          at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {
+        view_.max_error *= view.morph_from;
+    }
 
     std::vector<Triangulation> bisect(const Tile& tile) {
         const glm::ivec2 first = steps_per_sample * glm::ivec2(tile.col, tile.row);
@@ -197,8 +199,7 @@ public:
     }
 
 private:
-    // `kind` is that of the split that halves it; `is_seen`: the ball of the split that made it is
-    // seen as a whole, and so are those below.
+    // `is_seen`: the parent's sphere is completely visible, and so are all descendants'.
     void add(const BisectionTriangle& triangle, SplitKind kind, bool is_seen = false) {
         const Reach reach = is_whole_ ? Reach::inside : reach_of(triangle);
         if (reach == Reach::outside) {
@@ -212,7 +213,7 @@ private:
                 prefetch_below(triangle, middle, kind);
             }
             if (morphs_) {
-                rising_.add(middle, triangle.left, triangle.right, choice.risen);
+                morphed_vertices_.add(middle, triangle.left, triangle.right, choice.share);
             }
             add({middle, triangle.apex, triangle.left}, kind_below(kind), choice.is_seen);
             add({middle, triangle.right, triangle.apex}, kind_below(kind), choice.is_seen);
@@ -225,7 +226,7 @@ private:
         std::vector<Triangulation> parts = writer_.take();
         for (Triangulation& part : parts) {
             for (std::size_t i = 0; morphs_ && i < part.vertices.size(); ++i) {
-                part.moves.push_back(rising_.move_of(part.vertices[i]));
+                part.moves.push_back(morphed_vertices_.move_of(part.vertices[i]));
             }
         }
         return parts;
@@ -234,12 +235,12 @@ private:
     enum class Reach { inside, across, outside }; // of the heightfield
     struct Choice {
         bool splits = false;
-        bool is_seen = false; // the split's ball as a whole
+        bool is_seen = false; // the split's sphere is completely visible
         bool is_made = true;
-        double risen = 1.0; // share of the vertex's way to its place
+        double share = 1.0; // of the vertex's move to its own position
     };
 
-    // The splits of the two halves, and of theirs: they lie far apart in memory.
+    // The splits of children and grandchildren lie far apart in memory.
     void prefetch_below(const BisectionTriangle& triangle, glm::ivec2 middle,
                         SplitKind kind) const {
         const SplitKind next = kind_below(kind);
@@ -267,15 +268,15 @@ private:
             return {false, is_seen};
         }
         if (kind.size <= steps_per_sample) {
-            return kept_ != nullptr
+            return required_ != nullptr
                        ? Choice{false, is_seen}
                        : choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
         }
-        // Each is asked for by the triangles on its two sides.
         const glm::ivec2 sample = middle / steps_per_sample - first_;
-        if (kept_ != nullptr && (*kept_)(sample.x, sample.y) != 0) {
+        if (required_ != nullptr && (*required_)(sample.x, sample.y) != 0) {
             return {true, is_seen};
         }
+        // The triangles on both sides need it.
         Choice& choice = at_samples_(sample.x, sample.y);
         if (!choice.is_made) {
             choice = choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
@@ -287,28 +288,29 @@ private:
         if (std::isinf(split.error)) {
             return {true, is_seen};
         }
-        if (!shows_more(view_, split)) {
+        if (!exceeds_bound(view_, split)) {
             return {false, is_seen};
         }
-        const Sight sight = is_seen ? Sight::whole : sight_of(view_, split);
-        return {sight != Sight::none, sight == Sight::whole, true, risen_by(split)};
+        const Visibility seen = is_seen ? Visibility::whole : visibility_of(view_, split);
+        return {seen != Visibility::none, seen == Visibility::whole, true, share_of(split)};
     }
 
-    [[nodiscard]] double risen_by(const Split& split) const {
+    [[nodiscard]] double share_of(const Split& split) const {
         const double from = morphed_.morph_from;
-        return morphs_ ? std::clamp((shown_share(morphed_, split) - from) / (1.0 - from), 0.0, 1.0)
-                       : 1.0;
+        return morphs_
+                   ? std::clamp((relative_error(morphed_, split) - from) / (1.0 - from), 0.0, 1.0)
+                   : 1.0;
     }
 
     const Bisection& bisection_;
     const ErrorView& morphed_;
-    ErrorView view_; // of the error where vertices begin to rise
+    ErrorView view_; // its max_error is the error where morphing begins
     bool morphs_;
-    const Grid<std::uint8_t>* kept_;
-    RisingVertices rising_;
+    const Grid<std::uint8_t>* required_;
+    MorphedVertices morphed_vertices_;
     glm::ivec2 first_;        // sample of the tile
-    bool is_whole_;           // no triangle of it ends beyond the heightfield
-    Grid<Choice> at_samples_; // of the tile, where made
+    bool is_whole_;           // the tile has tile_cells cells on each side
+    Grid<Choice> at_samples_; // by sample of the tile
     TriangulationWriter writer_;
 };
 
@@ -316,7 +318,7 @@ private:
 
 bool exceeds(const ErrorView& view, const Split& split) {
     return std::isinf(split.error) ||
-           (sight_of(view, split) != Sight::none && shows_more(view, split));
+           (visibility_of(view, split) != Visibility::none && exceeds_bound(view, split));
 }
 
 std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,
@@ -325,8 +327,8 @@ std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& t
 }
 
 Triangulation triangulate_samples(const Bisection& bisection, const Tile& tile,
-                                  const ErrorView& view, const Grid<std::uint8_t>& kept) {
-    return TileBisector(bisection, tile, view, &kept).bisect(tile).front();
+                                  const ErrorView& view, const Grid<std::uint8_t>& required) {
+    return TileBisector(bisection, tile, view, &required).bisect(tile).front();
 }
 
 } // namespace reljef::terrain

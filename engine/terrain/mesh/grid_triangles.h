@@ -8,9 +8,10 @@
 
 namespace reljef::terrain {
 
-/// Two triangles for each of cols × rows quads over a grid of (cols + 1) × (rows + 1) vertices that
-/// are numbered row after row: counter-clockwise seen from where columns grow to the right and rows
-/// downwards, split from the first to the last corner. Precondition: `Index` reaches all vertices.
+/// Two triangles for each of cols × rows quads over (cols + 1) × (rows + 1) vertices, which are
+/// numbered row after row. With columns to the right and rows downwards, triangles are
+/// counter-clockwise, and the diagonal runs from the first to the last corner.
+/// Precondition: `Index` reaches all vertices.
 template <class Index> std::vector<Index> grid_triangles(int cols, int rows) {
     check(static_cast<std::size_t>(cols + 1) * static_cast<std::size_t>(rows + 1) - 1 <=
               std::numeric_limits<Index>::max(),

@@ -19,7 +19,7 @@ HeightRange range_of(const Grid<float>& heights, const Tile& tile) {
     return range;
 }
 
-// How far a row of three places bends away from the line: the second difference.
+// The second difference of three places.
 glm::dvec3 bend(glm::dvec3 from, glm::dvec3 middle, glm::dvec3 to) {
     return glm::abs(from - 2.0 * middle + to);
 }
@@ -45,9 +45,8 @@ std::vector<Tile> cut(const Heightfield& heightfield, const Placement& placement
 
 } // namespace
 
-// The box around the nine border and middle places at the lowest and highest height. On a curved
-// Earth the ground bulges out between them, at most by an eighth of the second differences along
-// and across; twice that is added.
+// The box around nine places at the lowest and highest height. On the ellipsoid the ground bulges
+// between them by at most an eighth of the second differences along and across. A quarter is added.
 Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last,
                   HeightRange range) {
     Box box;

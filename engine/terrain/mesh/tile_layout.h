@@ -8,8 +8,8 @@
 
 namespace reljef::terrain {
 
-/// A rectangle of cells: samples col … col+cols and row … row+rows, both ends included. Neighbours
-/// share their border samples.
+/// A rectangle of cells: samples col … col+cols and row … row+rows, ends included. Neighbours share
+/// their border samples.
 struct Tile {
     int col = 0;
     int row = 0;
@@ -18,22 +18,21 @@ struct Tile {
     Box bounds;   ///< of the placed surface, scene metres
 };
 
-/// Cells along a tile's side: 129² vertices, so that 16-bit indices reach them all.
+/// Cells along a tile's side. 16-bit indices reach its 129² vertices.
 inline constexpr int tile_cells = 128;
 
-/// Cuts a heightfield into tiles of at most `tile_cells` cells a side, row after row, with true
-/// bounds.
+/// Cuts a heightfield into tiles of at most `tile_cells` cells a side, row after row.
 std::vector<Tile> tile_layout(const Heightfield& heightfield, const Placement& placement);
 
-/// The same tiles with the bounds of the flat reference surface at `height` metres.
+/// The same tiles with the bounds of a flat surface at `height` metres.
 std::vector<Tile> flat_tile_layout(const Heightfield& heightfield, const Placement& placement,
                                    double height);
 
-/// The box around the surface between samples `first` and `last` where its heights, metres, are in
-/// `range`, scene metres.
+/// Bounding box of the surface between samples `first` and `last`, scene metres. `range`: heights
+/// of the surface, metres.
 Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last, HeightRange range);
 
-/// The middle of the height range: where the flat reference surface lies.
+/// The middle of the height range, where the flat reference surface lies.
 double reference_height(const Heightfield& heightfield);
 
 } // namespace reljef::terrain

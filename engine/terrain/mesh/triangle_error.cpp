@@ -5,14 +5,13 @@
 #include <limits>
 #include <span>
 
-// Why this is exact. Over a cell the surface less the triangle's plane is a + b u + c v + t u v
-// with the cell's twist t = h00 - h10 - h01 + h11: a saddle, or a plane where t = 0, so it has no
-// extremum inside any region. The triangle's edges run along cell borders or through opposite
-// corners of cells, so it covers a cell wholly, or one half of it. A region's border consists of
-// sides of the cell, where the difference is linear and greatest at a sample, and of the cell's
-// diagonal, where it is the parabola d0 + (d1 - d0 - s) x + s x² with s = t from the first to the
-// last corner, where uv = x², and s = -t across, where uv = x - x². All samples of the triangle and
-// the vertices of the parabolas along its diagonal edges thus hold the greatest.
+// Why this is exact. In a cell with the twist t = h00 - h10 - h01 + h11, surface minus plane is
+// a + b u + c v + t u v: a saddle or a plane, without an extremum inside a region. The triangle
+// covers a cell completely or one half of it, because its edges run along cell borders or through
+// opposite corners. Along the sides of the cell the difference is linear, with its maximum at a
+// sample. Along the diagonal it is the parabola d0 + (d1 - d0 - s) x + s x², with s = t from the
+// first to the last corner (uv = x²) and s = -t across (uv = x - x²). So the maximum lies at a
+// sample of the triangle or at a parabola's vertex on a diagonal edge.
 
 namespace reljef::terrain {
 namespace {
@@ -41,13 +40,13 @@ SlopedPlane plane_through(GridView<const float> heights, const SampleTriangle& t
     return {a, height, (at_p * q.y - at_q * p.y) / area, (at_q * p.x - at_p * q.x) / area};
 }
 
-// A side of a triangle: the column where it crosses a row, within its rows.
-struct Side {
+struct TriangleSide {
     glm::ivec2 upper;
     glm::ivec2 lower;
     int cols_per_row = 0; // -1, 0 or 1
 
-    Side(glm::ivec2 a, glm::ivec2 b) : upper(a.y <= b.y ? a : b), lower(a.y <= b.y ? b : a) {
+    TriangleSide(glm::ivec2 a, glm::ivec2 b)
+        : upper(a.y <= b.y ? a : b), lower(a.y <= b.y ? b : a) {
         cols_per_row =
             upper.y == lower.y ? 0 : (lower.x > upper.x ? 1 : 0) - (lower.x < upper.x ? 1 : 0);
     }
@@ -62,7 +61,7 @@ struct ColumnSpan {
         first = std::min(first, col);
         last = std::max(last, col);
     }
-    void add_side(const Side& side, int row) {
+    void add_side(const TriangleSide& side, int row) {
         if (row < side.upper.y || row > side.lower.y) {
             return;
         }
@@ -73,7 +72,7 @@ struct ColumnSpan {
     }
 };
 
-// Of |height - plane| over columns of a row. Four at a time, which do not wait for each other.
+// Maximum of |height - plane| along a row. Four independent maxima keep the pipeline full.
 double greatest_in_row(std::span<const float> heights, double begin, double by_col) {
     std::array<double, 4> greatest{};
     const std::size_t whole = heights.size() / 4 * 4;
@@ -88,18 +87,19 @@ double greatest_in_row(std::span<const float> heights, double begin, double by_c
     for (std::size_t i = whole; i < heights.size(); ++i) {
         greatest[0] = std::max(greatest[0], over(i));
     }
-    return std::max(std::max(greatest[0], greatest[1]), std::max(greatest[2], greatest[3]));
+    return std::max({greatest[0], greatest[1], greatest[2], greatest[3]});
 }
 
 double greatest_at_samples(GridView<const float> heights, const SampleTriangle& triangle,
                            const SlopedPlane& plane) {
-    const std::array sides{Side(triangle[0], triangle[1]), Side(triangle[1], triangle[2]),
-                           Side(triangle[2], triangle[0])};
+    const std::array sides{TriangleSide(triangle[0], triangle[1]),
+                           TriangleSide(triangle[1], triangle[2]),
+                           TriangleSide(triangle[2], triangle[0])};
     const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
     double greatest = 0.0;
     for (int row = low; row <= high; ++row) {
         ColumnSpan span;
-        for (const Side& side : sides) {
+        for (const TriangleSide& side : sides) {
             span.add_side(side, row);
         }
         const auto first = static_cast<std::size_t>(span.first);

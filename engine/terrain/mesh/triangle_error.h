@@ -11,9 +11,8 @@ namespace reljef::terrain {
 /// Three samples (col, row) whose edges run along columns, rows or diagonals of cells.
 using SampleTriangle = std::array<glm::ivec2, 3>;
 
-/// The greatest vertical distance between a triangle through three samples and the bilinear
-/// surface, over every point of the triangle, in the heights' unit. Exact but for the rounding of
-/// doubles. Precondition: the samples are on the grid and span a triangle.
+/// Largest vertical distance between a triangle and the bilinear surface, in the heights' unit.
+/// Exact except for rounding. Precondition: the samples are on the grid and span a triangle.
 double triangle_error(GridView<const float> heights, const SampleTriangle& triangle);
 
 } // namespace reljef::terrain

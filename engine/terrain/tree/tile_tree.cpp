@@ -9,7 +9,7 @@
 namespace reljef::terrain {
 
 TileTree::TileTree(int cols, int rows, bool wraps_longitude)
-    : last_(cols - 1, rows - 1), is_around_(wraps_longitude) {
+    : last_(cols - 1, rows - 1), wraps_longitude_(wraps_longitude) {
     check(std::min(cols, rows) >= 2 && std::max(cols, rows) <= max_tree_samples,
           "a tile tree needs 2 to 2^30 samples a side");
     while (tile_cells * step({levels_ - 1, 0, 0}) < std::max(last_.x, last_.y)) {
@@ -18,7 +18,7 @@ TileTree::TileTree(int cols, int rows, bool wraps_longitude)
 }
 
 int TileTree::other_end(int col) const {
-    const bool is_end = is_around_ && (col == 0 || col == last_.x);
+    const bool is_end = wraps_longitude_ && (col == 0 || col == last_.x);
     return is_end ? last_.x - col : col;
 }
 
