@@ -10,15 +10,15 @@
 namespace reljef::terrain {
 namespace {
 
-// The ground at a place of the heightfield, in the scene frame: the way from one sample to the next
-// one along the columns (east) and against the rows (north), metres, and the unit vector up.
+// Local axes of the sample grid in the scene frame: the vectors to the next sample along the
+// columns (east) and against the rows (north), metres, and the unit vector up.
 struct Axes {
     glm::dvec3 east{1.0, 0.0, 0.0};
     glm::dvec3 north{0.0, 1.0, 0.0};
     glm::dvec3 up{0.0, 0.0, 1.0};
 };
 
-// Which samples of a heightfield are the source's own, and how its ends meet.
+// The border of a heightfield, which may wrap around the Earth and contain the poles.
 class Border {
 public:
     explicit Border(const Heightfield& heightfield)
@@ -31,14 +31,15 @@ public:
     [[nodiscard]] bool is_pole(int row) const {
         return row < closing().north_rows() || row > last_.y - closing().south_rows();
     }
-    // A place moved to where there is one half a sample to each side that exists.
-    [[nodiscard]] glm::dvec2 low() const { return {closing().around ? -1.0 : 0.0, first_row()}; }
+    // Limits of the places that differences may use.
+    [[nodiscard]] glm::dvec2 low() const {
+        return {closing().around ? -1.0 : 0.0, closing().north_rows()};
+    }
     [[nodiscard]] glm::dvec2 high() const {
         return {last_.x + (closing().around ? 1 : 0), last_.y - closing().south_rows()};
     }
 
-    // Rise per sample along the columns (east) and against the rows (north), metres, from
-    // neighbours that exist.
+    // Rise per sample along the columns (east) and against the rows (north), metres.
     [[nodiscard]] glm::dvec2 rise(const Grid<float>& heights, int col, int row) const {
         const bool around = closing().around;
         const int west = col > 0 ? col - 1 : around ? last_.x - 1 : 0;
@@ -53,14 +54,11 @@ public:
 
 private:
     [[nodiscard]] const geo::GlobalWrap& closing() const { return rows_.closing(); }
-    [[nodiscard]] int first_row() const { return closing().north_rows(); }
-
     glm::ivec2 last_;
     geo::ClosedRows rows_;
 };
 
-// By differences over a sample, or half of one at the border: beyond it there may be no place on
-// Earth.
+// Differences over a sample, or half a sample at the border: the map may end there.
 Axes axes_at(const Placement& placement, glm::dvec2 sample, const Border& border) {
     const auto place = [&](double col, double row) {
         return placement.world_from_sample({col, row, 0.0});
@@ -80,8 +78,7 @@ Axes between(const Axes& a, const Axes& b, double t) {
             a.up + t * (b.up - a.up)};
 }
 
-// The ground axes at most 32 samples apart, border to border; they turn so slowly that between them
-// linear is enough.
+// The axes at most 32 samples apart, linear in between.
 class AxesGrid {
 public:
     AxesGrid(const Placement& placement, int cols, int rows, const Border& border)
@@ -108,9 +105,9 @@ private:
     glm::dvec2 step_;
 };
 
-// Ground beyond the horizon of a whole Earth leans over; it counts as upright.
+// Smallest z of a normal. Ground beyond the horizon of a whole Earth overhangs.
 constexpr double min_upright = 1e-6;
-// Of the way to the north: shorter ways to the east are at a pole.
+// Length of the east axis over that of the north axis; smaller ratios are at a pole.
 constexpr double min_east = 1e-6;
 
 glm::vec2 slope_of(glm::dvec3 normal) {

@@ -8,14 +8,13 @@
 
 namespace reljef::terrain {
 
-/// Slope of the placed surface at every sample in the scene frame: (∂z/∂x, ∂z/∂y), rise over run,
-/// so that the surface normal is along (−∂z/∂x, −∂z/∂y, 1). From central differences inside and
-/// one-sided ones at the border, times the exaggeration; an ellipsoid's own curvature is in it.
-/// Precondition: at least 2×2 samples.
+/// Gradient (∂z/∂x, ∂z/∂y) of the placed surface at every sample in the scene frame, rise over run:
+/// central differences inside, one-sided at the border. It includes the exaggeration and the
+/// ellipsoid's curvature. Precondition: at least 2×2 samples.
 Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement& placement);
 
-/// The grid's own directions at a sample, in the scene frame, as unit columns: east along the
-/// columns, north against the rows, up. They are the frame's own only where the rows run east.
+/// The grid's axes at a sample in the scene frame, as unit columns: along the columns (east),
+/// against the rows (north), up.
 glm::dmat3 grid_axes(const Heightfield& heightfield, const Placement& placement, glm::dvec2 sample);
 
 } // namespace reljef::terrain

@@ -8,7 +8,7 @@
 namespace reljef::terrain {
 namespace {
 
-/// The samples around a position and how far it lies between them.
+/// The cell of a position, and the position inside it.
 struct Cell {
     int col = 0;
     int row = 0;
@@ -31,13 +31,13 @@ Cell cell_at(int cols, int rows, glm::dvec2 sample) {
     return cell;
 }
 
-/// Averages and how much each rests on: 0 nothing known, 1 all.
+/// A level of the pyramid.
 struct Level {
     Grid<float> average;
-    Grid<float> weight;
+    Grid<float> weight; // share of known heights, [0,1]
 };
 
-/// One level coarser: weighted averages of 2×2, each weight the sum of the four up to 1.
+/// The next coarser level: weighted averages of 2×2 samples. Weights are sums, at most 1.
 template <class Average, class Weight>
 Level pulled(int cols, int rows, const Average& average, const Weight& weight) {
     Level level{Grid<float>((cols + 1) / 2, (rows + 1) / 2),
@@ -59,7 +59,7 @@ Level pulled(int cols, int rows, const Average& average, const Weight& weight) {
     return level;
 }
 
-/// The coarser level's value at a finer sample: bilinear between the centres of its 2×2 blocks.
+/// The coarser level's value at a finer sample, bilinear.
 float value_from(const Level& coarse, int col, int row) {
     const glm::dvec2 sample(0.5 * col - 0.25, 0.5 * row - 0.25);
     return static_cast<float>(bilinear_height(coarse.average.view(), sample));

@@ -10,10 +10,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-// A ray from above the ground that is below it later has passed through it in between, and from
-// above: there something is seen that is nearer than all behind. A stretch is a sector between two
-// radii a < b. A ray of the slope s (height over distance) crosses all of it, and is below the
-// lowest height h of it, over the eye, at one end at least: where s b < h with h < 0, or s a < h.
+// A ray that begins above the ground and is below it later has passed through it. A stretch is the
+// part of a sector between two radii a < b, with the lowest ground h above the eye. A ray of the
+// slope s (height over distance) crosses all of it and is below h at one end at least: if s b < h
+// for h < 0, else if s a < h.
 
 namespace reljef::terrain {
 namespace {
@@ -24,32 +24,9 @@ glm::dvec2 direction(double azimuth) {
     return {std::cos(azimuth), std::sin(azimuth)};
 }
 
-// In samples; of places in the scene frame, metres.
+// `place` in the scene frame, metres.
 glm::dvec2 sample_of(glm::dvec2 place, glm::dvec2 last, glm::dvec2 spacing) {
     return {0.5 * last.x + place.x / spacing.x, 0.5 * last.y - place.y / spacing.y};
-}
-
-// Over a rectangle of samples, in metres: of the four blocks at most that hold it.
-HeightRange range_within(const MinMaxPyramid& pyramid, glm::dvec2 low, glm::dvec2 high) {
-    const Grid<MinMax>& cells = pyramid.level(0);
-    const glm::ivec2 last_cell(cells.cols() - 1, cells.rows() - 1);
-    glm::ivec2 first = glm::min(glm::ivec2(low), last_cell);
-    glm::ivec2 last = glm::min(glm::ivec2(high), last_cell);
-    int level = 0;
-    while (last.x - first.x > 1 || last.y - first.y > 1) {
-        first /= 2;
-        last /= 2;
-        ++level;
-    }
-    const Grid<MinMax>& blocks = pyramid.level(level);
-    MinMax range = blocks(first.x, first.y);
-    for (int row = first.y; row <= last.y; ++row) {
-        for (int col = first.x; col <= last.x; ++col) {
-            range.low = std::min(range.low, blocks(col, row).low);
-            range.high = std::max(range.high, blocks(col, row).high);
-        }
-    }
-    return {range.low, range.high};
 }
 
 GroundRange ground_of(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
@@ -62,18 +39,20 @@ GroundRange ground_of(const Heightfield& heightfield, const MinMaxPyramid& pyram
         if (!(first.x >= 0.0 && first.y >= 0.0 && end.x <= last.x && end.y <= last.y)) {
             return std::nullopt;
         }
-        const HeightRange range = range_within(pyramid, first, end);
+        const glm::ivec2 last_cell(last - 1.0);
+        const MinMax range = pyramid.bounds(glm::min(glm::ivec2(first), last_cell),
+                                            glm::min(glm::ivec2(end), last_cell));
         return HeightRange{exaggeration * range.low, exaggeration * range.high};
     };
 }
 
-// Of the box as it is seen from the eye: from where on, to where, and how high.
+// A box as seen from the eye.
 struct SeenBox {
-    double nearest = 0.0; // metres, along the ground
-    double azimuth = 0.0; // of its middle
-    double before = 0.0;  // radians from there to its ends
+    double nearest = 0.0; // horizontal distance, metres
+    double azimuth = 0.0; // of the middle
+    double before = 0.0;  // radians from the middle to the ends
     double after = 0.0;
-    double slope = 0.0; // no point of it is seen higher
+    double slope = 0.0; // of the highest ray to the box
 };
 
 SeenBox seen_from(glm::dvec3 eye, const Box& box) {
@@ -122,7 +101,7 @@ Horizon::Horizon(GroundRange ground, const HorizonReach& reach, const HorizonVie
     : ground_(std::move(ground)), view_(view),
       sector_angle_(2.0 * std::numbers::pi / reach.sectors),
       sectors_(static_cast<std::size_t>(reach.sectors)) {
-    // The most is at 45 degrees.
+    // The maximum is at 45 degrees.
     rectangle_growth_ =
         std::sqrt(2.0) * std::cos(0.25 * std::numbers::pi - 0.5 * sector_angle_) + 0x1p-10;
     for (double radius = std::max(reach.first, view.near); radius < reach.growth * reach.last;
@@ -133,7 +112,7 @@ Horizon::Horizon(GroundRange ground, const HorizonReach& reach, const HorizonVie
 
 bool Horizon::hides(const Box& box) {
     const SeenBox seen = seen_from(view_.eye, box);
-    // The last stretch that ends before it begins.
+    // The last stretch that ends before the box begins.
     const double end = seen.nearest / rectangle_growth_;
     const auto stretch = std::upper_bound(radii_.begin(), radii_.end(), end) - radii_.begin() - 2;
     const double angle = std::atan(seen.slope) + view_.margin;
@@ -142,7 +121,7 @@ bool Horizon::hides(const Box& box) {
     }
     const double slope = std::tan(angle);
     const auto count = static_cast<int>(sectors_.size());
-    // One more on each side is for the rounding.
+    // One more sector on each side, for rounding.
     const int first =
         static_cast<int>(std::floor((seen.azimuth + seen.before) / sector_angle_)) - 1;
     const int last = static_cast<int>(std::floor((seen.azimuth + seen.after) / sector_angle_)) + 1;
@@ -155,7 +134,7 @@ bool Horizon::hides(const Box& box) {
     return true;
 }
 
-// Behind the stretches up to that one, it included.
+// The steepest hidden slope behind the stretches 0 to `stretch`.
 double Horizon::steepest_before(int sector, std::size_t stretch) {
     std::vector<double>& slopes = sectors_[static_cast<std::size_t>(sector)];
     while (slopes.size() <= stretch) {
@@ -165,9 +144,9 @@ double Horizon::steepest_before(int sector, std::size_t stretch) {
     return slopes[stretch];
 }
 
-// Nothing where the ground does not cover it.
+// Empty if the ground does not cover the stretch.
 std::optional<double> Horizon::slope_of(int sector, std::size_t stretch) const {
-    // The tangent to the outer arc in its middle meets the sides there.
+    // Where the tangent in the middle of the outer arc meets the sides.
     const double outside = 1.0 / std::cos(0.5 * sector_angle_);
     const glm::dvec2 right = direction(sector * sector_angle_);
     const glm::dvec2 left = direction((sector + 1) * sector_angle_);

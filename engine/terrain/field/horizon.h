@@ -14,43 +14,40 @@
 
 namespace reljef::terrain {
 
-/// Who looks over a terrain, metres of the placement's scene frame.
+/// Metres of the placement's scene frame.
 struct HorizonView {
     glm::dvec3 eye{0.0};
-    double near = 0.0;   ///< no ray begins farther from the eye
-    double margin = 0.0; ///< radians, >= 0: what hides is seen so much higher than what is hidden
+    double near = 0.0;   ///< largest distance from the eye to the start of a ray
+    double margin = 0.0; ///< radians, >= 0; occluders appear higher than hidden objects by this
 };
 
-/// Between which heights (z, scene metres) the ground lies over a rectangle of the plane (x and y,
-/// metres); nothing where it does not cover all of it. More than there is does no harm.
+/// Bounds of the ground (z, scene metres) over a rectangle (x and y, metres). Empty if the ground
+/// does not cover the rectangle. Bounds may be too wide.
 using GroundRange = std::function<std::optional<HeightRange>(glm::dvec2 low, glm::dvec2 high)>;
 
-/// The stretches of ground that a horizon looks at: begin so far from the eye, and end, metres; and
-/// how fine they are.
+/// The part of the ground that a horizon uses.
 struct HorizonReach {
-    double first = 1.0;
-    double last = 1.0;
-    int sectors = 256;                ///< >= 8
-    double growth = 1.0 + 1.0 / 16.0; ///< > 1, of the distance from each to the next
+    double first = 1.0;               ///< nearest distance, metres
+    double last = 1.0;                ///< farthest distance, metres
+    int sectors = 256;                ///< of azimuth, >= 8
+    double growth = 1.0 + 1.0 / 16.0; ///< ratio of consecutive distances, > 1
 };
 
-/// How high ground over a plane rises around an eye above it, from below: in each of some
-/// sectors of azimuth, and for each of some distances, the steepest ray that is sure to have passed
-/// through ground on the way (the lowest height of each stretch of a sector). A stretch is looked
-/// at when it is first asked for, and never again.
+/// Conservative occlusion by ground on a plane, seen from an eye above it. For each sector of
+/// azimuth and each distance it holds the steepest slope that is certainly hidden, from the lowest
+/// height of each stretch. Stretches are evaluated on demand.
 class Horizon {
 public:
-    /// Precondition: the eye stands clear of the ground, above it (by more than view.near).
+    /// Precondition: the eye is more than view.near above the ground.
     Horizon(GroundRange ground, const HorizonReach& reach, const HorizonView& view);
-    /// Of a heightfield, by its pyramid; absent where nothing can be said: the placement is bent,
-    /// or the eye does not stand clear of the ground, above it. All of them outlive the horizon.
+    /// Empty on an ellipsoid, or if the eye is not more than view.near above the ground. The
+    /// pyramid outlives the horizon.
     static std::optional<Horizon> create(const Heightfield& heightfield,
                                          const MinMaxPyramid& pyramid, const Placement& placement,
                                          const HorizonView& view);
 
-    /// Whether every ray from the eye to a point in the box passes through ground before, by more
-    /// than the margin. Never yes where one does not. Only ground that is nearer than the box is
-    /// looked at.
+    /// Whether ground that is nearer than the box hides all of it by the margin. Conservative:
+    /// false in doubt.
     [[nodiscard]] bool hides(const Box& box);
 
 private:
@@ -60,9 +57,9 @@ private:
     GroundRange ground_;
     HorizonView view_;
     double sector_angle_ = 0.0;     // radians
-    double rectangle_growth_ = 1.0; // a stretch's rectangle reaches at most so many times as far
+    double rectangle_growth_ = 1.0; // reach of a stretch's bounding rectangle over its radius
     std::vector<double> radii_;     // metres; stretch i lies between radii i and i + 1
-    // By sector, as far as asked for: the steepest slope that is hidden behind stretches 0 … i.
+    // By sector, as far as evaluated: the steepest slope that is hidden behind stretches 0 … i.
     std::vector<std::vector<double>> sectors_;
 };
 

@@ -45,4 +45,16 @@ MinMaxPyramid::MinMaxPyramid(GridView<const float> heights) {
     }
 }
 
+MinMax MinMaxPyramid::bounds(glm::ivec2 first, glm::ivec2 last) const {
+    int index = 0;
+    while (last.x - first.x > 1 || last.y - first.y > 1) {
+        first /= 2;
+        last /= 2;
+        ++index;
+    }
+    const Grid<MinMax>& blocks = level(index);
+    return merged(merged(blocks(first.x, first.y), blocks(last.x, first.y)),
+                  merged(blocks(first.x, last.y), blocks(last.x, last.y)));
+}
+
 } // namespace reljef::terrain

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "engine/core/grid.h"
 
 namespace reljef::terrain {
@@ -12,9 +14,9 @@ struct MinMax {
     float high = 0.0F;
 };
 
-/// Bounds of a bilinear height surface over blocks of 2^level × 2^level cells, a cell being the
-/// square between four neighbouring samples. Level 0 has (cols−1)×(rows−1) blocks, the last level
-/// one. The bounds are exact: a bilinear patch lies between its corners' lowest and highest.
+/// Bounds of a bilinear height surface over blocks of 2^level × 2^level cells. A cell lies between
+/// four samples. Level 0 has (cols−1)×(rows−1) blocks, the last level one. The bounds are exact: a
+/// bilinear patch has its extrema at its corners.
 class MinMaxPyramid {
 public:
     MinMaxPyramid() = default;
@@ -25,8 +27,11 @@ public:
     [[nodiscard]] const Grid<MinMax>& level(int index) const {
         return levels_[static_cast<std::size_t>(index)];
     }
-    /// Over the whole surface. Precondition: not default-made.
+    /// Of the whole surface. Precondition: not default-constructed.
     [[nodiscard]] MinMax total() const { return levels_.back()(0, 0); }
+    /// Of the at most four blocks that contain the cells `first` to `last`.
+    /// Precondition: cells of the surface.
+    [[nodiscard]] MinMax bounds(glm::ivec2 first, glm::ivec2 last) const;
 
 private:
     std::vector<Grid<MinMax>> levels_;

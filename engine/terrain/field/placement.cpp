@@ -91,8 +91,7 @@ glm::dvec3 Placement::north(glm::dvec3 world) const {
         return frame_->local_direction(
             geo::north_from_geodetic(position->latitude, position->longitude));
     }
-    // Degrees: metres on the ground, and never across a pole.
-    constexpr double step = 1e-5;
+    constexpr double step = 1e-5; // degrees, away from the nearer pole
     const double toward = position->latitude > 0.0 ? -step : step;
     const auto beside =
         world_from_geodetic({position->latitude + toward, position->longitude, position->height});

@@ -11,20 +11,18 @@
 
 namespace reljef::terrain {
 
-/// Of the heights; more would leave nothing of a terrain's shape, and less precision than is shown.
+/// Larger factors leave too little precision.
 inline constexpr double largest_exaggeration = 1e6;
 
 enum class PlacementKind { plane, ellipsoid };
 
-/// Where the samples of a heightfield stand in the scene frame (metres, x east, y north, z up).
-/// A sample is (col, row, height in true metres). Plane: x = (col − (cols−1)/2)·dx,
-/// y = ((rows−1)/2 − row)·dy, z = height·exaggeration. Ellipsoid: the WGS 84 position, with height·
-/// exaggeration above the ellipsoid, or above the geoid where the georeference has one, in the
-/// local frame at the centre of the heightfield.
+/// Maps samples of a heightfield (col, row, height in true metres) to the scene frame (metres, x
+/// east, y north, z up). Plane: x = (col − (cols−1)/2)·dx, y = ((rows−1)/2 − row)·dy,
+/// z = height·exaggeration. Ellipsoid: the WGS 84 position with height·exaggeration above the
+/// ellipsoid, or above the georeference's geoid, in the local frame at the centre.
 class Placement {
 public:
-    /// Plane, or ellipsoid; fails when an ellipsoid is asked for without a georeference, or the
-    /// exaggeration is not a finite number > 0. `heightfield` is read now and not kept.
+    /// Errors: an ellipsoid without a georeference, an exaggeration out of range.
     static Result<Placement> create(const Heightfield& heightfield, PlacementKind kind,
                                     double exaggeration = 1.0);
 
@@ -32,24 +30,21 @@ public:
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
     [[nodiscard]] glm::dvec3 world_from_sample(glm::dvec3 sample) const;
-    /// The sample below, at or above a world position; nothing where the Earth's other side or the
-    /// map's own limits leave none. May lie outside the heightfield.
+    /// The inverse; may lie outside the heightfield. Empty outside the map's domain.
     [[nodiscard]] std::optional<glm::dvec3> sample_from_world(glm::dvec3 world) const;
-    /// Unit vector away from the Earth at a world position.
+    /// Unit vector along the local vertical.
     [[nodiscard]] glm::dvec3 up(glm::dvec3 world) const;
-
-    /// Unit vector towards true north at a world position, level there: on a plane that of the map.
-    /// Without a georeference y.
+    /// Horizontal unit vector towards true north; y without a georeference.
     [[nodiscard]] glm::dvec3 north(glm::dvec3 world) const;
 
-    /// WGS 84, with the height in true metres; nothing without a georeference, and on a plane
-    /// beside the map, where a latitude would be beyond the poles or no number.
+    /// WGS 84 with the height in true metres. Empty without a georeference or outside the map's
+    /// domain.
     [[nodiscard]] std::optional<geo::Geodetic> geodetic_from_world(glm::dvec3 world) const;
     [[nodiscard]] std::optional<glm::dvec3> world_from_geodetic(geo::Geodetic position) const;
 
 private:
     Placement() = default;
-    /// Of the heights' zero above the ellipsoid, metres; 0 where the geoid is not known.
+    /// Geoid height above the ellipsoid, metres; 0 without a geoid.
     [[nodiscard]] double zero_at(glm::dvec2 latitude_longitude) const;
 
     glm::dvec2 center_{0.0};  // col, row

@@ -29,12 +29,12 @@ Roots solve_quadratic(double a, double b, double c) {
     return {{low, high}, 2};
 }
 
-// Follows one ray front to back through the blocks of the pyramid and remembers on which side of
-// the surface it is. It goes down where a block may be touched, and up one level where it leaves a
-// parent. Neighbours share the t of the plane between them, so no crossing falls between two.
+// Follows a ray front to back through the blocks of the pyramid and stores on which side of the
+// surface it is. It descends where the ray may touch a block, and ascends one level where the ray
+// leaves a parent. Neighbours share the t of the plane between them, so that no crossing is missed.
 class Traversal {
 public:
-    // `side`: where the ray is known to be before its range begins.
+    // `side`: of the ray before its range begins.
     Traversal(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& ray,
               Side side)
         : heights_(heights), pyramid_(pyramid), ray_(ray), side_(side),
@@ -42,7 +42,7 @@ public:
         for (int axis = 0; axis < 2; ++axis) {
             inverse_[axis] = 1.0 / ray.direction[axis];
             if (!std::isfinite(inverse_[axis])) {
-                inverse_[axis] = 0.0; // it stays where it is
+                inverse_[axis] = 0.0;
             }
         }
     }
@@ -58,7 +58,7 @@ public:
         return hit_;
     }
 
-    // Where the last stretch over the surface lay.
+    // Of the last stretch over the surface.
     [[nodiscard]] Side side() const { return side_; }
 
 private:
@@ -68,12 +68,12 @@ private:
 
     [[nodiscard]] double z_at(double t) const { return ray_.origin.z + t * ray_.direction.z; }
 
-    // When the ray passes the line between cells `line` − 1 and `line`.
+    // The t of the line between cells `line` − 1 and `line`.
     [[nodiscard]] double time_at(int axis, int line) const {
         return (line - ray_.origin[axis]) * inverse_[axis];
     }
 
-    // The part of `range` over the grid, by one coordinate.
+    // The part of `range` over the grid, along one axis.
     [[nodiscard]] Interval clipped(Interval range, int axis) const {
         if (inverse_[axis] == 0.0) {
             const double place = ray_.origin[axis];
@@ -83,7 +83,7 @@ private:
         return {std::max(range.begin, in), std::min(range.end, out)};
     }
 
-    // Above the highest sample there is nothing to meet.
+    // The part of `range` below the highest sample.
     Interval clipped_to_top(Interval range) {
         const double above = z_at(range.begin) - pyramid_.total().high;
         if (range.begin < range.end && above > 0.0) {
@@ -101,13 +101,13 @@ private:
                block_.y < blocks.rows();
     }
 
-    // Nothing of the surface lies ahead.
+    // No surface lies ahead.
     [[nodiscard]] bool has_escaped() const {
         return (side_ == Side::above && ray_.direction.z >= 0.0 && z_ > pyramid_.total().high) ||
                (side_ == Side::below && ray_.direction.z <= 0.0 && z_ < pyramid_.total().low);
     }
 
-    // When the ray leaves the block it is in.
+    // The t where the ray leaves its block.
     [[nodiscard]] double leaving_time(int axis) const {
         if (inverse_[axis] == 0.0) {
             return std::numeric_limits<double>::infinity();
@@ -133,7 +133,7 @@ private:
         advance(leaving_x <= end, leaving_y <= end);
     }
 
-    // Whether the ray clears all of a block until it leaves it at `z`.
+    // Whether the ray passes above or below a block that it leaves at height `z`.
     bool passes(MinMax bounds, double z) {
         const auto [lowest, highest] = std::minmax({z_, z});
         if (lowest > bounds.high) {
@@ -147,7 +147,7 @@ private:
         return false;
     }
 
-    // To the quarter in which the ray is now.
+    // To the child block that contains the ray.
     void descend() {
         --level_;
         for (int axis = 0; axis < 2; ++axis) {
@@ -163,7 +163,7 @@ private:
         return inverse_[axis] > 0.0 ? t_ >= time_at(axis, line) : t_ < time_at(axis, line);
     }
 
-    // To the next block, and to its parent where that is another one than before.
+    // To the next block, or to its parent if that changes.
     void advance(bool along_x, bool along_y) {
         const bool left_parent_x = along_x && leave_block(0);
         const bool left_parent_y = along_y && leave_block(1);
@@ -180,8 +180,8 @@ private:
         return (block_[axis] % 2 == 0) == forward;
     }
 
-    // Height of the ray above the bilinear patch is a quadratic in τ = t − range.begin; between its
-    // roots the sign is constant and read in the middle. The ray ends at `z`.
+    // The height of the ray above the bilinear patch is a quadratic in τ = t − range.begin. Between
+    // its roots the sign is constant. The ray leaves the cell at height `z`.
     void visit_cell(Interval range, double z) {
         const double h00 = heights_(block_.x, block_.y);
         const double h10 = heights_(block_.x + 1, block_.y);
@@ -218,7 +218,7 @@ private:
         }
     }
 
-    // One stretch of the ray that begins at t and lies `height` above the surface.
+    // A stretch of the ray that begins at t, `height` above the surface.
     void pass(double height, double t) {
         if (height > 0.0) {
             side_ = Side::above;
@@ -233,12 +233,12 @@ private:
     GridView<const float> heights_;
     const MinMaxPyramid& pyramid_;
     Ray ray_;
-    glm::dvec2 inverse_{0.0}; // of the direction; 0: along the other axis
+    glm::dvec2 inverse_{0.0}; // 1 / direction; 0 for a ray that does not move along the axis
     Side side_;
     int level_;
-    glm::ivec2 block_{0}; // on that level
-    double t_ = 0.0;      // where the ray is, its height there
-    double z_ = 0.0;
+    glm::ivec2 block_{0}; // on level_
+    double t_ = 0.0;      // position of the ray
+    double z_ = 0.0;      // its height there
     double end_ = 0.0;
     std::optional<double> hit_;
 };

@@ -10,32 +10,30 @@
 
 namespace reljef::terrain {
 
-/// Where a ray meets a bilinear height surface.
+/// The intersection of a ray with a bilinear height surface.
 struct SurfaceHit {
     double t = 0.0;         ///< along the ray
     glm::dvec3 sample{0.0}; ///< col, row, height (metres)
 };
 
-/// The first crossing from above to below of a ray given in sample coordinates (col, row, height; t
-/// in [begin, end]) with the bilinear surface of `heights`. The ray is walked cell by cell below
-/// the blocks of the pyramid that it can touch; in each cell the surface along the ray is a
-/// quadratic in t and is solved as one: no marching, no tolerance. A ray that enters beneath the
-/// surface at the border goes on until it meets a front face (Tevs et al. 2008 for the traversal).
-/// A ray that is not finite meets nothing. Precondition: `pyramid` was made from `heights`.
+/// The first crossing from above to below of a ray in sample coordinates (col, row, height) with
+/// the bilinear surface. The pyramid skips blocks that the ray cannot touch (Tevs et al. 2008). In
+/// each cell the crossing is the exact root of a quadratic in t. A ray that enters beneath the
+/// surface at the border continues to a front face. A ray that is not finite has no hit.
+/// Precondition: `pyramid` was made from `heights`.
 std::optional<SurfaceHit> first_hit(GridView<const float> heights, const MinMaxPyramid& pyramid,
                                     const Ray& sample_ray, Interval range);
 
-/// On which side of the surface a ray is.
+/// Side of the surface that a ray is on.
 enum class Side { unknown, above, below };
 
-/// What a stretch of a ray met, and on which side of the surface it was left.
 struct Stretch {
     std::optional<SurfaceHit> hit;
-    Side side = Side::unknown;
+    Side side = Side::unknown; ///< at the end
 };
 
-/// As first_hit, of a ray that was on `side` before its range begins: for rays that are followed
-/// piece by piece. Not over the grid at all, it keeps its side. Precondition: finite.
+/// As first_hit() for a piece of a ray that was on `side` before. A piece that is not over the grid
+/// keeps its side. Precondition: finite.
 Stretch follow(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& sample_ray,
                Interval range, Side side);
 

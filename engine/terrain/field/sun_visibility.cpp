@@ -10,15 +10,15 @@ namespace {
 
 constexpr double sun_angular_radius = 0.265 * 3.14159265358979323846 / 180.0;
 
-// The sweep runs over lines of samples (rows when the light comes mostly from north or south, else
-// columns), each looking at the line before it, towards the sun.
+// The sweep runs over lines of samples: rows if the light comes mostly from north or south, else
+// columns. Each line uses the previous one, towards the sun.
 struct Sweep {
     bool by_rows;
     int lines, line_length;
-    int first, direction; // line index order, away from the sun
-    double shift;         // samples along a line from one line to the previous one
-    double run;           // metres over the ground from one line to the previous one
-    bool around = false;  // columns go all around: the last is the first
+    int first, direction; // order of the lines, away from the sun
+    double shift;         // samples along a line to the previous line
+    double run;           // horizontal metres to the previous line
+    bool around = false;  // the last column is the same place as the first
 };
 
 Sweep sweep_along(GridView<const float> heights, glm::dvec2 spacing, glm::dvec3 to_sun) {
@@ -41,30 +41,30 @@ float sample(GridView<const float> heights, bool by_rows, int line, int index) {
     return by_rows ? heights(index, line) : heights(line, index);
 }
 
-// Samples beyond the border that still count as on it: a sun in the south by its cosine.
+// Rounding of a sun's direction, samples: places so close to the border count as on it.
 constexpr double border_slack = 1e-6;
 
 // The upper edge of a shadow over a sample.
 struct Edge {
     double height = -1e30; // metres
-    double run = 0.0;      // metres over the ground from what throws it
+    double run = 0.0;      // horizontal metres from the occluder
 };
 
 Edge between(Edge a, Edge b, double t) {
     return {std::lerp(a.height, b.height, t), std::lerp(a.run, b.run, t)};
 }
 
-// The highest edges over one line of samples, from the line before it.
+// The highest shadow edges over a line of samples.
 class ShadowFront {
 public:
-    // `drop`: metres that an edge falls from line to line. `widening`: what counts as high is an
-    // edge's height and so many metres for each metre of its run.
+    // `drop`: metres that an edge falls from line to line. The highest edge is the one with the
+    // largest height + widening * run.
     ShadowFront(GridView<const float> heights, const Sweep& sweep, double exaggeration, double drop,
                 double widening)
         : heights_(heights), sweep_(sweep), exaggeration_(exaggeration), drop_(drop),
           widening_(widening), edges_(static_cast<std::size_t>(sweep.line_length)), next_(edges_) {}
 
-    // Moves to `line`; `previous` is the line before it.
+    // Moves to the next line.
     void advance(int previous) {
         for (int i = 0; i < sweep_.line_length; ++i) {
             const double last = sweep_.line_length - 1;
@@ -72,7 +72,7 @@ public:
             const double place = std::clamp(desired, 0.0, last);
             Edge& edge = next_[static_cast<std::size_t>(i)];
             if (std::abs(desired - place) > border_slack) {
-                edge = {}; // nothing is known beyond the border
+                edge = {}; // beyond the border
                 continue;
             }
             const int left = static_cast<int>(place);
@@ -84,8 +84,8 @@ public:
         std::swap(edges_, next_);
     }
 
-    // Share of the sun that is seen from a height over a sample of the line, not yet in [0,1]: a
-    // penumbra of a disc of `spread` metres for each metre of run, at least `least` metres high.
+    // Visible share of the sun at a height over a sample, not clamped to [0,1]. The penumbra is
+    // `spread` metres per metre of run to each side, and at least `least` metres high.
     [[nodiscard]] double share(int index, double height, double spread, double least) const {
         const Edge& edge = edges_[static_cast<std::size_t>(index)];
         return 0.5 - (edge.height - height) / std::max(2.0 * spread * edge.run, least);
@@ -111,8 +111,8 @@ private:
     std::vector<Edge> next_;
 };
 
-// The lines in their order, each with the one before it: twice around where they go around, so that
-// the first ones know what stands before them.
+// The lines in order, each with the previous one. Lines around the Earth are swept twice, so that
+// the first ones see the last.
 std::vector<std::pair<int, int>> lines_of(const Sweep& sweep) {
     const bool twice = sweep.around && !sweep.by_rows;
     const int last = sweep.lines - 1;
@@ -137,16 +137,16 @@ Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spac
     const bool below = !(to_sun.z > 0.0);
     Grid<std::uint8_t> visible(heights.cols(), heights.rows(), below ? 0 : 255);
     if (below || heights.empty() || horizontal <= 1e-9 * to_sun.z) {
-        return visible; // nothing lit, or a sun in the zenith: no shadow reaches a sample away
+        return visible; // night, or a sun in the zenith
     }
     const glm::dvec3 unit_run = to_sun / horizontal;
     Sweep sweep = sweep_along(heights, spacing, unit_run);
     sweep.around = around && heights.cols() >= 2;
     const double drop = sweep.run * unit_run.z;
-    // Half the disc as metres of height on a metre of run; even its lower limb's rays fall.
+    // Half the disc as metres of height per metre of run. The rays of the lower limb still fall.
     const double spread =
         std::min(sun_angular_radius * (1.0 + unit_run.z * unit_run.z), 0.5 * unit_run.z);
-    // What hides the disc's middle, and what reaches farthest into its other half.
+    // The edges that hide the disc's middle, and those that reach farthest into its upper half.
     ShadowFront deep(heights, sweep, exaggeration, drop, 0.0);
     ShadowFront wide(heights, sweep, exaggeration, drop, spread);
     for (const auto& [line, previous] : lines_of(sweep)) {

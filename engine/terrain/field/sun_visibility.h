@@ -9,12 +9,11 @@
 
 namespace reljef::terrain {
 
-/// Share of the sun's disc that each sample sees over the terrain around it, 0 (shadow) to 255
-/// (all), found in one sweep along the light: the shadow's height over the ground is carried from
-/// sample to sample and falls with the sun's altitude. The penumbra is that of a disc 0.53° wide
-/// (the sun's), at least half a sample. `to_sun` points towards the sun (x east, y north, z up);
-/// `spacing` in metres over the exaggeration. A sun on or below the horizon leaves nothing lit.
-/// `around`: the last column lies where the first does, and shadows fall across.
+/// Visible share of the sun's disc at each sample, 0 (shadow) to 255 (all). A sweep along the light
+/// carries the shadow's height from sample to sample. The penumbra is that of a disc 0.53° wide, at
+/// least half a sample. `to_sun` points towards the sun (x east, y north, z up); `spacing` is in
+/// metres. Nothing is lit by a sun at or below the horizon. `around`: the last column is the same
+/// place as the first.
 Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spacing,
                                   double exaggeration, glm::dvec3 to_sun, bool around = false);
 

@@ -13,15 +13,15 @@ namespace {
 constexpr double bend_tolerance = 1e-3;    // samples, and metres of height
 constexpr double quartic_tolerance = 1e-5; // the same
 constexpr int max_halvings = 24;
-constexpr int max_halvings_unmapped = 8; // of a stretch without a place on the map
+constexpr int max_halvings_unmapped = 8; // of a stretch outside the map's domain
 
-// A place on a world ray and where that is on the grid; nowhere where the map has no place for it.
+// A point of a world ray.
 struct RayPlace {
     double t = 0.0;
-    std::optional<glm::dvec3> sample;
+    std::optional<glm::dvec3> sample; // empty outside the map's domain
 };
 
-// How far the middle of a stretch lies from the straight line: samples, and metres of height.
+// Distance of the middle of a stretch from its chord: samples, and metres of height.
 struct Bend {
     double across = 0.0;
     double height = 0.0;
@@ -32,8 +32,7 @@ Bend bend_of(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
     return {glm::length(glm::dvec2(off)), std::abs(off.z)};
 }
 
-// A box around a stretch, with twice the room that its bend asks for; nothing where it is bent so
-// much that its middle says little about the rest.
+// A bounding box of a stretch with a margin of twice its bend. Empty for a strongly bent stretch.
 std::optional<Box> box_around(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to) {
     constexpr double max_bend = 0.25; // of the chord
     const Bend bend = bend_of(from, halfway, to);
@@ -48,31 +47,19 @@ std::optional<Box> box_around(glm::dvec3 from, glm::dvec3 halfway, glm::dvec3 to
     return Box{box.low - room, box.high + room};
 }
 
-// Bounds of the surface below a box; nothing where the box is not over the grid.
+// Bounds of the surface below a box; empty if the box is not over the grid.
 std::optional<MinMax> bounds_below(const MinMaxPyramid& pyramid, const Box& box) {
     const glm::dvec2 cells(pyramid.level(0).cols(), pyramid.level(0).rows());
     if (box.high.x < 0.0 || box.high.y < 0.0 || box.low.x > cells.x || box.low.y > cells.y) {
         return std::nullopt;
     }
-    glm::ivec2 low(glm::clamp(glm::dvec2(box.low), glm::dvec2(0.0), cells - 1.0));
-    glm::ivec2 high(glm::clamp(glm::dvec2(box.high), glm::dvec2(0.0), cells - 1.0));
-    int level = 0;
-    while (high.x - low.x > 1 || high.y - low.y > 1) {
-        low /= 2;
-        high /= 2;
-        ++level;
-    }
-    const Grid<MinMax>& blocks = pyramid.level(level);
-    MinMax bounds = blocks(low.x, low.y);
-    for (const MinMax& block :
-         {blocks(high.x, low.y), blocks(low.x, high.y), blocks(high.x, high.y)}) {
-        bounds = {std::min(bounds.low, block.low), std::max(bounds.high, block.high)};
-    }
-    return bounds;
+    const glm::dvec2 low = glm::clamp(glm::dvec2(box.low), glm::dvec2(0.0), cells - 1.0);
+    const glm::dvec2 high = glm::clamp(glm::dvec2(box.high), glm::dvec2(0.0), cells - 1.0);
+    return pyramid.bounds(glm::ivec2(low), glm::ivec2(high));
 }
 
-// Through five places of a ray, evenly apart in t (Newton's form): good for 100 km, at a hundredth
-// of the map's own cost.
+// Interpolates five points of a ray, evenly spaced in t (Newton's form). It is accurate over 100 km
+// and 100 times as fast as the map.
 class Quartic {
 public:
     Quartic(const RayPlace& first, const RayPlace& second, const RayPlace& third,
@@ -97,7 +84,7 @@ public:
         return {t, sample};
     }
 
-    // Whether it meets another place of the ray too.
+    // Whether it interpolates this point, too.
     [[nodiscard]] bool meets(const RayPlace& place) const {
         if (!place.sample) {
             return false;
@@ -112,7 +99,7 @@ private:
     std::array<glm::dvec3, 5> differences_; // divided, of order 0 to 4
 };
 
-// A world ray as seen in sample coordinates, followed front to back.
+// A world ray in sample coordinates, followed front to back.
 class BentRay {
 public:
     BentRay(GridView<const float> heights, const MinMaxPyramid& pyramid, const Placement& placement,
@@ -154,7 +141,7 @@ private:
         const RayPlace after = place_at(middle_of(halfway, to));
         if (mapped && before.sample && after.sample) {
             const Quartic quartic(from, before, halfway, after, to);
-            // Where it is farthest off: next to the ends.
+            // The error is largest near the ends.
             if (quartic.meets(place_at(middle_of(from, before))) &&
                 quartic.meets(place_at(middle_of(after, to)))) {
                 return first_hit_on(quartic, from, to, halvings);
@@ -164,7 +151,7 @@ private:
         return hit ? hit : first_hit_between(halfway, after, to, halvings - 1);
     }
 
-    // As first_hit_between, where the quartic is as good as the map.
+    // As first_hit_between(), with the quartic instead of the map.
     std::optional<SurfaceHit> first_hit_on(const Quartic& quartic, const RayPlace& from,
                                            const RayPlace& to, int halvings) {
         const RayPlace halfway = quartic.at(middle_of(from, to));
@@ -201,7 +188,7 @@ private:
             return false;
         }
         if (below && side_ == Side::above) {
-            return false; // it went through at the joint
+            return false; // it passed through the surface between two stretches
         }
         // Beyond the border the ray is neither above nor below.
         const bool over = surface && is_over_surface(to);
@@ -224,9 +211,8 @@ private:
         return stretch.hit;
     }
 
-    // The surface as the ray itself meets it, near a hit of its chord: the first step by the slope
-    // of the chord over the surface, the others by secants. The hit as it is where they come no
-    // closer.
+    // Moves a hit of the chord along the ray onto the surface: first by the slope of the chord over
+    // the surface, then by secants, while the clearance falls.
     [[nodiscard]] SurfaceHit moved_onto_surface(const SurfaceHit& hit, const RayPlace& from,
                                                 const RayPlace& to) const {
         constexpr int max_secants = 4;
@@ -247,7 +233,7 @@ private:
         return best.sample ? SurfaceHit{best.t, *best.sample} : hit;
     }
 
-    // Change of the chord's height over the surface with t.
+    // Derivative of the chord's clearance by t.
     [[nodiscard]] double slope_over_surface(const SurfaceHit& hit, const RayPlace& from,
                                             const RayPlace& to) const {
         constexpr double part = 1e-3; // of the chord
@@ -256,7 +242,7 @@ private:
         return (clearance({hit.t + step, ahead}) - clearance({hit.t, hit.sample})) / step;
     }
 
-    // How far a place of the ray lies above the surface, metres of height; no number off the grid.
+    // Height above the surface, metres; NaN off the grid.
     [[nodiscard]] double clearance(const RayPlace& place) const {
         if (!place.sample || !is_over_surface(*place.sample)) {
             return std::numeric_limits<double>::quiet_NaN();
@@ -276,8 +262,7 @@ private:
     Side side_ = Side::unknown;
 };
 
-// A box that holds the placed surface: the one around its border, blown up by the Earth's bulge
-// over it.
+// A bounding box of the placed surface: 17² points of it, with a margin for the Earth's curvature.
 Box reach(GridView<const float> heights, const MinMaxPyramid& pyramid, const Placement& placement) {
     Box box;
     const MinMax total = pyramid.total();

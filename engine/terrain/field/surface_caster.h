@@ -11,18 +11,18 @@
 
 namespace reljef::terrain {
 
-/// Meets a placed surface with rays in scene metres. Borrows heights, pyramid and placement; what
-/// all rays share is found once. Safe to ask from several threads.
+/// Intersects rays in scene metres with a placed surface. Borrows heights, pyramid and placement.
+/// Thread-safe.
 class SurfaceCaster {
 public:
     /// Precondition: `pyramid` was made from `heights`.
     SurfaceCaster(GridView<const float> heights, const MinMaxPyramid& pyramid,
                   const Placement& placement);
 
-    /// The first crossing from above to below in `range`. Under an ellipsoid placement the ray is
-    /// bent in sample coordinates; where it may touch the surface it is followed there in straight
-    /// pieces, halved until the middle of each lies within a thousandth of a sample, and of a metre
-    /// of height, of its chord; the hit is then moved along the ray itself onto the surface.
+    /// The first crossing from above to below in `range`. On an ellipsoid the ray is bent in sample
+    /// coordinates. Where it may touch the surface it is halved until the middle of each piece lies
+    /// within 0.001 samples and 0.001 m of its chord. The hit then moves along the ray onto the
+    /// surface.
     [[nodiscard]] std::optional<SurfaceHit>
     first_hit(const Ray& world_ray,
               Interval range = {0.0, std::numeric_limits<double>::infinity()}) const;
@@ -31,11 +31,10 @@ private:
     GridView<const float> heights_;
     const MinMaxPyramid& pyramid_;
     const Placement& placement_;
-    Box reach_; // outside it no ray meets the surface
+    Box reach_; // of the surface
 };
 
-/// The first point where a ray in scene metres meets the placed surface: one SurfaceCaster for one
-/// ray.
+/// SurfaceCaster::first_hit() for a single ray.
 std::optional<SurfaceHit> pick(GridView<const float> heights, const MinMaxPyramid& pyramid,
                                const Placement& placement, const Ray& world_ray);
 

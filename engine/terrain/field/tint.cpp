@@ -15,7 +15,7 @@ struct Stop {
     glm::vec3 color; // sRGB, 0..255
 };
 
-// Imhof's tints, darkened from ink on paper to the albedo of ground.
+// Imhof's tints, darkened to the albedo of ground.
 constexpr std::array<Stop, 7> scale{{{0.00F, {94.0F, 123.0F, 81.0F}},
                                      {0.15F, {119.0F, 139.0F, 91.0F}},
                                      {0.32F, {159.0F, 159.0F, 111.0F}},
@@ -40,12 +40,7 @@ Rgba8 tint(float share) {
     return rgba8(glm::mix(lower.color, upper->color, t));
 }
 
-bool is_void(const Heightfield& heightfield, int col, int row) {
-    return !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
-}
-
-// About 2^16 of the samples that are no voids, each as far from the next among these: what few
-// there are in a wide void must not fall between.
+// About 2^16 evenly spread samples that are no voids.
 std::vector<float> some_heights(const Heightfield& heightfield) {
     const auto heights = heightfield.heights.samples();
     const auto voids = heightfield.void_mask.samples();
@@ -62,7 +57,7 @@ std::vector<float> some_heights(const Heightfield& heightfield) {
     return picked;
 }
 
-// Heights at two shares of the sorted samples that are no voids.
+// Two quantiles of the samples that are no voids.
 HeightRange percentiles(const Heightfield& heightfield, double low, double high) {
     std::vector<float> picked = some_heights(heightfield);
     if (picked.empty()) {
@@ -93,7 +88,7 @@ glm::vec3 vector_from(Rgba8 color) {
     return {color.r, color.g, color.b};
 }
 
-// Beneath's color at the place of a pixel of a picture that covers the same ground.
+// The pixel of `beneath` at the place of a pixel of `over`. Both images cover the same ground.
 Rgba8 nearest(const Image& beneath, const Image& over, int col, int row) {
     const auto scaled = [](int index, int from, int to) {
         return from > 1 ? static_cast<int>(
@@ -124,17 +119,15 @@ Rgba8 HeightTint::of_void() {
 
 Image hypsometric_tint(const Heightfield& heightfield) {
     const auto& heights = heightfield.heights;
-    const HeightTint scale_of_heights(heightfield);
+    const HeightTint tint(heightfield);
     Image image(heights.cols(), heights.rows());
     for (int row = 0; row < image.rows(); ++row) {
         for (int col = 0; col < image.cols(); ++col) {
-            if (is_void(heightfield, col, row)) {
-                image(col, row) = no_data;
-            } else if (is_level_sea(heightfield, col, row)) {
-                image(col, row) = water;
-            } else {
-                image(col, row) = scale_of_heights.at(heights(col, row));
-            }
+            const bool is_void =
+                !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
+            image(col, row) = is_void                               ? no_data
+                              : is_level_sea(heightfield, col, row) ? water
+                                                                    : tint.at(heights(col, row));
         }
     }
     return image;

@@ -5,8 +5,7 @@
 
 namespace reljef::terrain {
 
-/// The colours of heights, Imhof's scale stretched over a heightfield's: for parts of the same
-/// terrain that are read at another resolution.
+/// Imhof's colours, stretched over the 1st to 99th percentile of a heightfield.
 class HeightTint {
 public:
     explicit HeightTint(const Heightfield& heightfield);
@@ -19,13 +18,11 @@ private:
     HeightRange range_;
 };
 
-/// A hypsometric tint (Imhof's scale: green lowland, ochre, brown, grey, white), one pixel per
-/// sample, stretched over the 1st to 99th percentile of the heights. Level samples at exactly 0 m
-/// are water, voids are a neutral grey.
+/// HeightTint for each sample. Level ground at exactly 0 m is water; voids are grey.
 Image hypsometric_tint(const Heightfield& heightfield);
 
-/// `color` over `beneath` where it is transparent (alpha < 255); where it is empty, `beneath`
-/// alone. Opaque, of the size of `color` (or of `beneath`).
+/// Blends `color` over `beneath`. The result is opaque and has the size of `color`. If `color` is
+/// empty, it is `beneath`.
 Image composite(const Image& color, const Image& beneath);
 
 } // namespace reljef::terrain

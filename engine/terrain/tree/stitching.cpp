@@ -10,7 +10,7 @@
 namespace reljef::terrain {
 namespace {
 
-// Along one axis: the tiles of a level that touch a sample, one or two.
+// The one or two tiles of a level that touch a sample along one axis.
 std::vector<int> touching(int sample, int size) {
     const int tile = sample / size;
     return sample % size == 0 && tile > 0 ? std::vector<int>{tile - 1, tile}
@@ -21,8 +21,8 @@ class Edges {
 public:
     Edges(const TileTree& tree, const std::set<TreeTile>& drawn) : tree_(tree), drawn_(drawn) {}
 
-    // The place for a sample on the border of a drawn tile. Coarser tiles have their vertices
-    // fewer, so that from a corner the way may lead on to one that is coarser still.
+    // The vertex for a sample on the border of a drawn tile. If it is a tile's corner, an even
+    // coarser tile may touch it, which then decides.
     [[nodiscard]] TreeVertex resolve(glm::ivec2 sample) const {
         TreeVertex found = nearest(*coarsest_at(sample), sample);
         for (glm::ivec2 place = place_of(found); place != sample && is_corner(found);
@@ -33,8 +33,7 @@ public:
         return found;
     }
 
-    // The drawn tile along a whole side of a tile, towards `side` (one step in col or row); nothing
-    // where there is none or only finer ones.
+    // The equal or coarser drawn neighbour towards `side` (one step in col or row), if any.
     [[nodiscard]] std::optional<TreeTile> beside(TreeTile tile, glm::ivec2 side) const {
         TreeTile neighbour{tile.level, tile.col + side.x, tile.row + side.y};
         if (tree_.wraps_longitude()) {
@@ -54,7 +53,7 @@ public:
         return std::nullopt;
     }
 
-    // A vertex inside the side of a tile that lies along `neighbour`.
+    // The vertex for a sample inside the side along `neighbour`.
     [[nodiscard]] TreeVertex on_side(TreeTile neighbour, glm::ivec2 sample) const {
         const TreeVertex found = nearest(neighbour, sample);
         return is_corner(found) ? resolve(place_of(found)) : found;
@@ -75,7 +74,7 @@ private:
         return std::nullopt;
     }
 
-    // Of the level, the first first, whichever end the sample is at.
+    // The tile columns that touch a sample, those at the first end first.
     [[nodiscard]] std::vector<int> cols_at(int sample, int size) const {
         const int other = tree_.other_end(sample);
         std::vector<int> cols = touching(std::min(sample, other), size);
@@ -86,7 +85,7 @@ private:
         return cols;
     }
 
-    // A sample at an end lies at both.
+    // A sample at one end also lies at the other end.
     [[nodiscard]] int col_seen_from(TreeTile tile, int col) const {
         const int first = TileTree::first(tile).x;
         const int last = tree_.sample(tile, tree_.cells(tile)).x;
@@ -99,7 +98,7 @@ private:
         const glm::ivec2 cells = tree_.cells(tile);
         const int step = TileTree::step(tile);
         const auto along = [&](int at, int begin, int count, int samples) {
-            const bool at_end = at >= samples - 1; // of the raster, where the last cell is cut
+            const bool at_end = at >= samples - 1; // the raster's end may cut the last cell
             return at_end ? count : std::min((at - begin + step / 2) / step, count);
         };
         return {tile,
@@ -120,7 +119,6 @@ private:
     const std::set<TreeTile>& drawn_;
 };
 
-// One side of a tile: the vertices between its corners.
 struct TileSide {
     glm::ivec2 outwards;
     glm::ivec2 begin; // corner
@@ -148,7 +146,7 @@ bool touch(const TileTree& tree, TreeTile a, TreeTile b) {
     return across && first_a.y <= last_b.y && first_b.y <= last_a.y;
 }
 
-// The vertex of a tile at just that sample.
+// The vertex of a tile at exactly this sample.
 std::optional<glm::ivec2> vertex_at(const TileTree& tree, TreeTile tile, glm::ivec2 sample) {
     const glm::ivec2 first = TileTree::first(tile);
     const glm::ivec2 cells = tree.cells(tile);
@@ -160,15 +158,15 @@ std::optional<glm::ivec2> vertex_at(const TileTree& tree, TreeTile tile, glm::iv
     return tree.sample(tile, vertex) == sample ? std::optional(vertex) : std::nullopt;
 }
 
-// The sides of a tile, each the samples between two corners. Splits are nested: where one is not
-// made, none is between it and its neighbours.
+// Finds the splits along the sides of a tile. Splits are nested: a split that is not made has no
+// descendants.
 class BorderWalk {
 public:
     BorderWalk(const Bisection& bisection, const ErrorView& view)
         : bisection_(bisection), view_(view), cells_(bisection.end() / steps_per_sample) {}
 
     std::vector<glm::ivec2> walk() && {
-        // Where a side ends before tile_cells, bisection makes all of the splits along its end.
+        // If a side is shorter than tile_cells, bisection makes all splits along the far side.
         const glm::ivec2 along_row(1, 0);
         const glm::ivec2 along_col(0, 1);
         add({0, 0}, along_row, tile_cells);
