@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 class PictureSink : public FrameSink {
 public:
-    explicit PictureSink(fs::path file) : file_(std::move(file)) {}
-    Result<void> write(const Image& picture, int /*index*/) override {
-        return io::write_image(file_, picture);
+    explicit PictureSink(fs::path name) : name_(std::move(name)) {}
+    Result<void> write(const Image& picture, int index) override {
+        const auto file = is_numbered(name_) ? numbered(name_, index) : name_;
+        return file ? io::write_image(*file, picture) : file.error();
     }
-    Result<void> finish() override { return {}; }
 
 private:
-    fs::path file_;
+    fs::path name_;
 };
 
 class StandardOutputSink : public FrameSink {
@@ -43,35 +43,9 @@ public:
         }
         return {};
     }
-    Result<void> finish() override { return {}; }
 };
 
-class SequenceSink : public FrameSink {
-public:
-    explicit SequenceSink(fs::path pattern) : pattern_(std::move(pattern)) {}
-    Result<void> write(const Image& picture, int index) override {
-        const auto file = numbered(pattern_, index);
-        return file ? io::write_image(*file, picture) : file.error();
-    }
-    Result<void> finish() override { return {}; }
-
-private:
-    fs::path pattern_;
-};
-
-class VideoSink : public FrameSink {
-public:
-    explicit VideoSink(VideoEncoder encoder) : encoder_(std::move(encoder)) {}
-    Result<void> write(const Image& picture, int /*index*/) override {
-        return encoder_.write(picture);
-    }
-    Result<void> finish() override { return encoder_.finish(); }
-
-private:
-    VideoEncoder encoder_;
-};
-
-// Makes the folder of the pattern.
+// Creates the folder of the pattern.
 Result<void> make_folder(const fs::path& pattern) {
     const auto first = numbered(pattern, 0);
     if (!first) {
@@ -155,14 +129,18 @@ Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
     }
     if (is_video(output)) {
         auto encoder = VideoEncoder::create(output, options.size, options.frames_per_second);
-        return encoder ? Result<Sink>(Sink(new VideoSink(std::move(*encoder)))) : encoder.error();
+        return encoder ? Result<Sink>(std::make_unique<VideoEncoder>(std::move(*encoder)))
+                       : encoder.error();
+    }
+    if (is_standard_output(output)) {
+        return Sink(new StandardOutputSink);
     }
     if (is_numbered(output)) {
-        auto made = make_folder(output);
-        return made ? Result<Sink>(Sink(new SequenceSink(output))) : made.error();
+        if (auto made = make_folder(output); !made) {
+            return made.error();
+        }
     }
-    return is_standard_output(output) ? Sink(new StandardOutputSink)
-                                      : Sink(new PictureSink(output));
+    return Sink(new PictureSink(output));
 }
 
 } // namespace reljef::app

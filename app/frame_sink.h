@@ -10,30 +10,29 @@
 
 namespace reljef::app {
 
-/// Where the pictures of a flight go.
+/// The output of rendered frames.
 class FrameSink {
 public:
     virtual ~FrameSink() = default;
     virtual Result<void> write(const Image& picture, int index) = 0;
-    /// Makes the output appear; without it nothing unfinished is left behind.
-    virtual Result<void> finish() = 0;
+    /// Commits the output. Without it no unfinished file remains.
+    virtual Result<void> finish() { return {}; }
 };
 
-/// Whether the file is a video by its extension (.mp4, .mkv, .webm, .mov).
+/// Whether the extension is .mp4, .mkv, .webm or .mov.
 bool is_video(const std::filesystem::path& path);
 
-/// Fails, naming -o, where the name can hold no output: a number that is none, one in a folder's
-/// name or in a video's, one picture for many frames, and a format that is none of pictures.
+/// Fails if the name cannot hold the frames: a wrong number pattern, a number in a folder's or
+/// video's name, one picture for many frames, an unknown picture format. The error names -o.
 Result<void> check_output_name(const std::filesystem::path& output, int frames);
 
-/// Whether the output is standard output: "-".
+/// Whether the output is "-".
 bool is_standard_output(const std::filesystem::path& output);
 
-/// Whether the name stands for numbered pictures.
+/// Whether the name contains a number pattern.
 bool is_numbered(const std::filesystem::path& output);
 
-/// The file of a numbered picture: the pattern's %d or %0Nd replaced. Fails when the pattern has
-/// not exactly one of them.
+/// The pattern with `index` for %d or %0Nd. Fails unless the pattern has exactly one of them.
 Result<std::filesystem::path> numbered(const std::filesystem::path& pattern, int index);
 
 struct FrameSinkOptions {
@@ -42,10 +41,9 @@ struct FrameSinkOptions {
     double frames_per_second = 25.0;
 };
 
-/// One picture, a picture on standard output as PNG ("-"), a numbered sequence ("frames/%04d.png";
-/// missing folders are made) or a video (through ffmpeg), by what `output` looks like. Fails where
-/// it cannot be written, where many frames would go to one picture, and where ffmpeg is needed and
-/// missing.
+/// A sink for a picture, PNG on standard output ("-"), numbered pictures ("frames/%04d.png",
+/// creates folders) or a video (through ffmpeg), by the name. Errors: as check_output_name(), a
+/// file that cannot be written, no ffmpeg.
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const std::filesystem::path& output,
                                                    const FrameSinkOptions& options);
 

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <span>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,7 @@
 
 #include "app/cli/message.h"
 #include "app/cli/options.h"
+#include "app/cli/parsed_option.h"
 #include "app/commands.h"
 #include "app/place_file.h"
 #include "engine/core/parallel_for.h"
@@ -21,11 +21,10 @@ namespace {
 struct HeightChoice {
     cli::TerrainChoice terrain;
     std::vector<glm::dvec2> places; // latitude, longitude, degrees
-    std::string points;             // a file of them, "-": standard input; empty: none
+    std::string points;             // a file of places; "-": standard input; empty: none
 };
 
-// What is read of a file at a time: places of so much text are answered together, which takes five
-// times as much.
+// Bytes of a file that are processed together. They need about five times as much memory.
 std::size_t bytes_of_piece(const cli::TerrainChoice& choice) {
     constexpr std::size_t part = 16; // of the memory
     constexpr std::size_t most = std::size_t{64} << 20U;
@@ -39,11 +38,14 @@ std::vector<glm::dvec2> places_of(const std::vector<std::string>& texts) {
         if (!numbers) {
             throw CLI::ValidationError(numbers.error().message);
         }
-        const auto place = checked_place("--at", {(*numbers)[0], (*numbers)[1]});
-        if (!place) {
-            throw CLI::ValidationError(place.error().message);
+        const glm::dvec2 place((*numbers)[0], (*numbers)[1]);
+        if (!is_place(place)) {
+            throw CLI::ValidationError(
+                fmt::format("--at: {},{} found, a latitude from -90 to 90 and a longitude in "
+                            "degrees were expected",
+                            place.x, place.y));
         }
-        places.push_back(*place);
+        places.push_back(place);
     }
     return places;
 }
@@ -56,19 +58,14 @@ void append_answer(std::string_view place, const io::HeightAnswer& answer, std::
         out += ",nan\n";
         return;
     }
-    std::array<char, 64> text{}; // heights are below 1e9 m
-    const auto written = std::to_chars(text.data(), text.data() + text.size(), answer.height,
-                                       std::chars_format::fixed, digits_of_heights);
-    out += ',';
-    out.append(text.data(), written.ptr);
-    out += '\n';
+    fmt::format_to(std::back_inserter(out), ",{:.{}f}\n", answer.height, digits_of_heights);
 }
 
 void print(const std::string& out) {
     static_cast<void>(std::fwrite(out.data(), 1, out.size(), stdout));
 }
 
-// The answers as text, by several threads; in order.
+// Prints the answers in order. Several threads format them.
 void print_answers(std::span<const std::string_view> texts,
                    std::span<const io::HeightAnswer> answers, unsigned threads) {
     constexpr std::size_t lines_a_part = 1U << 14U;
@@ -99,7 +96,7 @@ void keep_errors(std::vector<io::FileError> found, const cli::TerrainChoice& cho
     }
 }
 
-// Where the files that have a place may be those that are left out.
+// For places that may lie in an unreadable file.
 std::string left_out_text(std::span<const io::FileError> errors) {
     return errors.empty() ? std::string()
                           : fmt::format("; {} of its files could not be read: {}", errors.size(),
@@ -112,7 +109,7 @@ bool is_inside(glm::dvec2 place, const geo::GeodeticArea& area) {
     return place.x >= area.south && place.x <= area.north && turned <= area.east - area.west;
 }
 
-// Places outside the area have no answer, whatever the tiles hold there.
+// Places outside the area have no answer.
 io::TileSet::Heights heights_within(const session::HeightSource& source,
                                     std::span<const glm::dvec2> places) {
     auto found = source.tiles.heights(places);
@@ -205,9 +202,9 @@ cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt) {
         }
     });
     arguments->footer(
-        "Prints LAT,LON,HEIGHT, one line a place; the height is in metres above the DEM's "
-        "own zero, nan on a void, and with --points outside the terrain or --area. In a folder "
-        "of tiles the finest has the word, then the newer.\n"
+        "Prints a line LAT,LON,HEIGHT for each place. The height is in metres above the DEM's "
+        "zero. It is nan on a void. With --points, it is also nan outside the terrain or --area. "
+        "Where files of a folder overlap, the finest wins; ties go to the newest.\n"
         "Examples:\n"
         "  reljef height N45E006.hgt --at 45.8326,6.8652\n"
         "  reljef height tiles/ --points - < places.csv > heights.csv");

@@ -26,42 +26,35 @@ struct InfoChoice {
     bool json = false;
 };
 
-// All samples that there are, of which those that were read may be averages.
+// The samples of the source. The samples that were read may be averages of them.
 struct FullGrid {
     int cols = 0;
     int rows = 0;
-    int reduction = 1; // samples a side in one that was read
-    // Where the first and the last of them lie, in samples that were read.
+    int reduction = 1; // source samples per read sample, along each side
+    // The first and last source sample, in read samples.
     glm::dvec2 first{0.0};
     glm::dvec2 last{0.0};
 };
 
-// The source's own rows and columns among those that were read, which may close the globe.
+// Rows and columns that were read; some may be added to wrap the globe.
 geo::ClosedRows rows_of(const terrain::Heightfield& heightfield) {
     return heightfield.georeference ? heightfield.georeference->geodetic.rows() : geo::ClosedRows();
 }
 
-// Samples that were read, without those that close the globe.
+// Number of samples that were read, without those added to wrap the globe.
 glm::ivec2 size_that_was_read(const terrain::Heightfield& heightfield) {
     const geo::ClosedRows rows = rows_of(heightfield);
     return {heightfield.heights.cols() - rows.closing().cols(),
             heightfield.heights.rows() - rows.closing().rows()};
 }
 
-// Where a sample of the source lies, both counted in samples that were read.
+// The place of a source sample, both in read samples.
 glm::dvec2 read_from_source(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
     return {sample.x, rows_of(heightfield).closed_row(sample.y)};
 }
 
-struct DegreeBox {
-    double south = 90.0;
-    double north = -90.0;
-    double west = 1e9;
-    double east = -1e9;
-};
-
-DegreeBox box_of(const geo::GeodeticMap& map, const FullGrid& grid) {
-    DegreeBox box;
+geo::GeodeticArea area_of(const geo::GeodeticMap& map, const FullGrid& grid) {
+    geo::GeodeticArea box{90.0, 1e9, -90.0, -1e9};
     constexpr int steps = 32;
     for (int i = 0; i <= steps; ++i) {
         const glm::dvec2 at = glm::mix(grid.first, grid.last, static_cast<double>(i) / steps);
@@ -83,7 +76,7 @@ Json extent_of(const terrain::Heightfield& heightfield, const FullGrid& grid) {
     Json extent{{"width_m", (grid.cols - 1) * spacing.x},
                 {"height_m", (grid.rows - 1) * spacing.y}};
     if (heightfield.georeference) {
-        const DegreeBox box = box_of(heightfield.georeference->geodetic, grid);
+        const geo::GeodeticArea box = area_of(heightfield.georeference->geodetic, grid);
         extent["south"] = box.south;
         extent["north"] = box.north;
         extent["west"] = box.west;
@@ -92,7 +85,7 @@ Json extent_of(const terrain::Heightfield& heightfield, const FullGrid& grid) {
     return extent;
 }
 
-// What the terrain's own file says; a generated one has none.
+// Properties of the terrain's file; null for a generated terrain.
 Json file_info(const io::SceneDescription& description) {
     const auto info = io::read_raster_info(description.heights);
     if (!info) {
@@ -102,7 +95,7 @@ Json file_info(const io::SceneDescription& description) {
         {"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
 }
 
-// What stands on the gallery's floor, with the tiles it shows.
+// The gallery's models with their textures.
 Json models_of(const session::TerrainSource& source, const cli::TerrainChoice& choice) {
     Json models = Json::array();
     if (source.description.generator == "gallery") {
@@ -116,7 +109,7 @@ Json models_of(const session::TerrainSource& source, const cli::TerrainChoice& c
     return models;
 }
 
-// A folder: how many files of which format.
+// The files of a folder.
 Json tiles_info(const io::TileSet& tiles, const std::optional<geo::GeodeticArea>& area,
                 const FullGrid& grid) {
     Json formats = Json::object();
@@ -140,7 +133,7 @@ Json tiles_info(const io::TileSet& tiles, const std::optional<geo::GeodeticArea>
             {"finest_spacing_m", finest}};
 }
 
-// Of the finest tiles, in the area.
+// The grid of the finest tiles in the area.
 std::optional<FullGrid> grid_of_tiles(const io::TileSet& tiles,
                                       const std::optional<geo::GeodeticArea>& area,
                                       const terrain::Heightfield& heightfield) {
@@ -160,7 +153,7 @@ std::optional<FullGrid> grid_of_tiles(const io::TileSet& tiles,
     return full;
 }
 
-// Of a file, which is read from its first column and row on.
+// The grid of a file that is read from its first column and row on.
 FullGrid grid_of_file(int cols, int rows, const terrain::Heightfield& heightfield) {
     const int reduction = std::max(1, cols / size_that_was_read(heightfield).x);
     const double half = 0.5 * (reduction - 1);
@@ -212,7 +205,6 @@ Json describe(const session::TerrainSource& source, const cli::TerrainChoice& ch
                          {"formats", file["formats"]},
                          {"finest_spacing_m", file["finest_spacing_m"]}};
     }
-    // What was read within the memory is all or a whole-number part of it.
     const glm::ivec2 read = size_that_was_read(heightfield);
     info["read"] = {{"cols", read.x}, {"rows", read.y}, {"reduction", grid.reduction}};
     const glm::dvec2 spacing = heightfield.spacing / static_cast<double>(grid.reduction);
@@ -240,67 +232,67 @@ std::string geoid_text(const Json& crs, const cli::TerrainChoice& choice) {
                                   : "geoid not applied: none given or installed for it";
 }
 
-// What heights count from, and whether the geoid is applied.
-void print_vertical(const Json& crs, const cli::TerrainChoice& choice) {
+std::string text(const Json& value) {
+    return value.get<std::string>();
+}
+
+double number(const Json& value) {
+    return value.get<double>();
+}
+
+// The CRS and the zero of heights.
+void print_crs(const Json& crs, const cli::TerrainChoice& choice) {
     if (crs.is_null()) {
+        fmt::print("  CRS      none\n");
         return;
     }
-    const auto datum = crs["vertical_datum"].get<std::string>();
-    fmt::print("  zero     {}; {}\n", datum.empty() ? std::string("unnamed") : datum,
-               geoid_text(crs, choice));
+    const std::string code = text(crs["code"]);
+    const std::string datum = text(crs["vertical_datum"]);
+    fmt::print("  CRS      {}{}\n", text(crs["name"]), code.empty() ? "" : " (" + code + ")");
+    fmt::print("  zero     {}; {}\n", datum.empty() ? "unnamed" : datum, geoid_text(crs, choice));
 }
 
 void print_text(const Json& info, const cli::TerrainChoice& choice) {
-    const auto number = [&](const char* group, const char* key) {
-        return info[group][key].get<double>();
-    };
-    fmt::print("{}: {} x {} {} ({})\n", info["name"].get<std::string>(), info["cols"].get<int>(),
-               info["rows"].get<int>(), info["type"].get<std::string>(),
-               info["format"].get<std::string>());
-    if (info["crs"].is_null()) {
-        fmt::print("  CRS      none\n");
-    } else {
-        const auto code = info["crs"]["code"].get<std::string>();
-        fmt::print("  CRS      {}{}\n", info["crs"]["name"].get<std::string>(),
-                   code.empty() ? "" : " (" + code + ")");
-    }
-    print_vertical(info["crs"], choice);
+    fmt::print("{}: {} x {} {} ({})\n", text(info["name"]), info["cols"].dump(),
+               info["rows"].dump(), text(info["type"]), text(info["format"]));
+    print_crs(info["crs"], choice);
     if (info.contains("tiles")) {
-        fmt::print("  tiles    {} {}\n", info["tiles"]["files"].get<std::size_t>(),
+        fmt::print("  tiles    {} {}\n", info["tiles"]["files"].dump(),
                    info["tiles"]["formats"].dump());
     }
-    fmt::print("  spacing  {:.4f} x {:.4f} m\n", number("spacing", "x_m"),
-               number("spacing", "y_m"));
-    fmt::print("  extent   {:.1f} x {:.1f} m\n", number("extent", "width_m"),
-               number("extent", "height_m"));
-    if (info["extent"].contains("south")) {
+    const Json& extent = info["extent"];
+    fmt::print("  spacing  {:.4f} x {:.4f} m\n", number(info["spacing"]["x_m"]),
+               number(info["spacing"]["y_m"]));
+    fmt::print("  extent   {:.1f} x {:.1f} m\n", number(extent["width_m"]),
+               number(extent["height_m"]));
+    if (extent.contains("south")) {
         fmt::print("           latitude {:.6f} to {:.6f}, longitude {:.6f} to {:.6f}\n",
-                   number("extent", "south"), number("extent", "north"), number("extent", "west"),
-                   number("extent", "east"));
+                   number(extent["south"]), number(extent["north"]), number(extent["west"]),
+                   number(extent["east"]));
     }
-    if (info["read"]["reduction"] != 1) {
+    if (const Json& read = info["read"]; read["reduction"] != 1) {
         fmt::print("  read     {} x {} samples, each the average of {} x {}: so are the heights "
                    "and voids below\n",
-                   info["read"]["cols"].get<int>(), info["read"]["rows"].get<int>(),
-                   info["read"]["reduction"].get<int>(), info["read"]["reduction"].get<int>());
+                   read["cols"].dump(), read["rows"].dump(), read["reduction"].dump(),
+                   read["reduction"].dump());
     }
-    fmt::print("  heights  {:.2f} to {:.2f} m\n", number("height_range", "low_m"),
-               number("height_range", "high_m"));
-    fmt::print("  voids    {}\n", info["voids"].get<std::size_t>());
-    fmt::print("  memory   {:.1f} MB when drawn\n", info["memory_bytes"].get<double>() * 1e-6);
+    fmt::print("  heights  {:.2f} to {:.2f} m\n", number(info["height_range"]["low_m"]),
+               number(info["height_range"]["high_m"]));
+    fmt::print("  voids    {}\n", info["voids"].dump());
+    fmt::print("  memory   {:.1f} MB when drawn\n", number(info["memory_bytes"]) * 1e-6);
     for (const auto& model : info.value("models", Json::array())) {
-        fmt::print("  model    {}, with a tile of {}\n", model["name"].get<std::string>(),
-                   model["textures"].get<std::string>());
+        fmt::print("  model    {}, with a tile of {}\n", text(model["name"]),
+                   text(model["textures"]));
     }
     for (const auto& note : info["notes"]) {
-        fmt::print("  note     {}\n", note.get<std::string>());
+        fmt::print("  note     {}\n", text(note));
     }
-    for (const auto& fault : info["faults"]) {
-        fmt::print("  left out {}\n", fault.get<std::string>());
+    for (const auto& error : info["faults"]) {
+        fmt::print("  left out {}\n", text(error));
     }
 }
 
-// Notes are part of what is printed.
+// Omits notes, which print_info() prints.
 class ProgressLog : public cli::ConsoleLog {
 public:
     using cli::ConsoleLog::ConsoleLog;

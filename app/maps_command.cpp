@@ -24,12 +24,12 @@ using io::MapKind;
 struct MapOutput {
     MapKind kind;
     std::string option;
-    std::string file; // empty: not asked for
+    std::string file; // empty: not requested
 };
 
 struct MapChoice {
     std::string picture;
-    std::string back; // heights of it; empty: none
+    std::string back; // heights of the back; empty: none
     io::SurfaceMapOptions making;
     int threads = 0;
     bool quiet = false;
@@ -63,7 +63,7 @@ Result<Grid<float>> read_heights(const std::string& picture, const io::SurfaceMa
     return std::move(read->heights);
 }
 
-// Of a sheet; empty where none is named.
+// Heights of a sheet's back; empty if none is named.
 Result<Grid<float>> read_back(const MapChoice& choice, const Grid<float>& front,
                               session::Log& log) {
     if (choice.back.empty()) {
@@ -81,7 +81,7 @@ Result<Grid<float>> read_back(const MapChoice& choice, const Grid<float>& front,
     return back;
 }
 
-// A map in a file that is written with the others.
+// A map in a file that is not committed.
 Result<AtomicFile> make_map(const MapOutput& output, const Grid<float>& heights,
                             const Grid<float>& back, io::SurfaceMapOptions options,
                             session::Log& log) {
@@ -137,13 +137,14 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
 
 void add_map_outputs(CLI::App& arguments, MapChoice& choice) {
     constexpr std::array meanings{
-        "heights; made ones range from black to white",
+        "heights; computed heights range from black to white",
         "normals of the heights: x, y, z in r, g, b",
         "normals in r, g, b and heights in alpha",
-        "cones over each texel that hold nothing of the surface, also between texels (Dummer "
-        "2006): .exr holds texels a height of 1, others the root of their share of 1024",
-        "cones that a ray may meet the surface in once, likewise (GPU Gems 3 ch. 18)",
-        "depths of the layers of a sheet; its back is --back, else like the front"};
+        "cone map: an empty cone above each texel (Dummer 2006). The value r is the cone's radius "
+        "in texels at a height of 1. .exr stores r, other formats the square root of r / 1024",
+        "relaxed cone map: a ray in a cone crosses the surface at most once (GPU Gems 3 ch. 18); "
+        "values as for --cones",
+        "depths of the layers of a sheet. The back is --back, else the same as the front"};
     for (std::size_t i = 0; i < choice.outputs.size(); ++i) {
         arguments.add_option(choice.outputs[i].option, choice.outputs[i].file, meanings[i])
             ->type_name("FILE");
@@ -157,7 +158,7 @@ bool asks_for(const MapChoice& choice, std::initializer_list<MapKind> kinds) {
     });
 }
 
-// Some, of formats that hold maps (CLI::ParseError).
+// Throws CLI::ParseError without an output, or for a wrong format.
 void expect_outputs(const MapChoice& choice) {
     const auto outputs = outputs_of(choice);
     if (outputs.empty()) {
@@ -171,7 +172,7 @@ void expect_outputs(const MapChoice& choice) {
     }
 }
 
-// What has nothing to do there is a mistake (CLI::ParseError).
+// Throws CLI::ParseError for an option without effect.
 void expect_used(const CLI::App& arguments, const MapChoice& choice) {
     const bool makes_normals = asks_for(choice, {MapKind::normals, MapKind::combined});
     const bool has_normals = makes_normals || choice.making.input == MapInput::normals;
@@ -213,10 +214,10 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
         "beyond the picture: wrap repeats it, clamp repeats its border (wrap)", "RULE");
     cli::add_parsed(arguments, "--scale", choice.making.scale,
                     cli::number_in("--scale", 0.0, 1000.0, true),
-                    "height of 1 in widths of the picture (0.05)", "S");
-    cli::add_parsed(
-        arguments, "--octaves", choice.making.octaves, cli::whole_number_in("--octaves", 1, 12),
-        "from colors: number of scales that count as relief, each twice as coarse (5)", "N");
+                    "height of a value of 1, in widths of the picture (0.05)", "S");
+    cli::add_parsed(arguments, "--octaves", choice.making.octaves,
+                    cli::whole_number_in("--octaves", 1, 12),
+                    "from colors: number of octaves of relief, each twice as coarse (5)", "N");
     arguments.add_flag("--dark-is-high", choice.making.dark_is_high,
                        "from colors: darker is higher");
     cli::add_parsed(arguments, "--green", choice.making.green_up,
@@ -243,8 +244,8 @@ cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt) {
         expect_used(*arguments, *choice);
     });
     arguments->footer(
-        "Maps are .png or .tif of 16 bits a channel or .exr of floats; all appear or none does. "
-        "Heights that are guessed from colors are an impression, not a measurement.\n"
+        "Maps are .png or .tif files with 16 bits per channel, or .exr files with floats. If one "
+        "map fails, no file is written. Heights from colors are estimates, not measurements.\n"
         "Examples:\n"
         "  reljef maps wall_height.png --normals wall_normal.png --scale 0.08\n"
         "  reljef maps wall.jpg --from colors --heights wall_height.png --combined wall_both.png\n"

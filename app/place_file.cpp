@@ -20,13 +20,11 @@ std::string_view trimmed(std::string_view text) {
                                            : text.substr(first, last - first + 1);
 }
 
-// A line's place and its own text of it.
 struct Line {
     glm::dvec2 place{0.0};
-    std::string_view text;
+    std::string_view text; // LAT,LON
 };
 
-// LAT,LON at the beginning of a line; what follows another comma is not looked at.
 std::optional<Line> line_of(std::string_view text) {
     Line line;
     const char* const end = text.data() + text.size();
@@ -46,15 +44,11 @@ std::optional<Line> line_of(std::string_view text) {
     return line;
 }
 
-// A line that names columns: it begins with no number, in quotes or not.
+// Whether a line names columns: it does not begin with a number, even in quotes.
 bool is_heading(std::string_view line) {
     const auto first = line.find_first_not_of("\"'+-. \t");
     return first != std::string_view::npos && (line[first] < '0' || line[first] > '9') &&
            !line_of(line);
-}
-
-bool is_left_out(std::string_view line) {
-    return line.empty() || line.front() == '#';
 }
 
 std::string_view without_byte_order_mark(std::string_view text) {
@@ -64,13 +58,8 @@ std::string_view without_byte_order_mark(std::string_view text) {
 
 } // namespace
 
-Result<glm::dvec2> checked_place(std::string_view option, glm::dvec2 place) {
-    if (std::abs(place.x) <= 90.0 && std::abs(place.y) <= 1e6) {
-        return place;
-    }
-    return Error{fmt::format("{}: {},{} found, a latitude from -90 to 90 and a longitude in "
-                             "degrees were expected",
-                             option, place.x, place.y)};
+bool is_place(glm::dvec2 place) {
+    return std::abs(place.x) <= 90.0 && std::abs(place.y) <= 1e6;
 }
 
 void PlaceFile::Closer::operator()(std::FILE* file) const {
@@ -126,12 +115,12 @@ Result<PlaceFile::Piece> PlaceFile::next() {
         text.remove_prefix(std::min(raw.size() + 1, text.size()));
         ++lines_read_;
         const std::string_view whole = trimmed(raw);
-        if (is_left_out(whole)) {
+        if (whole.empty() || whole.front() == '#') {
             continue;
         }
         const bool is_first = std::exchange(may_be_heading_, false);
         const auto line = line_of(whole);
-        if (line && checked_place("", line->place)) {
+        if (line && is_place(line->place)) {
             piece.places.push_back(line->place);
             piece.texts.push_back(line->text);
         } else if (!is_first || !is_heading(whole)) {

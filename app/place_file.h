@@ -13,22 +13,20 @@
 
 namespace reljef::app {
 
-/// The place, if its latitude is in [-90, 90] and its longitude a number of degrees; `option` is
-/// named in the error.
-Result<glm::dvec2> checked_place(std::string_view option, glm::dvec2 place);
+/// Whether the latitude is in [-90, 90] and the longitude in [-1e6, 1e6] degrees.
+bool is_place(glm::dvec2 place);
 
-/// A file of places that is read piece by piece: a line each, LAT,LON in degrees, and what follows
-/// another comma is not looked at. Blank lines and lines that begin with # are left out, and the
-/// first other line if it begins with no number: a heading. Errors name --points and the file or
-/// the line, what was found and what was expected.
+/// Reads a file of places piece by piece. Each line begins with LAT,LON in degrees; further columns
+/// are ignored. Empty lines, comments (#) and a heading are skipped. Errors name --points and the
+/// file or line.
 class PlaceFile {
 public:
-    /// "-" is standard input. `piece_bytes`: at most so much is read at a time, and of a line.
+    /// "-" is standard input. `piece_bytes`: size of a piece and longest line.
     static Result<PlaceFile> open(const std::string& name, std::size_t piece_bytes);
 
     struct Piece {
         std::vector<glm::dvec2> places;      ///< latitude, longitude
-        std::vector<std::string_view> texts; ///< of the places, LAT,LON; good until the next piece
+        std::vector<std::string_view> texts; ///< LAT,LON as in the file; valid until the next piece
     };
     /// The places of the next whole lines.
     Result<Piece> next();
@@ -46,8 +44,8 @@ private:
     std::size_t piece_bytes_;
     std::string text_;           // whole lines
     std::string rest_;           // the beginning of a line
-    std::size_t lines_read_ = 0; // of the file, before text_
-    bool may_be_heading_ = true; // the next line that is not left out
+    std::size_t lines_read_ = 0; // before text_
+    bool may_be_heading_ = true; // the next line that is not skipped
     bool at_end_ = false;
 };
 

@@ -53,7 +53,7 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
                   : device.error();
 }
 
-// The pictures on a contact sheet: as many of the frames as fit, evenly spread.
+// The evenly spread frames of a contact sheet.
 class SheetPictures {
 public:
     SheetPictures(bool desired, int frames)
@@ -75,7 +75,6 @@ private:
     std::vector<Image> pictures_;
 };
 
-// How a frame is drawn: stopped by Ctrl-C, told as a part of all frames.
 ParallelOptions frame_options(const RenderChoice& choice, const cli::Interrupt& interrupt,
                               Progress progress = {}) {
     return {.threads = static_cast<unsigned>(choice.terrain.threads),
@@ -92,7 +91,7 @@ session::Underground underground(const RenderChoice& choice) {
                                          : session::Underground::lifted;
 }
 
-// Returns which cameras were raised above the ground.
+// Returns the frames whose cameras were raised above the ground.
 Result<cli::RaisedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
                                       session::FrameMaker& maker,
                                       const std::optional<scene::CameraPath>& path,
@@ -150,7 +149,7 @@ void expect_standard_output(const RenderChoice& choice) {
     }
 }
 
-// What the arguments alone show to be wrong.
+// Throws CLI::ParseError for wrong or contradicting outputs.
 void expect_outputs(const RenderChoice& choice) {
     if (choice.output.empty() && choice.hits.empty()) {
         cli::fail_usage("render: no output found, -o FILE or --hit FILE was expected");
@@ -203,7 +202,8 @@ std::vector<cli::NamedFile> inputs_of(const RenderChoice& choice,
     return files;
 }
 
-// The files that will be written. Of numbered pictures those that could be another file.
+// The files that will be written. Numbered pictures are included if they exist or have an input's
+// name.
 std::vector<cli::NamedFile> outputs_of(const RenderChoice& choice,
                                        std::span<const cli::NamedFile> inputs) {
     std::vector<cli::NamedFile> outputs{{"--hit", choice.hits},
@@ -229,7 +229,7 @@ std::vector<cli::NamedFile> outputs_of(const RenderChoice& choice,
     return outputs;
 }
 
-// Before anything is drawn: all outputs appear, or none.
+// Checks before long work that the outputs can be written.
 Result<void> check_targets(const RenderChoice& choice) {
     std::vector<cli::NamedFile> files{{"--hit", choice.hits},
                                       {"--contact-sheet", choice.contact_sheet}};
@@ -258,7 +258,7 @@ Result<std::optional<scene::CameraPath>> path_of(const session::TerrainScene& sc
     return path ? Result<Path>(Path(std::move(*path))) : path.error();
 }
 
-// A camera below the ground is a fault of the scene file that places it, but not of an option.
+// A camera below the ground is an error if a scene file placed it, else a note.
 Result<void> report_lift(const session::Lift& lift, const RenderChoice& choice, bool is_of_file,
                          session::Log& log) {
     if (!lift) {
@@ -288,7 +288,7 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
     } else {
         lift = session::stand_above_ground(scene, maker, interrupt.token(), underground(choice));
     }
-    std::optional<HitBuffer> hits; // written last: all outputs appear, or none
+    std::optional<HitBuffer> hits; // written last, so that a failed picture leaves no hits
     if (!choice.hits.empty()) {
         auto found = find_hits(choice, scene, maker, interrupt);
         if (!found) {
@@ -368,22 +368,19 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         ->type_name("FILE");
     arguments
         ->add_option("--hit", choice->hits,
-                     "OpenEXR file of what each pixel shows: col, row, height, depth")
+                     "OpenEXR file with the hit of each pixel: col, row, height, depth")
         ->type_name("FILE");
     arguments
         ->add_option("--contact-sheet", choice->contact_sheet,
                      "picture with small copies of up to 24 frames")
         ->type_name("FILE");
-    auto* truth = arguments->add_flag(
-        "--truth", choice->truth,
-        "draw with exact rays on the CPU: the picture that every technique approximates");
+    auto* truth = arguments->add_flag("--truth", choice->truth,
+                                      "draw the reference picture with exact rays on the CPU");
     for (const char* option :
          {"--wireframe", "--context", "--technique", "--shader-dir", "--detail", "--samples"}) {
         truth->excludes(arguments->get_option(option));
     }
-    arguments
-        ->add_option("--rays", choice->rays,
-                     "with --truth: along each side of a pixel, 1 to 16 (1)")
+    arguments->add_option("--rays", choice->rays, "with --truth: N x N rays per pixel, 1 to 16 (1)")
         ->type_name("N")
         ->check(CLI::Range(1, 16))
         ->needs(truth);

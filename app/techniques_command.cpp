@@ -15,7 +15,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const scene::NumberInfo& number) {
+template <class Infos, class Convert> Json list_of(const Infos& infos, const Convert& json_of) {
+    Json list = Json::array();
+    for (const auto& info : infos) {
+        list.push_back(json_of(info));
+    }
+    return list;
+}
+
+Json number_json(const scene::NumberInfo& number) {
     Json json{{"name", number.name},   {"default", number.default_value},
               {"low", number.low},     {"high", number.high},
               {"whole", number.whole}, {"meaning", number.meaning}};
@@ -25,40 +33,24 @@ Json to_json(const scene::NumberInfo& number) {
     return json;
 }
 
-Json to_json(const scene::OptionInfo& option) {
-    Json numbers = Json::array();
-    for (const scene::NumberInfo& number : option.numbers) {
-        numbers.push_back(to_json(number));
-    }
+Json option_json(const scene::OptionInfo& option) {
     return {{"name", option.name},
             {"form", scene::form_of(option)},
             {"default", option.default_value},
             {"meaning", option.meaning},
             {"source", option.source},
-            {"numbers", numbers}};
+            {"numbers", list_of(option.numbers, number_json)}};
 }
 
-Json catalogue_json() {
-    Json list = Json::array();
-    for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
-        Json parameters = Json::array();
-        for (const scene::ParameterInfo& parameter : technique.parameters) {
-            parameters.push_back(to_json(parameter));
-        }
-        Json options = Json::array();
-        for (const scene::OptionInfo& option : scene::options_of(technique.id)) {
-            options.push_back(to_json(option));
-        }
-        list.push_back({{"id", technique.name},
-                        {"meaning", technique.meaning},
-                        {"source", technique.source},
-                        {"parameters", parameters},
-                        {"options", options}});
-    }
-    return list;
+Json technique_json(const scene::TechniqueInfo& technique) {
+    return {{"id", technique.name},
+            {"meaning", technique.meaning},
+            {"source", technique.source},
+            {"parameters", list_of(technique.parameters, number_json)},
+            {"options", list_of(scene::options_of(technique.id), option_json)}};
 }
 
-// The names of the techniques that take an option.
+// The names of the techniques that accept an option.
 std::vector<std::string_view> takers_of(const scene::OptionInfo& option) {
     std::vector<std::string_view> takers;
     for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
@@ -111,7 +103,8 @@ cli::Command add_techniques_command(CLI::App& program, cli::Interrupt& /*interru
     arguments->footer("Examples:\n  reljef techniques\n  reljef techniques --json");
     return {arguments, [json]() -> Result<void> {
                 if (*json) {
-                    fmt::print("{}\n", catalogue_json().dump(2));
+                    fmt::print("{}\n",
+                               list_of(scene::technique_catalogue(), technique_json).dump(2));
                 } else {
                     print_text();
                 }

@@ -23,7 +23,7 @@ std::vector<std::string> arguments_for(const std::filesystem::path& file, glm::i
     return {"ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba",
             "-video_size", fmt::format("{}x{}", size.x, size.y), "-framerate",
             fmt::format("{}", frames_per_second), "-i", "-",
-            // Most players want even sides and 4:2:0.
+            // Most players need even sides and 4:2:0.
             "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,format=yuv420p", file.string()};
 }
 
@@ -94,7 +94,7 @@ VideoEncoder::~VideoEncoder() {
     }
 }
 
-Result<void> VideoEncoder::write(const Image& picture) {
+Result<void> VideoEncoder::write(const Image& picture, int /*index*/) {
     const auto bytes = std::as_bytes(picture.samples());
     std::size_t done = 0;
     while (done < bytes.size()) {
@@ -113,7 +113,7 @@ Result<void> VideoEncoder::finish() {
     ::waitpid(std::exchange(process_, -1), &status, 0);
     const bool ended_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     const auto said = messages_.bytes();
-    // It ends well on a full disk, too.
+    // ffmpeg exits with 0 on a full disk, too.
     if (!ended_well || !said || !said->empty()) {
         return failed("could not encode the video");
     }

@@ -5,16 +5,14 @@
 #include <glm/vec2.hpp>
 #include <sys/types.h>
 
+#include "app/frame_sink.h"
 #include "engine/core/atomic_file.h"
-#include "engine/core/color.h"
 #include "engine/core/memory_file.h"
-#include "engine/core/result.h"
 
 namespace reljef::app {
 
-/// Pictures piped to ffmpeg, which must be installed. The file appears with finish(); before that
-/// the encoder is ended and nothing is left.
-class VideoEncoder {
+/// Pipes pictures to ffmpeg, which must be installed.
+class VideoEncoder : public FrameSink {
 public:
     static Result<VideoEncoder> create(const std::filesystem::path& file, glm::ivec2 size,
                                        double frames_per_second);
@@ -22,11 +20,11 @@ public:
     VideoEncoder& operator=(VideoEncoder&&) = delete;
     VideoEncoder(const VideoEncoder&) = delete;
     VideoEncoder& operator=(const VideoEncoder&) = delete;
-    ~VideoEncoder();
+    ~VideoEncoder() override;
 
     /// Precondition: the picture has the size given to create().
-    Result<void> write(const Image& picture);
-    Result<void> finish();
+    Result<void> write(const Image& picture, int index) override;
+    Result<void> finish() override;
 
 private:
     VideoEncoder(AtomicFile file, MemoryFile messages, pid_t process, int pipe)
@@ -34,7 +32,7 @@ private:
     [[nodiscard]] Error failed(std::string_view what) const;
 
     AtomicFile file_;
-    MemoryFile messages_; // what ffmpeg says
+    MemoryFile messages_; // stderr of ffmpeg
     pid_t process_ = -1;
     int pipe_ = -1;
 };

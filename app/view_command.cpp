@@ -109,9 +109,9 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     });
     arguments->footer(
         "Keys:\n" + Viewer::keys() +
-        "The flight along --path begins at once; without it, P flies over the terrain. "
-        "Where\nnothing moves nothing is drawn, but with --frames N: then the window "
-        "closes after N frames. Ctrl-C closes the window as Esc does, with exit status 0.\n"
+        "With --path, the flight begins at once. Without it, P flies over the terrain. A view "
+        "without\nmotion is not drawn again. With --frames N, the window draws N frames and "
+        "closes. Ctrl-C\ncloses the window as Esc does, with exit status 0.\n"
         "Examples:\n"
         "  reljef view natural\n"
         "  reljef view N45E006.hgt --camera 45.60,6.70,5200,20,-18\n"

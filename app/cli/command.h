@@ -11,10 +11,10 @@ class App;
 
 namespace reljef::cli {
 
-/// One verb of the program: its arguments, and what runs it once they are parsed.
+/// A verb of the program.
 struct Command {
-    CLI::App* arguments = nullptr; ///< owned by the program's parser
-    std::function<Result<void>()> run;
+    CLI::App* arguments = nullptr;     ///< owned by the program's parser
+    std::function<Result<void>()> run; ///< after parsing
 };
 
 } // namespace reljef::cli

@@ -8,7 +8,7 @@
 
 namespace reljef::cli {
 
-/// Writes messages and progress to stderr, a line each.
+/// Writes messages and progress to stderr.
 class ConsoleLog : public session::Log {
 public:
     /// `quiet`: writes nothing.

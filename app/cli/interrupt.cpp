@@ -11,18 +11,18 @@ namespace {
 sigset_t stop_signals() {
     sigset_t signals;
     sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    sigaddset(&signals, SIGHUP);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        sigaddset(&signals, signal);
+    }
     return signals;
 }
 
-// Signals closer together than this are one: `timeout` and some shells deliver the same one twice.
+// Signals within this time count as one: `timeout` and some shells deliver a signal twice.
 constexpr std::chrono::milliseconds one_signal{500};
 
 void watch(const std::stop_token& end, std::stop_source& source) {
     const sigset_t signals = stop_signals();
-    const timespec pause{0, 50'000'000}; // how late the watcher notices the program's end
+    const timespec pause{0, 50'000'000}; // longest delay at the program's end
     std::chrono::steady_clock::time_point first;
     while (!end.stop_requested()) {
         const int signal = sigtimedwait(&signals, nullptr, &pause);
@@ -44,7 +44,7 @@ void watch(const std::stop_token& end, std::stop_source& source) {
 Interrupt::Interrupt() {
     const sigset_t signals = stop_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    // A file too large and a reader gone are errors of writing, told like others.
+    // A file that is too large and a closed pipe become errors of writing.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     watcher_ = std::jthread(

@@ -5,9 +5,8 @@
 
 namespace reljef::cli {
 
-/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP into a stop request; a second one, half
-/// a second later or more, ends the program at once, without tidying up.
-/// Make it first thing in main(), before other threads begin.
+/// Turns SIGINT (Ctrl-C), SIGTERM and SIGHUP into a stop request. A second signal, at least half a
+/// second later, ends the program at once without cleanup. Construct it before other threads start.
 class Interrupt {
 public:
     Interrupt();

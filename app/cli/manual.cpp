@@ -14,7 +14,6 @@
 
 #include "app/cli/message.h"
 #include "app/cli/parser.h"
-#include "app/cli/version.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::cli {
@@ -26,7 +25,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-// Text that troff prints as it is.
+// Escapes text for troff.
 std::string roff(std::string_view text) {
     std::string escaped;
     for (const char letter : text) {
@@ -45,7 +44,7 @@ std::string roff(std::string_view text) {
     return escaped;
 }
 
-// A footer's paragraphs; lines that are indented stay as they are.
+// A footer in troff. Indented lines stay as they are.
 std::string roff_paragraphs(const std::string& text) {
     std::string page;
     bool is_verbatim = false;
@@ -154,7 +153,7 @@ complete -o default -F {1} {0}
                        fmt::join(words_of(parser), " "), cases);
 }
 
-// Within [...] of _arguments, and within single quotes.
+// Escapes text within single quotes and [...] of _arguments.
 std::string zsh_text(std::string_view text) {
     std::string escaped;
     for (const char letter : text) {

@@ -7,16 +7,16 @@
 
 namespace reljef::cli {
 
-/// A file of documentation that is made from a program's option tables.
+/// A file of documentation.
 struct ManualFile {
     std::string path; ///< below the installation's share folder, "man/man1/reljef-render.1"
     std::string text;
 };
 
-/// Manual pages (one for the program, one for each verb) and completions for bash and zsh.
+/// Manual pages for the program and each verb, and completions for bash and zsh.
 std::vector<ManualFile> manual_of(const Program& program);
 
-/// Writes these files below a folder. Returns the exit status; says on stderr what went wrong.
+/// Writes these files below a folder. Returns the exit status; errors are on stderr.
 int write_manual(const Program& program, const std::string& folder);
 
 } // namespace reljef::cli

@@ -5,11 +5,10 @@
 
 namespace reljef::cli {
 
-/// Writes to stderr. Where nobody can read it, it is lost: telling is never what fails.
+/// Writes to stderr and ignores failures.
 void write_stderr(std::string_view text) noexcept;
 
-/// The text in one line without control characters, each told as "\\x1b": what names hold can
-/// neither forge a line nor steer a terminal.
+/// The text with control characters as "\\x1b", so that names cannot control a terminal.
 std::string printable(std::string_view text);
 
 } // namespace reljef::cli

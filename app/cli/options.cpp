@@ -17,17 +17,23 @@
 namespace reljef::cli {
 namespace {
 
-Result<glm::dvec3> parse_point(std::string_view option, std::string_view text) {
-    const auto numbers = parse_numbers<3>(option, text, "x,y,z in scene metres");
-    if (!numbers) {
-        return numbers.error();
-    }
-    const glm::dvec3 point((*numbers)[0], (*numbers)[1], (*numbers)[2]);
-    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(world_reach)))) {
-        return Error{fmt::format("{}: '{}' found, at most {} metres from the middle were expected",
-                                 option, text, world_reach)};
-    }
-    return point;
+constexpr int largest_picture_side = 16384;
+
+// Parses a point.
+auto point_of(const char* option) {
+    return [=](const std::string& text) -> Result<glm::dvec3> {
+        const auto numbers = parse_numbers<3>(option, text, "x,y,z in scene metres");
+        if (!numbers) {
+            return numbers.error();
+        }
+        const glm::dvec3 point((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+        if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(world_reach)))) {
+            return Error{
+                fmt::format("{}: '{}' found, at most {} metres from the middle were expected",
+                            option, text, world_reach)};
+        }
+        return point;
+    };
 }
 
 Result<session::GeodeticView> parse_geodetic_view(const std::string& text) {
@@ -89,7 +95,7 @@ Result<scene::Technique> parse_detail_technique(const std::string& text) {
     return technique;
 }
 
-// One of the numbers behind a tile's name.
+// Parses width=METRES or scale=S.
 Result<void> set_detail_number(session::DetailChoice& choice, const std::string& assignment) {
     const auto equals = assignment.find('=');
     const std::string key = assignment.substr(0, equals);
@@ -115,7 +121,29 @@ Result<void> set_detail_number(session::DetailChoice& choice, const std::string&
     return {};
 }
 
-// 0: none.
+// Parses NAME or NAME:width=METRES,scale=S with the name of a texture or a folder.
+Result<session::DetailChoice> parse_detail(const std::string& text) {
+    const auto colon = text.rfind(':');
+    const bool has_numbers =
+        colon != std::string::npos && text.find('=', colon) != std::string::npos;
+    session::DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
+    if (choice.textures.empty() || choice.textures.back() == ':') {
+        return Error{fmt::format(
+            "--detail: '{}' found, a tile's name or folder, then :width=W,scale=S was expected",
+            text)};
+    }
+    std::string rest = has_numbers ? text.substr(colon + 1) : std::string();
+    while (!rest.empty()) {
+        const auto comma = std::min(rest.find(','), rest.size());
+        if (auto set = set_detail_number(choice, rest.substr(0, comma)); !set) {
+            return set.error();
+        }
+        rest = rest.substr(std::min(comma + 1, rest.size()));
+    }
+    return choice;
+}
+
+// 0 for "none".
 Result<std::optional<double>> parse_max_error(const std::string& text) {
     if (text == "none") {
         return std::optional(0.0);
@@ -153,9 +181,8 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         command, "--context", choice.context, parse_context,
         "OpenGL context: auto, glfw (window), egl (GPU without a window) or osmesa (CPU) (auto)",
         "KIND");
-    add_parsed(
-        command, "--size", choice.size, [](const std::string& text) { return parse_size(text); },
-        "size of the picture, pixels (1024x768)", "WxH");
+    add_parsed(command, "--size", choice.size, parse_size, "size of the picture, pixels (1024x768)",
+               "WxH");
     add_parsed(
         command, "--technique", choice.technique,
         [&choice](const std::string& text) -> Result<std::optional<scene::Technique>> {
@@ -163,11 +190,9 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
             if (choice.mixed) {
                 return std::optional<scene::Technique>();
             }
-            auto technique = scene::parse_technique(text);
-            if (!technique) {
-                return technique.error();
-            }
-            return std::optional(*technique);
+            const auto technique = scene::parse_technique(text);
+            return technique ? Result<std::optional<scene::Technique>>(*technique)
+                             : technique.error();
         },
         "how to draw the surface; 'reljef techniques' lists all (polygons; in the gallery mixed: "
         "each model has its own)",
@@ -179,19 +204,19 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
         "PX|none");
     add_parsed(
         command, "--detail", choice.detail, parse_detail,
-        "polygons: a detail texture that repeats over the terrain: brick, rock, cobble, fence, "
-        "rings, copper or a folder of pictures; W: its width, metres (4); S: its height, widths",
+        "polygons: repeat a detail texture over the terrain: brick, rock, cobble, fence, rings, "
+        "copper or a folder of pictures; W is its width in metres (4), S its height in widths",
         "NAME|FOLDER[:width=W,scale=S]");
-    add_parsed(
-        command, "--detail-technique", choice.detail_technique,
-        [](const std::string& text) { return parse_detail_technique(text); },
-        "how to draw the detail texture near the camera (relief)", "ID[:key=value,...]");
+    add_parsed(command, "--detail-technique", choice.detail_technique, parse_detail_technique,
+               "how to draw the detail texture near the camera (relief)", "ID[:key=value,...]");
     command.add_flag("--wireframe", choice.wireframe, "draw only the edges of triangles");
     add_parsed(command, "--projection", choice.projection,
                word_of<scene::ProjectionKind>(
                    "--projection", {{"perspective", scene::ProjectionKind::perspective},
                                     {"orthographic", scene::ProjectionKind::orthographic}}),
-               "perspective, or orthographic: a map if no camera is given (perspective)", "KIND");
+               "perspective or orthographic; orthographic without a camera draws a map "
+               "(perspective)",
+               "KIND");
     add_parsed(command, "--sun", choice.sun, parse_sun,
                "direction of the sun, degrees: clockwise from north, above the horizon (300,40)",
                "AZIMUTH,ALTITUDE");
@@ -205,23 +230,19 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
 void add_camera_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--fov", choice.vertical_fov, number_in("--fov", 1e-3, 179.0),
                "vertical field of view, degrees (57.3)", "DEG");
-    auto* eye = add_parsed(
-        command, "--eye", choice.eye,
-        [](const std::string& text) { return parse_point("--eye", text); },
-        "position of the camera, scene metres", "x,y,z");
-    auto* look = add_parsed(
-        command, "--look", choice.target,
-        [](const std::string& text) { return parse_point("--look", text); },
-        "point that the camera looks at, scene metres", "x,y,z");
+    auto* eye = add_parsed(command, "--eye", choice.eye, point_of("--eye"),
+                           "position of the camera, scene metres", "x,y,z");
+    auto* look = add_parsed(command, "--look", choice.target, point_of("--look"),
+                            "point that the camera looks at, scene metres", "x,y,z");
     look->needs(eye);
     eye->needs(look);
     auto* camera = add_parsed(command, "--camera", choice.geodetic, parse_geodetic_view,
                               "position and direction of the camera on Earth, degrees and metres",
                               "LAT,LON,HEIGHT,HEADING,PITCH");
     camera->excludes(eye);
-    auto* pose = add_parsed(
-        command, "--pose", choice.pose, [](const std::string& text) { return parse_pose(text); },
-        "camera pose: overview, oblique, low, grazing or map (overview)", "NAME");
+    auto* pose =
+        add_parsed(command, "--pose", choice.pose, parse_pose,
+                   "camera pose: overview, oblique, low, grazing or map (overview)", "NAME");
     pose->excludes(eye)->excludes(camera);
     command
         .add_option(
@@ -234,8 +255,9 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         ->excludes(camera);
     command.add_flag(
         "--allow-underground", choice.allow_underground,
-        "do not lift a camera that is below the ground (lifted, with a note; exit status "
-        "1 if a scene or path file placed it). Orthographic cameras are never lifted");
+        "do not lift cameras that are below the ground. By default they are lifted, with a note; "
+        "if a scene or path file placed them, the exit status is 1. Orthographic cameras are "
+        "never lifted");
     add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
                "number of pictures along the path (1)", "N");
     add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
@@ -253,27 +275,6 @@ Result<scene::Pose> parse_pose(std::string_view text) {
     return *pose;
 }
 
-Result<session::DetailChoice> parse_detail(const std::string& text) {
-    const auto colon = text.rfind(':');
-    const bool has_numbers =
-        colon != std::string::npos && text.find('=', colon) != std::string::npos;
-    session::DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
-    if (choice.textures.empty() || choice.textures.back() == ':') {
-        return Error{fmt::format(
-            "--detail: '{}' found, a tile's name or folder, then :width=W,scale=S was expected",
-            text)};
-    }
-    std::string rest = has_numbers ? text.substr(colon + 1) : std::string();
-    while (!rest.empty()) {
-        const auto comma = std::min(rest.find(','), rest.size());
-        if (auto set = set_detail_number(choice, rest.substr(0, comma)); !set) {
-            return set.error();
-        }
-        rest = rest.substr(std::min(comma + 1, rest.size()));
-    }
-    return choice;
-}
-
 Result<glm::ivec2> parse_size(std::string_view text) {
     const auto cross = text.find('x');
     const auto width = number_from<int>(text.substr(0, cross));
@@ -288,35 +289,6 @@ Result<glm::ivec2> parse_size(std::string_view text) {
     }
     return glm::ivec2(*width, *height);
 }
-
-template <std::size_t N>
-Result<std::array<double, N>> parse_numbers(std::string_view option, std::string_view text,
-                                            std::string_view expected) {
-    std::array<double, N> numbers{};
-    std::string_view rest = text;
-    bool right = true;
-    for (std::size_t i = 0; i < N && right; ++i) {
-        const auto comma = rest.find(',');
-        const auto value = number_from<double>(rest.substr(0, comma));
-        const bool is_last = comma == std::string_view::npos;
-        right = value && std::isfinite(*value) && is_last == (i + 1 == N);
-        numbers[i] = value.value_or(0.0);
-        rest = is_last ? std::string_view() : rest.substr(comma + 1);
-    }
-    if (!right) {
-        return Error{fmt::format("{}: '{}' found, {} was expected", option, text, expected)};
-    }
-    return numbers;
-}
-
-template Result<std::array<double, 2>> parse_numbers<2>(std::string_view, std::string_view,
-                                                        std::string_view);
-template Result<std::array<double, 3>> parse_numbers<3>(std::string_view, std::string_view,
-                                                        std::string_view);
-template Result<std::array<double, 4>> parse_numbers<4>(std::string_view, std::string_view,
-                                                        std::string_view);
-template Result<std::array<double, 5>> parse_numbers<5>(std::string_view, std::string_view,
-                                                        std::string_view);
 
 void add_source_options(CLI::App& command, TerrainChoice& choice) {
     command
@@ -348,8 +320,7 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     command
         .add_option("--textures", choice.textures,
                     "gallery only: brick, rock, cobble, fence, rings, copper, mixed, or a folder "
-                    "of pictures (colour, "
-                    "height, normal)")
+                    "of pictures (colour, height, normal)")
         ->type_name("NAME|FOLDER");
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
@@ -395,10 +366,10 @@ void add_samples_option(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--samples", choice.samples,
         word_of<int>("--samples", {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}),
-        "samples per pixel, against jagged edges: 1, 2, 4, 8 or 16; techniques that trace "
-        "rays trace as many rays (4 if the picture has triangles and at most 4096x4096 pixels, "
-        "else 1; without N, view draws a slow view with 1 sample and at a lower resolution while "
-        "it moves)",
+        "samples per pixel, for smooth edges: 1, 2, 4, 8 or 16; also the number of rays of "
+        "techniques that trace rays (4 if the picture has triangles and at most 4096x4096 pixels, "
+        "else 1; without this option, view reduces samples and resolution while a slow view "
+        "moves)",
         "N");
 }
 

@@ -24,7 +24,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     return whole_a == fs::weakly_canonical(fs::absolute(b, code), code);
 }
 
-// Whether writing `output` would replace `input`, or a file in it where it is a folder.
+// Whether writing `output` would replace `input`, or a file in the folder `input`.
 bool would_replace(const fs::path& output, const fs::path& input) {
     std::error_code code;
     if (!fs::is_directory(input, code) || !fs::is_regular_file(output, code)) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,7 +18,7 @@
 
 namespace reljef::cli {
 
-/// A number that is the whole text, or nothing.
+/// The number, if it is the whole text.
 template <class T> std::optional<T> number_from(std::string_view text) {
     T value{};
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -25,7 +28,28 @@ template <class T> std::optional<T> number_from(std::string_view text) {
     return value;
 }
 
-/// Lets a parser with a Result set `target` and turns its error into the parser library's.
+/// Parses exactly `N` finite numbers separated by commas; `option` is named in the error.
+template <std::size_t N>
+Result<std::array<double, N>> parse_numbers(std::string_view option, std::string_view text,
+                                            std::string_view expected) {
+    std::array<double, N> numbers{};
+    std::string_view rest = text;
+    bool right = true;
+    for (std::size_t i = 0; i < N && right; ++i) {
+        const auto comma = rest.find(',');
+        const auto value = number_from<double>(rest.substr(0, comma));
+        const bool is_last = comma == std::string_view::npos;
+        right = value && std::isfinite(*value) && is_last == (i + 1 == N);
+        numbers[i] = value.value_or(0.0);
+        rest = is_last ? std::string_view() : rest.substr(comma + 1);
+    }
+    if (!right) {
+        return Error{fmt::format("{}: '{}' found, {} was expected", option, text, expected)};
+    }
+    return numbers;
+}
+
+/// Adds an option that `parse` converts for `target`. Its errors become CLI::ValidationError.
 template <class Parse, class Target>
 CLI::Option* add_parsed(CLI::App& command, const char* names, Target& target, const Parse& parse,
                         const char* description, const char* type) {
@@ -55,7 +79,7 @@ inline auto number_in(std::string option, double low, double high, bool above = 
     };
 }
 
-/// The same of whole numbers.
+/// The same for integers.
 inline auto whole_number_in(std::string option, int low, int high) {
     return [=](const std::string& text) -> Result<int> {
         const auto value = number_from<int>(text);

@@ -8,17 +8,16 @@
 #include <fmt/ranges.h>
 
 #include "app/cli/suggestion.h"
-#include "app/cli/version.h"
 
 namespace reljef::cli {
 namespace {
 
 constexpr const char* status_help =
-    "Exit status: 0 done; 1 failed, or ended by Ctrl-C (SIGINT, SIGTERM or SIGHUP); 2 misused: "
-    "unknown or\nconflicting options, and nothing was written. A second signal, half a second "
-    "later, ends at once, with\n128 and its number.";
+    "Exit status: 0 success; 1 failure, or ended by Ctrl-C (SIGINT, SIGTERM or SIGHUP); 2 unknown "
+    "or\nconflicting options: nothing was written. A second signal, half a second later, ends the "
+    "program at once\nwith the status 128 plus its number.";
 
-// What the parser library would let pass: an empty value, or take for something else.
+// Rejects empty values, which CLI11 accepts or misreads.
 void check_texts(std::span<char*> texts) {
     for (std::size_t i = 0; i < texts.size(); ++i) {
         const std::string_view text = texts[i];
@@ -106,9 +105,8 @@ const Command& Parser::parse(std::span<char*> texts) {
         throw CLI::ValidationError(fmt::format("{}: {} found, which it does not know{}", texts[0],
                                                first, suggestion(first, option_names(parsed))));
     }
-    const auto parsed = std::find_if(commands_.begin(), commands_.end(),
-                                     [](const Command& one) { return one.arguments->parsed(); });
-    return *parsed;
+    return *std::find_if(commands_.begin(), commands_.end(),
+                         [](const Command& one) { return one.arguments->parsed(); });
 }
 
 } // namespace reljef::cli

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] const CLI::App& arguments() const { return *arguments_; }
     [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }
 
-    /// Parses the arguments behind the program's name; returns the verb that they name. Throws
+    /// Parses the arguments after the program's name and returns their verb. Throws
     /// CLI::ParseError, also for help and version.
     const Command& parse(std::span<char*> texts);
 

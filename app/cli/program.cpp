@@ -20,11 +20,13 @@
 namespace reljef::cli {
 namespace {
 
+// Exit status.
 constexpr int done = 0;
 constexpr int failed = 1;
 constexpr int misused = 2;
-// A stream that was closed would be the next file opened, and be written into. What is opened in
-// its place cannot be written, so that output that is lost is told.
+
+// If a standard stream is closed, the next opened file would get its descriptor and its output.
+// This opens a replacement that fails on use, so that lost output is an error.
 void keep_streams_open() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(stream, F_GETFD) == -1) {
@@ -33,7 +35,7 @@ void keep_streams_open() {
     }
 }
 
-// One line of all, as what a shader's compiler has to say may have many.
+// Joins lines, for example of a shader compiler.
 std::string one_line(std::string_view message) {
     std::string line;
     for (std::size_t begin = 0; begin < message.size();) {
@@ -49,7 +51,7 @@ int fail(const Program& program, std::string_view message) {
     return failed;
 }
 
-// A reader that has seen enough is no failure to talk about.
+// A closed pipe needs no message: the reader has finished.
 int fail_to_print(const Program& program) {
     return errno == EPIPE ? failed
                           : fail(program, fmt::format("standard output: cannot be written: {}",
@@ -62,7 +64,7 @@ int usage_error(const Program& program, std::string message) {
     return misused;
 }
 
-// One line for whatever is wrong with the arguments; help and version are no mistakes.
+// Prints help, version or a usage error.
 int explain(const Program& program, const CLI::App& parser, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
         parser.exit(error);
@@ -83,8 +85,8 @@ int run_command(const Program& program, const Command& command, const Interrupt&
     if (result.error().kind == Error::Kind::usage) {
         return usage_error(program, message);
     }
-    const bool is_told = message.starts_with("interrupted");
-    return fail(program, interrupt.requested() && !is_told ? "interrupted" : message);
+    const bool is_stopped = interrupt.requested() && !message.starts_with("interrupted");
+    return fail(program, is_stopped ? "interrupted" : message);
 }
 
 int run(const Program& program, int argc, char** argv) {
@@ -99,6 +101,10 @@ int run(const Program& program, int argc, char** argv) {
 }
 
 } // namespace
+
+std::string version_text() {
+    return "reljef " RELJEF_VERSION;
+}
 
 int run_program(const Program& program, int argc, char** argv) noexcept {
     keep_streams_open();

@@ -40,22 +40,16 @@ void ProgressLine::update(double fraction) {
     if (quiet_ || now - start_ < silence) {
         return;
     }
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    if (terminal_) {
-        if (shown_ && now - shown_at_ < between_redraws) {
-            return;
-        }
-        write_stderr(fmt::format("\r\033[K{} {:.0f} %{}", label_, 100.0 * fraction,
-                                 time_left(elapsed, fraction)));
-    } else {
-        const int quarter = static_cast<int>(std::floor(4.0 * fraction));
-        if (shown_ && quarter <= shown_quarter_) {
-            return;
-        }
-        shown_quarter_ = quarter;
-        write_stderr(
-            fmt::format("{} {:.0f} %{}\n", label_, 100.0 * fraction, time_left(elapsed, fraction)));
+    const int quarter = static_cast<int>(std::floor(4.0 * fraction));
+    const bool is_due = terminal_ ? now - shown_at_ >= between_redraws : quarter > shown_quarter_;
+    if (shown_ && !is_due) {
+        return;
     }
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    write_stderr(fmt::format("{}{} {:.0f} %{}{}", terminal_ ? "\r\033[K" : "", label_,
+                             100.0 * fraction, time_left(elapsed, fraction),
+                             terminal_ ? "" : "\n"));
+    shown_quarter_ = quarter;
     shown_ = true;
     shown_at_ = now;
 }

@@ -7,9 +7,8 @@
 
 namespace reljef::cli {
 
-/// Shows how far a long operation has come, on stderr: one line that is drawn anew on a terminal, a
-/// line a quarter elsewhere. Says nothing in the first half second, so that short work stays
-/// silent.
+/// Shows progress on stderr: one updated line on a terminal, else a line per quarter. Shows nothing
+/// in the first half second.
 class ProgressLine {
 public:
     explicit ProgressLine(std::string label, bool quiet = false);
@@ -17,9 +16,9 @@ public:
     ProgressLine& operator=(const ProgressLine&) = delete;
     ~ProgressLine();
 
-    /// `fraction` in [0,1]; any thread, one at a time.
+    /// `fraction` in [0,1]; from any thread, one call at a time.
     void update(double fraction);
-    /// For options that take a Progress; valid as long as this line.
+    /// Valid as long as this line.
     [[nodiscard]] Progress callback();
 
 private:

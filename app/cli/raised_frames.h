@@ -8,13 +8,13 @@
 
 namespace reljef::cli {
 
-/// Counts the frames of a camera path whose camera was raised above the ground.
+/// Counts the frames whose camera was raised above the ground.
 class RaisedFrames {
 public:
     void add(const session::Lift& lift);
 
-    /// Reports raised frames. A path file that leads below the ground is an error; a measured track
-    /// is only inaccurate, and a built-in path may graze a summit.
+    /// Notes raised frames. They are an error if a path file leads below the ground; measured
+    /// tracks are only inaccurate, and built-in paths may graze a summit.
     [[nodiscard]] Result<void> report(session::Log& log, const std::string& path) const;
 
 private:

@@ -1,7 +1,7 @@
 #include "app/cli/suggestion.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,13 +9,11 @@
 namespace reljef::cli {
 
 int edit_distance(std::string_view a, std::string_view b) {
-    // The last three rows of the table of distances between the beginnings of a and b.
+    // The last three rows of the table of distances between prefixes of a and b.
     std::vector<int> before_last(b.size() + 1);
     std::vector<int> last(b.size() + 1);
     std::vector<int> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-        row[j] = static_cast<int>(j);
-    }
+    std::iota(row.begin(), row.end(), 0);
     for (std::size_t i = 1; i <= a.size(); ++i) {
         std::swap(before_last, last);
         std::swap(last, row);
@@ -31,13 +29,12 @@ int edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-std::optional<std::string> similar_word(std::string_view unknown,
-                                        std::span<const std::string> known) {
+std::string suggestion(std::string_view unknown, std::span<const std::string> known) {
     constexpr std::size_t max_length = 64; // a longer word is no misspelling
     if (unknown.size() > max_length) {
-        return std::nullopt;
+        return "";
     }
-    std::optional<std::string> nearest;
+    std::string nearest;
     int min_distance = std::max(1, static_cast<int>(unknown.size()) / 3) + 1;
     for (const std::string& word : known) {
         const int distance = edit_distance(unknown, word);
@@ -46,12 +43,7 @@ std::optional<std::string> similar_word(std::string_view unknown,
             nearest = word;
         }
     }
-    return nearest;
-}
-
-std::string suggestion(std::string_view unknown, std::span<const std::string> known) {
-    const auto word = similar_word(unknown, known);
-    return word ? fmt::format("; did you mean {}?", *word) : "";
+    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
 }
 
 } // namespace reljef::cli

@@ -4,9 +4,8 @@
 
 namespace reljef::cli {
 
-/// Ends a command whose options are wrong for what they are about, which only that shows: with one
-/// line and exit status 2, as what is wrong by itself (throws CLI::ParseError, which run_program
-/// catches). Never where a file is at fault.
+/// Throws CLI::ParseError: the program ends with this message and exit status 2. For wrong options,
+/// not for wrong files.
 [[noreturn]] void fail_usage(const std::string& message);
 
 } // namespace reljef::cli

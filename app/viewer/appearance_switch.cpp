@@ -8,7 +8,7 @@ AppearanceSwitch::AppearanceSwitch(session::TerrainScene& scene,
                                    const AppearanceSwitchOptions& options)
     : scene_(scene), options_(options) {}
 
-// All work is asked to stop before any of it is waited for.
+// Requests the stop of all work before it waits.
 AppearanceSwitch::~AppearanceSwitch() {
     retire();
 }
@@ -117,7 +117,7 @@ void AppearanceSwitch::show(const Appearance& appearance) {
     }
 }
 
-// A step of the work may still take a while: the window does not wait for it.
+// The window does not wait for work that stops.
 void AppearanceSwitch::retire() {
     if (pending_ != nullptr) {
         pending_->work->request_stop();

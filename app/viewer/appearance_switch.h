@@ -13,11 +13,11 @@ namespace reljef::app {
 
 struct AppearanceSwitchOptions {
     int threads = 0;           ///< 0: as many as the machine has
-    int largest_side = 16'384; ///< of maps, texels; SceneRenderer::max_texture_side()
+    int largest_side = 16'384; ///< of maps, texels, see SceneRenderer::max_texture_side()
 };
 
-/// Changes the technique and the light of a scene. Maps that take long to make are made in the
-/// background; until they are there the scene looks as it does.
+/// Changes the technique and the light of a scene. Slow maps are made in the background; the scene
+/// changes when they are ready.
 class AppearanceSwitch {
 public:
     /// The scene outlives this.
@@ -27,33 +27,30 @@ public:
     AppearanceSwitch& operator=(const AppearanceSwitch&) = delete;
     ~AppearanceSwitch();
 
-    /// Shows the technique now, or as soon as its maps are there. Replaces an earlier request of a
-    /// technique.
+    /// Shows the technique when its maps are ready. Replaces an earlier request.
     void request(const scene::Technique& technique);
-    /// The same for the light.
     void request(const scene::Light& light);
-    /// Shows what was requested if its maps are there. Whether the scene changed.
+    /// Shows the request if its maps are ready. Returns whether the scene changed.
     bool update();
-    /// Goes back to the techniques before the last change, as the new one cannot be drawn. False if
-    /// there is no way back.
+    /// Restores the techniques before the last change, for a technique that cannot be drawn. False
+    /// if there is none.
     bool undo();
 
-    /// The technique that is requested, else the one that is shown.
+    /// The requested technique, else the current one.
     [[nodiscard]] const scene::Technique& technique() const;
-    /// The light that is requested, else the one that is shown.
+    /// The requested light, else the current one.
     [[nodiscard]] const scene::Light& light() const;
     [[nodiscard]] bool is_preparing() const { return pending_ != nullptr; }
-    /// The task under way; an empty label if there is none.
+    /// The current task; its label is empty if there is none.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const;
-    /// Hands on what was reported since the last call.
+    /// Passes on messages since the last call.
     void relay_to(session::Log& log);
-    /// The scene's light, if it was made since the last call, for SceneRenderer::add_light(); else
-    /// null.
+    /// The light for SceneRenderer::add_light() if it is new since the last call, else null.
     std::shared_ptr<const render::PreparedLight> take_light();
 
 private:
     struct Appearance {
-        std::optional<scene::Technique> technique; // absent: the materials keep theirs
+        std::optional<scene::Technique> technique; // absent: unchanged
         scene::Light light;
     };
     struct Pending {
@@ -69,11 +66,11 @@ private:
 
     session::TerrainScene& scene_;
     AppearanceSwitchOptions options_;
-    session::RelayedLog log_; // of work that is done
+    session::RelayedLog log_; // of finished work
     std::shared_ptr<const render::PreparedLight> light_;
     std::vector<scene::Technique> before_; // of the materials, before the last change
     std::unique_ptr<Pending> pending_;
-    std::vector<std::unique_ptr<Pending>> retired_; // asked to stop, not waited for
+    std::vector<std::unique_ptr<Pending>> retired_; // stopping
 };
 
 } // namespace reljef::app

@@ -9,32 +9,29 @@
 
 namespace reljef::app {
 
-/// How finely a frame is drawn.
 struct FrameQuality {
-    int samples = render::automatic_samples; ///< of a pixel
+    int samples = render::automatic_samples; ///< per pixel
     int divisor = 1;                         ///< of the window's sides
 
-    /// Of the picture for a window of that size, pixels.
+    /// Pixels.
     [[nodiscard]] glm::ivec2 picture_size(glm::ivec2 window) const {
         return glm::max(window / divisor, glm::ivec2(1));
     }
     friend bool operator==(const FrameQuality&, const FrameQuality&) = default;
 };
 
-/// Chooses how finely a view is drawn: in full while it rests. While it moves and its frames are
-/// slow, first with one sample a pixel, then at a half and a third of the window's
-/// resolution. One slow frame, as when tiles arrive, changes nothing.
+/// Chooses the quality of a view. A view at rest has full quality. A moving view with several slow
+/// frames in a row gets one sample per pixel, then a half and a third of the resolution.
 class MotionQuality {
 public:
-    /// Frames that take longer are slow, milliseconds.
-    static constexpr double max_smooth_ms = 40.0;
-    static constexpr int max_slow_frames = 2; // in a row
+    static constexpr double max_smooth_ms = 40.0; // slower frames are slow
+    static constexpr int max_slow_frames = 2;     // in a row
     static constexpr int max_divisor = 3;
 
     void add_frame(double milliseconds) {
         slow_frames_ = milliseconds > max_smooth_ms ? slow_frames_ + 1 : 0;
     }
-    /// Of the next frame.
+    /// The quality of the next frame.
     FrameQuality choose(bool is_moving) {
         if (!is_moving) {
             step_ = 0;
@@ -44,12 +41,12 @@ public:
         }
         return step_ == 0 ? FrameQuality{} : FrameQuality{1, step_};
     }
-    /// Whether the last frame was less than a view at rest has.
+    /// Whether the last frame had less than full quality.
     [[nodiscard]] bool is_reduced() const { return step_ > 0; }
 
 private:
-    int slow_frames_ = 0; // in a row, of this step
-    int step_ = 0;        // 1: one sample; from 2 on the divisor
+    int slow_frames_ = 0; // in a row
+    int step_ = 0;        // 0: full quality; else one sample, with this divisor
 };
 
 } // namespace reljef::app

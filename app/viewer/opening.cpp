@@ -14,7 +14,7 @@
 namespace reljef::app {
 namespace {
 
-// How long the window waits for an event before the progress is shown.
+// Between two updates of the progress.
 constexpr std::chrono::milliseconds opening_pause{20};
 
 bool asks_to_end(const std::vector<Event>& events) {
@@ -25,7 +25,7 @@ bool asks_to_end(const std::vector<Event>& events) {
     });
 }
 
-// Shows the progress of work in the background in the window's title and on stderr.
+// Shows progress in the window's title and on stderr.
 class ProgressDisplay {
 public:
     ProgressDisplay(platform::Window& window, session::Log& log) : window_(window), log_(log) {}
@@ -76,7 +76,7 @@ Result<std::optional<OpenedScene>> open_in_window(platform::Window& window,
     session::SourceOptions source = terrain;
     source.streamed = true;
     session::SceneOptions options = view;
-    options.prepares_maps = false; // the viewer does, and shows a coarser picture meanwhile
+    options.prepares_maps = false; // the viewer makes them and shows a coarser picture first
     session::RelayedLog relayed;
     session::Background<OpenedScene> opening([&](const std::stop_token& stopped) {
         return open(source, options, largest_side, relayed, stopped);

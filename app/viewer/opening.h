@@ -14,13 +14,13 @@ namespace reljef::app {
 
 struct OpenedScene {
     session::TerrainScene scene;
-    /// Of first_technique(); null in the gallery.
+    /// For first_technique(); null in the gallery.
     std::shared_ptr<const render::PreparedLight> light;
 };
 
-/// Opens a scene in the background, so that the window answers meanwhile and shows the progress.
-/// Nothing if the user closes the window. Fails as open_scene, and when it was stopped. The maps of
-/// the scene's technique are left to the viewer. `largest_side`: SceneRenderer::max_texture_side().
+/// Opens a scene in the background while the window shows the progress. Empty if the user closes
+/// the window. Fails as open_scene() or when stopped. Does not make the maps of the technique.
+/// `largest_side`: SceneRenderer::max_texture_side().
 Result<std::optional<OpenedScene>> open_in_window(platform::Window& window,
                                                   const session::SourceOptions& terrain,
                                                   const session::SceneOptions& view,

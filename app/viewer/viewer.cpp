@@ -16,22 +16,15 @@
 namespace reljef::app {
 namespace {
 
-// Flying once across the terrain takes this long.
-constexpr double seconds_across = 20.0;
-// How long a first step lasts at most, seconds.
-constexpr double first_step = 1.0 / 60.0;
-// Of a terrain by distance, until the maps of its technique are made.
-constexpr int coarse_levels = 5;
-// Of a path, seconds.
-constexpr double min_duration = 1e-9;
-// Metres: less is no more than rounding.
-constexpr double min_raise = 1e-3;
+constexpr double seconds_across = 20.0;   // duration of a flight across the terrain
+constexpr double first_step = 1.0 / 60.0; // longest step after rest, seconds
+constexpr int coarse_levels = 5;          // until the maps of a technique are ready
+constexpr double min_duration = 1e-9;     // of a path, seconds
+constexpr double min_raise = 1e-3;        // metres; less is rounding
+constexpr double heading_length = 100.0;  // metres ahead that define the heading
 
-// Metres on the way ahead over which a heading is told: the compass's own points are farther apart.
-constexpr double heading_length = 100.0;
-
-/// Degrees clockwise from true north, [0, 360), of what is up in the picture where that is farther
-/// along than what is straight ahead; nothing where that leads off the Earth's map.
+/// Heading in degrees clockwise from true north, [0, 360): the forward direction, or the up
+/// direction of a steep view. Empty outside the map's domain.
 std::optional<double> heading_at(const terrain::Placement& placement, const scene::Camera& camera) {
     const scene::ViewAxes axes = scene::view_axes(camera);
     const glm::dvec3 up = placement.up(camera.eye);
@@ -67,7 +60,7 @@ scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::C
     return {start, std::move(options)};
 }
 
-// Where to fly from when the scene begins as a map.
+// The start of a flight, also for a scene that begins as a map.
 scene::Camera perspective_start(const session::TerrainScene& scene) {
     scene::Camera camera = *scene.camera->get<scene::Camera>();
     if (camera.projection == scene::ProjectionKind::perspective) {
@@ -83,7 +76,7 @@ scene::Camera perspective_start(const session::TerrainScene& scene) {
     return camera;
 }
 
-// The catalogue's that can draw what is shown, with the parameters that were asked for.
+// The techniques that can draw the scene.
 std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
                                               const session::TerrainScene& scene) {
     std::vector<scene::Technique> techniques;
@@ -135,7 +128,7 @@ scene::Technique first_technique(const session::TerrainScene& scene) {
 
 struct Viewer::Binding {
     Key key;
-    Key other; // that does the same; unknown: none
+    Key other; // alternative; unknown: none
     void (Viewer::*action)();
     const char* names;
     const char* meaning;
@@ -148,17 +141,17 @@ std::span<const Viewer::Binding> Viewer::bindings() {
           "keep the height above the ground, or fly where you look"},
          {Key::o, Key::unknown, &Viewer::toggle_map, "O", "map from straight above, and back"},
          {Key::t, Key::unknown, &Viewer::next_technique, "T, 1 2 ...",
-          "next technique, or a certain one"},
-         {Key::l, Key::unknown, &Viewer::turn_light, "L", "move the light on by 15 degrees"},
+          "next technique, or the technique of that number"},
+         {Key::l, Key::unknown, &Viewer::turn_light, "L", "turn the light by 15 degrees"},
          {Key::f, Key::unknown, &Viewer::toggle_wireframe, "F",
-          "the triangles' edges only, or filled"},
+          "only the edges of triangles, or filled triangles"},
          {Key::m, Key::unknown, &Viewer::toggle_mouse_look, "M",
           "turn with every move of the mouse, or only with its button held"},
          {Key::r, Key::home, &Viewer::go_to_start, "R, Home", "back to the first view"},
          {Key::c, Key::f12, &Viewer::ask_for_screenshot, "C, F12",
-          "save the picture here: reljef-0001.png and on"},
+          "save the picture here as reljef-0001.png, reljef-0002.png, ..."},
          {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show these lines"},
-         {Key::escape, Key::unknown, &Viewer::leave, "Esc", "let go of the mouse, or end"}}};
+         {Key::escape, Key::unknown, &Viewer::leave, "Esc", "release the mouse, or quit"}}};
     return all;
 }
 
@@ -209,7 +202,7 @@ void Viewer::receive(const Event& event) {
         return;
     }
     flight_.receive(event);
-    // Whoever steers takes over from the path.
+    // Steering ends the flight along the path.
     playing_ = playing_ && !flight_.is_steered();
 }
 
@@ -393,7 +386,7 @@ std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timi
     const std::string rate = timing.frames_per_second
                                  ? fmt::format("{:.1f} fps", *timing.frames_per_second)
                                  : std::string("still");
-    const auto preparing = preparation();
+    const auto preparing = switch_.progress();
     const std::string progress =
         preparing.label.empty()
             ? std::string()

@@ -19,50 +19,46 @@
 
 namespace reljef::app {
 
-/// How fast pictures come.
 struct FrameTiming {
-    double last_ms = 0.0;                    ///< what the last picture took to draw
-    std::optional<double> frames_per_second; ///< absent: nothing moves, nothing is drawn
-    int divisor = 1;                         ///< of the window's sides, for fewer pixels
+    double last_ms = 0.0;                    ///< of the last frame
+    std::optional<double> frames_per_second; ///< absent at rest
+    int divisor = 1;                         ///< of the window's sides
 };
 
 struct ViewerOptions {
     AppearanceSwitchOptions maps;
-    bool allow_underground = false; ///< the ground stops nobody
+    bool allow_underground = false; ///< the ground does not stop the camera
 };
 
-/// What is shown of a scene until the maps of its techniques are made: levels by distance, which
-/// need none. The scene's own technique if nothing is missing.
+/// The technique until the scene's maps are ready: levels by distance, which need no maps. The
+/// scene's own technique if no maps are missing.
 scene::Technique first_technique(const session::TerrainScene& scene);
 
-/// Everything the viewer decides, without a window: takes events, moves the camera of its scene,
-/// and says whether there is something new to draw.
+/// The viewer's logic without a window. It receives events and moves the scene's camera.
 class Viewer {
 public:
-    /// Precondition: `scene` is as make_scene() gives it and outlives the viewer. `size` is the
-    /// picture's, pixels. While the maps of the scene's technique are made, a coarser one is shown.
+    /// Precondition: make_scene() made `scene`, which outlives the viewer. `size` of the picture,
+    /// pixels.
     Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
            const ViewerOptions& options = {});
 
-    /// What each key does, for people: a line each.
+    /// Help for the keys, a line each.
     static std::string keys();
 
-    /// Takes an event; what it asks of the window is found in the requests below.
     void receive(const Event& event);
-    /// Moves on by `seconds` (negative and not finite: none). After standing still, the first step
-    /// is no longer than a frame.
+    /// Advances by `seconds`; negative or not finite values count as 0. The first step after rest
+    /// is at most a frame long.
     void advance(double seconds);
 
-    /// Where the camera is about to be in the next seconds, if it goes on as it does; nothing while
-    /// it stands still.
+    /// The expected cameras of the next seconds; empty at rest.
     [[nodiscard]] std::vector<scene::Camera> upcoming() const;
 
-    /// Flies along the path, or stops.
+    /// Starts or stops the flight along the path.
     void toggle_path();
 
-    /// Whether the scene changed since the last call; at first it did.
+    /// Whether the scene changed since the last call; true at first.
     bool take_redraw();
-    /// Whether something moves by itself or is steered, so that the next frame may differ.
+    /// Whether the view moves by itself or is steered.
     [[nodiscard]] bool is_moving() const;
 
     bool take_screenshot_request();
@@ -70,23 +66,16 @@ public:
     [[nodiscard]] bool wants_to_close() const { return close_; }
     [[nodiscard]] bool wants_mouse() const { return mouse_look_; }
     [[nodiscard]] bool is_playing() const { return playing_; }
-    /// By how many metres the path was kept above the ground at most, so far.
+    /// How far the ground raised the path at most, metres.
     [[nodiscard]] double path_raised() const { return path_raised_; }
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
-    /// Whether maps of a technique are being made; it is shown when they are there.
+    // As in AppearanceSwitch.
     [[nodiscard]] bool is_preparing() const { return switch_.is_preparing(); }
-    /// What is being made, and how far it is.
-    [[nodiscard]] session::RelayedLog::TaskProgress preparation() const {
-        return switch_.progress();
-    }
-    /// Hands on what was reported since the last call.
     void relay_to(session::Log& log) { switch_.relay_to(log); }
-    /// As AppearanceSwitch::undo().
     bool undo_technique();
-    /// As AppearanceSwitch::take_light().
     std::shared_ptr<const render::PreparedLight> take_light() { return switch_.take_light(); }
 
-    /// Name, technique, frame rate, triangles and where the eye is, for the window's title.
+    /// For the window's title.
     [[nodiscard]] std::string title(const view::FrameStats& stats, const FrameTiming& timing) const;
 
 private:
@@ -117,7 +106,7 @@ private:
     scene::CameraPath path_;
     glm::ivec2 size_;
     scene::Camera start_;
-    std::vector<scene::Technique> techniques_; // as asked for, in the catalogue's order
+    std::vector<scene::Technique> techniques_; // in the catalogue's order
     AppearanceSwitch switch_;
     scene::FreeFlight flight_;
     std::optional<ViewerMap> map_; // while it is shown
@@ -134,7 +123,7 @@ private:
     bool close_ = false;
 };
 
-/// The first name reljef-0001.png, reljef-0002.png, … that nothing in `folder` has.
+/// The first free name reljef-0001.png, reljef-0002.png, … in `folder`.
 std::filesystem::path next_screenshot(const std::filesystem::path& folder);
 
 } // namespace reljef::app

@@ -19,7 +19,7 @@ constexpr double longest_step = 0.25; // seconds
 constexpr double widest_in_starts = 4.0;
 constexpr double narrowest_in_starts = 1e-4;
 
-// Half a terrain more on all sides.
+// The terrain with a margin of half its size.
 Box around(const Box& terrain) {
     const glm::dvec3 size = terrain.size();
     const glm::dvec3 margin{0.5 * std::max({size.x, size.y, size.z})};

@@ -11,18 +11,18 @@
 
 namespace reljef::app {
 
-/// An orthographic camera moved like a map: dragging and W A S D or the arrows shift it, the wheel
-/// enlarges what is below the pointer, Q and E go closer and farther, shift is four times as fast.
-/// What it looks at stays within half a terrain around the terrain.
+/// An orthographic camera that moves like a map. Dragging, W A S D and the arrows shift it. The
+/// wheel zooms at the pointer, Q and E at the middle. Shift is four times as fast. The target stays
+/// within half a terrain around the terrain.
 class ViewerMap {
 public:
     /// Precondition: `start` is orthographic. `size` is the picture's, pixels.
     ViewerMap(const scene::Camera& start, const Box& terrain, glm::ivec2 size);
 
-    /// Takes the events it knows and says whether it did.
+    /// Returns whether it used the event.
     bool receive(const Event& event);
-    /// Moves on by `seconds` (clamped to [0, 0.25], not a number: 0); returns whether the camera
-    /// changed since the last call.
+    /// Advances by `seconds`, clamped to [0, 0.25]. Returns whether the camera changed since the
+    /// last call.
     bool advance(double seconds);
     /// Whether the next advance() may change the camera.
     [[nodiscard]] bool is_steered() const;
@@ -38,7 +38,7 @@ private:
     [[nodiscard]] double metres_per_pixel() const { return camera_.view_height / size_.y; }
 
     scene::Camera camera_;
-    Box reach_; // of what is looked at
+    Box reach_; // of the target
     double widest_;
     glm::dvec2 size_;
     scene::SteeringKeys keys_;

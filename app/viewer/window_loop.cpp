@@ -16,14 +16,12 @@ namespace reljef::app {
 namespace {
 
 constexpr double seconds_between_titles = 0.5;
-// How long a still window waits for an event before it looks whether it was asked to stop.
-constexpr std::chrono::milliseconds still{100};
-// The same while maps are made: their progress is shown.
-constexpr std::chrono::milliseconds preparing_pause{20};
-// The same while something moves and yet nothing new is seen.
-constexpr std::chrono::milliseconds stuck{10};
+// Longest waits for an event.
+constexpr std::chrono::milliseconds no_wait{0};
+constexpr std::chrono::milliseconds still{100};          // nothing moves
+constexpr std::chrono::milliseconds preparing_pause{20}; // shows the progress of maps
+constexpr std::chrono::milliseconds stuck{10};           // moves without a visible change
 
-// The loop between the window, what the viewer decides, and the driver.
 class WindowLoop {
 public:
     WindowLoop(platform::Window& window, session::SceneRenderer& renderer,
@@ -44,7 +42,7 @@ public:
                     if (!viewer_.undo_technique()) {
                         return drawn;
                     }
-                    log_.note(drawn.error().message); // once: the next frame is drawn as before
+                    log_.note(drawn.error().message);
                 }
             }
             session::log_stream_errors(scene_.scene, log_);
@@ -62,23 +60,25 @@ private:
                (options_.frames > 0 && drawn_ == options_.frames);
     }
 
-    // The view stands still, and was drawn with fewer samples than it may have.
+    // Whether a view at rest was drawn with reduced quality.
     [[nodiscard]] bool is_to_sharpen() const {
         return quality_.is_reduced() && !viewer_.is_moving();
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
+        if (drawn_ == 0) {
+            return no_wait;
+        }
         if (viewer_.is_preparing() && !viewer_.is_moving()) {
-            return drawn_ == 0 ? std::chrono::milliseconds(0) : preparing_pause;
+            return preparing_pause;
         }
         if (!viewer_.is_moving() && options_.frames == 0 && !session::awaits_tiles(scene_.scene)) {
-            return drawn_ == 0 ? std::chrono::milliseconds(0) : still;
+            return still;
         }
-        return has_drawn_ || drawn_ == 0 ? std::chrono::milliseconds(0) : stuck;
+        return has_drawn_ ? no_wait : stuck;
     }
 
-    // Selects the view and requests its tiles and those of the next seconds. The picture does not
-    // wait for them: it shows what is there.
+    // Selects the view and requests its tiles and those of the next seconds without waiting.
     void select() {
         std::vector<view::TileRequests> requests = renderer_.select(scene_.scene).requests;
         if (!requests.empty()) {
@@ -102,7 +102,7 @@ private:
         }
     }
 
-    // Once, when it happens first.
+    // Notes it once.
     void log_raised_path() {
         if (viewer_.path_raised() > 0.0 && !std::exchange(raise_logged_, true)) {
             log_.note("the path leads under the ground or too close to it: it is raised there");
@@ -119,7 +119,7 @@ private:
         std::fflush(stdout);
     }
 
-    // A folder that cannot be written is no reason to end the flight.
+    // Failures are notes.
     void save_picture() {
         if (quality_.is_reduced()) {
             if (auto drawn = draw_at({}); !drawn) {
@@ -211,7 +211,7 @@ private:
     Stopwatch since_title_;
     int drawn_ = 0;
     int drawn_since_title_ = 0;
-    bool has_drawn_ = false; // in this turn of the loop
+    bool has_drawn_ = false; // in this iteration
     bool mouse_captured_ = false;
     bool raise_logged_ = false;
 };

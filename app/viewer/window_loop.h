@@ -11,11 +11,11 @@
 namespace reljef::app {
 
 struct WindowLoopOptions {
-    int frames = 0; ///< to draw, moving or not, before the window closes; 0: until the user ends it
-    bool keeps_quality = false; ///< draws a slow view that moves in full, see MotionQuality
+    int frames = 0;             ///< draws this number of frames, then closes; 0: no limit
+    bool keeps_quality = false; ///< does not use MotionQuality
 };
 
-/// Passes events to the viewer and draws its scene, until the user or `stop` ends it. Fails when a
+/// Passes events to the viewer and draws its scene until the user or `stop` ends it. Fails if a
 /// frame cannot be drawn.
 Result<void> run_window_loop(platform::Window& window, session::SceneRenderer& renderer,
                              session::TerrainScene& scene, Viewer& viewer, session::Log& log,

@@ -18,79 +18,28 @@ namespace {
 constexpr double floor_width = 40.0; // metres
 constexpr int color_side = 1024;     // texels of the floor's image
 
-constexpr std::string_view solid_look = "relief";
 constexpr float through_the_middle = -0.5F;
 
-constexpr GalleryModel plane_model{.shape = GalleryShape::plane,
-                                   .name = "plane",
-                                   .textures = "brick",
-                                   .center = {0.0, 3.4, 2.25},
-                                   .heading = 0.0,
-                                   .size = {12.0F, 4.5F, 0.0F},
-                                   .repeats = {8.0F, 3.0F},
-                                   .technique = solid_look};
-constexpr GalleryModel box_model{.shape = GalleryShape::box,
-                                 .name = "box",
-                                 .textures = "rock",
-                                 .center = {-3.35, 0.3, 1.0},
-                                 .heading = 24.0,
-                                 .size = {2.0F, 2.0F, 2.0F},
-                                 .repeats = {2.0F, 2.0F},
-                                 .technique = solid_look,
-                                 .offset = through_the_middle};
-constexpr GalleryModel sphere_model{.shape = GalleryShape::sphere,
-                                    .name = "sphere",
-                                    .textures = "cobble",
-                                    .center = {-0.25, 0.7, 1.3},
-                                    .heading = 0.0,
-                                    .size = {1.3F, 0.0F, 0.0F},
-                                    .repeats = {4.0F, 2.0F},
-                                    .technique = solid_look};
-constexpr GalleryModel torus_model{.shape = GalleryShape::torus,
-                                   .name = "torus",
-                                   .textures = "rock",
-                                   .center = {1.15, -2.1, 0.46},
-                                   .heading = 0.0,
-                                   .size = {0.98F, 0.46F, 0.0F},
-                                   .repeats = {4.0F, 2.0F},
-                                   .technique = solid_look};
-constexpr GalleryModel cylinder_model{.shape = GalleryShape::cylinder,
-                                      .name = "cylinder",
-                                      .textures = "brick",
-                                      .center = {3.4, 0.6, 1.5},
-                                      .heading = 0.0,
-                                      .size = {0.95F, 3.0F, 0.0F},
-                                      .repeats = {4.0F, 2.0F},
-                                      .technique = solid_look};
-constexpr GalleryModel fence_model{.shape = GalleryShape::sheet,
-                                   .name = "fence",
-                                   .textures = "fence",
-                                   .center = {-3.55, -2.0, 0.75},
-                                   .heading = 22.0,
-                                   .size = {3.0F, 1.5F, 0.0F},
-                                   .repeats = {4.0F, 2.0F},
-                                   .technique = "lattice",
-                                   .offset = through_the_middle};
-constexpr GalleryModel curtain_model{.shape = GalleryShape::sheet,
-                                     .name = "curtain",
-                                     .textures = "rings",
-                                     .center = {3.7, -1.8, 1.3},
-                                     .heading = 30.0,
-                                     .size = {2.4F, 2.4F, 0.0F},
-                                     .repeats = {2.0F, 2.0F},
-                                     .technique = "multi-layer:n=64",
-                                     .offset = through_the_middle};
-constexpr GalleryModel shell_model{.shape = GalleryShape::bowl,
-                                   .name = "shell",
-                                   .textures = "copper",
-                                   .center = {-1.35, -2.75, 0.8},
-                                   .heading = 0.0,
-                                   .size = {0.8F, 0.0F, 0.0F},
-                                   .repeats = {6.0F, 1.5F},
-                                   .technique = "relief:sides=two",
-                                   .offset = through_the_middle};
-constexpr std::array models{plane_model,    box_model,   sphere_model,  torus_model,
-                            cylinder_model, fence_model, curtain_model, shell_model};
+// Shape, name, textures, center, heading, size, repeats, technique, offset.
+constexpr std::array models{
+    GalleryModel{GalleryShape::plane, "plane", "brick", glm::dvec3(0.0, 3.4, 2.25), 0.0,
+                 glm::vec3(12.0F, 4.5F, 0.0F), glm::vec2(8.0F, 3.0F), "relief"},
+    GalleryModel{GalleryShape::box, "box", "rock", glm::dvec3(-3.35, 0.3, 1.0), 24.0,
+                 glm::vec3(2.0F, 2.0F, 2.0F), glm::vec2(2.0F, 2.0F), "relief", through_the_middle},
+    GalleryModel{GalleryShape::sphere, "sphere", "cobble", glm::dvec3(-0.25, 0.7, 1.3), 0.0,
+                 glm::vec3(1.3F, 0.0F, 0.0F), glm::vec2(4.0F, 2.0F), "relief"},
+    GalleryModel{GalleryShape::torus, "torus", "rock", glm::dvec3(1.15, -2.1, 0.46), 0.0,
+                 glm::vec3(0.98F, 0.46F, 0.0F), glm::vec2(4.0F, 2.0F), "relief"},
+    GalleryModel{GalleryShape::cylinder, "cylinder", "brick", glm::dvec3(3.4, 0.6, 1.5), 0.0,
+                 glm::vec3(0.95F, 3.0F, 0.0F), glm::vec2(4.0F, 2.0F), "relief"},
+    GalleryModel{GalleryShape::sheet, "fence", "fence", glm::dvec3(-3.55, -2.0, 0.75), 22.0,
+                 glm::vec3(3.0F, 1.5F, 0.0F), glm::vec2(4.0F, 2.0F), "lattice", through_the_middle},
+    GalleryModel{GalleryShape::sheet, "curtain", "rings", glm::dvec3(3.7, -1.8, 1.3), 30.0,
+                 glm::vec3(2.4F, 2.4F, 0.0F), glm::vec2(2.0F, 2.0F), "multi-layer:n=64",
+                 through_the_middle},
+    GalleryModel{GalleryShape::bowl, "shell", "copper", glm::dvec3(-1.35, -2.75, 0.8), 0.0,
+                 glm::vec3(0.8F, 0.0F, 0.0F), glm::vec2(6.0F, 1.5F), "relief:sides=two",
+                 through_the_middle}};
 
 // Metres from a place on the floor to the model's footprint; 0 inside it.
 double distance_to_foot(const GalleryModel& model, glm::dvec2 place) {

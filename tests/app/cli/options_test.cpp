@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/cli/parsed_option.h"
+
 namespace reljef::app {
 namespace {
 
