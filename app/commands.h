@@ -5,7 +5,6 @@
 
 namespace reljef::app {
 
-// The verbs of reljef.
 cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_info_command(CLI::App& program, cli::Interrupt& interrupt);
@@ -13,7 +12,6 @@ cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_techniques_command(CLI::App& program, cli::Interrupt& interrupt);
 
-/// The program `reljef`.
 cli::Program reljef_program();
 
 } // namespace reljef::app

@@ -45,7 +45,6 @@ public:
     }
 };
 
-// Creates the folder of the pattern.
 Result<void> make_folder(const fs::path& pattern) {
     const auto first = numbered(pattern, 0);
     if (!first) {

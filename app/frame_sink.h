@@ -10,7 +10,6 @@
 
 namespace reljef::app {
 
-/// The output of rendered frames.
 class FrameSink {
 public:
     virtual ~FrameSink() = default;
@@ -26,7 +25,6 @@ bool is_video(const std::filesystem::path& path);
 /// video's name, one picture for many frames, an unknown picture format. The error names -o.
 Result<void> check_output_name(const std::filesystem::path& output, int frames);
 
-/// Whether the output is "-".
 bool is_standard_output(const std::filesystem::path& output);
 
 /// Whether the name contains a number pattern.

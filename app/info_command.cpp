@@ -95,7 +95,6 @@ Json file_info(const io::SceneDescription& description) {
         {"format", info->format}, {"type", info->type}, {"cols", info->cols}, {"rows", info->rows}};
 }
 
-// The gallery's models with their textures.
 Json models_of(const session::TerrainSource& source, const cli::TerrainChoice& choice) {
     Json models = Json::array();
     if (source.description.generator == "gallery") {
@@ -109,7 +108,6 @@ Json models_of(const session::TerrainSource& source, const cli::TerrainChoice& c
     return models;
 }
 
-// The files of a folder.
 Json tiles_info(const io::TileSet& tiles, const std::optional<geo::GeodeticArea>& area,
                 const FullGrid& grid) {
     Json formats = Json::object();
@@ -163,22 +161,14 @@ FullGrid grid_of_file(int cols, int rows, const terrain::Heightfield& heightfiel
             read_from_source(heightfield, last)};
 }
 
-FullGrid grid_that_was_read(const terrain::Heightfield& heightfield) {
-    const glm::ivec2 size = size_that_was_read(heightfield);
-    return grid_of_file(size.x, size.y, heightfield);
-}
-
-Json geoid_info(const geo::Georeference& georeference) {
-    return georeference.geoid ? Json(georeference.geoid->name()) : Json(nullptr);
-}
-
 Json describe(const session::TerrainSource& source, const cli::TerrainChoice& choice) {
     const terrain::Heightfield& heightfield = source.terrain.heightfield;
     const auto area = session::area_of(choice, source.description);
     const Json own_file = source.tiles || !source.description.generator.empty()
                               ? Json()
                               : file_info(source.description);
-    const FullGrid read_grid = grid_that_was_read(heightfield);
+    const glm::ivec2 read = size_that_was_read(heightfield);
+    const FullGrid read_grid = grid_of_file(read.x, read.y, heightfield);
     const FullGrid grid =
         source.tiles ? grid_of_tiles(*source.tiles, area, heightfield).value_or(read_grid)
         : own_file.is_null()
@@ -192,11 +182,12 @@ Json describe(const session::TerrainSource& source, const cli::TerrainChoice& ch
     info["type"] = file.is_null() ? Json("Float32") : file["type"];
     info["format"] = file.is_null() ? Json("generated") : file["format"];
     if (const auto& georeference = heightfield.georeference) {
-        info["crs"] = {{"name", georeference->crs_name},
-                       {"code", georeference->crs_code},
-                       {"horizontal_unit", georeference->horizontal_unit},
-                       {"vertical_datum", georeference->vertical_datum},
-                       {"geoid", geoid_info(*georeference)}};
+        info["crs"] = {
+            {"name", georeference->crs_name},
+            {"code", georeference->crs_code},
+            {"horizontal_unit", georeference->horizontal_unit},
+            {"vertical_datum", georeference->vertical_datum},
+            {"geoid", georeference->geoid ? Json(georeference->geoid->name()) : Json(nullptr)}};
     } else {
         info["crs"] = nullptr;
     }
@@ -205,7 +196,6 @@ Json describe(const session::TerrainSource& source, const cli::TerrainChoice& ch
                          {"formats", file["formats"]},
                          {"finest_spacing_m", file["finest_spacing_m"]}};
     }
-    const glm::ivec2 read = size_that_was_read(heightfield);
     info["read"] = {{"cols", read.x}, {"rows", read.y}, {"reduction", grid.reduction}};
     const glm::dvec2 spacing = heightfield.spacing / static_cast<double>(grid.reduction);
     info["spacing"] = {{"x_m", spacing.x}, {"y_m", spacing.y}};
@@ -240,7 +230,6 @@ double number(const Json& value) {
     return value.get<double>();
 }
 
-// The CRS and the zero of heights.
 void print_crs(const Json& crs, const cli::TerrainChoice& choice) {
     if (crs.is_null()) {
         fmt::print("  CRS      none\n");
@@ -292,7 +281,6 @@ void print_text(const Json& info, const cli::TerrainChoice& choice) {
     }
 }
 
-// Omits notes, which print_info() prints.
 class ProgressLog : public cli::ConsoleLog {
 public:
     using cli::ConsoleLog::ConsoleLog;

@@ -51,11 +51,6 @@ bool is_heading(std::string_view line) {
            !line_of(line);
 }
 
-std::string_view without_byte_order_mark(std::string_view text) {
-    constexpr std::string_view mark = "\xEF\xBB\xBF";
-    return text.substr(0, mark.size()) == mark ? text.substr(mark.size()) : text;
-}
-
 } // namespace
 
 bool is_place(glm::dvec2 place) {
@@ -107,8 +102,11 @@ Result<PlaceFile::Piece> PlaceFile::next() {
     if (auto read = read_lines(); !read) {
         return read.error();
     }
-    std::string_view text =
-        lines_read_ == 0 ? without_byte_order_mark(text_) : std::string_view(text_);
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    std::string_view text = text_;
+    if (lines_read_ == 0 && text.starts_with(byte_order_mark)) {
+        text.remove_prefix(byte_order_mark.size());
+    }
     Piece piece;
     while (!text.empty()) {
         const std::string_view raw = text.substr(0, text.find('\n'));

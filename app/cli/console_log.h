@@ -11,7 +11,6 @@ namespace reljef::cli {
 /// Writes messages and progress to stderr.
 class ConsoleLog : public session::Log {
 public:
-    /// `quiet`: writes nothing.
     explicit ConsoleLog(bool quiet) : quiet_(quiet) {}
 
     void message(session::MessageKind kind, std::string_view sentence) override;

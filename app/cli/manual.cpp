@@ -29,17 +29,14 @@ std::string upper(std::string text) {
 std::string roff(std::string_view text) {
     std::string escaped;
     for (const char letter : text) {
-        if (letter == '\\') {
-            escaped += "\\e";
-        } else if (letter == '-') {
-            escaped += "\\-";
-        } else if ((letter == '.' || letter == '\'') &&
-                   (escaped.empty() || escaped.back() == '\n')) {
+        const bool begins_line = escaped.empty() || escaped.back() == '\n';
+        if (begins_line && (letter == '.' || letter == '\'')) {
             escaped += "\\&";
-            escaped += letter;
-        } else {
-            escaped += letter;
         }
+        if (letter == '\\' || letter == '-') {
+            escaped += '\\';
+        }
+        escaped += letter == '\\' ? 'e' : letter;
     }
     return escaped;
 }
@@ -110,7 +107,6 @@ std::string verb_page(const Program& program, const CLI::App& arguments) {
                 fmt::format(".SH SEE ALSO\n\\fB{}\\fR(1)\n", roff(program.name)));
 }
 
-// "--eye" and "-o", as they are typed.
 std::vector<std::string> words_of(const CLI::App& arguments) {
     std::vector<std::string> words;
     for (const CLI::Option* const option : arguments.get_options()) {
@@ -158,13 +154,11 @@ std::string zsh_text(std::string_view text) {
     std::string escaped;
     for (const char letter : text) {
         if (letter == '\'') {
-            escaped += "'\\''";
+            escaped += "'\\'";
         } else if (letter == '[' || letter == ']' || letter == ':' || letter == '\\') {
             escaped += '\\';
-            escaped += letter;
-        } else {
-            escaped += letter == '\n' ? ' ' : letter;
         }
+        escaped += letter == '\n' ? ' ' : letter;
     }
     return escaped;
 }

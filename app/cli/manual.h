@@ -7,7 +7,6 @@
 
 namespace reljef::cli {
 
-/// A file of documentation.
 struct ManualFile {
     std::string path; ///< below the installation's share folder, "man/man1/reljef-render.1"
     std::string text;

@@ -19,7 +19,6 @@ namespace {
 
 constexpr int largest_picture_side = 16384;
 
-// Parses a point.
 auto point_of(const char* option) {
     return [=](const std::string& text) -> Result<glm::dvec3> {
         const auto numbers = parse_numbers<3>(option, text, "x,y,z in scene metres");

@@ -18,12 +18,10 @@ class App;
 
 namespace reljef::cli {
 
-/// The terrain to open.
 struct TerrainChoice : session::SourceOptions {
     bool quiet = false; ///< no progress and no notes on stderr
 };
 
-/// The picture or film to draw.
 struct ViewChoice : session::SceneOptions {
     std::optional<platform::ContextKind> context; ///< absent: auto
     glm::ivec2 size{1024, 768};                   ///< pixels
@@ -45,7 +43,6 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 /// The terrain options that choose heights, without those that draw them.
 void add_source_options(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
-/// --samples.
 void add_samples_option(CLI::App& command, ViewChoice& choice);
 /// The option or file that places the camera.
 std::string camera_source(const ViewChoice& view, const TerrainChoice& terrain);

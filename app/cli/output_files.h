@@ -8,7 +8,6 @@
 
 namespace reljef::cli {
 
-/// A file named on the command line.
 struct NamedFile {
     std::string option; ///< for messages: "-o", "TERRAIN"
     std::filesystem::path path;

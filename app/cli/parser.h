@@ -9,7 +9,6 @@
 
 namespace reljef::cli {
 
-/// The parser of a program's arguments.
 class Parser {
 public:
     /// `interrupt` outlives this.

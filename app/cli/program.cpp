@@ -64,7 +64,6 @@ int usage_error(const Program& program, std::string message) {
     return misused;
 }
 
-// Prints help, version or a usage error.
 int explain(const Program& program, const CLI::App& parser, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
         parser.exit(error);

@@ -7,7 +7,6 @@
 
 namespace reljef::cli {
 
-/// A program with several verbs.
 struct Program {
     std::string name; ///< of the file; messages begin with it
     std::string description;

@@ -18,7 +18,6 @@ public:
 
     /// `fraction` in [0,1]; from any thread, one call at a time.
     void update(double fraction);
-    /// Valid as long as this line.
     [[nodiscard]] Progress callback();
 
 private:

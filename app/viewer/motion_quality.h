@@ -13,7 +13,6 @@ struct FrameQuality {
     int samples = render::automatic_samples; ///< per pixel
     int divisor = 1;                         ///< of the window's sides
 
-    /// Pixels.
     [[nodiscard]] glm::ivec2 picture_size(glm::ivec2 window) const {
         return glm::max(window / divisor, glm::ivec2(1));
     }
@@ -31,7 +30,6 @@ public:
     void add_frame(double milliseconds) {
         slow_frames_ = milliseconds > max_smooth_ms ? slow_frames_ + 1 : 0;
     }
-    /// The quality of the next frame.
     FrameQuality choose(bool is_moving) {
         if (!is_moving) {
             step_ = 0;

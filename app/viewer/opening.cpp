@@ -25,7 +25,6 @@ bool asks_to_end(const std::vector<Event>& events) {
     });
 }
 
-// Shows progress in the window's title and on stderr.
 class ProgressDisplay {
 public:
     ProgressDisplay(platform::Window& window, session::Log& log) : window_(window), log_(log) {}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,16 +38,12 @@ std::optional<double> heading_at(const terrain::Placement& placement, const scen
     return std::fmod(std::round(way.azimuth_start) + 360.0, 360.0);
 }
 
-double width_of(const session::TerrainScene& scene) {
-    return std::max(scene.bounds.size().x, scene.bounds.size().y);
-}
-
 scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::Camera& start,
                               bool allow_underground) {
     const scene::TerrainNode& terrain = *scene.terrain->get<scene::TerrainNode>();
     const auto surface = terrain.surface;
     scene::FreeFlightOptions options;
-    options.speed = width_of(scene) / seconds_across;
+    options.speed = std::max(scene.bounds.size().x, scene.bounds.size().y) / seconds_across;
     options.clearance = session::min_clearance(scene);
     if (!allow_underground) {
         options.ground = [terrain](double x, double y) {
@@ -76,7 +71,6 @@ scene::Camera perspective_start(const session::TerrainScene& scene) {
     return camera;
 }
 
-// The techniques that can draw the scene.
 std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
                                               const session::TerrainScene& scene) {
     std::vector<scene::Technique> techniques;
@@ -275,18 +269,6 @@ void Viewer::advance_path(double seconds) {
     if (next.eye != camera().eye || next.target != camera().target) {
         show_camera(next);
     }
-}
-
-bool Viewer::take_redraw() {
-    return std::exchange(redraw_, false);
-}
-
-bool Viewer::take_screenshot_request() {
-    return std::exchange(screenshot_, false);
-}
-
-bool Viewer::take_help_request() {
-    return std::exchange(help_, false);
 }
 
 bool Viewer::undo_technique() {

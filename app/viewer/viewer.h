@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -42,7 +43,6 @@ public:
     Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
            const ViewerOptions& options = {});
 
-    /// Help for the keys, a line each.
     static std::string keys();
 
     void receive(const Event& event);
@@ -53,16 +53,15 @@ public:
     /// The expected cameras of the next seconds; empty at rest.
     [[nodiscard]] std::vector<scene::Camera> upcoming() const;
 
-    /// Starts or stops the flight along the path.
     void toggle_path();
 
     /// Whether the scene changed since the last call; true at first.
-    bool take_redraw();
+    bool take_redraw() { return std::exchange(redraw_, false); }
     /// Whether the view moves by itself or is steered.
     [[nodiscard]] bool is_moving() const;
 
-    bool take_screenshot_request();
-    bool take_help_request();
+    bool take_screenshot_request() { return std::exchange(screenshot_, false); }
+    bool take_help_request() { return std::exchange(help_, false); }
     [[nodiscard]] bool wants_to_close() const { return close_; }
     [[nodiscard]] bool wants_mouse() const { return mouse_look_; }
     [[nodiscard]] bool is_playing() const { return playing_; }
@@ -75,7 +74,6 @@ public:
     bool undo_technique();
     std::shared_ptr<const render::PreparedLight> take_light() { return switch_.take_light(); }
 
-    /// For the window's title.
     [[nodiscard]] std::string title(const view::FrameStats& stats, const FrameTiming& timing) const;
 
 private:

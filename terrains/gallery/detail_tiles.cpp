@@ -247,7 +247,6 @@ void hang_rings(material::ReliefMaterial& set) {
     set.heights = material::top_heights(*set.layers);
 }
 
-// Ribs on the back.
 void add_ribs(material::ReliefMaterial& set) {
     constexpr float ribs = 12.0F;
     const float turn = 2.0F * std::acos(-1.0F);
@@ -285,7 +284,6 @@ float hollow(const Grid<float>& heights, glm::ivec2 texel, int distance) {
     return 0.125F * sum;
 }
 
-// Share of the sky's light that reaches a texel.
 float open_to_sky(const Grid<float>& heights, glm::ivec2 texel) {
     const int near = std::max(heights.cols() / 128, 1);
     const float hidden =

@@ -14,7 +14,6 @@ namespace reljef::terrains {
 
 enum class GalleryShape { plane, box, sphere, torus, cylinder, sheet, bowl };
 
-/// A model of the gallery.
 struct GalleryModel {
     GalleryShape shape;
     std::string_view name;

@@ -55,7 +55,6 @@ struct Surroundings {
     SlowNoise patch;
 };
 
-/// The properties of a cell that decide its cover.
 struct Site {
     glm::vec2 place{0.0F}; // col, row
     float height = 0.0F;   // metres above the sea
@@ -164,7 +163,6 @@ Tint trees(const Site& site) {
                    0.06F * site.broad);
 }
 
-/// Share of the cell under trees.
 float forest(const Site& site) {
     const float line = tree_line + 220.0F * site.broad + 300.0F * site.patch +
                        110.0F * site.streak - 4.0F * std::max(site.hollow, 0.0F) -

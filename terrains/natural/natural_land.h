@@ -48,13 +48,11 @@ Image paint_cover(const Land& land, const LandOptions& options);
 
 using glm::smoothstep;
 
-/// The column and row of a cell.
 inline glm::ivec2 place_of(std::int32_t cell, int cols) {
     return {cell % cols, cell / cols};
 }
 
-/// Square kilometres that drain through a cell.
-inline float catchment(const Drainage& drainage, std::size_t cell) {
+inline float catchment(const Drainage& drainage, std::size_t cell) { // km²
     return drainage.area[cell] * (design_spacing * design_spacing * 1.0e-6F);
 }
 

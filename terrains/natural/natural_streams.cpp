@@ -81,7 +81,6 @@ void meander(std::vector<Point>& points, const LandOptions& options) {
     }
 }
 
-/// Sets water levels that fall downstream.
 void find_levels(std::vector<Point>& points, const Land& land) {
     constexpr float min_fall = 0.01F;
     for (Point& point : points) {

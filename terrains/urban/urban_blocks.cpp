@@ -41,7 +41,6 @@ void ring_house(BlockBuilder& builder, const Convex& shape, float eaves, bool pi
     }
 }
 
-// A garden or yard behind a house, with a shed and a tree.
 void back_lot(BlockBuilder& builder, const Side& side, float middle, float width) {
     Random& random = builder.random;
     const glm::vec2 axis = normalized(side.to - side.from);

@@ -13,30 +13,20 @@ Color varied(Color color, Random& random, float amount) {
 }
 
 Color tile_color(Random& random) {
-    constexpr std::array<Color, 9> palette{{{0.53F, 0.34F, 0.27F},
-                                            {0.57F, 0.37F, 0.29F},
-                                            {0.49F, 0.32F, 0.27F},
-                                            {0.60F, 0.43F, 0.34F},
-                                            {0.45F, 0.35F, 0.30F},
-                                            {0.41F, 0.34F, 0.31F},
-                                            {0.44F, 0.43F, 0.42F},
-                                            {0.37F, 0.38F, 0.40F},
-                                            {0.51F, 0.38F, 0.32F}}};
-    return varied(palette[static_cast<std::size_t>(random.index(9))], random, 0.13F);
+    constexpr std::array palette{
+        Color(0.53F, 0.34F, 0.27F), Color(0.57F, 0.37F, 0.29F), Color(0.49F, 0.32F, 0.27F),
+        Color(0.60F, 0.43F, 0.34F), Color(0.45F, 0.35F, 0.30F), Color(0.41F, 0.34F, 0.31F),
+        Color(0.44F, 0.43F, 0.42F), Color(0.37F, 0.38F, 0.40F), Color(0.51F, 0.38F, 0.32F)};
+    return varied(random.pick(palette), random, 0.13F);
 }
 
 Color car_color(Random& random) {
-    constexpr std::array<Color, 10> palette{{{0.86F, 0.86F, 0.85F},
-                                             {0.80F, 0.80F, 0.80F},
-                                             {0.62F, 0.64F, 0.66F},
-                                             {0.45F, 0.46F, 0.48F},
-                                             {0.22F, 0.22F, 0.24F},
-                                             {0.15F, 0.15F, 0.17F},
-                                             {0.27F, 0.33F, 0.45F},
-                                             {0.50F, 0.21F, 0.19F},
-                                             {0.52F, 0.49F, 0.43F},
-                                             {0.70F, 0.71F, 0.72F}}};
-    return varied(palette[static_cast<std::size_t>(random.index(10))], random, 0.06F);
+    constexpr std::array palette{Color(0.86F, 0.86F, 0.85F), Color(0.80F, 0.80F, 0.80F),
+                                 Color(0.62F, 0.64F, 0.66F), Color(0.45F, 0.46F, 0.48F),
+                                 Color(0.22F, 0.22F, 0.24F), Color(0.15F, 0.15F, 0.17F),
+                                 Color(0.27F, 0.33F, 0.45F), Color(0.50F, 0.21F, 0.19F),
+                                 Color(0.52F, 0.49F, 0.43F), Color(0.70F, 0.71F, 0.72F)};
+    return varied(random.pick(palette), random, 0.06F);
 }
 
 struct FlatRoof {
@@ -57,7 +47,7 @@ FlatRoof flat_roof(Random& random) {
     if (random.chance(0.035F)) {
         return {Cover::green, {0.40F, 0.43F, 0.28F}};
     }
-    FlatRoof roof = roofs[static_cast<std::size_t>(random.index(9))];
+    FlatRoof roof = random.pick(roofs);
     roof.color = varied(roof.color, random, 0.11F);
     return roof;
 }

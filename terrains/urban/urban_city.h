@@ -27,7 +27,6 @@ enum class Surface : std::uint8_t {
     stalls ///< asphalt with the white lines of parking places
 };
 
-/// An area with one ground cover.
 struct Patch {
     Footprint shape;
     Frame frame;
@@ -68,7 +67,6 @@ struct Tree {
     Color color{0.25F, 0.32F, 0.17F};
 };
 
-/// A cell of the plan with its contents.
 struct Block {
     Cell cell;
     Convex lot; ///< inside the sidewalks; may be empty
@@ -80,7 +78,6 @@ struct Block {
     std::vector<Tree> trees;
 };
 
-/// Adds objects to a block.
 class BlockBuilder {
 public:
     BlockBuilder(Block& block, std::uint32_t seed) : random(seed), block_(block) {}

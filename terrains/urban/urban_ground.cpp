@@ -43,24 +43,6 @@ struct RoadPlace {
     float clear = 0.0F;  // to the next junction
 };
 
-struct GroundPainter {
-    Tile& tile;
-    const Block& block;
-    std::vector<Arm> arms;
-
-    void sample(std::size_t i, glm::vec2 place);
-
-private:
-    void street_sample(std::size_t i, glm::vec2 place);
-    void roadway(std::size_t i, glm::vec2 place, int arms_here, const Arm& arm, float across);
-    void sidewalk(std::size_t i, glm::vec2 place, const Arm& arm, float curb);
-    void markings(std::size_t i, const Arm& arm, float along, float across);
-    void lanes(std::size_t i, const Street& street, const RoadPlace& place);
-    void river(std::size_t i, const Arm& arm, float across);
-    [[nodiscard]] bool on_bridge(const Arm& river, glm::vec2 place) const;
-    void line(std::size_t i, float across, float half, float strength);
-};
-
 // The two edges of the block with the largest distance to a sample outside.
 struct Outside {
     int first = -1;
@@ -86,7 +68,6 @@ Outside outside(const std::vector<Arm>& arms, glm::vec2 place) {
     return found;
 }
 
-// Distance to the block.
 float block_distance(const Outside& out, const std::vector<Arm>& arms) {
     const float a = out.first_depth;
     const float b = out.second_depth;
@@ -99,13 +80,6 @@ float block_distance(const Outside& out, const std::vector<Arm>& arms) {
         return a;
     }
     return std::sqrt((a * a + b * b - 2.0F * c * a * b) / (1.0F - c * c));
-}
-
-void GroundPainter::line(std::size_t i, float across, float half, float strength) {
-    const float worn = strength * std::clamp(0.75F + 0.5F * tile.fine[i], 0.2F, 1.0F);
-    const float cover =
-        coverage(tile, half - std::abs(across)) * std::min(1.0F, 2.0F * half / tile.spacing + 0.3F);
-    blend(tile.color[i], paint_white, worn * cover);
 }
 
 struct NextJunction {
@@ -124,87 +98,6 @@ NextJunction next_junction(const Street& street, float along) {
     return next;
 }
 
-void GroundPainter::markings(std::size_t i, const Arm& arm, float along, float across) {
-    const Street& street = *arm.street;
-    const auto [clear, crossing] = next_junction(street, along);
-    if (clear < 0.5F) {
-        return;
-    }
-    if (clear < 4.5F) {
-        if (crossing && clear > 0.8F && clear < 3.9F && across < street.roadway() - 0.4F) {
-            line(i, fract(across / 1.25F) * 1.25F - 0.62F, 0.31F, 0.8F);
-        }
-        return;
-    }
-    if (street.kind == StreetKind::boulevard && across < 1.3F && clear > 6.0F) {
-        tile.color[i] = surface_color(Surface::lawn, tile, i);
-        tile.height[i] = sidewalk_height;
-        return;
-    }
-    lanes(i, street, {along, across, clear});
-    if (street.kind != StreetKind::lane && clear < 5.6F && across < 3.3F) {
-        line(i, clear - 5.1F, 0.22F, 0.6F);
-    }
-    if (street.roadway() > 5.0F && street.water <= 0.0F && clear > 6.0F) {
-        line(i, across - (street.roadway() - 2.25F), 0.06F, 0.22F);
-    }
-}
-
-void GroundPainter::lanes(std::size_t i, const Street& street, const RoadPlace& place) {
-    const bool near = place.clear < 22.0F;
-    const bool dash = near || fract(place.along / 9.0F) < 0.45F;
-    if (street.kind == StreetKind::boulevard) {
-        line(i, place.across - 1.7F, 0.09F, 0.6F);
-        line(i, place.across - 5.1F, 0.08F, dash ? 0.6F : 0.0F);
-    } else if (street.kind != StreetKind::lane && street.water <= 0.0F) {
-        line(i, place.across, 0.09F, dash ? 0.65F : 0.0F);
-        if (street.roadway() > 6.2F) {
-            line(i, place.across - 3.4F, 0.08F, near ? 0.6F : 0.0F);
-        }
-    }
-}
-
-void GroundPainter::river(std::size_t i, const Arm& arm, float across) {
-    const float water = arm.street->water;
-    if (across < water) {
-        tile.color[i] = surface_color(Surface::water, tile, i);
-        const float deep = std::min(1.0F, (water - across) / 3.0F);
-        tile.color[i] *= 1.12F - 0.12F * deep + 0.02F * tile.fine[i] * deep;
-        tile.height[i] = -3.0F;
-    } else {
-        tile.color[i] =
-            surface_color(Surface::paving, tile, i) * (across < water + 0.8F ? 1.14F : 0.96F);
-        tile.height[i] = across < water + 0.8F ? 0.9F : sidewalk_height;
-    }
-}
-
-bool GroundPainter::on_bridge(const Arm& river, glm::vec2 place) const {
-    for (const Arm& arm : arms) {
-        if (arm.street != river.street && arm.street->kind >= StreetKind::avenue &&
-            arm.middle.distance(place) < arm.street->half_width) {
-            return true;
-        }
-    }
-    return false;
-}
-
-void GroundPainter::roadway(std::size_t i, glm::vec2 place, int arms_here, const Arm& arm,
-                            float across) {
-    const float along = arm.street->along(place);
-    Color color = surface_color(Surface::asphalt, tile, i) * arm.tone;
-    const float wheel = std::abs(fract(across / 1.75F) - 0.5F);
-    color *= 1.0F + (wheel < 0.2F ? -0.022F : 0.012F);
-    if (unit_hash(arm.street->seed, static_cast<std::int32_t>(std::floor(along / 13.0F)),
-                  static_cast<std::int32_t>(across / 3.3F)) > 0.93F) {
-        color *= 0.92F;
-    }
-    tile.color[i] = color;
-    tile.height[i] = 0.0F;
-    if (arms_here == 1) {
-        markings(i, arm, along, across);
-    }
-}
-
 // Blends the widths of two streets at a corner.
 float sidewalk_width(const Outside& out, const std::vector<Arm>& arms) {
     const float first = arms[static_cast<std::size_t>(out.first)].street->sidewalk;
@@ -217,57 +110,151 @@ float sidewalk_width(const Outside& out, const std::vector<Arm>& arms) {
     return (a * first + b * second) / (a + b);
 }
 
-void GroundPainter::sidewalk(std::size_t i, glm::vec2 place, const Arm& arm, float curb) {
-    const bool joint = fract(dot(place, arm.street->tangent) / 3.0F) < 0.12F;
-    const float light = 0.97F + 0.06F * arm.tone - (joint ? 0.03F : 0.0F);
-    tile.color[i] = surface_color(Surface::paving, tile, i) * light;
-    blend(tile.color[i], {0.63F, 0.62F, 0.59F}, 0.6F * coverage(tile, 0.2F - std::abs(curb)));
-    tile.height[i] = sidewalk_height;
-}
+struct GroundPainter {
+    Tile& tile;
+    const Block& block;
+    std::vector<Arm> arms;
 
-void GroundPainter::street_sample(std::size_t i, glm::vec2 place) {
-    const Outside out = outside(arms, place);
-    const float curb = block_distance(out, arms) - sidewalk_width(out, arms);
-    int here = 0;
-    const Arm* road = nullptr;
-    const Arm* water = nullptr;
-    for (const Arm& each : arms) {
-        const float across = each.middle.distance(place);
-        water = across < each.street->water + 3.4F ? &each : water;
-        if (across < each.street->roadway()) {
-            ++here;
-            road = road == nullptr || across < road->middle.distance(place) ? &each : road;
+    void sample(std::size_t i, glm::vec2 place) {
+        float inside = 1e9F;
+        float lot = 1e9F;
+        for (const Arm& arm : arms) {
+            const float distance = arm.middle.distance(place);
+            inside = std::min(inside, distance);
+            lot = std::min(lot, distance - arm.street->half_width);
+        }
+        if (inside < -0.05F) {
+            return;
+        }
+        if (lot >= 0.0F) {
+            tile.color[i] = surface_color(block.ground, tile, i);
+            tile.height[i] = sidewalk_height;
+        } else {
+            street_sample(i, place);
         }
     }
-    if (water != nullptr && !on_bridge(*water, place)) {
-        river(i, *water, water->middle.distance(place));
-        return;
-    }
-    if (curb < 0.25F || road == nullptr) {
-        sidewalk(i, place, arms[static_cast<std::size_t>(out.first)], curb);
-        return;
-    }
-    roadway(i, place, here, *road, road->middle.distance(place));
-}
 
-void GroundPainter::sample(std::size_t i, glm::vec2 place) {
-    float inside = 1e9F;
-    float lot = 1e9F;
-    for (const Arm& arm : arms) {
-        const float distance = arm.middle.distance(place);
-        inside = std::min(inside, distance);
-        lot = std::min(lot, distance - arm.street->half_width);
+private:
+    void street_sample(std::size_t i, glm::vec2 place) {
+        const Outside out = outside(arms, place);
+        const float curb = block_distance(out, arms) - sidewalk_width(out, arms);
+        int here = 0;
+        const Arm* road = nullptr;
+        const Arm* water = nullptr;
+        for (const Arm& each : arms) {
+            const float across = each.middle.distance(place);
+            water = across < each.street->water + 3.4F ? &each : water;
+            if (across < each.street->roadway()) {
+                ++here;
+                road = road == nullptr || across < road->middle.distance(place) ? &each : road;
+            }
+        }
+        if (water != nullptr && !on_bridge(*water, place)) {
+            river(i, *water, water->middle.distance(place));
+            return;
+        }
+        if (curb < 0.25F || road == nullptr) {
+            sidewalk(i, place, arms[static_cast<std::size_t>(out.first)], curb);
+            return;
+        }
+        roadway(i, place, here, *road, road->middle.distance(place));
     }
-    if (inside < -0.05F) {
-        return;
+
+    void roadway(std::size_t i, glm::vec2 place, int arms_here, const Arm& arm, float across) {
+        const float along = arm.street->along(place);
+        Color color = surface_color(Surface::asphalt, tile, i) * arm.tone;
+        const float wheel = std::abs(fract(across / 1.75F) - 0.5F);
+        color *= 1.0F + (wheel < 0.2F ? -0.022F : 0.012F);
+        if (unit_hash(arm.street->seed, static_cast<std::int32_t>(std::floor(along / 13.0F)),
+                      static_cast<std::int32_t>(across / 3.3F)) > 0.93F) {
+            color *= 0.92F;
+        }
+        tile.color[i] = color;
+        tile.height[i] = 0.0F;
+        if (arms_here == 1) {
+            markings(i, arm, along, across);
+        }
     }
-    if (lot >= 0.0F) {
-        tile.color[i] = surface_color(block.ground, tile, i);
+
+    void sidewalk(std::size_t i, glm::vec2 place, const Arm& arm, float curb) {
+        const bool joint = fract(dot(place, arm.street->tangent) / 3.0F) < 0.12F;
+        const float light = 0.97F + 0.06F * arm.tone - (joint ? 0.03F : 0.0F);
+        tile.color[i] = surface_color(Surface::paving, tile, i) * light;
+        blend(tile.color[i], {0.63F, 0.62F, 0.59F}, 0.6F * coverage(tile, 0.2F - std::abs(curb)));
         tile.height[i] = sidewalk_height;
-    } else {
-        street_sample(i, place);
     }
-}
+
+    void markings(std::size_t i, const Arm& arm, float along, float across) {
+        const Street& street = *arm.street;
+        const auto [clear, crossing] = next_junction(street, along);
+        if (clear < 0.5F) {
+            return;
+        }
+        if (clear < 4.5F) {
+            if (crossing && clear > 0.8F && clear < 3.9F && across < street.roadway() - 0.4F) {
+                line(i, fract(across / 1.25F) * 1.25F - 0.62F, 0.31F, 0.8F);
+            }
+            return;
+        }
+        if (street.kind == StreetKind::boulevard && across < 1.3F && clear > 6.0F) {
+            tile.color[i] = surface_color(Surface::lawn, tile, i);
+            tile.height[i] = sidewalk_height;
+            return;
+        }
+        lanes(i, street, {along, across, clear});
+        if (street.kind != StreetKind::lane && clear < 5.6F && across < 3.3F) {
+            line(i, clear - 5.1F, 0.22F, 0.6F);
+        }
+        if (street.roadway() > 5.0F && street.water <= 0.0F && clear > 6.0F) {
+            line(i, across - (street.roadway() - 2.25F), 0.06F, 0.22F);
+        }
+    }
+
+    void lanes(std::size_t i, const Street& street, const RoadPlace& place) {
+        const bool near = place.clear < 22.0F;
+        const bool dash = near || fract(place.along / 9.0F) < 0.45F;
+        if (street.kind == StreetKind::boulevard) {
+            line(i, place.across - 1.7F, 0.09F, 0.6F);
+            line(i, place.across - 5.1F, 0.08F, dash ? 0.6F : 0.0F);
+        } else if (street.kind != StreetKind::lane && street.water <= 0.0F) {
+            line(i, place.across, 0.09F, dash ? 0.65F : 0.0F);
+            if (street.roadway() > 6.2F) {
+                line(i, place.across - 3.4F, 0.08F, near ? 0.6F : 0.0F);
+            }
+        }
+    }
+
+    void river(std::size_t i, const Arm& arm, float across) {
+        const float water = arm.street->water;
+        if (across < water) {
+            tile.color[i] = surface_color(Surface::water, tile, i);
+            const float deep = std::min(1.0F, (water - across) / 3.0F);
+            tile.color[i] *= 1.12F - 0.12F * deep + 0.02F * tile.fine[i] * deep;
+            tile.height[i] = -3.0F;
+        } else {
+            tile.color[i] =
+                surface_color(Surface::paving, tile, i) * (across < water + 0.8F ? 1.14F : 0.96F);
+            tile.height[i] = across < water + 0.8F ? 0.9F : sidewalk_height;
+        }
+    }
+
+    [[nodiscard]] bool on_bridge(const Arm& river, glm::vec2 place) const {
+        for (const Arm& arm : arms) {
+            if (arm.street != river.street && arm.street->kind >= StreetKind::avenue &&
+                arm.middle.distance(place) < arm.street->half_width) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void line(std::size_t i, float across, float half, float strength) {
+        const float worn = strength * std::clamp(0.75F + 0.5F * tile.fine[i], 0.2F, 1.0F);
+        const float cover = coverage(tile, half - std::abs(across)) *
+                            std::min(1.0F, 2.0F * half / tile.spacing + 0.3F);
+        blend(tile.color[i], paint_white, worn * cover);
+    }
+};
 
 // White lines across the long axis, on both sides of a lane.
 void stall_lines(Tile& tile, std::size_t i, const Frame& frame, glm::vec2 place) {

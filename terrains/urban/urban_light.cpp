@@ -86,38 +86,37 @@ struct Hollows {
     Grid<float> near;
     Grid<float> far;
 
-    [[nodiscard]] float light(int col, int row) const;
+    [[nodiscard]] float light(int col, int row) const {
+        const float here = heights(col, row);
+        const float scale = 1.0F / static_cast<float>(reduction);
+        const glm::vec2 at = (glm::vec2(col, row) + 0.5F) * scale - 0.5F;
+        const float low =
+            std::clamp((value_at(near, at, options.tileable) - here) / 16.0F, 0.0F, 1.0F);
+        const float deep =
+            std::clamp((value_at(far, at, options.tileable) - here) / 30.0F, 0.0F, 1.0F);
+        const int reach = std::max(1, static_cast<int>(1.6F / options.spacing));
+        return (1.0F - 0.30F * low) * (1.0F - 0.20F * deep) *
+               (1.0F - 0.55F * walls(col, row, reach));
+    }
 
 private:
-    [[nodiscard]] float walls(int col, int row, int reach) const;
-};
-
-// Share of the sky that samples at a distance of `reach` samples hide.
-float Hollows::walls(int col, int row, int reach) const {
-    constexpr std::array<std::array<int, 2>, 8> around{
-        {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
-    const float here = heights(col, row);
-    const int size = heights.cols();
-    const float run = static_cast<float>(reach) * options.spacing;
-    float hidden = 0.0F;
-    for (const auto& [x, y] : around) {
-        const float there = heights(outside_to_inside(col + x * reach, size, options.tileable),
-                                    outside_to_inside(row + y * reach, size, options.tileable));
-        const float rise = std::clamp(there - here, 0.0F, 4.0F * run);
-        hidden += rise / (rise + 2.0F * run);
+    // Share of the sky that samples at a distance of `reach` samples hide.
+    [[nodiscard]] float walls(int col, int row, int reach) const {
+        constexpr std::array<std::array<int, 2>, 8> around{
+            {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+        const float here = heights(col, row);
+        const int size = heights.cols();
+        const float run = static_cast<float>(reach) * options.spacing;
+        float hidden = 0.0F;
+        for (const auto& [x, y] : around) {
+            const float there = heights(outside_to_inside(col + x * reach, size, options.tileable),
+                                        outside_to_inside(row + y * reach, size, options.tileable));
+            const float rise = std::clamp(there - here, 0.0F, 4.0F * run);
+            hidden += rise / (rise + 2.0F * run);
+        }
+        return hidden * 0.125F;
     }
-    return hidden * 0.125F;
-}
-
-float Hollows::light(int col, int row) const {
-    const float here = heights(col, row);
-    const float scale = 1.0F / static_cast<float>(reduction);
-    const glm::vec2 at = (glm::vec2(col, row) + 0.5F) * scale - 0.5F;
-    const float low = std::clamp((value_at(near, at, options.tileable) - here) / 16.0F, 0.0F, 1.0F);
-    const float deep = std::clamp((value_at(far, at, options.tileable) - here) / 30.0F, 0.0F, 1.0F);
-    const int reach = std::max(1, static_cast<int>(1.6F / options.spacing));
-    return (1.0F - 0.30F * low) * (1.0F - 0.20F * deep) * (1.0F - 0.55F * walls(col, row, reach));
-}
+};
 
 } // namespace
 

@@ -6,7 +6,6 @@
 namespace reljef::terrains::urban {
 namespace {
 
-/// Position of a sample on a pitched roof.
 struct Slope {
     float run = 0.0F;   ///< metres from the eaves
     float ridge = 0.0F; ///< metres to the ridge or hip

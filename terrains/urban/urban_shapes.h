@@ -24,6 +24,9 @@ public:
     bool chance(float probability) { return unit() < probability; }
     /// In [0, count). Precondition: count > 0.
     int index(int count) { return static_cast<int>(bits() % static_cast<std::uint32_t>(count)); }
+    template <class Items> const auto& pick(const Items& items) {
+        return items[static_cast<std::size_t>(index(static_cast<int>(items.size())))];
+    }
     /// About normal with mean 0 and deviation about 0.5, within [-1.5, 1.5].
     float bell() { return unit() + unit() + unit() - 1.5F; }
 

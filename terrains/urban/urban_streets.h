@@ -16,7 +16,6 @@ struct Junction {
     bool crossing = false; ///< this street has zebra stripes here
 };
 
-/// A straight street.
 struct Street {
     glm::vec2 origin{0.0F, 0.0F};
     glm::vec2 tangent{1.0F, 0.0F};

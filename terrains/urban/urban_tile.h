@@ -10,7 +10,6 @@
 
 namespace reljef::terrains::urban {
 
-/// The sample grid.
 struct Raster {
     int size = 0;
     float spacing = 0.5F;

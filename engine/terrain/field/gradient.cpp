@@ -18,7 +18,6 @@ struct Axes {
     glm::dvec3 up{0.0, 0.0, 1.0};
 };
 
-// The border of a heightfield, which may wrap around the Earth and contain the poles.
 class Border {
 public:
     explicit Border(const Heightfield& heightfield)

@@ -31,7 +31,6 @@ Cell cell_at(int cols, int rows, glm::dvec2 sample) {
     return cell;
 }
 
-/// A level of the pyramid.
 struct Level {
     Grid<float> average;
     Grid<float> weight; // share of known heights, [0,1]

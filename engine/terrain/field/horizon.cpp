@@ -46,7 +46,6 @@ GroundRange ground_of(const Heightfield& heightfield, const MinMaxPyramid& pyram
     };
 }
 
-// A box as seen from the eye.
 struct SeenBox {
     double nearest = 0.0; // horizontal distance, metres
     double azimuth = 0.0; // of the middle

@@ -58,7 +58,6 @@ public:
         return hit_;
     }
 
-    // Of the last stretch over the surface.
     [[nodiscard]] Side side() const { return side_; }
 
 private:
@@ -101,7 +100,6 @@ private:
                block_.y < blocks.rows();
     }
 
-    // No surface lies ahead.
     [[nodiscard]] bool has_escaped() const {
         return (side_ == Side::above && ray_.direction.z >= 0.0 && z_ > pyramid_.total().high) ||
                (side_ == Side::below && ray_.direction.z <= 0.0 && z_ < pyramid_.total().low);
@@ -147,7 +145,6 @@ private:
         return false;
     }
 
-    // To the child block that contains the ray.
     void descend() {
         --level_;
         for (int axis = 0; axis < 2; ++axis) {

@@ -64,7 +64,6 @@ public:
         : heights_(heights), sweep_(sweep), exaggeration_(exaggeration), drop_(drop),
           widening_(widening), edges_(static_cast<std::size_t>(sweep.line_length)), next_(edges_) {}
 
-    // Moves to the next line.
     void advance(int previous) {
         for (int i = 0; i < sweep_.line_length; ++i) {
             const double last = sweep_.line_length - 1;

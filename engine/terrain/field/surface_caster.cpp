@@ -15,7 +15,6 @@ constexpr double quartic_tolerance = 1e-5; // the same
 constexpr int max_halvings = 24;
 constexpr int max_halvings_unmapped = 8; // of a stretch outside the map's domain
 
-// A point of a world ray.
 struct RayPlace {
     double t = 0.0;
     std::optional<glm::dvec3> sample; // empty outside the map's domain
@@ -233,7 +232,6 @@ private:
         return best.sample ? SurfaceHit{best.t, *best.sample} : hit;
     }
 
-    // Derivative of the chord's clearance by t.
     [[nodiscard]] double slope_over_surface(const SurfaceHit& hit, const RayPlace& from,
                                             const RayPlace& to) const {
         constexpr double part = 1e-3; // of the chord

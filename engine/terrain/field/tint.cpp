@@ -57,7 +57,6 @@ std::vector<float> some_heights(const Heightfield& heightfield) {
     return picked;
 }
 
-// Two quantiles of the samples that are no voids.
 HeightRange percentiles(const Heightfield& heightfield, double low, double high) {
     std::vector<float> picked = some_heights(heightfield);
     if (picked.empty()) {

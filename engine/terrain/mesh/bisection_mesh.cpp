@@ -45,7 +45,6 @@ std::uint64_t key_of(glm::ivec2 place) {
            static_cast<std::uint32_t>(place.y);
 }
 
-// Numbers vertices.
 class TriangulationWriter {
 public:
     explicit TriangulationWriter(const Tile& tile)

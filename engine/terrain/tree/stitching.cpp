@@ -85,7 +85,6 @@ private:
         return cols;
     }
 
-    // A sample at one end also lies at the other end.
     [[nodiscard]] int col_seen_from(TreeTile tile, int col) const {
         const int first = TileTree::first(tile).x;
         const int last = tree_.sample(tile, tree_.cells(tile)).x;

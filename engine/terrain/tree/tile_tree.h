@@ -33,7 +33,6 @@ public:
     [[nodiscard]] int rows() const { return last_.y + 1; }
     /// The other column at the same place where the raster wraps; else the column itself.
     [[nodiscard]] int other_end(int col) const;
-    /// Number of tile columns of a level.
     [[nodiscard]] int tile_cols(int level) const;
     [[nodiscard]] bool wraps_longitude() const { return wraps_longitude_; }
     [[nodiscard]] TreeTile root() const { return {levels_ - 1, 0, 0}; }
