@@ -24,7 +24,8 @@ using io::MapKind;
 struct MapOutput {
     MapKind kind;
     std::string option;
-    std::string file; // empty: not requested
+    const char* meaning;
+    std::string file = {}; // empty: not requested
 };
 
 struct MapChoice {
@@ -33,12 +34,19 @@ struct MapChoice {
     io::SurfaceMapOptions making;
     int threads = 0;
     bool quiet = false;
-    std::array<MapOutput, 6> outputs{{{MapKind::heights, "--heights", {}},
-                                      {MapKind::normals, "--normals", {}},
-                                      {MapKind::combined, "--combined", {}},
-                                      {MapKind::cones, "--cones", {}},
-                                      {MapKind::relaxed_cones, "--relaxed-cones", {}},
-                                      {MapKind::layers, "--layers", {}}}};
+    std::array<MapOutput, 6> outputs{
+        {{MapKind::heights, "--heights", "heights; computed heights range from black to white"},
+         {MapKind::normals, "--normals", "normals of the heights: x, y, z in r, g, b"},
+         {MapKind::combined, "--combined", "normals in r, g, b and heights in alpha"},
+         {MapKind::cones, "--cones",
+          "cone map: an empty cone above each texel (Dummer 2006). The value r is the cone's "
+          "radius in texels at a height of 1. .exr stores r, other formats the square root of "
+          "r / 1024"},
+         {MapKind::relaxed_cones, "--relaxed-cones",
+          "relaxed cone map: a ray in a cone crosses the surface at most once (GPU Gems 3 ch. "
+          "18); values as for --cones"},
+         {MapKind::layers, "--layers",
+          "depths of the layers of a sheet. The back is --back, else the same as the front"}}};
 };
 
 std::vector<cli::NamedFile> outputs_of(const MapChoice& choice) {
@@ -136,18 +144,8 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
 }
 
 void add_map_outputs(CLI::App& arguments, MapChoice& choice) {
-    constexpr std::array meanings{
-        "heights; computed heights range from black to white",
-        "normals of the heights: x, y, z in r, g, b",
-        "normals in r, g, b and heights in alpha",
-        "cone map: an empty cone above each texel (Dummer 2006). The value r is the cone's radius "
-        "in texels at a height of 1. .exr stores r, other formats the square root of r / 1024",
-        "relaxed cone map: a ray in a cone crosses the surface at most once (GPU Gems 3 ch. 18); "
-        "values as for --cones",
-        "depths of the layers of a sheet. The back is --back, else the same as the front"};
-    for (std::size_t i = 0; i < choice.outputs.size(); ++i) {
-        arguments.add_option(choice.outputs[i].option, choice.outputs[i].file, meanings[i])
-            ->type_name("FILE");
+    for (MapOutput& output : choice.outputs) {
+        arguments.add_option(output.option, output.file, output.meaning)->type_name("FILE");
     }
 }
 

@@ -82,10 +82,6 @@ ParallelOptions frame_options(const RenderChoice& choice, const cli::Interrupt& 
             .progress = std::move(progress)};
 }
 
-Result<void> check_interrupt(const cli::Interrupt& interrupt) {
-    return interrupt.requested() ? Result<void>(Error{"interrupted"}) : Result<void>();
-}
-
 session::Underground underground(const RenderChoice& choice) {
     return choice.view.allow_underground ? session::Underground::allowed
                                          : session::Underground::lifted;
@@ -118,8 +114,8 @@ Result<cli::RaisedFrames> draw_frames(const RenderChoice& choice, session::Terra
         if (!picture) {
             return picture.error();
         }
-        if (auto going_on = check_interrupt(interrupt); !going_on) { // while it was drawn
-            return going_on.error();
+        if (interrupt.requested()) { // while it was drawn
+            return Error{"interrupted"};
         }
         if (auto written = (*sink)->write(*picture, index); !written) {
             return written.error();
@@ -244,8 +240,7 @@ Result<HitBuffer> find_hits(const RenderChoice& choice, const session::TerrainSc
                             session::FrameMaker& maker, const cli::Interrupt& interrupt) {
     cli::ProgressLine line("finding hits", choice.terrain.quiet);
     auto hits = maker.draw_hits(scene.scene, frame_options(choice, interrupt, line.callback()));
-    const auto going_on = check_interrupt(interrupt);
-    return hits && !going_on ? Result<HitBuffer>(going_on.error()) : std::move(hits);
+    return hits && interrupt.requested() ? Error{"interrupted"} : std::move(hits);
 }
 
 Result<std::optional<scene::CameraPath>> path_of(const session::TerrainScene& scene,

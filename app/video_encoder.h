@@ -17,9 +17,6 @@ public:
     static Result<VideoEncoder> create(const std::filesystem::path& file, glm::ivec2 size,
                                        double frames_per_second);
     VideoEncoder(VideoEncoder&& other) noexcept;
-    VideoEncoder& operator=(VideoEncoder&&) = delete;
-    VideoEncoder(const VideoEncoder&) = delete;
-    VideoEncoder& operator=(const VideoEncoder&) = delete;
     ~VideoEncoder() override;
 
     /// Precondition: the picture has the size given to create().

@@ -87,14 +87,6 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     return *opened ? fly(**window, *renderer, **opened, choice, log, interrupt) : Result<void>();
 }
 
-void expect_window(const cli::ViewChoice& view) {
-    if (view.context && *view.context != platform::ContextKind::glfw) {
-        throw CLI::ValidationError(
-            fmt::format("--context: {} found, but view needs a window: auto or glfw was expected",
-                        platform::to_string(*view.context)));
-    }
-}
-
 } // namespace
 
 cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
@@ -105,7 +97,12 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_samples_option(*arguments, choice->view);
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
-        expect_window(choice->view);
+        const auto context = choice->view.context;
+        if (context && *context != platform::ContextKind::glfw) {
+            throw CLI::ValidationError(fmt::format(
+                "--context: {} found, but view needs a window: auto or glfw was expected",
+                platform::to_string(*context)));
+        }
     });
     arguments->footer(
         "Keys:\n" + Viewer::keys() +

@@ -14,8 +14,6 @@ public:
     /// `interrupt` outlives this.
     Parser(const Program& program, Interrupt& interrupt);
     ~Parser();
-    Parser(const Parser&) = delete;
-    Parser& operator=(const Parser&) = delete;
 
     [[nodiscard]] const CLI::App& arguments() const { return *arguments_; }
     [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }

@@ -23,8 +23,6 @@ public:
     /// The scene outlives this.
     explicit AppearanceSwitch(session::TerrainScene& scene,
                               const AppearanceSwitchOptions& options = {});
-    AppearanceSwitch(const AppearanceSwitch&) = delete;
-    AppearanceSwitch& operator=(const AppearanceSwitch&) = delete;
     ~AppearanceSwitch();
 
     /// Shows the technique when its maps are ready. Replaces an earlier request.

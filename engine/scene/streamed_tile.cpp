@@ -320,8 +320,8 @@ Image TileBuilder::vertex_colors(const StreamedTile& tile, const Grid<float>& ar
     for (int row = 0; row < colors.rows(); ++row) {
         for (int col = 0; col < colors.cols(); ++col) {
             const float height = tile.heights(col, row);
-            colors(col, row) = voids(col + 1, row + 1) != 0       ? terrain::HeightTint::of_void()
-                               : is_sea(around, col + 1, row + 1) ? terrain::HeightTint::of_water()
+            colors(col, row) = voids(col + 1, row + 1) != 0       ? terrain::HeightTint::no_data
+                               : is_sea(around, col + 1, row + 1) ? terrain::HeightTint::water
                                : with_overview
                                    ? color_at(on_overview(sample(tile.id, {col, row})), height)
                                    : tint_.at(height);

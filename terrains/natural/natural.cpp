@@ -43,8 +43,8 @@ Result<terrain::Terrain> generate_natural(const GeneratorOptions& options) {
     if (std::optional<Error> error = refusal(options)) {
         return *std::move(error);
     }
-    const natural::LandOptions land_options{options.size + 2 * margin, options.seed,
-                                            options.threads, options.progress, options.stop};
+    natural::LandOptions land_options = options;
+    land_options.size += 2 * margin;
     const auto report = [&](double part) {
         if (options.progress) {
             options.progress(part);

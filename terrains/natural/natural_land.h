@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
-#include "engine/core/parallel_for.h"
+#include "terrains/generators.h"
 #include "terrains/natural/erosion.h"
 
 /// The steps of generate_natural(). All grids of a land have the same size. Cells lie
@@ -17,13 +16,8 @@ namespace reljef::terrains::natural {
 
 inline constexpr float design_spacing = 20.0F;
 
-struct LandOptions {
-    int size = 0; ///< cells a side, >= 16
-    std::uint32_t seed = 1;
-    unsigned threads = 0;
-    Progress progress = {};
-    std::stop_token stop = {}; ///< when stopped, the result is unusable
-};
+/// `size` >= 16; `spacing` and `tileable` have no effect. When stopped, results are unusable.
+using LandOptions = GeneratorOptions;
 
 struct Land {
     Grid<float> heights;

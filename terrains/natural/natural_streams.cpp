@@ -55,17 +55,13 @@ std::vector<Point> points_of(const Land& land) {
 }
 
 void smooth(std::vector<Point>& points, int passes) {
-    std::vector<glm::vec2> places(points.size());
     for (int pass = 0; pass < passes; ++pass) {
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const Point& point = points[i];
-            const bool inner = point.next != no_cell && point.back != no_cell;
-            places[i] = inner ? 0.5F * point.place + 0.25F * (points[cell_index(point.next)].place +
-                                                              points[cell_index(point.back)].place)
-                              : point.place;
-        }
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            points[i].place = places[i];
+        const std::vector<Point> before = points;
+        for (Point& point : points) {
+            if (point.next != no_cell && point.back != no_cell) {
+                point.place = 0.5F * point.place + 0.25F * (before[cell_index(point.next)].place +
+                                                            before[cell_index(point.back)].place);
+            }
         }
     }
 }

@@ -140,7 +140,7 @@ Block block_of(const StreetPlan& plan, const Cell& cell) {
     block.lot = cell.outline;
     for (std::size_t i = 0; i < cell.outline.size(); ++i) {
         HalfPlane plane = edge_plane(cell.outline, i);
-        plane.offset += plan.streets[static_cast<std::size_t>(cell.streets[i])].half_width;
+        plane.offset += plan.streets[cell.streets[i]].half_width;
         block.lot = clipped(block.lot, plane);
         block.bounds.add(cell.outline.corners[i], 1.0F);
     }
@@ -153,8 +153,8 @@ void furnish_streets(const StreetPlan& plan, const Cell& cell, BlockBuilder& bui
         const glm::vec2 from = cell.outline.corner(i);
         const glm::vec2 edge = cell.outline.corner(i + 1) - from;
         const glm::vec2 tangent = normalized(edge);
-        const Curb curb{plan.streets[static_cast<std::size_t>(cell.streets[i])], from, tangent,
-                        turned(tangent), length(edge)};
+        const Curb curb{plan.streets[cell.streets[i]], from, tangent, turned(tangent),
+                        length(edge)};
         park_cars(curb, builder);
         drive_cars(curb, builder);
         plant_street(curb, builder);

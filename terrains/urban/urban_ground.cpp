@@ -45,37 +45,33 @@ struct RoadPlace {
 
 // The two edges of the block with the largest distance to a sample outside.
 struct Outside {
-    int first = -1;
-    int second = -1;
+    const Arm* first = nullptr;
+    const Arm* second = nullptr; // may be null
     float first_depth = 0.0F;
     float second_depth = 0.0F;
 };
 
 Outside outside(const std::vector<Arm>& arms, glm::vec2 place) {
     Outside found;
-    for (std::size_t k = 0; k < arms.size(); ++k) {
-        const float depth = arms[k].street->half_width - arms[k].middle.distance(place);
+    for (const Arm& arm : arms) {
+        const float depth = arm.street->half_width - arm.middle.distance(place);
         if (depth > found.first_depth) {
-            found.second = found.first;
-            found.second_depth = found.first_depth;
-            found.first = static_cast<int>(k);
-            found.first_depth = depth;
+            found = {&arm, found.first, depth, found.first_depth};
         } else if (depth > found.second_depth) {
-            found.second = static_cast<int>(k);
+            found.second = &arm;
             found.second_depth = depth;
         }
     }
     return found;
 }
 
-float block_distance(const Outside& out, const std::vector<Arm>& arms) {
+float block_distance(const Outside& out) {
     const float a = out.first_depth;
     const float b = out.second_depth;
-    if (out.second < 0) {
+    if (out.second == nullptr) {
         return a;
     }
-    const float c = dot(arms[static_cast<std::size_t>(out.first)].middle.normal,
-                        arms[static_cast<std::size_t>(out.second)].middle.normal);
+    const float c = dot(out.first->middle.normal, out.second->middle.normal);
     if (a < c * b || b < c * a || c * c > 0.98F) {
         return a;
     }
@@ -99,15 +95,14 @@ NextJunction next_junction(const Street& street, float along) {
 }
 
 // Blends the widths of two streets at a corner.
-float sidewalk_width(const Outside& out, const std::vector<Arm>& arms) {
-    const float first = arms[static_cast<std::size_t>(out.first)].street->sidewalk;
-    if (out.second < 0) {
+float sidewalk_width(const Outside& out) {
+    const float first = out.first->street->sidewalk;
+    if (out.second == nullptr) {
         return first;
     }
-    const float second = arms[static_cast<std::size_t>(out.second)].street->sidewalk;
     const float a = out.first_depth * out.first_depth;
     const float b = out.second_depth * out.second_depth;
-    return (a * first + b * second) / (a + b);
+    return (a * first + b * out.second->street->sidewalk) / (a + b);
 }
 
 struct GroundPainter {
@@ -137,7 +132,7 @@ struct GroundPainter {
 private:
     void street_sample(std::size_t i, glm::vec2 place) {
         const Outside out = outside(arms, place);
-        const float curb = block_distance(out, arms) - sidewalk_width(out, arms);
+        const float curb = block_distance(out) - sidewalk_width(out);
         int here = 0;
         const Arm* road = nullptr;
         const Arm* water = nullptr;
@@ -154,7 +149,7 @@ private:
             return;
         }
         if (curb < 0.25F || road == nullptr) {
-            sidewalk(i, place, arms[static_cast<std::size_t>(out.first)], curb);
+            sidewalk(i, place, *out.first, curb);
             return;
         }
         roadway(i, place, here, *road, road->middle.distance(place));
@@ -287,7 +282,7 @@ void paint_ground(Tile& tile, const StreetPlan& plan, const Block& block, glm::v
     GroundPainter painter{tile, block, {}};
     Box box;
     for (std::size_t k = 0; k < block.cell.outline.size(); ++k) {
-        const Street& street = plan.streets[static_cast<std::size_t>(block.cell.streets[k])];
+        const Street& street = plan.streets[block.cell.streets[k]];
         const float tone = 0.86F + 0.3F * unit_hash(street.seed, 1, 1);
         painter.arms.push_back({edge_plane(block.cell.outline, k), &street, tone});
         box.add(block.cell.outline.corners[k] + shift, 0.1F);

@@ -27,15 +27,15 @@ Street street_of(StreetKind kind, Planner& planner) {
     return street;
 }
 
-int add_street(Planner& planner, Street street, const HalfPlane& middle) {
+std::size_t add_street(Planner& planner, Street street, const HalfPlane& middle) {
     street.tangent = {middle.normal.y, -middle.normal.x};
     street.origin = middle.normal * middle.offset;
     planner.plan.streets.push_back(std::move(street));
-    return static_cast<int>(planner.plan.streets.size()) - 1;
+    return planner.plan.streets.size() - 1;
 }
 
 // The part of a cell on the inner side of a street's middle.
-Cell cut(const Cell& cell, const HalfPlane& keep, int street) {
+Cell cut(const Cell& cell, const HalfPlane& keep, std::size_t street) {
     Cell kept;
     for (std::size_t i = 0; i < cell.outline.size(); ++i) {
         const glm::vec2 a = cell.outline.corners[i];
@@ -80,9 +80,8 @@ bool good_piece(const Planner& planner, const Cell& cell) {
         return false;
     }
     float widest = 0.0F;
-    for (const int street : cell.streets) {
-        widest =
-            std::max(widest, planner.plan.streets[static_cast<std::size_t>(street)].half_width);
+    for (const std::size_t street : cell.streets) {
+        widest = std::max(widest, planner.plan.streets[street].half_width);
     }
     return !inset(cell.outline, widest + 9.0F * planner.scale).empty();
 }
@@ -90,7 +89,7 @@ bool good_piece(const Planner& planner, const Cell& cell) {
 // The pieces of `cells` on both sides of a new street; none if a piece would be too thin.
 std::vector<Cell> divided(Planner& planner, const std::vector<Cell>& cells, const HalfPlane& line,
                           StreetKind kind) {
-    const int street = add_street(planner, street_of(kind, planner), line);
+    const std::size_t street = add_street(planner, street_of(kind, planner), line);
     std::vector<Cell> pieces;
     for (const Cell& cell : cells) {
         pieces.push_back(cut(cell, line, street));
@@ -151,9 +150,9 @@ std::vector<Cell> columns(Planner& planner) {
         border.water = period > 900.0F ? 21.0F : 7.5F;
         border.half_width = border.water + 17.0F;
     }
-    const int south = add_street(planner, border, {{0.0F, 1.0F}, 0.0F});
+    const std::size_t south = add_street(planner, border, {{0.0F, 1.0F}, 0.0F});
     std::vector<float> places;
-    std::vector<int> uprights;
+    std::vector<std::size_t> uprights;
     for (int i = 0; i < count; ++i) {
         const float jitter = i == 0 ? 0.0F : 0.12F * planner.random.bell();
         places.push_back((static_cast<float>(i) + jitter) * period / static_cast<float>(count));
@@ -192,8 +191,8 @@ void find_junctions(StreetPlan& plan) {
     for (const Cell& cell : plan.cells) {
         const std::size_t count = cell.outline.size();
         for (std::size_t i = 0; i < count; ++i) {
-            Street& a = plan.streets[static_cast<std::size_t>(cell.streets[i])];
-            Street& b = plan.streets[static_cast<std::size_t>(cell.streets[(i + 1) % count])];
+            Street& a = plan.streets[cell.streets[i]];
+            Street& b = plan.streets[cell.streets[(i + 1) % count]];
             const glm::vec2 place = cell.outline.corner(i + 1);
             add_junction(a, b, place);
             add_junction(b, a, place);

@@ -33,7 +33,7 @@ struct Street {
 /// The area between the middles of the streets around a block.
 struct Cell {
     Convex outline;
-    std::vector<int> streets; ///< index of the street under each edge
+    std::vector<std::size_t> streets; ///< index of the street under each edge
 };
 
 /// A periodic deformation of the plane that makes straight streets curve.

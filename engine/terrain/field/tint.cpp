@@ -23,8 +23,6 @@ constexpr std::array<Stop, 7> scale{{{0.00F, {94.0F, 123.0F, 81.0F}},
                                      {0.68F, {133.0F, 106.0F, 77.0F}},
                                      {0.84F, {141.0F, 133.0F, 126.0F}},
                                      {1.00F, {205.0F, 205.0F, 207.0F}}}};
-constexpr Rgba8 water{82, 118, 148, 255};
-constexpr Rgba8 no_data{128, 128, 128, 255};
 
 Rgba8 rgba8(glm::vec3 color) {
     const glm::vec3 rounded = glm::clamp(color + 0.5F, glm::vec3(0.0F), glm::vec3(255.0F));
@@ -108,14 +106,6 @@ Rgba8 HeightTint::at(double height) const {
     return tint(extent > 0.0 ? static_cast<float>((height - range_.low) / extent) : 0.3F);
 }
 
-Rgba8 HeightTint::of_water() {
-    return water;
-}
-
-Rgba8 HeightTint::of_void() {
-    return no_data;
-}
-
 Image hypsometric_tint(const Heightfield& heightfield) {
     const auto& heights = heightfield.heights;
     const HeightTint tint(heightfield);
@@ -124,8 +114,8 @@ Image hypsometric_tint(const Heightfield& heightfield) {
         for (int col = 0; col < image.cols(); ++col) {
             const bool is_void =
                 !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
-            image(col, row) = is_void                               ? no_data
-                              : is_level_sea(heightfield, col, row) ? water
+            image(col, row) = is_void                               ? HeightTint::no_data
+                              : is_level_sea(heightfield, col, row) ? HeightTint::water
                                                                     : tint.at(heights(col, row));
         }
     }

@@ -11,8 +11,8 @@ public:
     explicit HeightTint(const Heightfield& heightfield);
 
     [[nodiscard]] Rgba8 at(double height) const; ///< metres
-    static Rgba8 of_water();
-    static Rgba8 of_void();
+    static constexpr Rgba8 water{82, 118, 148, 255};
+    static constexpr Rgba8 no_data{128, 128, 128, 255};
 
 private:
     HeightRange range_;

@@ -118,6 +118,10 @@ private:
     const std::set<TreeTile>& drawn_;
 };
 
+std::array<glm::ivec2, 4> corners_of(glm::ivec2 cells) {
+    return {glm::ivec2(0), glm::ivec2(cells.x, 0), glm::ivec2(0, cells.y), cells};
+}
+
 struct TileSide {
     glm::ivec2 outwards;
     glm::ivec2 begin; // corner
@@ -222,7 +226,9 @@ public:
             splits_.emplace(tile, Grid<std::uint8_t>(cells.x + 1, cells.y + 1));
         }
         for (const auto& entry : splits_) {
-            add_corners(entry.first, tree.cells(entry.first));
+            for (const glm::ivec2 corner : corners_of(tree.cells(entry.first))) {
+                add({entry.first, corner});
+            }
         }
     }
 
@@ -238,13 +244,6 @@ public:
     SharedSplits take() { return std::move(splits_); }
 
 private:
-    void add_corners(TreeTile tile, glm::ivec2 cells) {
-        for (const glm::ivec2 corner :
-             {glm::ivec2(0), glm::ivec2(cells.x, 0), glm::ivec2(0, cells.y), cells}) {
-            add({tile, corner});
-        }
-    }
-
     void mark(const TreeVertex& at) {
         Grid<std::uint8_t>& splits = splits_.at(at.tile);
         const glm::ivec2 place = at.vertex;
@@ -287,8 +286,7 @@ std::vector<EdgeMove> edge_moves(const TileTree& tree, const std::set<TreeTile>&
             moves.push_back({vertex, to});
         }
     };
-    for (const glm::ivec2 corner :
-         {glm::ivec2(0), glm::ivec2(cells.x, 0), glm::ivec2(0, cells.y), cells}) {
+    for (const glm::ivec2 corner : corners_of(cells)) {
         add(corner, edges.resolve(tree.sample(tile, corner)));
     }
     for (const TileSide& side : sides_of(cells)) {
