@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -100,24 +100,14 @@ bool is_video(const fs::path& path) {
 }
 
 Result<fs::path> numbered(const fs::path& pattern, int index) {
+    static const std::regex one_number("([^%]*)%0*([1-9]|1[0-2])?d([^%]*)");
     const std::string text = pattern.string();
-    const auto begin = text.find('%');
-    const auto end = text.find('d', begin == std::string::npos ? 0 : begin);
-    const Error wrong{fmt::format("-o: '{}' found, one number like %04d was expected in it", text)};
-    if (begin == std::string::npos || end == std::string::npos ||
-        text.find('%', begin + 1) != std::string::npos) {
-        return wrong;
+    std::smatch parts;
+    if (!std::regex_match(text, parts, one_number)) {
+        return Error{fmt::format("-o: '{}' found, one number like %04d was expected in it", text)};
     }
-    int width = 0;
-    if (end > begin + 1) {
-        const auto [last, code] =
-            std::from_chars(text.data() + begin + 1, text.data() + end, width);
-        if (code != std::errc{} || last != text.data() + end || width < 0 || width > 12) {
-            return wrong;
-        }
-    }
-    return fs::path(
-        fmt::format("{}{:0{}}{}", text.substr(0, begin), index, width, text.substr(end + 1)));
+    const int width = parts[2].matched ? std::stoi(parts[2]) : 0;
+    return fs::path(fmt::format("{}{:0{}}{}", parts[1].str(), index, width, parts[3].str()));
 }
 
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,

@@ -49,11 +49,6 @@ Result<pid_t> start(const std::vector<std::string>& arguments, int input, int me
     return process;
 }
 
-std::string first_line(std::span<const std::byte> text) {
-    const std::string_view all(reinterpret_cast<const char*>(text.data()), text.size());
-    return std::string(all.substr(0, all.find('\n')));
-}
-
 } // namespace
 
 Result<VideoEncoder> VideoEncoder::create(const std::filesystem::path& file, glm::ivec2 size,
@@ -122,7 +117,9 @@ Result<void> VideoEncoder::finish() {
 
 Error VideoEncoder::failed(std::string_view what) const {
     const auto said = messages_.bytes();
-    const std::string line = said ? first_line(*said) : "";
+    const std::string_view text =
+        said ? std::string_view(reinterpret_cast<const char*>(said->data()), said->size()) : "";
+    const std::string_view line = text.substr(0, text.find('\n'));
     return {fmt::format("{}: ffmpeg {}{}{}", file_.target().string(), what,
                         line.empty() ? "" : ": ", line)};
 }

@@ -54,8 +54,4 @@ void ProgressLine::update(double fraction) {
     shown_at_ = now;
 }
 
-Progress ProgressLine::callback() {
-    return [this](double fraction) { update(fraction); };
-}
-
 } // namespace reljef::cli

@@ -18,7 +18,9 @@ public:
 
     /// `fraction` in [0,1]; from any thread, one call at a time.
     void update(double fraction);
-    [[nodiscard]] Progress callback();
+    [[nodiscard]] Progress callback() {
+        return [this](double fraction) { update(fraction); };
+    }
 
 private:
     std::string label_;

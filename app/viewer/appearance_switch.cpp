@@ -1,7 +1,5 @@
 #include "app/viewer/appearance_switch.h"
 
-#include <utility>
-
 namespace reljef::app {
 
 AppearanceSwitch::AppearanceSwitch(session::TerrainScene& scene,
@@ -11,10 +9,6 @@ AppearanceSwitch::AppearanceSwitch(session::TerrainScene& scene,
 // Requests the stop of all work before it waits.
 AppearanceSwitch::~AppearanceSwitch() {
     retire();
-}
-
-void AppearanceSwitch::request(const scene::Technique& technique) {
-    begin({technique, light()});
 }
 
 void AppearanceSwitch::request(const scene::Light& light) {
@@ -73,10 +67,6 @@ void AppearanceSwitch::relay_to(session::Log& log) {
     if (pending_ != nullptr) {
         pending_->log.relay_to(log);
     }
-}
-
-std::shared_ptr<const render::PreparedLight> AppearanceSwitch::take_light() {
-    return std::exchange(light_, nullptr);
 }
 
 session::MissingMaps AppearanceSwitch::missing(const Appearance& appearance) const {

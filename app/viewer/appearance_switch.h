@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/technique/technique.h"
@@ -26,7 +27,7 @@ public:
     ~AppearanceSwitch();
 
     /// Shows the technique when its maps are ready. Replaces an earlier request.
-    void request(const scene::Technique& technique);
+    void request(const scene::Technique& technique) { begin({technique, light()}); }
     void request(const scene::Light& light);
     /// Shows the request if its maps are ready. Returns whether the scene changed.
     bool update();
@@ -44,7 +45,9 @@ public:
     /// Passes on messages since the last call.
     void relay_to(session::Log& log);
     /// The light for SceneRenderer::add_light() if it is new since the last call, else null.
-    std::shared_ptr<const render::PreparedLight> take_light();
+    std::shared_ptr<const render::PreparedLight> take_light() {
+        return std::exchange(light_, nullptr);
+    }
 
 private:
     struct Appearance {

@@ -176,10 +176,6 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
     }
 }
 
-const scene::Material& Viewer::material() const {
-    return *scene_.materials().front();
-}
-
 void Viewer::receive(const Event& event) {
     if (std::holds_alternative<CloseEvent>(event)) {
         close_ = true;
@@ -333,10 +329,6 @@ void Viewer::turn_light() {
 void Viewer::toggle_mouse_look() {
     mouse_look_ = !mouse_look_ && !map_;
     flight_.set_mouse_look(mouse_look_);
-}
-
-void Viewer::toggle_follow_ground() {
-    flight_.set_follow_ground(!flight_.follows_ground());
 }
 
 void Viewer::next_technique() {

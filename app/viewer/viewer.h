@@ -87,7 +87,7 @@ private:
     void toggle_wireframe();
     void turn_light();
     void toggle_mouse_look();
-    void toggle_follow_ground();
+    void toggle_follow_ground() { flight_.set_follow_ground(!flight_.follows_ground()); }
     void next_technique();
     void choose_technique(std::size_t index);
     void ask_for_screenshot() { screenshot_ = true; }
@@ -98,7 +98,7 @@ private:
     [[nodiscard]] const scene::Camera& camera() const {
         return *scene_.camera->get<scene::Camera>();
     }
-    [[nodiscard]] const scene::Material& material() const;
+    [[nodiscard]] const scene::Material& material() const { return *scene_.materials().front(); }
 
     session::TerrainScene& scene_;
     scene::CameraPath path_;

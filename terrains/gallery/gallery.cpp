@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -91,19 +89,6 @@ glm::vec3 floor_albedo(glm::vec2 place, std::uint32_t seed) {
     return stone * glm::mix(0.62F, 1.0F, joint);
 }
 
-// Empty when stopped.
-std::optional<Image> floor_image(const GeneratorOptions& options) {
-    Image image(color_side, color_side);
-    const ParallelOptions parallel{options.threads, options.stop, options.progress};
-    const bool done = for_each_cell(color_side, color_side, parallel, [&](int col, int row) {
-        const glm::dvec2 share = glm::dvec2(col, row) / (color_side - 1.0) - 0.5;
-        const glm::dvec2 place(share.x * floor_width, -share.y * floor_width);
-        image(col, row) = rgba8_from_linear(floor_albedo(glm::vec2(place), options.seed) *
-                                            static_cast<float>(sky_seen(place)));
-    });
-    return done ? std::optional(std::move(image)) : std::nullopt;
-}
-
 } // namespace
 
 std::span<const GalleryModel> gallery_models() {
@@ -123,12 +108,16 @@ Result<terrain::Terrain> generate_gallery(const GeneratorOptions& options) {
     terrain.name = "gallery";
     terrain.heightfield.heights = Grid<float>(options.size, options.size, 0.0F);
     terrain.heightfield.spacing = {spacing, spacing};
-    auto image = floor_image(options);
-    if (!image) {
-        return Error{"gallery: generating was stopped"};
-    }
-    terrain.color = std::move(*image);
-    return terrain;
+    terrain.color = Image(color_side, color_side);
+    const ParallelOptions parallel{options.threads, options.stop, options.progress};
+    const bool is_done = for_each_cell(color_side, color_side, parallel, [&](int col, int row) {
+        const glm::dvec2 share = glm::dvec2(col, row) / (color_side - 1.0) - 0.5;
+        const glm::dvec2 place(share.x * floor_width, -share.y * floor_width);
+        terrain.color(col, row) = rgba8_from_linear(floor_albedo(glm::vec2(place), options.seed) *
+                                                    static_cast<float>(sky_seen(place)));
+    });
+    return is_done ? Result<terrain::Terrain>(std::move(terrain))
+                   : Error{"gallery: generating was stopped"};
 }
 
 } // namespace reljef::terrains

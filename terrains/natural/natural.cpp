@@ -10,8 +10,7 @@
 namespace reljef::terrains {
 namespace {
 
-constexpr int margin = 24;            // cells that are cut off: they hide the border
-constexpr float base_height = 300.0F; // metres of the lowest outlet
+constexpr int margin = 24; // cells that are cut off: they hide the border
 
 std::optional<Error> refusal(const GeneratorOptions& options) {
     if (options.size < 16 || options.size > 4096) {
@@ -77,7 +76,7 @@ Result<terrain::Terrain> generate_natural(const GeneratorOptions& options) {
         options.spacing > 0.0 ? options.spacing : double{natural::design_spacing};
     const auto scale = static_cast<float>(spacing / double{natural::design_spacing});
     for (float& height : field.heights.samples()) {
-        height = scale * (height + base_height);
+        height = scale * (height + natural::base_height);
     }
     field.spacing = glm::dvec2{spacing};
     field.range = terrain::height_range(field.heights, field.void_mask);

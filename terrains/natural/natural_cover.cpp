@@ -15,7 +15,6 @@ namespace {
 
 using Tint = glm::vec3; // sRGB-encoded, of 255
 
-constexpr float base_height = 300.0F; // metres that generate_natural() adds
 constexpr float tree_line = 1640.0F;
 constexpr float snow_line = 2290.0F;
 

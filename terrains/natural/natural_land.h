@@ -14,7 +14,8 @@
 /// `design_spacing` metres apart; generate_natural() scales the result.
 namespace reljef::terrains::natural {
 
-inline constexpr float design_spacing = 20.0F;
+inline constexpr float design_spacing = 20.0F; // metres
+inline constexpr float base_height = 300.0F;   // metres of the lowest outlet
 
 /// `size` >= 16; `spacing` and `tileable` have no effect. When stopped, results are unusable.
 using LandOptions = GeneratorOptions;

@@ -45,10 +45,6 @@ double Placement::zero_at(glm::dvec2 latitude_longitude) const {
     return std::isnan(above) ? 0.0 : above;
 }
 
-PlacementKind Placement::kind() const {
-    return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
-}
-
 glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
     if (!frame_) {
         return {(sample.x - center_.x) * spacing_.x, (center_.y - sample.y) * spacing_.y,

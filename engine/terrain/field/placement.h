@@ -26,7 +26,9 @@ public:
     static Result<Placement> create(const Heightfield& heightfield, PlacementKind kind,
                                     double exaggeration = 1.0);
 
-    [[nodiscard]] PlacementKind kind() const;
+    [[nodiscard]] PlacementKind kind() const {
+        return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
+    }
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
     [[nodiscard]] glm::dvec3 world_from_sample(glm::dvec3 sample) const;

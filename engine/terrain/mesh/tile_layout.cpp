@@ -82,8 +82,4 @@ std::vector<Tile> flat_tile_layout(const Heightfield& heightfield, const Placeme
     return cut(heightfield, placement, [&](const Tile&) { return HeightRange{height, height}; });
 }
 
-double reference_height(const Heightfield& heightfield) {
-    return 0.5 * (heightfield.range.low + heightfield.range.high);
-}
-
 } // namespace reljef::terrain

@@ -33,6 +33,8 @@ std::vector<Tile> flat_tile_layout(const Heightfield& heightfield, const Placeme
 Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last, HeightRange range);
 
 /// The middle of the height range, where the flat reference surface lies.
-double reference_height(const Heightfield& heightfield);
+inline double reference_height(const Heightfield& heightfield) {
+    return 0.5 * (heightfield.range.low + heightfield.range.high);
+}
 
 } // namespace reljef::terrain

@@ -335,10 +335,6 @@ std::vector<TreeVertex> DrawnTiles::partners(const TreeVertex& vertex) const {
     return found;
 }
 
-int DrawnTiles::number_of(const TreeVertex& vertex) const {
-    return vertex.vertex.y * (tree_.cells(vertex.tile).x + 1) + vertex.vertex.x;
-}
-
 std::vector<glm::ivec2> border_splits(const Bisection& bisection, const ErrorView& view) {
     return BorderWalk(bisection, view).walk();
 }

@@ -61,7 +61,10 @@ private:
         std::unordered_map<int, TreeVertex> moved; // by number_of() the vertex
         std::vector<TreeTile> touching;
     };
-    [[nodiscard]] int number_of(const TreeVertex& vertex) const;
+    // Row after row.
+    [[nodiscard]] int number_of(const TreeVertex& vertex) const {
+        return vertex.vertex.y * (tree_.cells(vertex.tile).x + 1) + vertex.vertex.x;
+    }
 
     TileTree tree_;
     std::set<TreeTile> tiles_;

@@ -44,10 +44,6 @@ std::vector<TreeTile> TileTree::children(TreeTile tile) const {
     return found;
 }
 
-glm::ivec2 TileTree::first(TreeTile tile) {
-    return glm::ivec2(tile.col, tile.row) * tile_cells * step(tile);
-}
-
 glm::ivec2 TileTree::cells(TreeTile tile) const {
     const glm::ivec2 left = last_ - first(tile);
     return glm::clamp((left + step(tile) - 1) / step(tile), glm::ivec2(0), glm::ivec2(tile_cells));

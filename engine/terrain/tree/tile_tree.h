@@ -42,7 +42,9 @@ public:
     /// Samples from vertex to vertex.
     [[nodiscard]] static int step(TreeTile tile) { return 1 << tile.level; }
     /// Sample (col, row) of the first vertex.
-    [[nodiscard]] static glm::ivec2 first(TreeTile tile);
+    [[nodiscard]] static glm::ivec2 first(TreeTile tile) {
+        return glm::ivec2(tile.col, tile.row) * tile_cells * step(tile);
+    }
     /// 1 … tile_cells; the raster's end may cut the last cells. Precondition: in the tree.
     [[nodiscard]] glm::ivec2 cells(TreeTile tile) const;
     /// Sample of a vertex, clamped to the raster.

@@ -12,7 +12,7 @@ namespace {
 TEST(CtrlC, HasTheExitStatusThatTheHelpTells) {
     const auto help = test::reljef({"--help"});
     EXPECT_EQ(help.exit_code, 0);
-    EXPECT_NE(help.out.find("1 failed, or ended by Ctrl-C (SIGINT, SIGTERM or SIGHUP); 2 misused"),
+    EXPECT_NE(help.out.find("1 failure, or ended by Ctrl-C (SIGINT, SIGTERM or SIGHUP); 2 unknown"),
               std::string::npos)
         << help.out;
 }

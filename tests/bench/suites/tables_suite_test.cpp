@@ -238,7 +238,7 @@ TEST(BenchProgram, help_names_the_suites_there_are_and_none_that_is_not) {
     }
     EXPECT_THAT(result.out, testing::Not(testing::HasSubstr("stress")));
     EXPECT_THAT(result.out,
-                testing::HasSubstr("Exit status: 0 done; 1 failed, or ended by Ctrl-C"));
+                testing::HasSubstr("Exit status: 0 success; 1 failure, or ended by Ctrl-C"));
 }
 
 } // namespace
