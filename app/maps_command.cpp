@@ -143,12 +143,6 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
     return interrupt.requested() ? Error{"interrupted"} : commit_all(files);
 }
 
-void add_map_outputs(CLI::App& arguments, MapChoice& choice) {
-    for (MapOutput& output : choice.outputs) {
-        arguments.add_option(output.option, output.file, output.meaning)->type_name("FILE");
-    }
-}
-
 bool asks_for(const MapChoice& choice, std::initializer_list<MapKind> kinds) {
     return std::any_of(choice.outputs.begin(), choice.outputs.end(), [&](const MapOutput& output) {
         return !output.file.empty() &&
@@ -214,7 +208,7 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
                     cli::number_in("--scale", 0.0, 1000.0, true),
                     "height of a value of 1, in widths of the picture (0.05)", "S");
     cli::add_parsed(arguments, "--octaves", choice.making.octaves,
-                    cli::whole_number_in("--octaves", 1, 12),
+                    cli::number_in<int>("--octaves", 1, 12),
                     "from colors: number of octaves of relief, each twice as coarse (5)", "N");
     arguments.add_flag("--dark-is-high", choice.making.dark_is_high,
                        "from colors: darker is higher");
@@ -225,7 +219,7 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
     arguments.add_flag("--sobel", choice.making.sobel,
                        "compute normals with Sobel's filter instead of bilinear slopes");
     cli::add_parsed(arguments, "--threads", choice.threads,
-                    cli::whole_number_in("--threads", 0, 1024),
+                    cli::number_in<int>("--threads", 0, 1024),
                     "number of threads; 0: one for each processor (0)", "N");
     arguments.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
@@ -236,7 +230,9 @@ cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("maps", "make maps of surface detail from a picture");
     auto choice = std::make_shared<MapChoice>();
     add_map_options(*arguments, *choice);
-    add_map_outputs(*arguments, *choice);
+    for (MapOutput& output : choice->outputs) {
+        arguments->add_option(output.option, output.file, output.meaning)->type_name("FILE");
+    }
     arguments->callback([arguments, choice] {
         expect_outputs(*choice);
         expect_used(*arguments, *choice);

@@ -1,5 +1,8 @@
 #include "app/cli/console_log.h"
 
+#include <array>
+#include <cstddef>
+
 #include <fmt/format.h>
 
 #include "app/cli/message.h"
@@ -17,23 +20,14 @@ private:
     ProgressLine line_;
 };
 
-std::string_view kind_text(session::MessageKind kind) {
-    switch (kind) {
-    case session::MessageKind::note:
-        return "note";
-    case session::MessageKind::left_out:
-        return "left out";
-    case session::MessageKind::shown_coarser:
-        return "shown coarser";
-    }
-    return "note";
-}
+constexpr std::array kind_names{"note", "left out", "shown coarser"}; // by session::MessageKind
 
 } // namespace
 
 void ConsoleLog::message(session::MessageKind kind, std::string_view sentence) {
     if (!quiet_) {
-        write_stderr(fmt::format("reljef: {}: {}\n", kind_text(kind), sentence));
+        const auto index = static_cast<std::size_t>(kind);
+        write_stderr(fmt::format("reljef: {}: {}\n", kind_names.at(index), sentence));
     }
 }
 

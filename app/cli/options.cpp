@@ -257,7 +257,7 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
         "do not lift cameras that are below the ground. By default they are lifted, with a note; "
         "if a scene or path file placed them, the exit status is 1. Orthographic cameras are "
         "never lifted");
-    add_parsed(command, "--frames", choice.frames, whole_number_in("--frames", 1, 1'000'000),
+    add_parsed(command, "--frames", choice.frames, number_in<int>("--frames", 1, 1'000'000),
                "number of pictures along the path (1)", "N");
     add_parsed(command, "--fps", choice.frames_per_second, number_in("--fps", 0.01, 1000.0),
                "frames per second of a video (25)", "F");
@@ -300,9 +300,9 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
     add_parsed(command, "--area", choice.area, parse_area,
                "use only this part of a folder of files, degrees", "SOUTH,WEST,NORTH,EAST");
     add_parsed(
-        command, "--memory", choice.memory_megabytes, whole_number_in("--memory", 1, 1'000'000),
+        command, "--memory", choice.memory_megabytes, number_in<int>("--memory", 1, 1'000'000),
         "memory for the terrain, megabytes; larger terrains are read tile by tile (512)", "MB");
-    add_parsed(command, "--threads", choice.threads, whole_number_in("--threads", 0, 1024),
+    add_parsed(command, "--threads", choice.threads, number_in<int>("--threads", 0, 1024),
                "number of threads; 0: one for each processor (0)", "N");
     command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -67,25 +68,16 @@ CLI::Option* add_parsed(CLI::App& command, const char* names, Target& target, co
         ->type_name(type);
 }
 
-/// Parses a number in [low, high], or above low where `above`.
-inline auto number_in(std::string option, double low, double high, bool above = false) {
-    return [=](const std::string& text) -> Result<double> {
-        const auto value = number_from<double>(text);
+/// Parses a number in [low, high]; with `above` it must be larger than `low`.
+template <class T = double>
+auto number_in(std::string option, std::type_identity_t<T> low, std::type_identity_t<T> high,
+               bool above = false) {
+    return [=](const std::string& text) -> Result<T> {
+        const auto value = number_from<T>(text);
         if (!value || !(above ? *value > low : *value >= low) || !(*value <= high)) {
-            return Error{fmt::format("{}: '{}' found, a number {} {} to {} was expected", option,
-                                     text, above ? "over" : "from", low, high)};
-        }
-        return *value;
-    };
-}
-
-/// The same for integers.
-inline auto whole_number_in(std::string option, int low, int high) {
-    return [=](const std::string& text) -> Result<int> {
-        const auto value = number_from<int>(text);
-        if (!value || *value < low || *value > high) {
-            return Error{fmt::format("{}: '{}' found, a whole number from {} to {} was expected",
-                                     option, text, low, high)};
+            return Error{fmt::format("{}: '{}' found, a {} {} {} to {} was expected", option, text,
+                                     std::is_integral_v<T> ? "whole number" : "number",
+                                     above ? "over" : "from", low, high)};
         }
         return *value;
     };

@@ -128,11 +128,9 @@ Use use_of(const Block& block, int index, int count, float period, std::uint32_t
     return Use::houses;
 }
 
-void build(Use use, BlockBuilder& builder) {
-    constexpr std::array builders{build_perimeter, build_downtown, build_houses, build_slabs,
-                                  build_halls,     build_park,     build_square};
-    builders[static_cast<std::size_t>(use)](builder);
-}
+// By Use.
+constexpr std::array builders{build_perimeter, build_downtown, build_houses, build_slabs,
+                              build_halls,     build_park,     build_square};
 
 Block block_of(const StreetPlan& plan, const Cell& cell) {
     Block block;
@@ -176,7 +174,8 @@ City build_city(float period, std::uint32_t seed, unsigned threads) {
                      block = block_of(city.plan, cell);
                      BlockBuilder builder(block, hash(seed, 21, index));
                      if (!block.lot.empty() && area(block.lot) > 60.0F) {
-                         build(use_of(block, index, count, period, seed), builder);
+                         const Use use = use_of(block, index, count, period, seed);
+                         builders[static_cast<std::size_t>(use)](builder);
                      }
                      furnish_streets(city.plan, cell, builder);
                  },

@@ -99,16 +99,13 @@ Box bounds_of(const Frame& frame, glm::vec2 shift) {
     return {frame.center + shift - half, frame.center + shift + half};
 }
 
-Color car_at(const Prism& car, glm::vec2 local) {
-    const float u = local.x / car.frame.half.x;
-    const bool glass = (u > 0.12F && u < 0.42F) || (u < -0.58F && u > -0.8F);
-    return glass ? Color{0.20F, 0.22F, 0.24F} : car.color;
-}
-
 Color prism_color(const Prism& prism, glm::vec2 local, const Tile& tile, std::size_t i) {
     switch (prism.kind) {
-    case PrismKind::car:
-        return car_at(prism, local);
+    case PrismKind::car: {
+        const float u = local.x / prism.frame.half.x;
+        const bool glass = (u > 0.12F && u < 0.42F) || (u < -0.58F && u > -0.8F);
+        return glass ? Color{0.20F, 0.22F, 0.24F} : prism.color;
+    }
     case PrismKind::hedge:
         return prism.color * (1.0F + 0.12F * tile.grain[i] + 0.2F * tile.fine[i]);
     case PrismKind::panel:
