@@ -11,15 +11,6 @@
 namespace reljef::cli {
 namespace {
 
-class LineTask : public session::Task {
-public:
-    LineTask(const std::string& label, bool quiet) : line_(label, quiet) {}
-    void update(double fraction) override { line_.update(fraction); }
-
-private:
-    ProgressLine line_;
-};
-
 constexpr std::array kind_names{"note", "left out", "shown coarser"}; // by session::MessageKind
 
 } // namespace
@@ -32,7 +23,7 @@ void ConsoleLog::message(session::MessageKind kind, std::string_view sentence) {
 }
 
 std::unique_ptr<session::Task> ConsoleLog::start(const std::string& label) {
-    return std::make_unique<LineTask>(label, quiet_);
+    return std::make_unique<ProgressLine>(label, quiet_);
 }
 
 } // namespace reljef::cli

@@ -3,24 +3,20 @@
 #include <chrono>
 #include <string>
 
-#include "engine/core/parallel_for.h"
+#include "engine/session/log.h"
 
 namespace reljef::cli {
 
 /// Shows progress on stderr: one updated line on a terminal, else a line per quarter. Shows nothing
 /// in the first half second.
-class ProgressLine {
+class ProgressLine : public session::Task {
 public:
     explicit ProgressLine(std::string label, bool quiet = false);
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
-    ~ProgressLine();
+    ~ProgressLine() override;
 
-    /// `fraction` in [0,1]; from any thread, one call at a time.
-    void update(double fraction);
-    [[nodiscard]] Progress callback() {
-        return [this](double fraction) { update(fraction); };
-    }
+    void update(double fraction) override;
 
 private:
     std::string label_;

@@ -23,10 +23,7 @@ constexpr double narrowest_in_starts = 1e-4;
 Box around(const Box& terrain) {
     const glm::dvec3 size = terrain.size();
     const glm::dvec3 margin{0.5 * std::max({size.x, size.y, size.z})};
-    Box reach;
-    reach.add(terrain.low - margin);
-    reach.add(terrain.high + margin);
-    return reach;
+    return {terrain.low - margin, terrain.high + margin};
 }
 
 } // namespace
@@ -35,10 +32,6 @@ ViewerMap::ViewerMap(const scene::Camera& start, const Box& terrain, glm::ivec2 
     : camera_(start), reach_(around(terrain)), widest_(start.view_height * widest_in_starts),
       size_(glm::max(size, glm::ivec2(1))) {
     reach_.add(start.target);
-}
-
-bool ViewerMap::is_steered() const {
-    return changed_ || keys_.direction() != glm::dvec3(0.0);
 }
 
 bool ViewerMap::receive(const Event& event) {
@@ -52,7 +45,8 @@ bool ViewerMap::receive(const Event& event) {
         return receive_move(*move);
     }
     if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {
-        return receive_scroll(*scroll);
+        zoom(std::pow(zoom_per_wheel_step, -scroll->offset.y), pointer_.value_or(0.5 * size_));
+        return true;
     }
     if (const auto* resize = std::get_if<ResizeEvent>(&event)) {
         size_ = glm::max(resize->framebuffer, glm::ivec2(1));
@@ -79,11 +73,6 @@ bool ViewerMap::receive_move(const MouseMoveEvent& event) {
     }
     const glm::dvec2 moved = event.position - *before;
     shift(metres_per_pixel() * glm::dvec2(-moved.x, moved.y));
-    return true;
-}
-
-bool ViewerMap::receive_scroll(const ScrollEvent& event) {
-    zoom(std::pow(zoom_per_wheel_step, -event.offset.y), pointer_.value_or(0.5 * size_));
     return true;
 }
 

@@ -25,14 +25,15 @@ public:
     /// last call.
     bool advance(double seconds);
     /// Whether the next advance() may change the camera.
-    [[nodiscard]] bool is_steered() const;
+    [[nodiscard]] bool is_steered() const {
+        return changed_ || keys_.direction() != glm::dvec3(0.0);
+    }
 
     [[nodiscard]] const scene::Camera& camera() const { return camera_; }
 
 private:
     bool receive_button(const MouseButtonEvent& event);
     bool receive_move(const MouseMoveEvent& event);
-    bool receive_scroll(const ScrollEvent& event);
     void shift(glm::dvec2 metres);
     void zoom(double factor, glm::dvec2 pixel);
     [[nodiscard]] double metres_per_pixel() const { return camera_.view_height / size_.y; }

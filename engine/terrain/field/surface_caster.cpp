@@ -61,11 +61,10 @@ std::optional<MinMax> bounds_below(const MinMaxPyramid& pyramid, const Box& box)
 // and 100 times as fast as the map.
 class Quartic {
 public:
-    Quartic(const RayPlace& first, const RayPlace& second, const RayPlace& third,
-            const RayPlace& fourth, const RayPlace& fifth)
-        : begin_(first.t),
-          step_(second.t - first.t), differences_{*first.sample, *second.sample, *third.sample,
-                                                  *fourth.sample, *fifth.sample} {
+    explicit Quartic(const std::array<RayPlace, 5>& places)
+        : begin_(places[0].t), step_(places[1].t - places[0].t) {
+        std::transform(places.begin(), places.end(), differences_.begin(),
+                       [](const RayPlace& place) { return *place.sample; });
         for (std::size_t order = 1; order < differences_.size(); ++order) {
             for (std::size_t i = differences_.size() - 1; i >= order; --i) {
                 differences_[i] =
@@ -139,7 +138,7 @@ private:
         const RayPlace before = place_at(middle_of(from, halfway));
         const RayPlace after = place_at(middle_of(halfway, to));
         if (mapped && before.sample && after.sample) {
-            const Quartic quartic(from, before, halfway, after, to);
+            const Quartic quartic({from, before, halfway, after, to});
             // The error is largest near the ends.
             if (quartic.meets(place_at(middle_of(from, before))) &&
                 quartic.meets(place_at(middle_of(after, to)))) {
