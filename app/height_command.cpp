@@ -189,11 +189,11 @@ cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* at = arguments->add_option_function<std::vector<std::string>>(
         "--at",
         [choice](const std::vector<std::string>& texts) { choice->places = places_of(texts); },
-        "latitude and longitude, degrees; again for more places");
+        "latitude and longitude of a place, degrees; may be repeated");
     at->type_name("LAT,LON")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     arguments
         ->add_option("--points", choice->points,
-                     "many places: a file of lines LAT,LON, or - for standard input")
+                     "file with a line LAT,LON for each place; - for standard input")
         ->type_name("FILE");
     arguments->callback([choice] {
         if (choice->places.empty() && choice->points.empty()) {

@@ -305,10 +305,10 @@ Result<void> print_info(const InfoChoice& choice, const cli::Interrupt& interrup
 } // namespace
 
 cli::Command add_info_command(CLI::App& program, cli::Interrupt& interrupt) {
-    auto* arguments = program.add_subcommand("info", "say what a terrain holds");
+    auto* arguments = program.add_subcommand("info", "print the properties of a terrain");
     auto choice = std::make_shared<InfoChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
-    arguments->add_flag("--json", choice->json, "as JSON");
+    arguments->add_flag("--json", choice->json, "print JSON");
     arguments->footer("Examples:\n  reljef info N45E006.hgt\n  reljef info dem.tif --json");
     return {arguments, [choice, &interrupt] { return print_info(*choice, interrupt); }};
 }

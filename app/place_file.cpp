@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,9 +61,6 @@ void PlaceFile::Closer::operator()(std::FILE* file) const {
         static_cast<void>(std::fclose(file));
     }
 }
-
-PlaceFile::PlaceFile(std::FILE* file, std::string name, std::size_t piece_bytes)
-    : file_(file), name_(std::move(name)), piece_bytes_(piece_bytes) {}
 
 Result<PlaceFile> PlaceFile::open(const std::string& name, std::size_t piece_bytes) {
     std::FILE* file = name == "-" ? stdin : std::fopen(name.c_str(), "rb");

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -36,7 +37,8 @@ private:
     struct Closer {
         void operator()(std::FILE* file) const;
     };
-    PlaceFile(std::FILE* file, std::string name, std::size_t piece_bytes);
+    PlaceFile(std::FILE* file, std::string name, std::size_t piece_bytes)
+        : file_(file), name_(std::move(name)), piece_bytes_(piece_bytes) {}
     Result<void> read_lines();
 
     std::unique_ptr<std::FILE, Closer> file_;

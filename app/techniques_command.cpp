@@ -99,7 +99,7 @@ void print_text() {
 cli::Command add_techniques_command(CLI::App& program, cli::Interrupt& /*interrupt*/) {
     auto* arguments = program.add_subcommand("techniques", "list the ways to draw a surface");
     auto json = std::make_shared<bool>(false);
-    arguments->add_flag("--json", *json, "as JSON");
+    arguments->add_flag("--json", *json, "print JSON");
     arguments->footer("Examples:\n  reljef techniques\n  reljef techniques --json");
     return {arguments, [json]() -> Result<void> {
                 if (*json) {

@@ -311,7 +311,7 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     add_source_options(command, choice);
     command
         .add_option("--imagery", choice.imagery,
-                    "picture to drape over the terrain, or a folder of pictures; may be repeated. "
+                    "picture or folder of pictures to drape over the terrain; may be repeated. "
                     "Pictures with more than 4096 pixels along a side of the terrain are read "
                     "tile by tile, unless an error bound is named")
         ->allow_extra_args(false)
@@ -332,11 +332,11 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                "KIND");
     add_parsed(command, "--gaps", choice.gaps,
                word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
-               "between the files of a folder: holes, or sea at 0 m (holes)", "KIND");
+               "areas between the files of a folder: holes, or sea at 0 m (holes)", "KIND");
     command
         .add_option(
             "--geoid", choice.geoid,
-            "geoid heights: a file (.gtx, .tif, .pgm) or none (the installed EGM96, for heights "
+            "geoid model: a file (.gtx, .tif, .pgm) or none (the installed EGM96, for heights "
             "above EGM96)")
         ->type_name("FILE");
 }

@@ -89,21 +89,13 @@ void store(const Tile& tile, terrain::Terrain& terrain) {
     }
 }
 
-bool paint_all(terrain::Terrain& terrain, const City& city, const Raster& raster,
-               const ParallelOptions& options) {
-    const int across = (raster.size + tile_size - 1) / tile_size;
-    return parallel_for(
-        across * across,
-        [&](int index) {
-            const int col = index % across * tile_size;
-            const int row = index / across * tile_size;
-            Tile tile =
-                make_tile(raster, city.plan.warp, col, row, std::min(tile_size, raster.size - col),
-                          std::min(tile_size, raster.size - row));
-            paint(tile, city);
-            store(tile, terrain);
-        },
-        options);
+// Paints the tile that begins at a sample.
+void paint_tile(terrain::Terrain& terrain, const City& city, const Raster& raster,
+                glm::ivec2 first) {
+    const glm::ivec2 size = glm::min(raster.size - first, glm::ivec2(tile_size));
+    Tile tile = make_tile(raster, city.plan.warp, first.x, first.y, size.x, size.y);
+    paint(tile, city);
+    store(tile, terrain);
 }
 
 } // namespace
@@ -123,7 +115,12 @@ Result<terrain::Terrain> generate_urban(const GeneratorOptions& options) {
     terrain.heightfield.spacing = {spacing, spacing};
     terrain.color = Image(options.size, options.size);
     const Raster raster = raster_of(options, static_cast<float>(spacing), period);
-    if (!paint_all(terrain, city, raster, {options.threads, options.stop, options.progress})) {
+    const int across = (options.size + tile_size - 1) / tile_size;
+    const auto paint_nth = [&](int index) {
+        paint_tile(terrain, city, raster, tile_size * glm::ivec2(index % across, index / across));
+    };
+    if (!parallel_for(across * across, paint_nth,
+                      {options.threads, options.stop, options.progress})) {
         return Error{"urban: generating was stopped"};
     }
     darken_hollows(terrain, {static_cast<float>(spacing), options.tileable, options.threads});

@@ -305,7 +305,7 @@ void build_halls(BlockBuilder& builder) {
         const HalfPlane side{frame.axis, dot(frame.axis, frame.at(place, 0.0F))};
         const Convex hall = inset(clipped(lot, side), 3.0F);
         builder.flat_building(hall, random.range(6.5F, 13.0F));
-        const Convex yard = inset(clipped(lot, {-side.normal, -side.offset}), 2.0F);
+        const Convex yard = inset(clipped(lot, side.flipped()), 2.0F);
         if (!yard.empty()) {
             const Frame rows = frame_along(yard, turned(frame.axis));
             for (float y = -rows.half.y + 8.5F; y < rows.half.y - 8.0F; y += 17.5F) {

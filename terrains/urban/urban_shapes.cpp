@@ -123,7 +123,7 @@ std::vector<Convex> lots_of(const Convex& shape, const LotOptions& options, Rand
         const float place = frame.half.x * 2.0F * options.jitter * (2.0F * random.unit() - 1.0F);
         const HalfPlane side{frame.axis, dot(frame.axis, frame.center) + place};
         open.push_back(clipped(piece, side));
-        open.push_back(clipped(piece, {-side.normal, -side.offset}));
+        open.push_back(clipped(piece, side.flipped()));
     }
     return lots;
 }

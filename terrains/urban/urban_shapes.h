@@ -52,6 +52,7 @@ struct HalfPlane {
     float offset = 0.0F;
 
     [[nodiscard]] float distance(glm::vec2 point) const { return dot(normal, point) - offset; }
+    [[nodiscard]] HalfPlane flipped() const { return {-normal, -offset}; }
 };
 
 struct Box {

@@ -54,10 +54,6 @@ Cell cut(const Cell& cell, const HalfPlane& keep, std::size_t street) {
     return kept;
 }
 
-HalfPlane flipped(const HalfPlane& plane) {
-    return {-plane.normal, -plane.offset};
-}
-
 StreetKind kind_for(float length) {
     if (length > 330.0F) {
         return StreetKind::avenue;
@@ -93,7 +89,7 @@ std::vector<Cell> divided(Planner& planner, const std::vector<Cell>& cells, cons
     std::vector<Cell> pieces;
     for (const Cell& cell : cells) {
         pieces.push_back(cut(cell, line, street));
-        pieces.push_back(cut(cell, flipped(line), street));
+        pieces.push_back(cut(cell, line.flipped(), street));
     }
     const bool good = std::all_of(pieces.begin(), pieces.end(),
                                   [&](const Cell& piece) { return good_piece(planner, piece); });

@@ -294,9 +294,4 @@ std::optional<SurfaceHit> SurfaceCaster::first_hit(const Ray& world_ray, Interva
     return BentRay(heights_, pyramid_, placement_, world_ray).first_hit(*inside);
 }
 
-std::optional<SurfaceHit> pick(GridView<const float> heights, const MinMaxPyramid& pyramid,
-                               const Placement& placement, const Ray& world_ray) {
-    return SurfaceCaster(heights, pyramid, placement).first_hit(world_ray);
-}
-
 } // namespace reljef::terrain

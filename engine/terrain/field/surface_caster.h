@@ -35,7 +35,9 @@ private:
 };
 
 /// SurfaceCaster::first_hit() for a single ray.
-std::optional<SurfaceHit> pick(GridView<const float> heights, const MinMaxPyramid& pyramid,
-                               const Placement& placement, const Ray& world_ray);
+inline std::optional<SurfaceHit> pick(GridView<const float> heights, const MinMaxPyramid& pyramid,
+                                      const Placement& placement, const Ray& world_ray) {
+    return SurfaceCaster(heights, pyramid, placement).first_hit(world_ray);
+}
 
 } // namespace reljef::terrain
