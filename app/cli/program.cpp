@@ -52,7 +52,7 @@ int fail(const Program& program, std::string_view message) {
 }
 
 // A closed pipe needs no message: the reader has finished.
-int fail_to_print(const Program& program) {
+int report_lost_output(const Program& program) {
     return errno == EPIPE ? failed
                           : fail(program, fmt::format("standard output: cannot be written: {}",
                                                       std::strerror(errno)));
@@ -67,7 +67,7 @@ int usage_error(const Program& program, std::string message) {
 int explain(const Program& program, const CLI::App& parser, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
         parser.exit(error);
-        return std::cout.flush() ? done : fail_to_print(program);
+        return std::cout.flush() ? done : report_lost_output(program);
     }
     return usage_error(program, error.what());
 }
@@ -75,7 +75,7 @@ int explain(const Program& program, const CLI::App& parser, const CLI::ParseErro
 int run_command(const Program& program, const Command& command, const Interrupt& interrupt) {
     const auto result = command.run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        return fail_to_print(program);
+        return report_lost_output(program);
     }
     if (result) {
         return done;
@@ -112,7 +112,7 @@ int run_program(const Program& program, int argc, char** argv) noexcept {
     } catch (const std::bad_alloc&) {
         return fail(program, "there is not enough memory for this");
     } catch (const std::exception& error) {
-        return std::ferror(stdout) != 0 ? fail_to_print(program) : fail(program, error.what());
+        return std::ferror(stdout) != 0 ? report_lost_output(program) : fail(program, error.what());
     }
 }
 

@@ -19,7 +19,7 @@ constexpr int min_side = 16;
 constexpr int max_side = 4096;
 
 // Surface at a point of the texture.
-struct Stuff {
+struct SurfacePoint {
     float height = 0.0F;    // any range
     glm::vec3 albedo{0.5F}; // linear
 };
@@ -59,7 +59,7 @@ Brick brick_at(glm::vec2 place) {
             {1.0F / bricks, 1.0F / courses}};
 }
 
-Stuff brick_wall(glm::vec2 place, std::uint32_t seed) {
+SurfacePoint brick_wall(glm::vec2 place, std::uint32_t seed) {
     constexpr std::array<glm::vec3, 4> clays{
         glm::vec3(0.33F, 0.095F, 0.055F), glm::vec3(0.40F, 0.145F, 0.080F),
         glm::vec3(0.20F, 0.070F, 0.050F), glm::vec3(0.46F, 0.205F, 0.120F)};
@@ -85,7 +85,7 @@ Stuff brick_wall(glm::vec2 place, std::uint32_t seed) {
             glm::mix(lime * (1.0F + 0.25F * rough + 0.2F * grain), clay, face)};
 }
 
-Stuff cobbles(glm::vec2 place, std::uint32_t seed) {
+SurfacePoint cobbles(glm::vec2 place, std::uint32_t seed) {
     constexpr std::array<glm::vec3, 5> stones{
         glm::vec3(0.26F, 0.26F, 0.27F), glm::vec3(0.34F, 0.31F, 0.27F),
         glm::vec3(0.19F, 0.20F, 0.22F), glm::vec3(0.38F, 0.36F, 0.33F),
@@ -126,7 +126,7 @@ float slabs(glm::vec2 place, std::uint32_t seed, int cells) {
            0.9F * glm::dot(lean, cell.from_seed) - 0.35F * crack;
 }
 
-Stuff rock_face(glm::vec2 place, std::uint32_t seed) {
+SurfacePoint rock_face(glm::vec2 place, std::uint32_t seed) {
     const glm::vec2 wobble(noise(seed + 20, place, 4, 4), noise(seed + 21, place, 4, 4));
     const glm::vec2 bent = glm::fract(place + 0.03F * wobble);
     const float ridges = 1.0F - std::abs(noise(seed + 22, bent, 6, 5));
@@ -144,7 +144,7 @@ Stuff rock_face(glm::vec2 place, std::uint32_t seed) {
 }
 
 // Crossing round wires; a height of 1 is their radius.
-Stuff wire_fence(glm::vec2 place, std::uint32_t seed) {
+SurfacePoint wire_fence(glm::vec2 place, std::uint32_t seed) {
     constexpr int wires = 3;
     constexpr float radius = 0.13F; // share of the distance between wires
     float height = 0.0F;
@@ -159,7 +159,7 @@ Stuff wire_fence(glm::vec2 place, std::uint32_t seed) {
     return {height, glm::mix(zinc, brown, 0.75F * rust)};
 }
 
-Stuff hammered_copper(glm::vec2 place, std::uint32_t seed) {
+SurfacePoint hammered_copper(glm::vec2 place, std::uint32_t seed) {
     constexpr int dents = 9;
     const VoronoiCell cell = voronoi(seed, place * static_cast<float>(dents), dents, 0.75F);
     const float random = unit_hash(seed + 1, cell.id.x, cell.id.y);
@@ -174,7 +174,7 @@ Stuff hammered_copper(glm::vec2 place, std::uint32_t seed) {
 }
 
 // Material of the rings. hang_rings() makes their shape.
-Stuff brass(glm::vec2 place, std::uint32_t seed) {
+SurfacePoint brass(glm::vec2 place, std::uint32_t seed) {
     const float rough = noise(seed, place, 48, 4);
     const float dull = glm::smoothstep(0.0F, 0.5F, noise(seed + 1, place, 6, 4));
     return {0.0F, glm::mix(glm::vec3(0.56F, 0.40F, 0.15F), glm::vec3(0.34F, 0.25F, 0.13F), dull) *
@@ -293,7 +293,7 @@ float open_to_sky(const Grid<float>& heights, glm::ivec2 texel) {
 
 struct Kind {
     std::string_view name;
-    Stuff (*surface)(glm::vec2 place, std::uint32_t seed); // place in [0,1)²
+    SurfacePoint (*surface)(glm::vec2 place, std::uint32_t seed); // place in [0,1)²
     float scale;
     float specular;
     float shininess;
@@ -313,9 +313,9 @@ material::ReliefMaterial generate(const Kind& kind, const DetailOptions& options
     set.color = Image(size, size);
     for_each_cell(size, size, parallel, [&](int col, int row) {
         const glm::vec2 place = (glm::vec2(col, row) + 0.5F) / static_cast<float>(size);
-        const Stuff stuff = kind.surface(place, options.seed * 1009U);
-        set.heights(col, row) = stuff.height;
-        albedo(col, row) = stuff.albedo;
+        const SurfacePoint point = kind.surface(place, options.seed * 1009U);
+        set.heights(col, row) = point.height;
+        albedo(col, row) = point.albedo;
     });
     spread_over_unit(set.heights);
     for_each_cell(size, size, parallel, [&](int col, int row) {

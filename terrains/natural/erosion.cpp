@@ -80,13 +80,13 @@ void FlowRouter::find_steepest(int row) {
     for (int col = 0; col < cols_; ++col) {
         const std::int32_t cell = row * cols_ + col;
         const bool inner = col > 0 && row > 0 && col < cols_ - 1 && row < rows_ - 1;
-        std::uint32_t luck = hash(seed_, cell, 0);
+        std::uint32_t random_bits = hash(seed_, cell, 0);
         float steepest = 0.0F;
         drainage_.receiver[cell_index(cell)] = cell;
         drainage_.distance[cell_index(cell)] = 0.0F;
         for (const Neighbour& neighbour : neighbours_) {
-            const std::uint32_t chance = luck & 15U;
-            luck >>= 4U;
+            const std::uint32_t chance = random_bits & 15U;
+            random_bits >>= 4U;
             if (!inner && !is_inside(cell, neighbour)) {
                 continue;
             }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int margin = 24; // cells that are cut off: they hide the border
 
-std::optional<Error> refusal(const GeneratorOptions& options) {
+std::optional<Error> natural_option_error(const GeneratorOptions& options) {
     if (options.size < 16 || options.size > 4096) {
         return Error{fmt::format("natural: the size is {}, expected 16 to 4096", options.size)};
     }
@@ -39,7 +39,7 @@ template <class T> Grid<T> without_margin(const Grid<T>& grid, int size) {
 } // namespace
 
 Result<terrain::Terrain> generate_natural(const GeneratorOptions& options) {
-    if (std::optional<Error> error = refusal(options)) {
+    if (std::optional<Error> error = natural_option_error(options)) {
         return *std::move(error);
     }
     natural::LandOptions land_options = options;

@@ -104,8 +104,8 @@ struct Stretch {
                            : 0.0F;
         const float distance = glm::length(place - (from.place + part * along));
         const float width = std::lerp(from.half_width, to.half_width, part);
-        const float luck = gradient_noise(seed, place / 6.0F) + 0.35F;
-        const float bank = width + smoothstep(0.35F, 1.0F, width) * 1.8F * std::max(luck, 0.0F);
+        const float random = gradient_noise(seed, place / 6.0F) + 0.35F;
+        const float bank = width + smoothstep(0.35F, 1.0F, width) * 1.8F * std::max(random, 0.0F);
         const auto cover = [&](float half) {
             return std::clamp(half + 0.5F - distance, 0.0F, 1.0F) * std::min(1.0F, 2.0F * half);
         };

@@ -18,7 +18,7 @@ constexpr double min_spacing = 0.05;
 constexpr double max_spacing = 4.0;
 constexpr float min_city = 640.0F; ///< metres; smaller terrains show a part of it
 
-std::optional<Error> complaint(const GeneratorOptions& options) {
+std::optional<Error> urban_option_error(const GeneratorOptions& options) {
     if (options.size < 16 || options.size > 4096) {
         return Error{"urban: size " + std::to_string(options.size) +
                      " is out of range, expected 16 to 4096 samples"};
@@ -101,7 +101,7 @@ void paint_tile(terrain::Terrain& terrain, const City& city, const Raster& raste
 } // namespace
 
 Result<terrain::Terrain> generate_urban(const GeneratorOptions& options) {
-    if (const auto error = complaint(options)) {
+    if (const auto error = urban_option_error(options)) {
         return *error;
     }
     const double spacing = options.spacing == 0.0 ? default_spacing : options.spacing;
