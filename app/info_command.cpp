@@ -98,11 +98,11 @@ Json file_info(const io::SceneDescription& description) {
 Json models_of(const session::TerrainSource& source, const cli::TerrainChoice& choice) {
     Json models = Json::array();
     if (source.description.generator == "gallery") {
-        const std::string asked_for = choice.textures.value_or(source.description.gallery_textures);
+        const std::string requested = choice.textures.value_or(source.description.gallery_textures);
         for (const terrains::GalleryModel& model : terrains::gallery_models()) {
             models.push_back(
                 {{"name", model.name},
-                 {"textures", asked_for == "mixed" ? std::string(model.textures) : asked_for}});
+                 {"textures", requested == "mixed" ? std::string(model.textures) : requested}});
         }
     }
     return models;

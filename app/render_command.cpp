@@ -56,8 +56,8 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
 // The evenly spread frames of a contact sheet.
 class SheetPictures {
 public:
-    SheetPictures(bool desired, int frames)
-        : step_(desired ? (frames + max_sheet_pictures - 1) / max_sheet_pictures : 0) {}
+    SheetPictures(bool is_requested, int frames)
+        : step_(is_requested ? (frames + max_sheet_pictures - 1) / max_sheet_pictures : 0) {}
 
     void add(Image picture, int index) {
         if (step_ > 0 && index % step_ == 0) {

@@ -71,7 +71,7 @@ scene::Camera perspective_start(const session::TerrainScene& scene) {
     return camera;
 }
 
-std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
+std::vector<scene::Technique> techniques_with(const scene::Technique& requested,
                                               const session::TerrainScene& scene) {
     std::vector<scene::Technique> techniques;
     for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
@@ -79,7 +79,7 @@ std::vector<scene::Technique> techniques_with(const scene::Technique& asked_for,
             continue;
         }
         const bool is_polygons = info.id == scene::TechniqueId::polygons;
-        techniques.push_back(info.id == asked_for.id() ? asked_for
+        techniques.push_back(info.id == requested.id() ? requested
                              : is_polygons             ? session::technique_of({})
                                                        : scene::make_technique(info.id));
     }
@@ -256,10 +256,10 @@ void Viewer::advance(double seconds) {
 
 void Viewer::advance_path(double seconds) {
     path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), min_duration));
-    const scene::Camera asked_for = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
-    flight_.set_camera(asked_for);
+    const scene::Camera requested = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
+    flight_.set_camera(requested);
     const scene::Camera next = flight_.camera();
-    if (const double raised = glm::distance(asked_for.eye, next.eye); raised > min_raise) {
+    if (const double raised = glm::distance(requested.eye, next.eye); raised > min_raise) {
         path_raised_ = std::max(path_raised_, raised);
     }
     if (next.eye != camera().eye || next.target != camera().target) {

@@ -79,10 +79,10 @@ bool ViewerMap::receive_move(const MouseMoveEvent& event) {
 bool ViewerMap::advance(double seconds) {
     const double step = seconds > 0.0 ? std::min(seconds, longest_step) : 0.0;
     const double pace = step * (keys_.is_fast() ? shift_factor : 1.0);
-    const glm::dvec3 desired = pace * keys_.direction();
-    if (desired != glm::dvec3(0.0)) {
-        shift(pictures_per_second * camera_.view_height * glm::dvec2(desired));
-        zoom(std::pow(zoom_per_second, desired.z), 0.5 * size_);
+    const glm::dvec3 requested = pace * keys_.direction();
+    if (requested != glm::dvec3(0.0)) {
+        shift(pictures_per_second * camera_.view_height * glm::dvec2(requested));
+        zoom(std::pow(zoom_per_second, requested.z), 0.5 * size_);
     }
     if (step > 0.0) {
         keys_.forget_taps();
@@ -92,11 +92,11 @@ bool ViewerMap::advance(double seconds) {
 
 void ViewerMap::shift(glm::dvec2 metres) {
     const scene::ViewAxes axes = scene::view_axes(camera_);
-    const glm::dvec3 desired = camera_.target + metres.x * axes.right + metres.y * axes.up;
+    const glm::dvec3 requested = camera_.target + metres.x * axes.right + metres.y * axes.up;
     if (!std::isfinite(metres.x) || !std::isfinite(metres.y)) {
         return;
     }
-    const glm::dvec3 way = glm::clamp(desired, reach_.low, reach_.high) - camera_.target;
+    const glm::dvec3 way = glm::clamp(requested, reach_.low, reach_.high) - camera_.target;
     camera_.target += way;
     camera_.eye += way;
     changed_ = changed_ || way != glm::dvec3(0.0);
