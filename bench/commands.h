@@ -1,10 +1,12 @@
 #pragma once
 
-#include "app/cli/command.h"
+#include "app/cli/program.h"
 
 namespace reljef::bench {
 
-/// The subcommands of reljef-bench.
+/// The program `reljef-bench` with all its subcommands.
+cli::Program reljef_bench_program();
+
 cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt);

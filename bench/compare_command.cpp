@@ -1,16 +1,12 @@
-#include "bench/commands.h"
-
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <stop_token>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include "app/cli/message.h"
+#include "app/cli/parsed_option.h"
+#include "bench/commands.h"
 #include "bench/report/report_json.h"
 #include "bench/suites/compare.h"
 
@@ -23,37 +19,22 @@ struct CompareChoice {
     double threshold_percent = 10.0;
 };
 
-double parse_percent(const std::string& text) {
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool fits = code == std::errc{} && end == text.data() + text.size() &&
-                      std::isfinite(value) && value >= 0.0;
-    if (!fits) {
-        throw CLI::ValidationError(
-            fmt::format("--threshold: '{}' found, a percentage of at least 0 was expected", text));
+Result<double> parse_percent(const std::string& text) {
+    const auto value = cli::number_from<double>(text);
+    if (!value || !std::isfinite(*value) || *value < 0.0) {
+        return Error{
+            fmt::format("--threshold: '{}' found, a percentage of at least 0 was expected", text)};
     }
-    return value;
+    return *value;
 }
 
-void add_compare_options(CLI::App& command, CompareChoice& choice) {
-    command.add_option("BEFORE", choice.before, "results that --json wrote")->required();
-    command.add_option("AFTER", choice.after, "results to hold against them")->required();
-    command
-        .add_option_function<std::string>(
-            "--threshold",
-            [&choice](const std::string& text) { choice.threshold_percent = parse_percent(text); },
-            "changes up to so many percent are none (10)")
-        ->type_name("PERCENT");
-}
-
-// Reading and comparing leave nothing to tidy up.
-void end_at_once() {
+void exit_at_once() {
     cli::write_stderr("reljef-bench: interrupted\n");
     std::_Exit(1);
 }
 
 Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& interrupt) {
-    const std::stop_callback ending(interrupt.token(), end_at_once);
+    const std::stop_callback on_stop(interrupt.token(), exit_at_once);
     const auto before = read_json_report(choice.before);
     if (!before) {
         return before.error();
@@ -62,8 +43,7 @@ Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& inte
     if (!after) {
         return after.error();
     }
-    const Comparison comparison =
-        compare(*before, *after, {.threshold = 0.01 * choice.threshold_percent});
+    const Comparison comparison = compare(*before, *after, 0.01 * choice.threshold_percent);
     if (comparison.changes.empty() && comparison.untimed.empty()) {
         return Error{fmt::format("{} and {}: no row found in both, some were expected",
                                  choice.before.string(), choice.after.string())};
@@ -80,14 +60,19 @@ Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& inte
 } // namespace
 
 cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt) {
-    auto* arguments = program.add_subcommand(
-        "compare", "what is faster, slower, more or less accurate than before");
+    auto* arguments =
+        program.add_subcommand("compare", "changes of frame time and error between two runs");
     auto choice = std::make_shared<CompareChoice>();
-    add_compare_options(*arguments, *choice);
+    arguments->add_option("BEFORE", choice->before, "results of the first run, written by --json")
+        ->required();
+    arguments->add_option("AFTER", choice->after, "results of the second run")->required();
+    cli::add_parsed(*arguments, "--threshold", choice->threshold_percent, parse_percent,
+                    "ignore changes of at most PERCENT percent (10)", "PERCENT");
     arguments->footer(
-        "Changes count beyond the threshold and the noise of both runs. The exit status is 1 where "
-        "anything\n"
-        "got worse or a row is gone. Rows of under 5 frames get no verdict of time.\n"
+        "A change counts if it is larger than the threshold and the noise of both runs. Times of\n"
+        "rows with fewer than 5 frames are not compared. The exit status is 1 if a figure is "
+        "worse\n"
+        "or a row is gone.\n"
         "Examples:\n"
         "  reljef-bench compare before.json after.json\n"
         "  reljef-bench compare before.json after.json --threshold 5");

@@ -1,11 +1,9 @@
-#include "bench/commands.h"
-
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "bench/commands.h"
 #include "bench/output_options.h"
-#include "bench/suite_arguments.h"
 #include "bench/suites/flight_suite.h"
 
 namespace reljef::bench {
@@ -13,7 +11,7 @@ namespace {
 
 struct FlightChoice {
     FlightOptions options;
-    OutputChoice outputs; // the JSON only
+    OutputChoice outputs; // only `json` is used
 };
 
 Result<void> run_flight_command(const FlightChoice& choice, const cli::Interrupt& interrupt) {
@@ -30,15 +28,14 @@ Result<void> run_flight_command(const FlightChoice& choice, const cli::Interrupt
 
 cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
-        "flight", "time, reading and memory of a flight over a terrain larger than memory");
+        "flight", "frame time, tiles read and memory of a flight over a streamed terrain");
     auto choice = std::make_shared<FlightChoice>();
     cli::add_terrain_options(*arguments, choice->options.terrain);
     cli::add_view_options(*arguments, choice->options.view);
     arguments->get_option("--max-error")
         ->description("polygons: at most PX pixels of error, with as few triangles as possible "
                       "(none: every sample of a tile)");
-    arguments->add_option("--json", choice->outputs.json, "write the results there too")
-        ->type_name("FILE");
+    add_json_option(*arguments, choice->outputs);
     arguments->callback([choice] {
         cli::check_view_options(choice->options.view);
         if (choice->options.view.path.empty()) {
@@ -46,10 +43,9 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
         }
     });
     arguments->footer(
-        "Each frame waits for all its tiles, as those of reljef render; waiting and drawing are "
-        "timed "
-        "apart. Memory is that of the process beyond what it and a busy renderer took before the "
-        "terrain was read.\n"
+        "Each frame waits for all its tiles, as in reljef render. Waiting and drawing are timed\n"
+        "separately. Memory is that of the process; what it used before the terrain was opened is\n"
+        "subtracted.\n"
         "Example:\n"
         "  reljef-bench flight srtm/ --path track.gpx --frames 6000 --memory 64 --json "
         "flight.json");

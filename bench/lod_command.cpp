@@ -1,12 +1,7 @@
 #include <array>
-#include <charconv>
 #include <memory>
-#include <optional>
-#include <string>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
+#include "app/cli/parsed_option.h"
 #include "app/cli/usage_error.h"
 #include "bench/commands.h"
 #include "bench/output_options.h"
@@ -30,7 +25,7 @@ struct LodChoice {
     OutputChoice outputs;
     std::optional<int> poses;
     double error = 1.0;
-    bool growth = false;
+    bool scaling = false;
     bool selection = false;
     int memory_megabytes = 512;
 };
@@ -39,7 +34,7 @@ std::vector<std::string> terrains_of(const LodChoice& choice) {
     return choice.terrains.empty() ? std::vector<std::string>{"natural", "urban"} : choice.terrains;
 }
 
-Result<void> judge_poses(const LodChoice& choice, const std::stop_token& stop) {
+Result<void> check_error_bound(const LodChoice& choice, const std::stop_token& stop) {
     ErrorBoundOptions options;
     options.suite = choice.suite;
     options.terrains = terrains_of(choice);
@@ -48,7 +43,7 @@ Result<void> judge_poses(const LodChoice& choice, const std::stop_token& stop) {
     options.flight_errors = {0.25, 0.5, 1.0, 2.0, 4.0};
     const ErrorBoundResults results = run_error_bound(options, stop);
     auto reported = report(figure_table(results), choice.outputs.json);
-    return reported && !results.kept()
+    return reported && !results.within_bound()
                ? Error{"pixels over the bound, or holes, found; none were expected"}
                : reported;
 }
@@ -72,7 +67,6 @@ Result<void> measure_scaling(const LodChoice& choice, const std::stop_token& sto
                   choice.outputs.markdown);
 }
 
-// With a still camera: tiles are cut and uploaded before they are timed.
 Result<void> measure_tables(const LodChoice& choice, const std::stop_token& stop) {
     std::vector<scene::Technique> techniques;
     for (const int levels : {1, 3, 5}) {
@@ -95,75 +89,60 @@ Result<void> measure_tables(const LodChoice& choice, const std::stop_token& stop
 Result<void> run_lod_command(LodChoice choice, const CLI::App& command,
                              const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.terrains);
-    if (auto good = check_outputs(choice.outputs, inputs); !good) { // before measuring
+    if (auto good = check_outputs(choice.outputs, inputs); !good) {
         return good;
     }
     if (choice.poses) {
-        return judge_poses(choice, interrupt.token());
+        return check_error_bound(choice, interrupt.token());
     }
     if (choice.selection) {
         return measure_selection(choice, interrupt.token());
     }
     choice.suite = with_quick_size(choice.suite, command, lod_quick_size);
-    return choice.growth ? measure_scaling(choice, interrupt.token())
-                         : measure_tables(choice, interrupt.token());
-}
-
-CLI::Validator error_in_range() {
-    return CLI::Validator(
-        [](const std::string& text) {
-            double error = 0.0;
-            const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), error);
-            const bool fits = code == std::errc{} && end == text.data() + text.size() &&
-                              error >= view::min_error && error <= view::max_error;
-            return fits ? std::string()
-                        : fmt::format("'{}' found, a number from {} to {} was expected", text,
-                                      view::min_error, view::max_error);
-        },
-        "");
+    return choice.scaling ? measure_scaling(choice, interrupt.token())
+                          : measure_tables(choice, interrupt.token());
 }
 
 void add_lod_options(CLI::App& command, LodChoice& choice) {
     command
         .add_option("--poses", choice.poses,
-                    "instead of the tables: check --max-error pixel by pixel in N random views, "
-                    "shared among the terrains, and check 0.25, 0.5, 1, 2 and 4 pixels on two "
-                    "flights over each terrain")
+                    "instead of the tables: check --max-error at the pixels of N random views, "
+                    "shared among the terrains, and check 0.25, 0.5, 1, 2 and 4 pixels along two "
+                    "camera paths over each terrain")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000));
-    command.add_flag("--growth", choice.growth,
+    command.add_flag("--growth", choice.scaling,
                      "instead of the tables: the same terrain with 1024, 4096 and 16384 samples a "
-                     "side, as temporary files, viewed within --memory");
+                     "side, written to temporary files and viewed within --memory");
     command.add_flag("--selection", choice.selection,
-                     "instead of the tables: time to select what is drawn of 10,000 tiles");
-    command.add_option("--memory", choice.memory_megabytes, "budget of --growth, MB (512)")
+                     "instead of the tables: time to select the visible ones of 10,000 tiles");
+    command.add_option("--memory", choice.memory_megabytes, "memory budget of --growth, MB (512)")
         ->type_name("MB")
         ->check(CLI::Range(1, 1'000'000));
-    command.add_option("--max-error", choice.error, "of --poses and --growth, pixels (1)")
-        ->type_name("PX")
-        ->check(error_in_range());
+    cli::add_parsed(command, "--max-error", choice.error,
+                    cli::number_in("--max-error", view::min_error, view::max_error),
+                    "error bound of --poses and --growth, pixels (1)", "PX");
 }
 
-// The option that replaces the tables; empty: the tables.
+// The option that replaces the tables; empty: none.
 std::string replacement(const LodChoice& choice) {
-    if (choice.poses.has_value() + choice.growth + choice.selection > 1) {
+    if (choice.poses.has_value() + choice.scaling + choice.selection > 1) {
         cli::fail_usage("--poses, --growth, --selection: more than one found, one was expected");
     }
     return choice.poses       ? "--poses"
-           : choice.growth    ? "--growth"
+           : choice.scaling   ? "--growth"
            : choice.selection ? "--selection"
                               : "";
 }
 
 void check_outputs_of(const std::string& option, const OutputChoice& outputs) {
-    if (outputs.csv.empty() && outputs.html.empty() &&
-        (option == "--growth" || outputs.markdown.empty())) {
-        return;
+    const bool is_scaling = option == "--growth";
+    if (!outputs.csv.empty() || !outputs.html.empty() ||
+        (!is_scaling && !outputs.markdown.empty())) {
+        cli::fail_usage(fmt::format("{}: --csv{} or --html found, only --json{} expected with it",
+                                    option, is_scaling ? "" : ", --markdown",
+                                    is_scaling ? " and --markdown were" : " was"));
     }
-    cli::fail_usage(option == "--growth" ? "--growth: --csv or --html found, only --json and "
-                                           "--markdown were expected with it"
-                                         : option + ": --csv, --markdown or --html found, only "
-                                                    "--json was expected with it");
 }
 
 void check_lod_options(const LodChoice& choice, const CLI::App& command) {
@@ -171,13 +150,13 @@ void check_lod_options(const LodChoice& choice, const CLI::App& command) {
     if (!option.empty()) {
         check_outputs_of(option, choice.outputs);
     }
-    if ((choice.growth || choice.selection) && !choice.terrains.empty()) {
+    if ((choice.scaling || choice.selection) && !choice.terrains.empty()) {
         cli::fail_usage(option + ": --terrain found, none was expected with it");
     }
-    if (!choice.poses && !choice.growth && command.count("--max-error") > 0) {
+    if (!choice.poses && !choice.scaling && command.count("--max-error") > 0) {
         cli::fail_usage("--max-error: no --poses and no --growth found, one was expected with it");
     }
-    if (!choice.growth && command.count("--memory") > 0) {
+    if (!choice.scaling && command.count("--memory") > 0) {
         cli::fail_usage("--memory: no --growth found, one was expected with it");
     }
 }
@@ -186,7 +165,8 @@ void check_lod_options(const LodChoice& choice, const CLI::App& command) {
 
 cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
-        "lod", "triangles, time and error of polygons by levels and by --max-error");
+        "lod",
+        "triangles, frame time and error of polygons by levels of detail and by error bound");
     auto choice = std::make_shared<LodChoice>();
     add_terrains_option(*arguments, choice->terrains, "natural and urban");
     add_suite_options(*arguments, choice->suite);
@@ -194,8 +174,8 @@ cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_lod_options(*arguments, *choice);
     arguments->callback([arguments, choice] { check_lod_options(*choice, *arguments); });
     arguments->footer(
-        "Each terrain is viewed from the poses overview, oblique, low and grazing, with a still "
-        "camera. With --quick pictures are 512x384 unless --size says otherwise.\n"
+        "The poses are overview, oblique, low and grazing, with a still camera. --quick draws\n"
+        "512x384 pixels unless --size is given.\n"
         "Ctrl-C ends after the current frame; the rows so far are printed and written.\n"
         "Examples:\n"
         "  reljef-bench lod --quick\n"

@@ -1,4 +1,4 @@
-#include "bench/reljef_bench_program.h"
+#include "bench/commands.h"
 
 int main(int argc, char** argv) {
     return reljef::cli::run_program(reljef::bench::reljef_bench_program(), argc, argv);

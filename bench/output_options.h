@@ -12,7 +12,7 @@ class App;
 
 namespace reljef::bench {
 
-/// The files results go to beside the terminal; an empty path is none.
+/// Output files; empty paths: none.
 struct OutputChoice {
     std::filesystem::path json;
     std::filesystem::path csv;
@@ -20,17 +20,17 @@ struct OutputChoice {
     std::filesystem::path html; ///< a folder
 };
 
+void add_json_option(CLI::App& command, OutputChoice& choice);
+
 /// Adds --json, --csv, --markdown and --html.
 void add_output_options(CLI::App& command, OutputChoice& choice);
 
-/// Fails where a file could not be written, and refuses (CLI::ParseError) one that is an input or
-/// another output, and a page into a file: asked before anything is measured, leaves nothing
-/// behind.
+/// Checks the outputs without a trace. Fails if a file cannot be written. A usage error
+/// (CLI::ParseError) if an output is an input or another output, or if --html names a file.
 Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::NamedFile> inputs);
 
-/// Writes the files and the page, with the pictures of the rows that have a view: all, or none
-/// where one fails; and prints the table. A run that failed, or has no rows, leaves earlier files
-/// as they are. Fails with Results::stopped too.
+/// Writes all files and the page, or none if one fails, and prints the table. Keeps earlier files
+/// if the run failed or has no rows. Also fails with Results::stopped.
 Result<void> report(const Results& results, const OutputChoice& choice);
 
 } // namespace reljef::bench

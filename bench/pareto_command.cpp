@@ -1,9 +1,8 @@
-#include "bench/commands.h"
-
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/runner/gallery_tiles.h"
 #include "bench/suite_arguments.h"
@@ -12,28 +11,21 @@
 namespace reljef::bench {
 namespace {
 
-constexpr glm::ivec2 pareto_quick_size{320, 240}; // ten times as many settings have time
+constexpr glm::ivec2 pareto_quick_size{320, 240}; // there are ten times as many rows as in tables
 
 struct ParetoChoice {
     ParetoOptions options;
     OutputChoice outputs;
 };
 
-void add_pareto_options(CLI::App& command, ParetoChoice& choice) {
-    add_terrains_option(command, choice.options.terrains, "gallery, natural and urban", true);
-    add_techniques_option(command, choice.options.techniques, "all, over their parameters' ranges");
-    add_suite_options(command, choice.options.suite);
-    add_output_options(command, choice.outputs);
-}
-
 Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
-    if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
+    if (auto good = check_outputs(choice.outputs, inputs); !good) {
         return good;
     }
     ParetoOptions options = choice.options;
-    if (!options.terrains.empty()) { // else there are all kinds
+    if (!options.terrains.empty()) { // the default terrains suit every technique
         expect_suited(options.techniques, options.terrains);
     }
     options.suite = with_quick_size(options.suite, command, pareto_quick_size);
@@ -45,26 +37,26 @@ Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& comm
 
 cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
-        "pareto", "time against error of every technique over its parameters' ranges");
+        "pareto", "frame time against error of each technique over the ranges of its parameters");
     auto choice = std::make_shared<ParetoChoice>();
-    add_pareto_options(*arguments, *choice);
+    add_terrains_option(*arguments, choice->options.terrains, "gallery, natural and urban", true);
+    add_techniques_option(*arguments, choice->options.techniques,
+                          "all techniques, over the ranges of their parameters");
+    add_suite_options(*arguments, choice->options.suite);
+    add_output_options(*arguments, choice->outputs);
     arguments->footer(
-        "Each terrain is seen from the poses overview, oblique, low and grazing; the gallery's "
-        "tiles,\n"
-        "copies of one over a square, from oblique: there stand the techniques and options of "
-        "meshes.\n"
-        "The area is that below the front, time and error on logarithmic axes: 0 the best, 1 the "
-        "worst.\n"
-        "With --quick pictures are 320x240 unless --size says otherwise, natural and urban have "
-        "257\n"
-        "samples a side unless --terrain names them, and settings there is no time for are left "
-        "out,\n"
-        "and named; every technique as it is by default comes first.\n"
-        "Ctrl-C draws what was looked at once more, shows and writes the rows so far, and ends.\n"
-        "Examples, the second with real DEMs beside the built-in terrains:\n"
+        "The poses are overview, oblique, low and grazing; the gallery's detail textures are\n"
+        "measured from oblique only, with the techniques and options for meshes.\n"
+        "Area: the area below the Pareto front, time and error on logarithmic axes; 0 is best, 1\n"
+        "is worst.\n"
+        "--quick draws 320x240 pixels unless --size is given, and 257 samples a side of natural\n"
+        "and urban unless --terrain is given. It measures the defaults of all techniques first,\n"
+        "leaves out settings when time runs out, and reports them.\n"
+        "Ctrl-C draws each finished setting once more; then the rows so far are printed and\n"
+        "written.\n"
+        "Examples:\n"
         "  reljef-bench pareto --quick\n"
-        "  reljef-bench pareto --terrain natural --terrain urban --terrain N45E006.hgt --html "
-        "report\n"
+        "  reljef-bench pareto --terrain natural --terrain N45E006.hgt --html report\n"
         "  reljef-bench pareto --terrain N45E006.hgt --json pareto.json\n"
         "  reljef-bench pareto --technique polygons:lods=1 --csv pareto.csv");
     return {arguments, [arguments, choice, &interrupt] {

@@ -1,10 +1,9 @@
-#include "bench/commands.h"
-
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "bench/baselines/baseline_suite.h"
+#include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/suite_arguments.h"
 
@@ -15,7 +14,7 @@ constexpr glm::ivec2 peers_quick_size{512, 384};
 
 struct PeersChoice {
     BaselineOptions options;
-    OutputChoice outputs; // the JSON only
+    OutputChoice outputs; // only `json` is used
 };
 
 Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& command,
@@ -33,22 +32,19 @@ Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& comman
 
 cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
-        "peers", "time, triangles and error of polygons beside Irrlicht's terrain node");
+        "peers", "frame time, triangles and error of polygons and of Irrlicht's terrain node");
     auto choice = std::make_shared<PeersChoice>();
     arguments
         ->add_option("--terrain", choice->options.terrain,
                      "natural, urban, a scene file (.toml) or a DEM file (natural)")
         ->type_name("TERRAIN");
     add_suite_options(*arguments, choice->options.suite);
-    arguments->add_option("--json", choice->outputs.json, "write the results there too")
-        ->type_name("FILE");
+    add_json_option(*arguments, choice->outputs);
     arguments->footer(
-        "Both draw the same 2^n+1 x 2^n+1 samples from the terrain's middle, from the poses "
-        "overview "
-        "and\nlow, each in a window of its own, frames in turns, with a camera that is still and "
-        "with "
-        "one that\nmoves. Needs a display: xvfb-run makes one. Irrlicht is looked for when the "
-        "project is configured\n(apt-get install libirrlicht-dev).\n"
+        "Both programs draw the same 2^n+1 x 2^n+1 samples of the terrain's middle from the poses\n"
+        "overview and low, in two windows, one frame after the other: first with a still camera,\n"
+        "then with a moving one. The suite needs a display; xvfb-run provides one. It also needs\n"
+        "Irrlicht when reljef is built (apt-get install libirrlicht-dev).\n"
         "Example:\n"
         "  xvfb-run -a reljef-bench peers --terrain N45E006.hgt --json peers.json");
     return {arguments, [arguments, choice, &interrupt] {

@@ -1,20 +1,17 @@
-#include "bench/reljef_bench_program.h"
-
 #include "bench/commands.h"
 
 namespace reljef::bench {
 
 cli::Program reljef_bench_program() {
     return {.name = "reljef-bench",
-            .description = "reljef-bench measures how fast each technique draws a terrain, and how "
-                           "wrong its picture is.",
+            .description = "reljef-bench measures the frame time and the error of each technique.",
             .verb = "suite",
             .footer = "Examples:\n"
                       "  reljef-bench tables --quick --json tables.json\n"
                       "  reljef-bench pareto --terrain natural\n"
                       "  reljef-bench lod --terrain natural\n"
                       "  reljef-bench compare before.json after.json\n"
-                      "'reljef-bench SUITE --help' says more.",
+                      "'reljef-bench SUITE --help' lists the options of a suite.",
             .commands = {add_tables_command, add_pareto_command, add_lod_command, add_peers_command,
                          add_flight_command, add_compare_command}};
 }

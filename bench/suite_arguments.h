@@ -1,14 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/cli/output_files.h"
 #include "bench/runner/suite_options.h"
-#include "engine/core/result.h"
-#include "engine/scene/motion/poses.h"
 #include "engine/scene/technique/technique.h"
 
 namespace CLI {
@@ -17,26 +14,23 @@ class App;
 
 namespace reljef::bench {
 
-/// Adds --quick, --rounds, --size, --context, --threads and --quiet; they are checked as they are
-/// parsed (CLI::ParseError).
+// Options are checked as they are parsed (CLI::ParseError).
+
+/// Adds --quick, --rounds, --size, --context, --threads, --shader-dir and --quiet.
 void add_suite_options(CLI::App& command, SuiteOptions& options);
 
-/// The options with pictures of `size` where --quick is given and --size is not.
+/// Sets the picture size to `size` if --quick is given and --size is not.
 SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm::ivec2 size);
 
-/// Adds --terrain, which may be given again; `otherwise` says what is measured without it,
-/// `with_gallery` that the gallery's tiles can be.
+/// Adds the repeatable option --terrain. `default_text` describes its default.
 void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
-                         const std::string& otherwise, bool with_gallery = false);
+                         const std::string& default_text, bool with_gallery = false);
 
-/// Adds --technique, which may be given again; `otherwise` says what is measured without it.
+/// Adds the repeatable option --technique. `default_text` describes its default.
 void add_techniques_option(CLI::App& command, std::vector<scene::Technique>& techniques,
-                           const std::string& otherwise);
+                           const std::string& default_text);
 
-/// Adds --pose.
-void add_pose_option(CLI::App& command, std::optional<scene::Pose>& pose);
-
-/// The terrains as files that no output may replace, and those that their scene files name.
+/// The files of terrains and those that their scene files name; no output may replace them.
 std::vector<cli::NamedFile> terrain_files(std::span<const std::string> terrains);
 
 } // namespace reljef::bench

@@ -1,9 +1,8 @@
-#include "bench/commands.h"
-
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
+#include "app/cli/options.h"
+#include "app/cli/parsed_option.h"
+#include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/runner/gallery_tiles.h"
 #include "bench/suite_arguments.h"
@@ -12,7 +11,7 @@
 namespace reljef::bench {
 namespace {
 
-constexpr glm::ivec2 tables_quick_size{512, 384}; // a quarter of the pixels
+constexpr glm::ivec2 tables_quick_size{512, 384};
 
 struct TablesChoice {
     TablesOptions options;
@@ -21,11 +20,14 @@ struct TablesChoice {
 
 void add_tables_options(CLI::App& command, TablesChoice& choice) {
     add_terrains_option(command, choice.options.terrains,
-                        "the sources' tests on generated terrains; with --technique natural and "
-                        "urban",
+                        "the tests of the sources, on generated terrains; with --technique or "
+                        "--pose: natural and urban",
                         true);
-    add_techniques_option(command, choice.options.techniques, "all of them");
-    add_pose_option(command, choice.options.pose);
+    add_techniques_option(command, choice.options.techniques, "all techniques");
+    cli::add_parsed(
+        command, "--pose", choice.options.pose,
+        [](const std::string& text) { return cli::parse_pose(text); },
+        "camera pose: overview, oblique, low, grazing or map (overview; gallery: oblique)", "NAME");
     add_suite_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
 }
@@ -33,7 +35,7 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
 Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
-    if (auto good = check_outputs(choice.outputs, inputs); !good) { // not after all the measuring
+    if (auto good = check_outputs(choice.outputs, inputs); !good) {
         return good;
     }
     TablesOptions options = choice.options;
@@ -48,15 +50,15 @@ Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& comm
 } // namespace
 
 cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
-    auto* arguments = program.add_subcommand(
-        "tables", "time and error of the techniques, the whole terrain in view");
+    auto* arguments =
+        program.add_subcommand("tables", "frame time and error of each technique on each terrain");
     auto choice = std::make_shared<TablesChoice>();
     add_tables_options(*arguments, *choice);
     arguments->footer(
-        "Without --terrain, --technique and --pose the seven tests of the sources, with their "
-        "figures,\n"
-        "which are of 1024x768. With --quick pictures are 512x384 unless --size says otherwise.\n"
-        "Ctrl-C ends after the frame being drawn; the rows so far are shown and written.\n"
+        "Without --terrain, --technique and --pose, the suite runs the seven tests of the sources\n"
+        "and shows their figures, which were measured at 1024x768. --quick draws 512x384 pixels\n"
+        "unless --size is given.\n"
+        "Ctrl-C ends after the current frame; the rows so far are printed and written.\n"
         "Examples:\n"
         "  reljef-bench tables --quick\n"
         "  reljef-bench tables --json tables.json --html report\n"

@@ -15,8 +15,8 @@
 namespace reljef::bench {
 namespace {
 
-Result<pid_t> spawn_peer(const std::filesystem::path& program,
-                         const std::vector<std::string>& arguments, int channel) {
+Result<pid_t> spawn_process(const std::filesystem::path& program,
+                            const std::vector<std::string>& arguments, int channel) {
     const std::string name = program.string();
     std::vector<char*> argv{const_cast<char*>(name.c_str())};
     for (const std::string& argument : arguments) {
@@ -40,12 +40,12 @@ Result<pid_t> spawn_peer(const std::filesystem::path& program,
 
 Result<BaselineProcess> BaselineProcess::start(const std::filesystem::path& program,
                                                const std::vector<std::string>& arguments) {
-    std::array<int, 2> ends{}; // of a socket: writing to a program that ended gives no signal
+    std::array<int, 2> ends{}; // of a socket, because a broken pipe raises a signal
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         return Error{
             fmt::format("{}: no channel to it: {}", program.string(), std::strerror(errno))};
     }
-    auto process = spawn_peer(program, arguments, ends[1]);
+    auto process = spawn_process(program, arguments, ends[1]);
     ::close(ends[1]);
     if (!process) {
         ::close(ends[0]);

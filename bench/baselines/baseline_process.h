@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,20 +11,19 @@
 
 namespace reljef::bench {
 
-/// A program that is told lines on its stdin and answers each with one on its stdout.
+/// A child process that answers each line on its stdin with one line on its stdout.
 class BaselineProcess {
 public:
-    /// Starts it and waits for its first line. Fails as ask() does, and where there is none.
+    /// Starts the program and waits for its first line. Fails as ask() does.
     static Result<BaselineProcess> start(const std::filesystem::path& program,
                                          const std::vector<std::string>& arguments);
 
     BaselineProcess(BaselineProcess&& other) noexcept;
     BaselineProcess& operator=(BaselineProcess&& other) = delete;
-    /// Asks it to end, and waits until it has.
+    /// Closes the channel and waits for the process to end.
     ~BaselineProcess();
 
-    /// What follows "ok" in its answer. Fails with the sentence that follows "failed", and where it
-    /// ended.
+    /// The answer after "ok". Fails with the answer "failed …", and if the process ended.
     Result<std::string> ask(const std::string& line);
 
 private:

@@ -11,10 +11,10 @@
 
 namespace reljef::bench {
 
-Result<BaselineScene> open_baseline_scene(const BaselineSceneOptions& options,
+Result<BaselineScene> open_baseline_scene(const std::string& terrain, const SuiteOptions& options,
                                           const std::stop_token& stop) {
     session::SourceOptions choice;
-    choice.terrain = options.terrain;
+    choice.terrain = terrain;
     choice.threads = options.threads;
     cli::ConsoleLog log(options.quiet);
     const auto source = session::open_terrain(choice, log, stop);
@@ -22,12 +22,12 @@ Result<BaselineScene> open_baseline_scene(const BaselineSceneOptions& options,
         return source.error();
     }
     const terrain::Heightfield& whole = source->terrain.heightfield;
-    const int most = std::min(whole.heights.cols(), whole.heights.rows()) - 1;
-    if (most < 16) {
-        return Error{fmt::format("{}: {}x{} samples found, 17x17 or more were expected",
-                                 options.terrain, whole.heights.cols(), whole.heights.rows())};
+    const int max_cells = std::min(whole.heights.cols(), whole.heights.rows()) - 1;
+    if (max_cells < 16) {
+        return Error{fmt::format("{}: {}x{} samples found, 17x17 or more were expected", terrain,
+                                 whole.heights.cols(), whole.heights.rows())};
     }
-    const int side = static_cast<int>(std::bit_floor(static_cast<unsigned>(most))) + 1;
+    const int side = static_cast<int>(std::bit_floor(static_cast<unsigned>(max_cells))) + 1;
     const glm::ivec2 first((whole.heights.cols() - side) / 2, (whole.heights.rows() - side) / 2);
     terrain::Terrain middle;
     middle.name = source->terrain.name;

@@ -3,12 +3,13 @@
 #include <stop_token>
 #include <string>
 
+#include "bench/runner/suite_options.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/scene.h"
 
 namespace reljef::bench {
 
-/// The middle of a terrain, as it and its peers are to draw it, without light and sky.
+/// The middle of a terrain as all programs draw it, without light and sky.
 struct BaselineScene {
     scene::Scene scene;
     scene::Node* terrain = nullptr;
@@ -20,14 +21,8 @@ struct BaselineScene {
     [[nodiscard]] const scene::Camera& view() const { return *camera->get<scene::Camera>(); }
 };
 
-struct BaselineSceneOptions {
-    std::string terrain;
-    int threads = 0; ///< 0: as many as the machine has
-    bool quiet = false;
-};
-
-/// The middle 2^n+1 × 2^n+1 samples of a terrain on a plane. Fails where there are none of 17 × 17.
-Result<BaselineScene> open_baseline_scene(const BaselineSceneOptions& options,
+/// The middle 2^n+1 × 2^n+1 samples of a terrain on a plane. Fails with fewer than 17 × 17 samples.
+Result<BaselineScene> open_baseline_scene(const std::string& terrain, const SuiteOptions& options,
                                           const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -1,8 +1,6 @@
 #include "bench/baselines/baseline_suite.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -20,19 +18,14 @@
 #include "engine/render/residency/terrain_maps.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/session/scene_renderer.h"
-#include "engine/session/terrain_source.h"
 
 namespace reljef::bench {
 namespace {
 
-using FigureJson = nlohmann::ordered_json;
-
 constexpr int default_rounds = 30;
-constexpr int warm_up = 2; // rounds
-// Of a camera that moves: as fast as one that flies over the terrain in 20 s at 25 frames a second.
-constexpr double frames_across = 500.0;
+constexpr int warm_up = 2;              // rounds
+constexpr double frames_across = 500.0; // of a moving camera; 20 s at 25 frames per second
 
-// What Irrlicht reads, in files that have no name.
 struct BaselineFiles {
     MemoryFile heights;
     MemoryFile colors;
@@ -96,7 +89,7 @@ Result<BaselineProcess> start_irrlicht(const scene::TerrainSurface& surface,
          fmt::format("{}", heightfield.spacing.y), path_of(files.heights), path_of(files.colors)});
 }
 
-// Depths that hold all that is seen with room to spare.
+// Contains the visible depths with a margin of a factor of 2.
 struct DepthRange {
     double near = 1.0;
     double far = 2.0;
@@ -118,26 +111,20 @@ truth::SurfaceView surface_view(const BaselineScene& scene) {
             scene.terrain->world_from_local(), scene.view()};
 }
 
-std::optional<truth::Distribution> error_of(const BaselineScene& scene, const HitBuffer& hits) {
-    // Held against itself: what is right elsewhere does not matter for this measure.
-    const auto errors = truth::geometric_errors(surface_view(scene), hits, hits);
-    return errors ? errors->reprojection.distribution : std::nullopt;
-}
-
-// What a depth buffer shows: see protocol.h.
+// Hits from a depth buffer, see protocol.h.
 HitBuffer hits_of(const BaselineScene& scene, std::span<const float> depths, glm::ivec2 size,
                   const DepthRange& range) {
     HitBuffer hits(size.x, size.y);
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) {
-            const double kept =
+            const double stored =
                 depths[static_cast<std::size_t>(size.y - 1 - y) * static_cast<std::size_t>(size.x) +
                        static_cast<std::size_t>(x)];
-            if (kept >= 1.0) {
+            if (stored >= 1.0) {
                 continue;
             }
             const double depth =
-                range.near * range.far / (range.far - kept * (range.far - range.near));
+                range.near * range.far / (range.far - stored * (range.far - range.near));
             const Ray ray = scene::view_ray(scene.view(), size, glm::dvec2(x, y) + 0.5);
             if (const auto sample = scene.surface().placement().sample_from_world(ray.at(depth))) {
                 hits(x, y) = {static_cast<float>(sample->x), static_cast<float>(sample->y),
@@ -148,26 +135,21 @@ HitBuffer hits_of(const BaselineScene& scene, std::span<const float> depths, glm
     return hits;
 }
 
-// One way to draw.
 struct BaselineEntry {
     BaselineRow row;
-    std::function<Result<void>()> set_up; // for where the camera is
-    /// Milliseconds of a frame; fills in the row's triangles.
-    std::function<Result<double>(BaselineRow&)> draw;
+    std::function<Result<void>()> set_camera;
+    std::function<Result<double>(BaselineRow&)> draw; // returns ms; sets the row's triangles
     std::function<Result<HitBuffer>()> hits;
     std::vector<double> ms{};
 };
 
 class BaselineRun {
 public:
-    BaselineRun(const BaselineOptions& options, std::stop_token stop)
-        : options_(options), stop_(std::move(stop)) {
-        results_.options = options;
-    }
+    BaselineRun(BaselineResults& results, std::stop_token stop)
+        : results_(results), options_(results.options), stop_(std::move(stop)) {}
 
     Result<void> run() {
-        auto scene = open_baseline_scene(
-            {options_.terrain, options_.suite.threads, options_.suite.quiet}, stop_);
+        auto scene = open_baseline_scene(options_.terrain, options_.suite, stop_);
         if (!scene) {
             return scene.error();
         }
@@ -186,8 +168,6 @@ public:
         }
         return {};
     }
-
-    BaselineResults take() { return std::move(results_); }
 
 private:
     Result<void> start_baselines() {
@@ -242,11 +222,11 @@ private:
         still_ = camera;
         auto entries = entries_for(pose);
         for (BaselineEntry& entry : entries) {
-            if (auto judged = judge(entry); !judged) {
-                return judged;
+            if (auto measured = measure_error(entry); !measured) {
+                return measured;
             }
         }
-        for (const bool moving : {false, true}) { // apart: a camera that comes back has moved, too
+        for (const bool moving : {false, true}) {
             if (auto timed = time_all(entries, moving); !timed) {
                 return timed;
             }
@@ -275,10 +255,12 @@ private:
         for (const scene::Technique& technique : {reference_technique, coarse, every_sample}) {
             entries.push_back(own_entry(pose, technique));
         }
-        entries.push_back(
-            moving(irrlicht_entry(pose, baselines_.back().first, baselines_.back().second)));
-        for (const scene::Technique& technique : {reference_technique, coarse}) {
-            entries.push_back(moving(own_entry(pose, technique)));
+        const std::size_t still = entries.size();
+        entries.push_back(irrlicht_entry(pose, baselines_.back().first, baselines_.back().second));
+        entries.push_back(own_entry(pose, reference_technique));
+        entries.push_back(own_entry(pose, coarse));
+        for (std::size_t i = still; i < entries.size(); ++i) {
+            entries[i].row.moving = true;
         }
         return entries;
     }
@@ -287,7 +269,7 @@ private:
         BaselineEntry entry;
         entry.row.pose = pose;
         entry.row.what = scene::to_string(technique);
-        entry.set_up = [] { return Result<void>(); };
+        entry.set_camera = [] { return Result<void>(); };
         entry.draw = [this, technique](BaselineRow& row) -> Result<double> {
             set_technique(technique);
             const auto stats = device_->renderer().draw(scene_->scene, true);
@@ -308,7 +290,7 @@ private:
         BaselineEntry entry;
         entry.row.pose = pose;
         entry.row.what = fmt::format("irrlicht:lods={}", levels);
-        entry.set_up = [this, &baseline]() -> Result<void> {
+        entry.set_camera = [this, &baseline]() -> Result<void> {
             const glm::dvec3 eye = scene_->view().eye;
             const glm::dvec3 look = scene_->view().target;
             const auto placed =
@@ -330,12 +312,7 @@ private:
         return entry;
     }
 
-    static BaselineEntry moving(BaselineEntry entry) {
-        entry.row.moving = true;
-        return entry;
-    }
-
-    // `frame` of a camera that flies to its right, or the pose's own camera.
+    // The camera of the pose, moved to its right by `frame` steps if `moving`.
     void place_camera(bool moving, int frame) {
         const double step =
             moving ? frame * scene_->terrain->world_bounds().size().x / frames_across : 0.0;
@@ -366,18 +343,20 @@ private:
         return hits_of(*scene_, depths, size, range_);
     }
 
-    Result<void> judge(BaselineEntry& entry) {
+    Result<void> measure_error(BaselineEntry& entry) {
         if (entry.row.moving) {
             return {};
         }
-        if (auto ready = entry.set_up(); !ready) {
+        if (auto ready = entry.set_camera(); !ready) {
             return ready;
         }
         const auto hits = entry.hits();
         if (!hits) {
             return hits.error();
         }
-        entry.row.error = error_of(*scene_, *hits);
+        // The truth does not affect the reprojection error.
+        const auto errors = truth::geometric_errors(surface_view(*scene_), *hits, *hits);
+        entry.row.error = errors ? errors->reprojection.distribution : std::nullopt;
         return {};
     }
 
@@ -401,7 +380,7 @@ private:
     }
 
     static Result<void> time_one(BaselineEntry& entry, bool counts) {
-        if (auto ready = entry.set_up(); !ready) {
+        if (auto ready = entry.set_camera(); !ready) {
             return ready;
         }
         const auto ms = entry.draw(entry.row);
@@ -414,17 +393,17 @@ private:
         return {};
     }
 
+    BaselineResults& results_;
     const BaselineOptions& options_;
     std::stop_token stop_;
     std::optional<BaselineScene> scene_;
-    std::vector<std::pair<int, BaselineProcess>> baselines_; // by their levels
+    std::vector<std::pair<int, BaselineProcess>> baselines_; // with their levels
     std::optional<session::Device> device_;
     DepthRange range_;
     scene::Camera still_; // of the pose
-    BaselineResults results_;
 };
 
-// Of the row with an error bound of one pixel, with the same view.
+// Of the reference row with the same pose and camera; 0 if absent.
 double reference_ms(const BaselineResults& results, const BaselineRow& view) {
     const std::string reference = scene::to_string(reference_technique);
     const auto found = std::find_if(results.rows.begin(), results.rows.end(), [&](const auto& row) {
@@ -442,9 +421,8 @@ std::vector<FigureJson> error_values(const std::optional<truth::Distribution>& e
 } // namespace
 
 BaselineResults run_baselines(const BaselineOptions& options, const std::stop_token& stop) {
-    BaselineRun run(options, stop);
-    const auto done = run.run();
-    BaselineResults results = run.take();
+    BaselineResults results{.options = options};
+    const auto done = BaselineRun(results, stop).run();
     results.end = run_end(done, stop, !results.rows.empty());
     return results;
 }
@@ -452,15 +430,15 @@ BaselineResults run_baselines(const BaselineOptions& options, const std::stop_to
 FigureTable figure_table(const BaselineResults& results) {
     const glm::ivec2 size = results.options.suite.size;
     FigureTable table{.schema = "reljef-bench-peers/1",
-                      .heading = fmt::format("{}, {} x {} samples, {}x{}, {}, {} threads",
+                      .heading = fmt::format("{}, {} x {} samples, {}, {}, {} threads",
                                              cli::printable(results.options.terrain), results.side,
-                                             results.side, size.x, size.y,
+                                             results.side, size_text(size),
                                              cli::printable(results.environment.renderer),
                                              results.environment.threads),
                       .settings = {{"environment", json_of(results.environment)},
                                    {"terrain", results.options.terrain},
                                    {"side", results.side},
-                                   {"size", fmt::format("{}x{}", size.x, size.y)}},
+                                   {"size", size_text(size)}},
                       .columns = {{"/pose", "pose"},
                                   {"/what", "what"},
                                   {"/camera", "camera"},

@@ -1,5 +1,5 @@
-// Elements of the page. Strings become text or attributes, never markup: names in a report may
-// hold anything.
+// Creates elements. Strings become text or attributes, never markup, because names in a report are
+// arbitrary.
 
 function withAttributes(made, attributes, children) {
   for (const [name, value] of Object.entries(attributes || {})) {
@@ -24,7 +24,7 @@ function byId(id) {
   return document.getElementById(id);
 }
 
-// A name that may go on in the next line after each of its parts.
+// A name with optional line breaks after its parts.
 function breakable(name) {
   return name.split(/(?<=[:,])/).flatMap((part, i) => (i ? [element('wbr'), part] : [part]));
 }

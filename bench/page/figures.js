@@ -1,4 +1,4 @@
-// What a report says, and how its figures are written.
+// Access to a report, and formatting of its figures.
 
 const absent = '–';
 
@@ -6,7 +6,7 @@ function isNumber(value) {
   return typeof value === 'number' && Number.isFinite(value);
 }
 
-// A value with about three digits that matter; "0" only for nothing at all.
+// A value with about three significant digits; "0" only for exactly 0.
 function figure(value) {
   if (!isNumber(value)) return absent;
   const size = Math.abs(value);
@@ -53,12 +53,12 @@ function isMeasured(row) {
   return isNumber(at(row, 'ms.median'));
 }
 
-// The pictures of a row that was held against the truth show none of the terrain.
+// Whether the picture of a row shows no terrain.
 function showsNothing(row) {
   return Boolean(row.error) && !row.error.reprojection_px;
 }
 
-// Pixels whose error has no bound are in no other figure of it.
+// Unbounded pixels are in no other figure of the error.
 function unboundedText(row) {
   const unbounded = at(row, 'error.reprojection_px.unbounded');
   return unbounded ? ' +' + grouped(unbounded) + ' ∞' : '';
@@ -88,7 +88,7 @@ function groupsOf(rows) {
 }
 
 function techniquesOf(rows) {
-  return [...new Set(rows.filter(row => !row.missing).map(row => row.technique))];
+  return [...new Set(rows.map(row => row.technique))];
 }
 
 function unique(values) {

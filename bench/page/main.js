@@ -10,7 +10,7 @@ function showPage() {
   showHeading(report);
   showSummary(report);
   showPictures(report, album);
-  showTables(report); // links to the pictures that are there
+  showTables(report); // links to existing pictures
   showPlots(report);
   showFooter(report);
   document.documentElement.dataset.ready = 'yes';

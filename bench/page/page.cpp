@@ -1,17 +1,14 @@
 #include "bench/page/page.h"
 
 #include <algorithm>
-#include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/page/page_data_uri.h"
 #include "bench/page/page_parts.h"
-#include "bench/report/page_heat_map.h"
+#include "bench/report/report_json.h"
 
 namespace reljef::bench {
 namespace fs = std::filesystem;
@@ -21,11 +18,9 @@ using PageJson = nlohmann::ordered_json;
 
 constexpr std::string_view page_name = "index.html";
 
-/// Pictures of the page: each once, named by its index.
 struct Album {
     std::vector<std::string> uris;
-    /// Truths that are in already: rows of one view share theirs.
-    std::vector<std::pair<const RowView::File*, std::size_t>> truths;
+    std::vector<std::pair<const RowView::File*, std::size_t>> truths; // with their indices
 };
 
 std::size_t add_picture(Album& album, const char* media_type, const RowView::File& file) {
@@ -44,9 +39,8 @@ std::size_t add_truth(Album& album, const RowView::File& truth) {
     return added;
 }
 
-PageJson add_pictures_of(Album& album, const RowPictures& pictures) {
-    const RowView& view = *pictures.view;
-    return {{"row", pictures.row},
+PageJson add_pictures_of(Album& album, std::size_t row, const RowView& view) {
+    return {{"row", row},
             {"width", view.size.x},
             {"height", view.size.y},
             {"shown", add_picture(album, "image/jpeg", view.shown)},
@@ -68,43 +62,25 @@ PageJson scale_of_errors() {
             {"colors", std::move(colors)}};
 }
 
-std::string pictures_as_json(std::span<const RowPictures> pictures) {
+std::string pictures_as_json(const std::vector<Row>& rows) {
     Album album;
-    PageJson rows = PageJson::array();
-    for (const RowPictures& row : pictures) {
-        rows.push_back(add_pictures_of(album, row));
+    PageJson pictures = PageJson::array();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].view) {
+            pictures.push_back(add_pictures_of(album, i, *rows[i].view));
+        }
     }
-    return PageJson{
-        {"scale", scale_of_errors()}, {"rows", std::move(rows)}, {"images", std::move(album.uris)}}
+    return PageJson{{"scale", scale_of_errors()},
+                    {"rows", std::move(pictures)},
+                    {"images", std::move(album.uris)}}
         .dump();
 }
 
-// How many rows the report has.
-Result<std::size_t> rows_of_report(std::string_view json_report) {
-    const auto report = PageJson::parse(json_report, nullptr, false);
-    const auto text_at = [&](const char* key) {
-        return report.contains(key) && report[key].is_string() ? report[key].get<std::string>()
-                                                               : std::string();
-    };
-    if (!report.is_object() || text_at("schema") != schema_name || !report.contains("rows") ||
-        !report["rows"].is_array()) {
-        return Error{fmt::format("no page can be made: the report is no JSON with rows of the "
-                                 "schema {:?}, which was expected",
-                                 schema_name)};
-    }
-    return report["rows"].size();
-}
-
-// JSON that ends no script element, whatever its strings hold: in JSON "<" is in strings only.
+// Escapes "<", so that no string can end the script element. JSON has "<" in strings only.
 std::string safe_in_script(std::string_view json) {
     std::string safe;
-    safe.reserve(json.size());
     for (const char c : json) {
-        if (c == '<') {
-            safe += "\\u003c";
-        } else {
-            safe += c;
-        }
+        safe += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
     }
     return safe;
 }
@@ -117,8 +93,7 @@ std::string_view page_part(std::string_view name) {
     return found->text;
 }
 
-// The skeleton with each "{{name}}" replaced by the part of that name or by the data. What is put
-// in is not looked at again.
+// Replaces each "{{name}}" of the skeleton by the part of that name or by the data, once.
 std::string assembled(std::string_view report, std::string_view pictures) {
     std::string_view rest = page_part(page_name);
     std::string page;
@@ -133,7 +108,6 @@ std::string assembled(std::string_view report, std::string_view pictures) {
     return page;
 }
 
-// "report/" names the folder "report".
 fs::path without_slash(const fs::path& folder) {
     return folder.has_filename() ? folder : folder.parent_path();
 }
@@ -155,39 +129,29 @@ Result<void> check_page_target(const fs::path& folder) {
     return writable ? Result<void>() : writable.error();
 }
 
-Result<MadeFolder> MadeFolder::make(const fs::path& folder) {
+Result<std::shared_ptr<const fs::path>> make_folder(const fs::path& folder) {
     std::error_code code;
     const bool is_new = fs::create_directory(folder, code);
     if (code) {
         return Error{
             fmt::format("{}: the folder cannot be made: {}", folder.string(), code.message())};
     }
-    return MadeFolder(is_new ? folder : fs::path());
+    return std::shared_ptr<const fs::path>(new fs::path(folder), [is_new](const fs::path* made) {
+        std::error_code ignored;
+        if (is_new) {
+            fs::remove(*made, ignored); // fails if it is not empty
+        }
+        delete made;
+    });
 }
 
-MadeFolder::~MadeFolder() {
-    std::error_code ignored;
-    if (!folder_.empty()) {
-        fs::remove(folder_, ignored); // fails where it is not empty
-    }
-}
-
-Result<PreparedPage> prepare_page(const fs::path& folder, std::string_view json_report,
-                                  std::span<const RowPictures> pictures) {
-    const auto rows = rows_of_report(json_report);
-    if (!rows) {
-        return rows.error();
-    }
-    for (const RowPictures& each : pictures) {
-        check(each.row < *rows, "a page with pictures of a row that is not in the report");
-        check(each.view != nullptr, "a page with a row without pictures");
-    }
-    auto made = MadeFolder::make(without_slash(folder));
+Result<PreparedPage> prepare_page(const fs::path& folder, const Results& results) {
+    auto made = make_folder(without_slash(folder));
     if (!made) {
         return made.error();
     }
-    const std::string page =
-        assembled(safe_in_script(json_report), safe_in_script(pictures_as_json(pictures)));
+    const std::string page = assembled(safe_in_script(json_report(results)),
+                                       safe_in_script(pictures_as_json(results.rows)));
     auto file = prepare_file(page_file(folder), std::as_bytes(std::span(page)));
     if (!file) {
         return file.error();
@@ -195,10 +159,21 @@ Result<PreparedPage> prepare_page(const fs::path& folder, std::string_view json_
     return PreparedPage{std::move(*made), std::move(*file)};
 }
 
-Result<void> write_page(const fs::path& folder, std::string_view json_report,
-                        std::span<const RowPictures> pictures) {
-    auto page = prepare_page(folder, json_report, pictures);
-    return page ? page->file.commit() : page.error();
+std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text = fmt::format("data:{};base64,", media_type);
+    for (std::size_t begin = 0; begin < bytes.size(); begin += 3) { // three bytes, four digits
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - begin);
+        std::size_t bits = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            bits = (bits << 8U) | (i < count ? std::to_integer<std::size_t>(bytes[begin + i]) : 0U);
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            text += i <= count ? digits[(bits >> (18U - 6U * i)) & 63U] : '=';
+        }
+    }
+    return text;
 }
 
 } // namespace reljef::bench

@@ -5,7 +5,7 @@
 
 namespace reljef::bench {
 
-/// A file of bench/page, compiled into the program.
+/// An embedded file of bench/page.
 struct PagePart {
     std::string_view name; ///< "index.html"
     std::string_view text;

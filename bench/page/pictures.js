@@ -1,4 +1,4 @@
-// Picture, truth and error of each row, and a slider that wipes from one to the other.
+// The picture, the truth and the error of each row, with a slider to compare two of them.
 
 function legendOf(scale) {
   const ramp = 'linear-gradient(to right, ' + scale.colors.join(', ') + ')';
@@ -32,7 +32,7 @@ function picture(source, name, shown) {
   return element('img', {src: source, alt: name, width: shown.width, height: shown.height, loading: 'lazy', draggable: 'false'});
 }
 
-// The picture lies over the other one, cut at the share that the slider says.
+// Shows the left part of the picture, up to the slider, over the other one.
 function wipeTo(wipe, value) {
   wipe.range.value = value;
   wipe.stage.style.setProperty('--wipe', wipe.range.value + '%');
@@ -46,7 +46,7 @@ function wipeByPointer(wipe, event) {
   wipeTo(wipe, 100 * (event.clientX - box.left) / box.width);
 }
 
-function holdAgainst(wipe, name, source) {
+function compareWith(wipe, name, source) {
   wipe.under.src = source;
   wipe.under.alt = name;
   wipe.names[1] = name;
@@ -70,7 +70,7 @@ function againstChoice(wipe, sources, id) {
   const choices = [['truth', 'truth'], ['heat', 'error']];
   return element('fieldset', {class: 'against'}, element('legend', {}, 'Picture against'),
     choices.map(([key, name]) => element('label', {},
-      element('input', {type: 'radio', name: 'against-' + id, checked: key === 'truth', onchange: () => holdAgainst(wipe, name, sources[key])}), name)));
+      element('input', {type: 'radio', name: 'against-' + id, checked: key === 'truth', onchange: () => compareWith(wipe, name, sources[key])}), name)));
 }
 
 function wipeOf(shown, sources, title, id) {
@@ -102,6 +102,6 @@ function showPictures(report, album) {
   if (!album.rows.length) return;
   byId('pictures').append(
     element('h2', {}, 'Pictures'),
-    element('p', {class: 'note'}, 'Drag across a picture, or move the slider below it with the arrow keys, to wipe between what is shown and what is right.'),
+    element('p', {class: 'note'}, 'Drag across a picture, or move the slider below it with the arrow keys, to compare the picture with the true one.'),
     ...album.rows.map(shown => comparison(shown, report.rows[shown.row], album)));
 }

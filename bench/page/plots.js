@@ -1,5 +1,5 @@
-// Time against error: one plot for each test, scene and pose, both axes logarithmic, and a lane of
-// its own for errors of exactly zero.
+// Time against error: one plot for each test, scene and pose, with logarithmic axes and a separate
+// lane for errors of exactly zero.
 
 const measures = [
   {path: 'reprojection_px.rms', title: 'Reprojection error, RMS', unit: 'px'},
@@ -12,11 +12,11 @@ const measures = [
   {path: 'flip', title: 'FLIP', unit: ''},
   {path: 'rmse', title: 'Picture, RMSE', unit: ''},
 ];
-const frontMeasure = measures[0]; // what the report's fronts are made of
+const frontMeasure = measures[0]; // the error of the report's fronts
 
 const margin = {left: 58, right: 18, top: 14, bottom: 42};
 const zeroLane = 30;
-const mostNames = 14; // where there are more points, only those of the front have names beside them
+const maxNames = 14; // with more points, only those of the front are labelled
 const shapes = [
   'M-6 0a6 6 0 1 0 12 0a6 6 0 1 0 -12 0z', 'M-5.3 -5.3h10.6v10.6h-10.6z', 'M0 -7.4L7.4 0L0 7.4L-7.4 0z',
   'M0 -7L6.8 5.2H-6.8z', 'M0 7L6.8 -5.2H-6.8z', 'M-2.2 -6.4h4.4v4.2h4.2v4.4h-4.2v4.2h-4.4v-4.2h-4.2v-4.4h4.2z',
@@ -24,11 +24,11 @@ const shapes = [
 ];
 
 function marker(number) {
-  const color = (number + 3 * Math.floor(number / shapes.length)) % 8; // the next round has others
+  const color = (number + 3 * Math.floor(number / shapes.length)) % 8; // repeated shapes have other colours
   return svg('path', {class: 'marker', d: shapes[number % shapes.length], '--series': `var(--series-${color})`});
 }
 
-// A logarithmic axis from values to positions begin..end, with room around the values.
+// A logarithmic axis that maps values to positions begin..end, with a margin around the values.
 function logAxis(values, begin, end) {
   const logs = values.map(Math.log10);
   const low = Math.min(...logs);
@@ -39,8 +39,8 @@ function logAxis(values, begin, end) {
   return {from, to, place: value => begin + (end - begin) * (Math.log10(value) - from) / (to - from)};
 }
 
-// Labelled ticks 1, 2, 5 of each tenfold where the axis is short, powers of ten where it is long;
-// the lines between them have no label.
+// Labels 1, 2, 5 of each decade on a short axis, powers of ten on a long one. Minor ticks have no
+// label.
 function ticksOf(axis) {
   const decades = axis.to - axis.from;
   const step = Math.max(1, Math.ceil(decades / 7));
@@ -63,7 +63,7 @@ function tickText(value) {
   return String(Number(value.toPrecision(2)));
 }
 
-// The figures to draw, and where on a plot `width` by `height` pixels.
+// Axes and positions of the points on a plot of `width` by `height` pixels.
 function layoutOf(points, width, height) {
   const errors = points.map(point => point.error).filter(error => error > 0);
   const hasZero = points.some(point => point.error === 0);
@@ -108,7 +108,7 @@ function axisTitles(layout, measure) {
     svg('text', {transform: `translate(13 ${middle}) rotate(-90)`, 'text-anchor': 'middle'}, title));
 }
 
-// Steps: until the next setting's time, nothing better than this one is to be had.
+// Steps: between two settings of the front, the left one is the most accurate.
 function frontLine(points, layout) {
   const sorted = points.filter(point => point.isOnFront).sort((a, b) => a.time - b.time);
   const front = sorted.filter((point, i) => sorted.slice(0, i).every(other => other.error > point.error));
@@ -166,7 +166,7 @@ function goToPictures(point) {
   if (byId('row-' + point.index)) location.hash = '#row-' + point.index;
 }
 
-// One stop of the Tab key for a plot; arrows go from point to point by time.
+// The Tab key stops once per plot; arrow keys move between points by time.
 function moveOn(event, plot, point) {
   const steps = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1};
   if (event.key === 'Escape') hideTip(plot);
@@ -181,13 +181,13 @@ function moveOn(event, plot, point) {
   node.focus();
 }
 
-// Names beside the points, where they cover neither each other nor a point.
+// Labels beside the points that cover neither each other nor a point.
 function namesOf(points, layout) {
   const taken = points.map(layout.place).map(([x, y]) => [x - 8, y - 8, x + 8, y + 8]);
   const isFree = box => box[0] >= margin.left && box[2] <= layout.width - 4 && box[1] >= 0 && box[3] <= layout.height - margin.bottom + 2 &&
     taken.every(other => box[2] < other[0] || box[0] > other[2] || box[3] < other[1] || box[1] > other[3]);
   const names = svg('g', {class: 'names', 'aria-hidden': 'true'});
-  for (const point of points.filter(point => points.length <= mostNames || point.isOnFront)) {
+  for (const point of points.filter(point => points.length <= maxNames || point.isOnFront)) {
     const [x, y] = layout.place(point);
     const text = labelOf(point.row) + point.beyond;
     const width = 6.9 * text.length;
@@ -280,8 +280,8 @@ function showPlots(report) {
     measures.map(measure => element('option', {}, measure.title)));
   byId('plots').append(
     element('h2', {}, 'Time against error'),
-    element('p', {class: 'note'}, 'Left and below is better. Both axes are logarithmic; errors of exactly zero stand in the lane below. ' +
-      'Point at a mark, or reach it with the Tab and arrow keys, for its setting.'),
+    element('p', {class: 'note'}, 'Left and below is better. Both axes are logarithmic; errors of exactly zero are in the lane below. ' +
+      'Point at a mark, or select it with the Tab and arrow keys, to see its setting.'),
     element('div', {class: 'controls'}, element('label', {for: 'measure'}, 'Error'), choice, keyOf(techniques)),
     element('div', {class: 'plot-grid'}, plots.map(plot => plot.node)));
   plots.forEach(plot => show(plot, measures[0], techniques));

@@ -1,4 +1,4 @@
-// Heading, machine and the few figures that come first.
+// The heading, the environment and the summary tiles.
 
 function headline(report) {
   const techniques = techniquesOf(report.rows).length;
@@ -14,7 +14,7 @@ function subtitle(report) {
   const most = Math.max(...frames);
   const drawn = !frames.length ? '' : least === most ? ', ' + least + ' frames each' : ', ' + least + ' to ' + most + ' frames each';
   return sizes.join(' and ') + ' pixels, ' + (poses.length === 1 ? 'pose ' : 'poses ') + poses.join(', ') + drawn +
-    '. Every picture is held against an exact one.';
+    '. Every picture is compared with the exact one.';
 }
 
 function environmentList(environment) {
@@ -59,10 +59,8 @@ function leastBy(rows, path) {
 }
 
 function measuredTile(report, measured) {
-  const missing = report.rows.filter(row => row.missing).length;
   const noisy = measured.filter(row => row.noisy).length;
-  const notes = [missing ? missing + ' not there yet' : 'none missing', noisy ? noisy + ' noisy' : 'none noisy'];
-  return tile('Rows measured', String(measured.length), 'of ' + report.rows.length, notes.join(', '));
+  return tile('Rows measured', String(measured.length), 'of ' + report.rows.length, noisy ? noisy + ' noisy' : 'none noisy');
 }
 
 function extremeTile(name, row, path, unit, note) {

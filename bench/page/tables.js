@@ -1,4 +1,4 @@
-// The tables: one for each test, scene and pose.
+// One table for each test, scene and pose.
 
 const columns = [
   {group: 'Frame time', title: 'median ms', value: row => at(row, 'ms.median'), cell: timeCell},
@@ -23,7 +23,7 @@ const columns = [
   {group: 'Run', title: 'noise %', value: row => row.noise_floor, text: percent},
 ];
 
-// Identical pictures have no finite one.
+// Infinite for identical pictures.
 function psnrOf(row) {
   if (!row.error || row.error.psnr === undefined) return undefined;
   return row.error.psnr === null ? Infinity : row.error.psnr;
@@ -34,7 +34,7 @@ function psnrCell(row) {
   return psnr === Infinity ? element('span', {title: 'the same picture'}, '∞') : fixed(psnr, 1);
 }
 
-// The median, and below it a bar of its length with the interval's ends.
+// The median and a bar of its length with the interval.
 function timeCell(row, table) {
   if (!isMeasured(row)) return absent;
   const interval = at(row, 'ms.interval');
@@ -71,7 +71,6 @@ function noiseOf(row) {
 
 function tagsOf(row) {
   return [
-    row.missing ? tag('not there yet', 'missing', 'This technique is not in reljef yet.') : null,
     row.null_row ? tag('A/A', 'again', 'The same technique once more: the noise floor.') : null,
     row.noisy ? tag('noisy', 'noisy', noiseOf(row)) : null,
   ];
@@ -90,12 +89,12 @@ function dataCell(column, row, table) {
 }
 
 function bodyRow(entry, table) {
-  const kinds = ['missing', 'noisy', 'null_row'].filter(kind => entry.row[kind]);
+  const kinds = ['noisy', 'null_row'].filter(kind => entry.row[kind]);
   return element('tr', {class: kinds.join(' ') || null, 'data-row': entry.index},
     nameCell(entry), table.columns.map(column => dataCell(column, entry.row, table)));
 }
 
-// What is not there comes last, whichever way the rest is sorted.
+// Absent values come last in both directions.
 function compared(a, b, direction) {
   const isAbsent = value => value === undefined || value === null || value === '';
   if (isAbsent(a) || isAbsent(b)) return isAbsent(a) - isAbsent(b);
@@ -156,7 +155,7 @@ function sourcesOf(group) {
   return places.length ? element('p', {class: 'note'}, 'Sources: ' + places.join('; ') + '.') : null;
 }
 
-// What the pictures' errors cannot fall below here.
+// The smallest errors that pictures can have here: those of exact.
 function floorOf(group) {
   const exact = group.rows.find(({row}) => row.technique === 'exact' && row.error);
   if (!exact) return null;
@@ -168,7 +167,7 @@ function floorOf(group) {
 function showTables(report) {
   const section = byId('tables');
   section.append(element('h2', {}, 'Tables'),
-    element('p', {class: 'note'}, 'A click on a column’s name sorts by it; once more turns it round. ' +
+    element('p', {class: 'note'}, 'Click a column name to sort by it; click again to reverse the order. ' +
       'The bar is the median, the mark on it its 95 % interval.'));
   groupsOf(report.rows).forEach((group, number) => {
     const id = 'table-' + number;

@@ -1,6 +1,5 @@
 #include "bench/report/figure_table.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -13,8 +12,6 @@
 
 namespace reljef::bench {
 namespace {
-
-using FigureJson = nlohmann::ordered_json;
 
 FigureJson row_object(const FigureTable& table, const FigureJson& row) {
     FigureJson object = FigureJson::object();
@@ -47,7 +44,6 @@ std::string cell_text(const FigureJson& value, int decimals) {
                              : value.dump(-1, ' ', false, FigureJson::error_handler_t::replace);
 }
 
-// The headings, then each row.
 std::vector<std::vector<std::string>> lines_of(const FigureTable& table) {
     std::vector<std::vector<std::string>> lines(1 + table.rows.size());
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -64,6 +60,10 @@ std::vector<std::vector<std::string>> lines_of(const FigureTable& table) {
 }
 
 } // namespace
+
+std::string size_text(glm::ivec2 size) {
+    return fmt::format("{}x{}", size.x, size.y);
+}
 
 RunEnd run_end(const Result<void>& done, const std::stop_token& stop, bool has_rows) {
     if (stop.stop_requested()) {
@@ -98,33 +98,20 @@ std::string figure_json(const FigureTable& table) {
 
 std::string figure_text(const FigureTable& table) {
     const auto lines = lines_of(table);
-    std::vector<std::size_t> widths(lines[0].size());
-    for (const auto& line : lines) {
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            widths[i] = std::max(widths[i], text_width(line[i]));
-        }
-    }
+    const std::vector<std::size_t> widths = column_widths(lines);
     std::string text = table.heading + "\n";
     for (const auto& line : lines) {
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            const std::string padding(widths[i] - text_width(line[i]), ' ');
-            text += i == 0 ? line[i] + padding : "  " + padding + line[i];
-        }
-        text += line.empty() ? "" : "\n";
+        text += line.empty() ? "" : padded_line(line, widths);
     }
     return text + table.summary;
 }
 
 std::string figure_markdown(const FigureTable& table) {
     std::string text = table.heading + "\n\n";
-    bool is_first = true;
-    for (const auto& line : lines_of(table)) {
-        text += fmt::format("| {} |\n", fmt::join(line, " | "));
-        for (std::size_t i = 0; is_first && i < line.size(); ++i) {
-            text += i == 0 ? "|:--" : "|--:";
-        }
-        text += is_first ? "|\n" : "";
-        is_first = false;
+    const auto lines = lines_of(table);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        text += fmt::format("| {} |\n", fmt::join(lines[i], " | "));
+        text += i == 0 ? markdown_rule(lines[i].size()) : "";
     }
     return text + "\n" + table.summary;
 }

@@ -14,12 +14,13 @@
 
 namespace reljef::bench {
 
-/// How a run ended.
+using FigureJson = nlohmann::ordered_json;
+
 struct RunEnd {
     std::optional<Error> stopped; ///< why it ended early
     bool failed = false;          ///< by an error, not by request
 };
-/// The end of a run that measured something (`has_rows`) before it was stopped or failed.
+/// `has_rows`: the run measured something before it was stopped or failed.
 RunEnd run_end(const Result<void>& done, const std::stop_token& stop, bool has_rows);
 
 struct FigureColumn {
@@ -28,21 +29,24 @@ struct FigureColumn {
     int decimals = 2;    ///< of fractions in tables
 };
 
-/// The result of a suite that has columns of its own.
+/// The result of a suite with its own columns.
 struct FigureTable {
     std::string schema = {};
-    std::string heading = {};                      ///< what was measured, on which device
-    nlohmann::ordered_json settings = {};          ///< further keys of the JSON, an object
-    std::vector<FigureColumn> columns = {};        ///< empty: `heading` says everything
-    std::vector<nlohmann::ordered_json> rows = {}; ///< arrays with one value for each column
-    std::string summary = {};                      ///< below the table
+    std::string heading = {};               ///< terrain, options and device
+    FigureJson settings = {};               ///< an object: more keys of the JSON
+    std::vector<FigureColumn> columns = {}; ///< may be empty
+    std::vector<FigureJson> rows = {};      ///< arrays, one value per column
+    std::string summary = {};               ///< below the table
     RunEnd end = {};
 };
 
-/// {"median", "p95", "p99"}.
-nlohmann::ordered_json json_of(const Summary& summary);
+/// "1024x768".
+std::string size_text(glm::ivec2 size);
 
-/// Each row as an object. Infinite and missing figures are null.
+/// {"median", "p95", "p99"}.
+FigureJson json_of(const Summary& summary);
+
+/// Each row is an object. Infinite and absent figures are null.
 std::string figure_json(const FigureTable& table);
 std::string figure_text(const FigureTable& table);
 std::string figure_markdown(const FigureTable& table);

@@ -1,27 +1,23 @@
 #include "bench/report/json_fields.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "app/cli/parsed_option.h"
 
 namespace reljef::bench {
 namespace {
 
 using nlohmann::json;
 
-constexpr double max_exact_whole = 9e15; // a double still distinguishes it from its neighbours
-
-bool holds_plain_values(const json& array) {
-    return std::all_of(array.begin(), array.end(),
-                       [](const json& value) { return value.is_primitive(); });
-}
-
 std::string found_text(const json& value) {
     if (value.is_object()) {
         return "an object";
     }
     constexpr std::size_t short_array = 4;
-    if (value.is_array() && (value.size() > short_array || !holds_plain_values(value))) {
+    const bool is_plain = std::all_of(value.begin(), value.end(),
+                                      [](const json& element) { return element.is_primitive(); });
+    if (value.is_array() && (value.size() > short_array || !is_plain)) {
         return "an array";
     }
     constexpr std::size_t longest = 60;
@@ -43,17 +39,14 @@ bool is_within(double value, const JsonRange& range) {
     return std::isfinite(value) && value >= range.low && value <= range.high;
 }
 
-// From "1024x768"; absent unless both are at least 1.
-std::optional<glm::ivec2> size_from(const std::string& text) {
-    glm::ivec2 size{0};
-    const char* const end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.x);
-    if (width.ec != std::errc{} || width.ptr == end || *width.ptr != 'x') {
-        return std::nullopt;
-    }
-    const auto height = std::from_chars(width.ptr + 1, end, size.y);
-    const bool is_whole = height.ec == std::errc{} && height.ptr == end;
-    return is_whole && std::min(size.x, size.y) >= 1 ? std::optional(size) : std::nullopt;
+// Parses "1024x768"; absent unless both are at least 1.
+std::optional<glm::ivec2> size_from(std::string_view text) {
+    const std::size_t middle = std::min(text.find('x'), text.size());
+    const auto width = cli::number_from<int>(text.substr(0, middle));
+    const auto height = cli::number_from<int>(text.substr(std::min(middle + 1, text.size())));
+    return width && height && std::min(*width, *height) >= 1
+               ? std::optional(glm::ivec2(*width, *height))
+               : std::nullopt;
 }
 
 } // namespace
@@ -144,18 +137,6 @@ double JsonReader::whole(const char* key, double min, double max) {
         fail(key, "a whole number");
     }
     return value;
-}
-
-void JsonReader::field(const char* key, int& value) {
-    value = static_cast<int>(whole(key, 0.0, std::numeric_limits<int>::max()));
-}
-
-void JsonReader::field(const char* key, unsigned& value) {
-    value = static_cast<unsigned>(whole(key, 0.0, std::numeric_limits<int>::max()));
-}
-
-void JsonReader::field(const char* key, std::size_t& value, std::size_t min) {
-    value = static_cast<std::size_t>(whole(key, static_cast<double>(min), max_exact_whole));
 }
 
 void JsonReader::field(const char* key, double& value, const JsonRange& range) {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,13 +15,16 @@
 
 namespace reljef::bench {
 
+/// Smaller whole numbers are exact doubles.
+inline constexpr double max_exact_whole = 9e15;
+
 struct JsonRange {
     double low = 0.0;
     double high = std::numeric_limits<double>::max();
 };
 
-/// Writes the fields of one object. JsonReader has the same functions, so that one function
-/// describe(fields, value) for each struct serves both.
+/// Writes the fields of one object. JsonReader has the same functions: one describe(fields, value)
+/// for each struct serves both.
 class JsonWriter {
 public:
     template <class Value> using Of = const Value;
@@ -30,11 +33,11 @@ public:
     void field(const char* key, const Value& value, const Limits&... /*limits*/) {
         json[key] = json_from(value);
     }
-    /// A field that files of earlier versions lack.
+    /// A field that older files lack.
     template <class Value> void later_field(const char* key, const Value& value) {
         field(key, value);
     }
-    /// A figure that follows from others.
+    /// A figure computed from others; not read.
     void derived(const char* key, double value) { json[key] = value; }
     template <class Inner> void object(const char* key, const Inner& describe_inner) {
         JsonWriter inner;
@@ -71,21 +74,22 @@ private:
     static nlohmann::ordered_json json_from(scene::Pose pose);
 };
 
-/// Reads the fields of one object. The first that is missing or has a wrong type or range becomes
-/// the document's error; reading goes on with defaults.
+/// Reads the fields of one object. The first field that is absent or has a wrong type or range sets
+/// the document's error; reading continues with defaults.
 class JsonReader {
 public:
     template <class Value> using Of = Value;
 
-    /// `place` names the object in messages, "rows[3]"; empty: the document. `error` and `json`
-    /// outlive this.
+    /// `place` names the object in messages: "rows[3]"; empty: the document.
     JsonReader(const nlohmann::json& json, std::string place, std::optional<Error>& error);
 
     void field(const char* key, std::string& value);
     void field(const char* key, bool& value);
-    void field(const char* key, int& value);
-    void field(const char* key, unsigned& value);
-    void field(const char* key, std::size_t& value, std::size_t min = 0);
+    template <std::integral Whole> void field(const char* key, Whole& value, Whole min = 0) {
+        const double max =
+            sizeof(Whole) > sizeof(int) ? max_exact_whole : std::numeric_limits<int>::max();
+        value = static_cast<Whole>(whole(key, static_cast<double>(min), max));
+    }
     void field(const char* key, double& value, const JsonRange& range = {});
     void field(const char* key, std::optional<double>& value, const JsonRange& range = {});
     void field(const char* key, std::optional<ConfidenceInterval>& value, const JsonRange& range);
@@ -103,7 +107,6 @@ public:
         JsonReader inner(at(key), place_of(key), *error_);
         describe_inner(inner);
     }
-    /// Absent if the key is null or missing.
     template <class Value> void object(const char* key, std::optional<Value>& value) {
         if (has(key)) {
             object(key, [&](JsonReader& inner) { describe(inner, value.emplace()); });
@@ -119,11 +122,11 @@ public:
 
     /// Whether the key exists and is not null.
     [[nodiscard]] bool has(const char* key) const { return !at(key).is_null(); }
-    /// Sets the error unless there is one: `key` holds something other than `expected`.
+    /// Sets the error, if there is none yet: the value of `key` is not `expected`.
     void fail(const char* key, const std::string& expected);
 
 private:
-    [[nodiscard]] const nlohmann::json& at(const char* key) const; // null if missing
+    [[nodiscard]] const nlohmann::json& at(const char* key) const; // null if absent
     [[nodiscard]] const nlohmann::json& array_at(const char* key); // empty after an error
     [[nodiscard]] std::string place_of(const char* key) const;
     double number(const char* key, const JsonRange& range);

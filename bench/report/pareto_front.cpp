@@ -6,16 +6,21 @@
 namespace reljef::bench {
 namespace {
 
+constexpr double min_ratio = 0.1;
+constexpr double max_ratio = 1000.0;
+constexpr double min_error_px = 1e-3;
+constexpr double max_error_px = 1e3;
+
 struct FrontPoint {
     std::string label;
     double ms = 0.0;
-    double ratio = 1.0; ///< to texture; not used where there is none
+    double ratio = 1.0; // to texture; unused if the row has none
     double error = 0.0;
-    std::optional<double> noise; ///< a share of `ms`
+    std::optional<double> noise; // a share of `ms`
 };
 
 bool has_error(const Row& row) {
-    return !row.null_row && row.timing && row.error && row.error->reprojection_px;
+    return !row.null_row && row.error && row.error->reprojection_px;
 }
 
 bool is_holed(const Row& row) {
@@ -23,19 +28,17 @@ bool is_holed(const Row& row) {
     return static_cast<double>(row.error->holes) > max_holes * pixels;
 }
 
-bool has_place(const Row& row) {
+bool is_ranked(const Row& row) {
     return has_error(row) && row.error->reprojection_px->unbounded == 0 && !is_holed(row);
 }
 
-// The fastest first, of equally fast ones the most accurate.
 std::vector<FrontPoint> points_of(std::span<const Row> rows) {
     std::vector<FrontPoint> points;
     for (const Row& row : rows) {
-        if (has_place(row)) {
-            points.push_back({row.setting.label, row.timing->ms.median,
-                              row.timing->ratio_to_texture.value_or(1.0),
-                              row.error->reprojection_px->distribution.rms,
-                              row.timing->noise_floor});
+        if (is_ranked(row)) {
+            points.push_back(
+                {row.setting.label, row.timing.ms.median, row.timing.ratio_to_texture.value_or(1.0),
+                 row.error->reprojection_px->distribution.rms, row.timing.noise_floor});
         }
     }
     std::stable_sort(points.begin(), points.end(), [](const FrontPoint& a, const FrontPoint& b) {
@@ -49,7 +52,7 @@ bool dominates(const FrontPoint& a, const FrontPoint& b) {
            b.ms > a.ms * (1.0 + std::max(*a.noise, *b.noise));
 }
 
-// Sorted points: one is on the front unless one before it dominates it.
+// Precondition: sorted points. Only an earlier point can dominate a later one.
 std::vector<FrontPoint> front_points(const std::vector<FrontPoint>& points) {
     std::vector<FrontPoint> front;
     for (const FrontPoint& point : points) {
@@ -61,7 +64,7 @@ std::vector<FrontPoint> front_points(const std::vector<FrontPoint>& points) {
     return front;
 }
 
-// Of the front's settings that dominate a point, the most accurate. Absent: it is on the front.
+// The most accurate setting of the front that dominates a point; absent if it is on the front.
 std::optional<std::string> dominator_of(const FrontPoint& point,
                                         const std::vector<FrontPoint>& front) {
     const FrontPoint* best = nullptr;
@@ -73,28 +76,27 @@ std::optional<std::string> dominator_of(const FrontPoint& point,
     return best == nullptr ? std::nullopt : std::optional(best->label);
 }
 
-// Of a staircase that goes down at each point that is better than all before.
-double area_below(const std::vector<FrontPoint>& points, const FrontBox& box) {
-    const double width = std::log(box.max_ratio / box.min_ratio);
-    const double height = std::log(box.max_error / box.min_error);
+// The front is a staircase that descends at each point with a smaller error than all before.
+double area_below(const std::vector<FrontPoint>& points) {
+    const double width = std::log(max_ratio / min_ratio);
+    const double height = std::log(max_error_px / min_error_px);
     double area = 0.0;
     double place = 0.0;
     double level = height;
     for (const FrontPoint& point : points) {
-        const double next = std::clamp(std::log(point.ratio / box.min_ratio), 0.0, width);
+        const double next = std::clamp(std::log(point.ratio / min_ratio), 0.0, width);
         area += level * (next - place);
         place = next;
-        const double error = std::clamp(point.error, box.min_error, box.max_error);
-        level = std::min(level, std::log(error / box.min_error));
+        const double error = std::clamp(point.error, min_error_px, max_error_px);
+        level = std::min(level, std::log(error / min_error_px));
     }
     area += level * (width - place);
     return std::clamp(area / (width * height), 0.0, 1.0);
 }
 
-// Whether texture shows none of the terrain, so that there are no ratios.
 bool lacks_ratios(std::span<const Row> rows) {
     return std::any_of(rows.begin(), rows.end(),
-                       [](const Row& row) { return row.timing && !row.timing->ratio_to_texture; });
+                       [](const Row& row) { return !row.timing.ratio_to_texture; });
 }
 
 bool is_same_place(const Row& a, const Row& b) {
@@ -103,14 +105,14 @@ bool is_same_place(const Row& a, const Row& b) {
 
 } // namespace
 
-Front front_of(std::span<const Row> rows, const FrontBox& box) {
+Front front_of(std::span<const Row> rows) {
     check(!rows.empty(), "a front of no rows");
     const std::vector<FrontPoint> points = points_of(rows);
     const std::vector<FrontPoint> best = front_points(points);
     Front front;
     front.scene = rows.front().scene;
     front.pose = rows.front().pose;
-    front.area = lacks_ratios(rows) ? std::nullopt : std::optional(area_below(points, box));
+    front.area = lacks_ratios(rows) ? std::nullopt : std::optional(area_below(points));
     for (const Row& row : rows) {
         if (has_error(row) && is_holed(row)) {
             front.holed.push_back(row.setting.label);

@@ -1,9 +1,6 @@
 #include "bench/report/report_text.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace reljef::bench {
 namespace {
@@ -33,22 +30,19 @@ std::string or_empty(const std::optional<double>& value) {
 std::string csv_description(const Row& row) {
     return fmt::format("{},{},{},{},{},{},{},{},{},{}", quoted(row.suite), quoted(row.test),
                        quoted(row.scene), scene::to_string(row.pose), quoted(row.setting.label),
-                       row.null_row, row.missing(), row.noisy(), row.size.x, row.size.y);
+                       row.null_row, false, row.noisy(), row.size.x, row.size.y);
 }
 
 std::string csv_interval(const std::optional<ConfidenceInterval>& interval) {
     return interval ? fmt::format("{},{}", interval->low, interval->high) : ",";
 }
 
-std::string csv_timing(const std::optional<Timing>& timing) {
-    if (!timing) {
-        return std::string(10, ',');
-    }
-    return fmt::format("{},{},{},{},{},{},{},{},{},{}", timing->frames, timing->ms.median,
-                       csv_interval(timing->interval), timing->ms.p95, timing->ms.p99,
-                       1000.0 / timing->ms.median, timing->fps_1_percent_low,
-                       or_empty(timing->ratio_to_texture), or_empty(timing->noise_floor),
-                       timing->stats.triangles);
+std::string csv_timing(const Timing& timing) {
+    return fmt::format("{},{},{},{},{},{},{},{},{},{}", timing.frames, timing.ms.median,
+                       csv_interval(timing.interval), timing.ms.p95, timing.ms.p99,
+                       1000.0 / timing.ms.median, timing.fps_1_percent_low,
+                       or_empty(timing.ratio_to_texture), or_empty(timing.noise_floor),
+                       timing.stats.triangles);
 }
 
 std::string csv_reprojection(const std::optional<RowError::Geometric>& error) {

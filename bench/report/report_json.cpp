@@ -13,15 +13,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_file_bytes = std::size_t{1} << 25;
-// Times in milliseconds, rates and ratios: a picosecond to eleven days, so that products and
-// quotients of three of them stay finite.
+// Of times (a picosecond to eleven days, in ms), rates and ratios: products and quotients of three
+// figures stay finite.
 constexpr JsonRange figure_range{.low = 1e-9, .high = 1e9};
 constexpr JsonRange share{.low = 0.0, .high = 1.0};
 
 } // namespace
 
-// Each describe() lists the fields of one struct, for a JsonWriter and a JsonReader, which find it
-// by its argument: so it is in no namespace of its own.
+// Each describe() lists the fields of one struct for JsonWriter and JsonReader, which find it by
+// argument-dependent lookup.
 template <class Fields>
 static void describe(Fields& fields, typename Fields::template Of<Environment>& environment) {
     fields.field("renderer", environment.renderer);
@@ -138,21 +138,14 @@ static void describe(JsonWriter& fields, const Row& row) {
         fields.json["test"] = nullptr;
     }
     describe_setting(fields, row);
-    fields.field("missing", row.missing());
+    fields.field("missing", false);
     fields.field("noisy", row.noisy());
     fields.field("size", row.size);
-    JsonWriter timing;
-    describe(timing, row.timing.value_or(Timing{}));
-    for (const auto& item : timing.json.items()) {
-        fields.json[item.key()] = row.timing ? item.value() : nlohmann::ordered_json();
-    }
-    fields.json["taps"] = nullptr; // not counted yet
+    describe(fields, row.timing);
+    fields.json["taps"] = nullptr; // not counted
     fields.object("error", row.error);
     fields.object("source", row.source);
-    fields.json["skipped"] = nullptr;
-    if (row.timing) {
-        fields.object("skipped", [&](auto& inner) { describe(inner, row.timing->stats.skipped); });
-    }
+    fields.object("skipped", [&](auto& inner) { describe(inner, row.timing.stats.skipped); });
 }
 
 static void describe(JsonReader& fields, Row& row) {
@@ -162,10 +155,11 @@ static void describe(JsonReader& fields, Row& row) {
     fields.field("size", row.size);
     bool is_missing = false;
     fields.field("missing", is_missing);
-    if (!is_missing) {
-        describe(fields, row.timing.emplace());
-        fields.object("skipped", [&](auto& inner) { describe(inner, row.timing->stats.skipped); });
+    if (is_missing) {
+        return; // read_results removes the row
     }
+    describe(fields, row.timing);
+    fields.object("skipped", [&](auto& inner) { describe(inner, row.timing.stats.skipped); });
     fields.object("error", row.error);
     fields.object("source", row.source);
 }
@@ -193,6 +187,7 @@ Results read_results(JsonReader& fields, const std::string& file) {
         results.stopped = Error{fmt::format("{}: the run ended early", file)};
     }
     fields.array("rows", results.rows);
+    std::erase_if(results.rows, [](const Row& row) { return row.timing.frames == 0; });
     if (fields.has("fronts")) {
         fields.array("fronts", results.fronts);
     }
@@ -242,10 +237,6 @@ std::string json_report(const Results& results) {
     }
     // File names need not be UTF-8.
     return fields.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-Result<void> write_json_report(const fs::path& file, const Results& results) {
-    return write_text_file(file, json_report(results));
 }
 
 Result<Results> read_json_report(const fs::path& file) {

@@ -10,23 +10,20 @@
 
 namespace reljef::bench {
 
-/// What a results file says it is, under "schema".
+/// "schema" of a results file.
 inline constexpr std::string_view schema_name = "reljef-bench/1";
 
 nlohmann::ordered_json json_of(const Environment& environment);
 
-/// The results as JSON of the schema schema_name. Shares are fractions, times milliseconds. Every
-/// row has every key; what could not be or is not measured is null, "taps" everywhere. "complete"
-/// is false where the run ended early, as "stopped" says, or left settings out, as "left_out" says.
+/// The results as JSON of schema schema_name. Shares are fractions, times milliseconds. Every row
+/// has every key; absent figures are null, "taps" always. "missing" is always false: earlier
+/// versions listed techniques that did not exist yet. "complete" is false if the run ended early
+/// ("stopped") or left settings out ("left_out").
 std::string json_report(const Results& results);
 
-/// Writes json_report(), whole or not at all.
-Result<void> write_json_report(const std::filesystem::path& file, const Results& results);
-
-/// Reads what write_json_report() wrote. A run that ended early has Results::stopped again. Fails,
-/// naming the file, the place, what was found and what was expected, where it is no JSON or only
-/// its beginning, of another schema, or where anything in it is absent, of a wrong kind or out of
-/// its range; keys beyond the schema are let pass.
+/// Reads a JSON report; skips missing rows. Sets Results::stopped if the run ended early. Fails,
+/// with the place, what was found and what was expected, if the file is no whole JSON document, has
+/// another schema, or a value is absent, of a wrong type or out of range. Ignores unknown keys.
 Result<Results> read_json_report(const std::filesystem::path& file);
 
 } // namespace reljef::bench

@@ -1,7 +1,5 @@
 #include "bench/report/report_text.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "bench/report/report_table.h"
@@ -31,11 +29,8 @@ std::string markdown_line(const std::vector<std::string>& cells) {
 
 std::string markdown_table(const ReportTable& table) {
     std::string text =
-        fmt::format("## {}\n\n{}|:--", escaped(table.heading), markdown_line(table.columns));
-    for (std::size_t i = 1; i < table.columns.size(); ++i) {
-        text += "|--:";
-    }
-    text += "|\n";
+        fmt::format("## {}\n\n{}{}", escaped(table.heading), markdown_line(table.columns),
+                    markdown_rule(table.columns.size()));
     for (const auto& line : table.lines) {
         text += markdown_line(line);
     }

@@ -19,30 +19,28 @@ bool is_same_table(const Row& a, const Row& b) {
            a.size == b.size;
 }
 
-// Of what it is the noise floor, where it is not texture's.
-std::string noise_of(std::span<const Row> rows) {
-    const auto again =
+// " of LABEL" if the null row does not repeat the first row.
+std::string null_row_text(std::span<const Row> rows) {
+    const auto null_row =
         std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.null_row; });
-    return again == rows.end() || again->setting.label == rows.front().setting.label
+    return null_row == rows.end() || null_row->setting.label == rows.front().setting.label
                ? ""
-               : fmt::format(" of {}", again->setting.label);
+               : fmt::format(" of {}", null_row->setting.label);
 }
 
 std::string heading_of(std::span<const Row> rows) {
     const Row& row = rows.front();
-    std::string heading =
-        fmt::format("{}{}, {}, {}x{}", row.test.empty() ? "" : row.test + ": ", row.scene,
-                    scene::to_string(row.pose), row.size.x, row.size.y);
-    if (row.timing) {
-        heading +=
-            fmt::format(", {} frame{}", row.timing->frames, row.timing->frames == 1 ? "" : "s");
-        heading += row.timing->noise_floor ? fmt::format(", noise floor{} {:.1f} %", noise_of(rows),
-                                                         100.0 * *row.timing->noise_floor)
-                                           : ", noise floor unknown";
-    }
-    return heading + (!row.noisy()           ? ""
-                      : row.has_few_frames() ? ": NOISY, too few frames"
-                                             : ": NOISY");
+    const Timing& timing = row.timing;
+    return fmt::format("{}{}, {}, {}x{}, {} frame{}, noise floor{}{}",
+                       row.test.empty() ? "" : row.test + ": ", row.scene,
+                       scene::to_string(row.pose), row.size.x, row.size.y, timing.frames,
+                       timing.frames == 1 ? "" : "s",
+                       timing.noise_floor ? fmt::format("{} {:.1f} %", null_row_text(rows),
+                                                        100.0 * *timing.noise_floor)
+                                          : " unknown",
+                       !row.noisy()           ? ""
+                       : row.has_few_frames() ? ": NOISY, too few frames"
+                                              : ": NOISY");
 }
 
 bool has_sources(std::span<const Row> rows) {
@@ -50,7 +48,7 @@ bool has_sources(std::span<const Row> rows) {
                        [](const Row& row) { return row.source.has_value(); });
 }
 
-// Where triangles are what is chosen, and the greatest error what is promised.
+// Tables of the suite lod also show triangles and the maximum error.
 bool is_of_levels(std::span<const Row> rows) {
     return rows.front().suite == "lod";
 }
@@ -67,7 +65,7 @@ std::vector<std::string> columns_of(bool with_sources, bool with_levels) {
     return columns;
 }
 
-// At least three digits that count, and never more than one needs.
+// At least three significant digits.
 std::string figure(double value) {
     if (value >= 99.95) {
         return fmt::format("{:.0f}", value);
@@ -84,11 +82,7 @@ std::string half_width_cell(const Timing& timing) {
     return fmt::format("{:.1f} %", 100.0 * half_width / timing.ms.median);
 }
 
-std::vector<std::string> time_cells(const Row& row) {
-    if (!row.timing) {
-        return std::vector<std::string>(6, no_figure);
-    }
-    const Timing& timing = *row.timing;
+std::vector<std::string> time_cells(const Timing& timing) {
     const auto& ratio = timing.ratio_to_texture;
     return {figure(timing.ms.median),
             half_width_cell(timing),
@@ -110,7 +104,7 @@ bool has_unbounded(const Row& row) {
 
 std::vector<std::string> level_cells(const Row& row) {
     const bool has_error = row.error && row.error->reprojection_px;
-    return {row.timing ? fmt::format("{}", row.timing->stats.triangles) : std::string(no_figure),
+    return {fmt::format("{}", row.timing.stats.triangles),
             !has_error           ? std::string(no_figure)
             : has_unbounded(row) ? "∞"
                                  : figure(row.error->reprojection_px->distribution.max)};
@@ -131,7 +125,7 @@ std::vector<std::string> cells_of(const Row& row, bool with_sources, bool with_l
     const auto append = [&](const std::vector<std::string>& more) {
         cells.insert(cells.end(), more.begin(), more.end());
     };
-    append(time_cells(row));
+    append(time_cells(row.timing));
     if (with_sources) {
         append(source_cells(row));
     }
@@ -146,7 +140,7 @@ std::string unbounded_text(const Row& row) {
     return fmt::format("{} {}", row.setting.label, row.error->reprojection_px->unbounded);
 }
 
-// Of what the pictures' errors hold in any row: the true one filters its colours otherwise.
+// The errors of exact, whose colour map is filtered unlike that of the true picture.
 std::string picture_floor(const Row& exact) {
     const RowError& error = *exact.error;
     return fmt::format(
@@ -157,25 +151,22 @@ std::string picture_floor(const Row& exact) {
 
 std::vector<std::string> notes_of(std::span<const Row> rows) {
     std::vector<std::string> notes;
-    const auto write_stderr = [&](std::string_view title, bool (*is_meant)(const Row&),
-                                  std::string (*text_of)(const Row&)) {
-        std::vector<std::string> labels;
+    const auto add_note = [&](std::string_view title, const auto& is_listed, const auto& text_of) {
+        std::vector<std::string> texts;
         for (const Row& row : rows) {
-            if (!row.null_row && is_meant(row)) {
-                labels.push_back(text_of(row));
+            if (!row.null_row && is_listed(row)) {
+                texts.push_back(text_of(row));
             }
         }
-        if (!labels.empty()) {
-            notes.push_back(fmt::format("{}: {}", title, fmt::join(labels, ", ")));
+        if (!texts.empty()) {
+            notes.push_back(fmt::format("{}: {}", title, fmt::join(texts, ", ")));
         }
     };
-    const auto label_of = [](const Row& row) { return row.setting.label; };
-    write_stderr(
-        "missing, not there yet", [](const Row& row) { return row.missing(); }, label_of);
-    write_stderr(
+    add_note(
         "shows nothing of the terrain here, so its time says nothing",
-        [](const Row& row) { return row.shows_nothing(); }, label_of);
-    write_stderr("≥, pixels whose error has no bound are not in it", has_unbounded, unbounded_text);
+        [](const Row& row) { return row.shows_nothing(); },
+        [](const Row& row) { return row.setting.label; });
+    add_note("≥, pixels whose error has no bound are not in it", has_unbounded, unbounded_text);
     const auto exact = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
         return row.setting.technique == "exact" && row.error;
     });
@@ -295,10 +286,39 @@ std::string holed_text(const Front& front) {
                        fmt::join(front.holed, ", "));
 }
 
+std::string markdown_rule(std::size_t columns) {
+    std::string text;
+    for (std::size_t i = 0; i < columns; ++i) {
+        text += i == 0 ? "|:--" : "|--:";
+    }
+    return text + "|\n";
+}
+
 std::size_t text_width(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
     }));
+}
+
+std::vector<std::size_t> column_widths(const std::vector<std::vector<std::string>>& lines) {
+    std::vector<std::size_t> widths;
+    for (const auto& line : lines) {
+        widths.resize(std::max(widths.size(), line.size()));
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            widths[i] = std::max(widths[i], text_width(line[i]));
+        }
+    }
+    return widths;
+}
+
+std::string padded_line(const std::vector<std::string>& cells,
+                        const std::vector<std::size_t>& widths) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::string padding(widths[i] - text_width(cells[i]), ' ');
+        line += i == 0 ? cells[i] + padding : "  " + padding + cells[i];
+    }
+    return line + "\n";
 }
 
 } // namespace reljef::bench

@@ -7,38 +7,47 @@
 
 namespace reljef::bench {
 
-/// The rows of one scene and pose as cells of text, UTF-8; the first column reads from the left,
-/// the others are numbers.
+/// The rows of one test, scene, pose and size as text cells (UTF-8).
 struct ReportTable {
     std::string heading;
     std::vector<std::string> columns;
-    std::vector<std::vector<std::string>> lines; ///< as many cells as columns
+    std::vector<std::vector<std::string>> lines; ///< one cell for each column
     std::vector<std::string> notes;
 };
 
-/// One table for each run of rows with one test, scene, pose and size. Null rows are no lines: the
-/// heading tells the noise floor. Columns for the sources' figures only where there are some.
+/// One table for each sequence of rows with the same test, scene, pose and size. The heading shows
+/// the noise floor in place of null rows.
 std::vector<ReportTable> report_tables(const Results& results);
 
-/// The results with every name as a terminal may show it, see cli::printable().
+/// The results with printable names, see cli::printable().
 Results printable(Results results);
 
-/// On what it was measured, as lines "renderer: …".
+/// The environment as lines "renderer: …".
 std::vector<std::string> environment_lines(const Environment& environment);
 
-/// What the columns mean, as sentences.
+/// Sentences that explain the columns.
 std::vector<std::string> column_notes(const Results& results);
 
-/// The labels of a front, the fastest first, or that there is none.
+/// The labels of a front, or "none".
 std::string front_text(const Front& front);
 
-/// "area 0.250", or that there is none.
+/// "area 0.250", or why there is none.
 std::string area_text(const Front& front);
 
-/// Which rows have too many holes for the front.
+/// The rows with too many holes.
 std::string holed_text(const Front& front);
 
-/// The number of code points.
+/// The line below a heading of a Markdown table: the first column aligned left, the others right.
+std::string markdown_rule(std::size_t columns);
+
+/// Number of code points.
 std::size_t text_width(const std::string& text);
+
+/// Widths of columns that hold all cells, in code points.
+std::vector<std::size_t> column_widths(const std::vector<std::vector<std::string>>& lines);
+
+/// The cells padded to `widths`: the first aligned left, the others right.
+std::string padded_line(const std::vector<std::string>& cells,
+                        const std::vector<std::size_t>& widths);
 
 } // namespace reljef::bench

@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::size_t screen_columns = 100;
 
-// A line broken between words where it would leave the screen; what follows is indented. A word
-// that is wider than the screen stays whole.
+// Breaks a line between words at the screen's width and indents the rest. Wider words stay whole.
 std::string wrapped(const std::string& line, std::size_t indent = 2) {
     std::string text;
     std::string current;
@@ -29,31 +28,6 @@ std::string wrapped(const std::string& line, std::size_t indent = 2) {
         begin = end + 1;
     }
     return text + current + "\n";
-}
-
-std::vector<std::size_t> widths_of(const std::vector<ReportTable>& tables) {
-    std::vector<std::size_t> widths;
-    const auto widen = [&](const std::vector<std::string>& cells) {
-        widths.resize(std::max(widths.size(), cells.size()));
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            widths[i] = std::max(widths[i], text_width(cells[i]));
-        }
-    };
-    for (const ReportTable& table : tables) {
-        widen(table.columns);
-        std::for_each(table.lines.begin(), table.lines.end(), widen);
-    }
-    return widths;
-}
-
-std::string padded_line(const std::vector<std::string>& cells,
-                        const std::vector<std::size_t>& widths) {
-    std::string line;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const std::string padding(widths[i] - text_width(cells[i]), ' ');
-        line += i == 0 ? cells[i] + padding : "  " + padding + cells[i];
-    }
-    return line + "\n";
 }
 
 std::string terminal_table(const ReportTable& table, const std::vector<std::size_t>& widths) {
@@ -101,8 +75,14 @@ std::string terminal_report(const Results& raw) {
     std::string text =
         fmt::format("{}: frames of the techniques interleaved\n{}\n\n", results.rows.front().suite,
                     fmt::join(environment_lines(results.environment), "\n"));
+    std::vector<std::vector<std::string>> lines;
     for (const ReportTable& table : tables) {
-        text += terminal_table(table, widths_of(tables));
+        lines.push_back(table.columns);
+        lines.insert(lines.end(), table.lines.begin(), table.lines.end());
+    }
+    const std::vector<std::size_t> widths = column_widths(lines);
+    for (const ReportTable& table : tables) {
+        text += terminal_table(table, widths);
     }
     text += terminal_fronts(results.fronts);
     for (const std::string& note : column_notes(results)) {

@@ -6,14 +6,14 @@
 
 namespace reljef::bench {
 
-/// One line for each row, null rows too, below a line of names that state the units (RFC 4180, but
-/// lines end in '\n'). Missing figures are empty.
+/// A heading with units and one line for each row, including null rows (RFC 4180, but lines end in
+/// '\n'). Absent figures are empty.
 std::string csv_report(const Results& results);
 
-/// Tables in GitHub's Markdown with the environment. Names are escaped.
+/// The environment and tables as GitHub Markdown. Precondition: at least one row.
 std::string markdown_report(const Results& results);
 
-/// Tables for a terminal with the environment, UTF-8. Precondition: at least one row.
+/// The environment and tables for a terminal, UTF-8. Precondition: at least one row.
 std::string terminal_report(const Results& results);
 
 } // namespace reljef::bench

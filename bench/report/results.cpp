@@ -1,6 +1,45 @@
 #include "bench/report/results.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "app/cli/parsed_option.h"
+#include "engine/core/parallel_for.h"
+
 namespace reljef::bench {
+namespace {
+
+std::string cpu_name() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        const auto colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+unsigned renderer_threads(int requested) {
+    if (requested > 0) {
+        return static_cast<unsigned>(requested);
+    }
+    const char* variable = std::getenv("LP_NUM_THREADS");
+    const auto limit = cli::number_from<unsigned>(variable == nullptr ? "" : variable);
+    return limit ? std::max(*limit, 1U) : thread_count(0);
+}
+
+} // namespace
+
+Environment environment_of(const platform::Context& context, int threads) {
+    return {context.renderer(),
+            context.version(),
+            std::string(platform::to_string(context.kind())),
+            renderer_threads(threads),
+            cpu_name(),
+            RELJEF_COMMIT};
+}
 
 Setting setting_of(const scene::Technique& technique) {
     const scene::TechniqueInfo& info = scene::technique_info(technique.id());
@@ -14,16 +53,8 @@ Setting setting_of(const scene::Technique& technique) {
     return setting;
 }
 
-bool Row::has_few_frames() const {
-    return timing && timing->frames < min_frames;
-}
-
 bool Row::noisy() const {
-    return has_few_frames() || (timing && timing->noise_floor && *timing->noise_floor > max_noise);
-}
-
-bool Row::shows_nothing() const {
-    return error && !error->reprojection_px;
+    return has_few_frames() || (timing.noise_floor && *timing.noise_floor > max_noise);
 }
 
 } // namespace reljef::bench

@@ -8,10 +8,10 @@
 
 #include <glm/vec2.hpp>
 
-#include "bench/report/environment.h"
 #include "bench/report/row_view.h"
 #include "engine/core/result.h"
 #include "engine/core/statistics.h"
+#include "engine/platform/context.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/truth/geometric_error.h"
@@ -19,14 +19,26 @@
 
 namespace reljef::bench {
 
-/// A row above this noise floor is marked noisy: what it says of small differences is worth
-/// nothing.
+/// Where a run was measured. Times of different environments are not comparable.
+struct Environment {
+    std::string renderer; ///< GL_RENDERER
+    std::string gl;       ///< GL_VERSION
+    std::string context;  ///< "osmesa", "egl", "glfw"
+    unsigned threads = 1; ///< of a software renderer
+    std::string cpu;      ///< model name, or "unknown"
+    std::string commit;   ///< of the configured sources; "unknown" without git
+};
+
+/// `threads`: 0 takes LP_NUM_THREADS, which limits llvmpipe, or else all of the machine.
+Environment environment_of(const platform::Context& context, int threads);
+
+/// Rows with a larger noise floor are noisy.
 inline constexpr double max_noise = 0.10;
 
-/// Of fewer frames neither a noise floor nor an interval can be told, see median_interval().
+/// Fewer frames give neither a noise floor nor an interval, see median_interval().
 inline constexpr std::size_t min_frames = 5;
 
-/// A technique by its names, which the program that reads them need not know.
+/// A technique with its parameters, as text.
 struct Setting {
     struct Parameter {
         std::string name;
@@ -40,72 +52,67 @@ struct Setting {
 };
 Setting setting_of(const scene::Technique& technique);
 
-/// How fast.
 struct Timing {
-    std::size_t frames = 0; ///< timed, at least 1
-    Summary ms;             ///< from the first command of a frame until all of it is drawn
-    /// Of the median, milliseconds, see median_interval(); absent under min_frames.
+    std::size_t frames = 0; ///< at least 1
+    Summary ms;             ///< from the first command of a frame to its completion
+    /// Of the median, ms; see median_interval(). Absent with fewer than min_frames.
     std::optional<ConfidenceInterval> interval;
-    double fps_1_percent_low = 0.0; ///< 1000 over the mean of the slowest hundredth, milliseconds
-    /// Of the medians, in the same run; absent where texture shows no terrain, as its time says
-    /// nothing then.
+    double fps_1_percent_low = 0.0; ///< of the slowest hundredth of the frames
+    /// Of the medians in the same run; absent if texture shows no terrain.
     std::optional<double> ratio_to_texture;
-    /// How far the medians of a null row and of what it is once more lie apart, a share of the
-    /// smaller; absent where either has under min_frames.
+    /// Distance of the medians of the null row and its original, a share of the smaller median;
+    /// absent if either has fewer than min_frames.
     std::optional<double> noise_floor;
-    std::optional<double> gpu_ms; ///< median of what the GPU took; absent on software renderers
+    std::optional<double> gpu_ms; ///< median; absent on software renderers
     view::FrameStats stats;       ///< of the last frame
 };
 
-/// How wrong: engine/truth/geometric_error.h and image_error.h say what is what.
+/// Errors of a picture, see engine/truth/geometric_error.h and image_error.h.
 struct RowError {
     struct Geometric {
         truth::Distribution distribution;
-        std::size_t unbounded = 0; ///< pixels whose error is infinite
+        std::size_t unbounded = 0; ///< pixels with an infinite error
     };
 
-    std::optional<Geometric> reprojection_px; ///< absent where no pixel has a finite one
+    std::optional<Geometric> reprojection_px; ///< absent if no pixel has a finite error
     std::optional<Geometric> hit_texels;      ///< likewise
     double wrong_percent = 0.0;               ///< of all pixels
     std::size_t holes = 0;                    ///< pixels
     double rmse = 0.0;
-    std::optional<double> psnr; ///< dB; absent where the pictures are identical
-    std::optional<double> ssim; ///< absent where the picture is smaller than its window
+    std::optional<double> psnr; ///< dB; absent for identical pictures
+    std::optional<double> ssim; ///< absent if the picture is smaller than the SSIM window
     double flip = 0.0;          ///< mean
 };
 
-/// What a source measured itself.
+/// A measurement of the sources (suites/source_tests.h).
 struct SourceFigure {
     double fps = 0.0;
-    double ratio = 1.0; ///< its frame time over that of texture in the same test
+    double ratio = 1.0; ///< frame time over that of texture in the same test
     std::string where;  ///< "relief-4, configuration 2"
 };
 
-/// One technique on one scene.
 struct Row {
     std::string suite;
-    std::string test;  ///< of the sources, "relief-4"; empty where it is none of theirs
-    std::string scene; ///< UTF-8 or whatever bytes a file's name has
+    std::string test;  ///< of the sources, "relief-4"; may be empty
+    std::string scene; ///< any bytes, because it may come from a file name
     scene::Pose pose = scene::Pose::overview;
     Setting setting;
-    /// Only for the noise floor (A/A): texture once more, or where it shows no terrain the first
-    /// technique that does.
+    /// Repeats texture, or the first technique that shows terrain, for the noise floor (A/A).
     bool null_row = false;
-    glm::ivec2 size{0};           ///< of the picture, pixels
-    std::optional<Timing> timing; ///< absent: the technique does not exist yet, the row is missing
+    glm::ivec2 size{0}; ///< of the picture, pixels
+    Timing timing;
     std::optional<RowError> error;
     std::optional<SourceFigure> source;
-    std::shared_ptr<const RowView> view; ///< where it was asked for; not part of the JSON
+    std::shared_ptr<const RowView> view; ///< only with SuiteOptions::keep_views; not in the JSON
 
-    [[nodiscard]] bool missing() const { return !timing.has_value(); }
-    [[nodiscard]] bool has_few_frames() const; ///< timed ones, under min_frames
-    /// Whether its noise floor is above max_noise, or it has too few frames for one.
+    [[nodiscard]] bool has_few_frames() const { return timing.frames < min_frames; }
+    /// Whether the noise floor is above max_noise, or unknown because of too few frames.
     [[nodiscard]] bool noisy() const;
-    /// Whether it was held against the truth and shows none of the terrain.
-    [[nodiscard]] bool shows_nothing() const;
+    /// Whether the picture shows no terrain.
+    [[nodiscard]] bool shows_nothing() const { return error && !error->reprojection_px; }
 };
 
-/// Which settings of one scene and pose are worth their time, see pareto_front.h.
+/// The Pareto front of one scene and pose, see pareto_front.h.
 struct Front {
     struct Dominated {
         std::string label;
@@ -114,33 +121,31 @@ struct Front {
 
     std::string scene;
     scene::Pose pose = scene::Pose::overview;
-    /// [0,1], the smaller the better; absent where it would not be that of all techniques, as the
-    /// default of one was left out, or texture, its measure, shows no terrain.
+    /// [0,1], smaller is better; absent if a technique was left out or texture shows no terrain.
     std::optional<double> area;
     std::vector<std::string> front; ///< labels, the fastest first
     std::vector<Dominated> dominated;
-    std::vector<std::string> holed; ///< labels of the rows that have too many holes for a place
+    std::vector<std::string> holed; ///< labels of rows with too many holes
 };
 
-/// Settings of one scene and pose that are no rows, for want of time or as the run was stopped.
+/// Settings of one scene and pose without a row, because time ran out or the run was stopped.
 struct LeftOut {
     std::string scene;
     scene::Pose pose = scene::Pose::overview;
-    std::size_t settings = 0;            ///< so many
-    std::vector<std::string> techniques; ///< whose first setting, the default, is one of them
+    std::size_t settings = 0;            ///< their number
+    std::vector<std::string> techniques; ///< those whose default was left out
 };
 
-/// What a run brought.
 struct Results {
     Environment environment;
     std::vector<Row> rows;
     std::vector<Front> fronts; ///< of the suite pareto
     std::vector<LeftOut> left_out;
-    std::vector<std::string> notes; ///< what a reader of the tables should be told
+    std::vector<std::string> notes; ///< shown below the tables
     std::optional<Error> stopped;   ///< why the run ended early
-    bool failed = false;            ///< so it did by an error, and not as it was asked to
+    bool failed = false;            ///< it ended early by an error, not by request
 
-    /// Whether there is every row that was asked for.
+    /// Whether all requested rows exist.
     [[nodiscard]] bool complete() const { return !stopped && left_out.empty(); }
 };
 

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
-#include "bench/report/page_heat_map.h"
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
 #include "engine/core/check.h"
 #include "engine/io/image/image.h"
 
 namespace reljef::bench {
 namespace {
 
-// Of each block of factor × factor pixels what `merge` makes of it; what is over at the far sides
-// is left out.
+// Merges blocks of factor × factor pixels; drops incomplete blocks at the right and bottom.
 template <class Pixel, class Merge>
 Grid<Pixel> reduced(const Grid<Pixel>& fine, int factor, const Merge& merge) {
     Grid<Pixel> coarse(fine.cols() / factor, fine.rows() / factor);
@@ -37,20 +39,82 @@ Rgba8 mean_color(const std::vector<Rgba8>& block) {
     return rgba8_from_linear(sum / static_cast<float>(block.size()));
 }
 
-// NaN only where all are.
-float greatest_error(const std::vector<float>& block) {
-    float greatest = std::numeric_limits<float>::quiet_NaN();
-    for (const float error : block) {
-        greatest = std::isnan(greatest) || error > greatest ? error : greatest;
-    }
-    return greatest;
+// NaN only if all are NaN.
+float max_error(const std::vector<float>& block) {
+    return std::accumulate(block.begin(), block.end(), std::numeric_limits<float>::quiet_NaN(),
+                           [](float a, float b) { return std::fmax(a, b); });
 }
 
 Image smaller(const Image& image, int factor) {
     return factor == 1 ? image : reduced(image, factor, mean_color);
 }
 
+// Oklab's a and b at equal steps of the scale: blue, green, yellow, all inside sRGB. Magenta is
+// reserved for infinite errors.
+constexpr std::array<glm::vec2, 5> hues{
+    {{0.0F, -0.08F}, {-0.03F, -0.12F}, {-0.09F, -0.02F}, {-0.12F, 0.12F}, {-0.05F, 0.165F}}};
+constexpr float darkest = 0.20F;
+constexpr float lightest = 0.92F;
+
+constexpr int hatch_period = 8; // pixels
+constexpr int hatch_width = 2;
+constexpr Rgba8 hatch_line{104, 104, 108, 255};
+constexpr Rgba8 hatch_ground{62, 62, 66, 255};
+
+// Ottosson 2020, "A perceptual color space for image processing".
+glm::vec3 linear_from_oklab(float lightness, glm::vec2 ab) {
+    const glm::vec3 roots = lightness + glm::vec3(0.3963377774F * ab.x + 0.2158037573F * ab.y,
+                                                  -0.1055613458F * ab.x - 0.0638541728F * ab.y,
+                                                  -0.0894841775F * ab.x - 1.2914855480F * ab.y);
+    const glm::vec3 lms = roots * roots * roots;
+    return {4.0767416621F * lms.x - 3.3077115913F * lms.y + 0.2309699292F * lms.z,
+            -1.2684380046F * lms.x + 2.6097574011F * lms.y - 0.3413193965F * lms.z,
+            -0.0041960863F * lms.x - 0.7034186147F * lms.y + 1.7076147010F * lms.z};
+}
+
+glm::vec2 hue_at(float share) {
+    const float place = share * static_cast<float>(hues.size() - 1);
+    const std::size_t index = std::min(static_cast<std::size_t>(place), hues.size() - 2);
+    return glm::mix(hues.at(index), hues.at(index + 1), place - static_cast<float>(index));
+}
+
+std::size_t level_of(double error_px) {
+    const double share = std::log(std::max(error_px, heat_low_px) / heat_low_px) /
+                         std::log(heat_high_px / heat_low_px);
+    return std::min(static_cast<std::size_t>(share * static_cast<double>(heat_levels)),
+                    heat_levels - 1);
+}
+
+Rgba8 hatch(int col, int row) {
+    return (col + row) % hatch_period < hatch_width ? hatch_line : hatch_ground;
+}
+
 } // namespace
+
+std::array<Rgba8, heat_levels> heat_scale() {
+    std::array<Rgba8, heat_levels> scale;
+    for (std::size_t i = 0; i < scale.size(); ++i) {
+        const float share = static_cast<float>(i) / static_cast<float>(scale.size() - 1);
+        scale[i] =
+            rgba8_from_linear(linear_from_oklab(glm::mix(darkest, lightest, share), hue_at(share)));
+    }
+    return scale;
+}
+
+Image heat_map(const Grid<float>& error_px) {
+    const auto scale = heat_scale();
+    Image map(error_px.cols(), error_px.rows());
+    for (int row = 0; row < map.rows(); ++row) {
+        for (int col = 0; col < map.cols(); ++col) {
+            const float error = error_px(col, row);
+            check(!(error < 0.0F), "heat_map of a negative error");
+            map(col, row) = std::isnan(error)   ? hatch(col, row)
+                            : std::isinf(error) ? heat_unbounded
+                                                : scale.at(level_of(error));
+        }
+    }
+    return map;
+}
 
 Result<std::shared_ptr<const RowView>> RowViews::make(const ShownView& view) {
     const int cols = view.shown.cols();
@@ -64,8 +128,8 @@ Result<std::shared_ptr<const RowView>> RowViews::make(const ShownView& view) {
     if (!shown) {
         return shown.error();
     }
-    const Image heat_picture = heat_map(
-        factor == 1 ? view.reprojection : reduced(view.reprojection, factor, greatest_error));
+    const Image heat_picture =
+        heat_map(factor == 1 ? view.reprojection : reduced(view.reprojection, factor, max_error));
     auto heat = io::encode_image(".png", heat_picture);
     if (!heat) {
         return heat.error();

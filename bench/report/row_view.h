@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -12,14 +13,30 @@
 
 namespace reljef::bench {
 
-/// What a technique shows, what is right, and how far each pixel is off. Of one size, not empty.
+/// The ends of the error scale, pixels; errors beyond them have the colour of the end.
+inline constexpr double heat_low_px = 0.01;
+inline constexpr double heat_high_px = 100.0;
+
+/// The colour of an infinite error; not on the scale.
+inline constexpr Rgba8 heat_unbounded{255, 0, 255, 255};
+
+/// Colours of errors in equal steps of the logarithm, 16 per decade. Their lightness (Oklab) grows
+/// in equal steps (Kovesi 2015, "Good Colour Maps: How to Design Them").
+inline constexpr std::size_t heat_levels = 64;
+std::array<Rgba8, heat_levels> heat_scale();
+
+/// Colours errors, in pixels, by heat_scale(); infinite ones are heat_unbounded, NaN (no error) is
+/// a grey hatch. Precondition: no error is negative.
+Image heat_map(const Grid<float>& error_px);
+
+/// The picture of a technique, the true picture and the error; of one size, not empty.
 struct ShownView {
     Image shown;
     std::shared_ptr<const Image> truth;
-    Grid<float> reprojection; ///< pixels of error, NaN where there is none
+    Grid<float> reprojection; ///< error, pixels; NaN: none
 };
 
-/// The pictures of a row, as files: a hundredth of the memory.
+/// The pictures of a row, encoded.
 struct RowView {
     using File = std::vector<std::byte>;
 
@@ -29,21 +46,19 @@ struct RowView {
     File heat;                         ///< PNG, heat_map() of the reprojection error
 };
 
-/// Makes the pictures of rows, one after the other.
 class RowViews {
 public:
-    /// Pictures of more columns are reduced by a whole number until they have no more; 0: never.
-    /// A colour is the mean of its pixels, linear; an error the greatest of them.
+    /// Reduces larger pictures by a whole factor to at most `max_cols` columns; 0: never. Colours
+    /// are averaged in linear light, of errors the maximum is taken.
     explicit RowViews(int max_cols = 0) : max_cols_(max_cols) {}
 
-    /// Fails where a picture cannot be encoded.
     Result<std::shared_ptr<const RowView>> make(const ShownView& view);
 
 private:
     Result<std::shared_ptr<const RowView::File>> truth_of(const ShownView& view, int factor);
 
     int max_cols_;
-    std::shared_ptr<const Image> truth_; // the last one, and what became of it
+    std::shared_ptr<const Image> truth_; // the last one; truth_file_ is its encoding
     std::shared_ptr<const RowView::File> truth_file_;
 };
 

@@ -1,6 +1,7 @@
 #include "bench/runner/benchmark_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "app/cli/console_log.h"
 #include "bench/runner/gallery_tiles.h"
 #include "engine/io/formats/scene_file.h"
+#include "engine/truth/image_error.h"
 
 namespace reljef::bench {
 namespace {
@@ -32,10 +34,10 @@ bool shows_gallery(const std::string& terrain) {
         return terrain == "gallery";
     }
     const auto scene = io::read_scene_file(terrain);
-    return scene && scene->generator == "gallery"; // else opening it will tell
+    return scene && scene->generator == "gallery"; // opening reports errors
 }
 
-constexpr int tile_rays_per_side = 2; // of its true picture: texels are as small as pixels
+constexpr int detail_rays_per_side = 2; // per pixel of the true picture; texels are pixel-sized
 
 scene::Material material_of(const truth::TileSquare& square) {
     scene::Material material;
@@ -44,6 +46,28 @@ scene::Material material_of(const truth::TileSquare& square) {
                        .scale = static_cast<float>(square.scale),
                        .offset = static_cast<float>(square.offset)};
     return material;
+}
+
+bool has_terrain(const HitBuffer& hits) {
+    const auto pixels = hits.samples();
+    return std::any_of(pixels.begin(), pixels.end(), truth::shows_terrain);
+}
+
+std::optional<RowError::Geometric> geometric_of(const truth::PixelErrors& errors) {
+    return errors.distribution
+               ? std::optional(RowError::Geometric{*errors.distribution, errors.unbounded})
+               : std::nullopt;
+}
+
+RowError row_error_of(const truth::GeometricErrors& geometric, const truth::ImageErrors& image) {
+    return {.reprojection_px = geometric_of(geometric.reprojection),
+            .hit_texels = geometric_of(geometric.hit),
+            .wrong_percent = geometric.wrong_percent,
+            .holes = geometric.holes,
+            .rmse = image.rmse,
+            .psnr = std::isfinite(image.psnr) ? std::optional(image.psnr) : std::nullopt,
+            .ssim = image.ssim,
+            .flip = image.flip.mean};
 }
 
 } // namespace
@@ -56,15 +80,15 @@ Result<session::Device> make_device(const SuiteOptions& options) {
                                     .selects_always = true});
 }
 
-Result<BenchmarkScene> BenchmarkScene::open_tile(const SceneChoice& choice,
-                                                 const BenchmarkSceneOptions& options) {
-    const auto square = tile_square(choice.tile, static_cast<unsigned>(options.threads));
+Result<BenchmarkScene> BenchmarkScene::open_detail(const SceneChoice& choice,
+                                                   const SuiteOptions& options) {
+    const auto square = detail_square(choice.detail, static_cast<unsigned>(options.threads));
     if (!square) {
         return square.error();
     }
-    auto tile = truth::TilePlane::create(*square);
-    if (!tile) {
-        return tile.error();
+    auto plane = truth::TilePlane::create(*square);
+    if (!plane) {
+        return plane.error();
     }
     session::TerrainScene square_scene;
     scene::Mesh mesh = scene::plane_mesh(glm::vec2(static_cast<float>(square->side)));
@@ -72,16 +96,15 @@ Result<BenchmarkScene> BenchmarkScene::open_tile(const SceneChoice& choice,
     square_scene.models = {&square_scene.scene.add_mesh(std::move(mesh), material_of(*square))};
     square_scene.light = &square_scene.scene.add_light(square->light);
     square_scene.camera = &square_scene.scene.add_camera({});
-    BenchmarkScene scene("tile " + choice.tile, std::move(square_scene), options);
-    scene.tile_ = std::move(*tile);
+    BenchmarkScene scene("tile " + choice.detail, std::move(square_scene), options);
+    scene.detail_ = std::move(*plane);
     return scene;
 }
 
-Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice,
-                                            const BenchmarkSceneOptions& options,
+Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice, const SuiteOptions& options,
                                             const std::stop_token& stop) {
-    if (!choice.tile.empty()) {
-        return open_tile(choice, options);
+    if (!choice.detail.empty()) {
+        return open_detail(choice, options);
     }
     if (shows_gallery(choice.terrain)) {
         return Error{fmt::format("{}: the gallery found, a terrain was expected: the truth of its "
@@ -93,7 +116,7 @@ Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice,
     terrain.terrain = choice.terrain;
     terrain.threads = options.threads;
     cli::ConsoleLog log(options.quiet);
-    terrain.placement = terrain::PlacementKind::plane; // one surface that all techniques draw
+    terrain.placement = terrain::PlacementKind::plane; // every technique can draw it
     auto source = open_source(choice, terrain, log, stop);
     if (!source) {
         return source.error();
@@ -108,13 +131,12 @@ Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice,
     return BenchmarkScene(std::move(name), std::move(*scene), options);
 }
 
-void BenchmarkScene::set_pose(scene::Pose pose) {
-    scene::Camera& camera = *scene_.camera->get<scene::Camera>();
+void set_pose(session::TerrainScene& scene, scene::Pose pose) {
+    scene::Camera& camera = *scene.camera->get<scene::Camera>();
     const double near = camera.near;
-    camera = scene::pose_camera(pose, scene_.bounds,
-                                [this](double x, double y) { return scene_.ground(x, y); });
+    camera = scene::pose_camera(pose, scene.bounds,
+                                [&](double x, double y) { return scene.ground(x, y); });
     camera.near = near;
-    pose_ = pose;
 }
 
 void BenchmarkScene::set_camera(const scene::Camera& camera) {
@@ -127,10 +149,10 @@ void BenchmarkScene::set_technique(const scene::Technique& technique) {
     }
 }
 
-Result<truth::Picture> BenchmarkScene::true_picture(const ParallelOptions& parallel) {
-    if (tile_) {
-        return tile_->draw(scene().camera(), options_.size,
-                           {.rays_per_side = tile_rays_per_side, .parallel = parallel});
+Result<truth::Picture> BenchmarkScene::draw_truth(const ParallelOptions& parallel) {
+    if (detail_) {
+        return detail_->draw(scene().camera(), options_.size,
+                             {.rays_per_side = detail_rays_per_side, .parallel = parallel});
     }
     if (!caster_) {
         auto caster = truth::SceneCaster::create(scene());
@@ -144,29 +166,68 @@ Result<truth::Picture> BenchmarkScene::true_picture(const ParallelOptions& paral
                        {.parallel = parallel});
 }
 
-Result<std::reference_wrapper<const TruePicture>>
-BenchmarkScene::truth(const std::stop_token& stop) {
+Result<const BenchmarkScene::TruePicture*> BenchmarkScene::truth(const std::stop_token& stop) {
     if (truth_ && truth_->pose == pose_) {
-        return std::cref(*truth_);
+        return &*truth_;
     }
-    auto picture = true_picture({static_cast<unsigned>(options_.threads), stop, {}});
+    auto picture = draw_truth({static_cast<unsigned>(options_.threads), stop, {}});
     if (!picture) {
         return picture.error();
     }
     truth_ = TruePicture{pose_, std::move(picture->hits),
                          std::make_shared<const Image>(std::move(picture->image))};
-    return std::cref(*truth_);
+    return &*truth_;
 }
 
-Result<truth::GeometricErrors>
-BenchmarkScene::errors(const HitBuffer& shown, const HitBuffer& truth, unsigned threads) const {
-    if (tile_) {
-        return tile_->errors(scene().camera(), shown, truth, threads);
+Result<truth::GeometricErrors> BenchmarkScene::errors(const HitBuffer& shown,
+                                                      const HitBuffer& truth) const {
+    const auto threads = static_cast<unsigned>(options_.threads);
+    if (detail_) {
+        return detail_->errors(scene().camera(), shown, truth, threads);
     }
     const scene::TerrainSurface& surface = *terrain().get<scene::TerrainNode>()->surface;
     const truth::SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
                                   terrain().world_from_local(), scene().camera()};
     return truth::geometric_errors(view, shown, truth, threads);
+}
+
+Result<MeasuredError> BenchmarkScene::measure_error(const scene::Technique& technique,
+                                                    session::SceneRenderer& renderer,
+                                                    const std::stop_token& stop) {
+    set_technique(technique);
+    const auto stats = renderer.draw(scene());
+    if (!stats) {
+        return stats.error();
+    }
+    Image shown = renderer.read_color();
+    const auto hits = renderer.draw_hits(scene());
+    if (!hits) {
+        return hits.error();
+    }
+    const auto exact = truth(stop);
+    if (!exact) {
+        return exact.error();
+    }
+    if (!has_terrain(*hits) && !has_terrain((*exact)->hits)) {
+        return Error{fmt::format("{}, {}: no pixel of terrain found in the picture, some were "
+                                 "expected",
+                                 name(), scene::to_string((*exact)->pose))};
+    }
+    auto geometric = errors(*hits, (*exact)->hits);
+    if (!geometric) {
+        return geometric.error();
+    }
+    const auto image = truth::image_errors(shown, *(*exact)->image,
+                                           {.threads = static_cast<unsigned>(options_.threads)});
+    if (!image) {
+        return image.error();
+    }
+    MeasuredError measured{row_error_of(*geometric, *image), {}};
+    if (options_.keep_views) {
+        measured.view =
+            ShownView{std::move(shown), (*exact)->image, std::move(geometric->reprojection.map)};
+    }
+    return measured;
 }
 
 Result<BenchmarkScene*> BenchmarkScenes::get(const SceneChoice& choice) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,42 +12,42 @@
 namespace reljef::bench {
 namespace {
 
-constexpr int tile_texels = 256; // each about a pixel of a usual picture
+constexpr int detail_texels = 256; // a texel is about a pixel wide
 constexpr double square_side = 4.0;
-constexpr int tiles_a_side = 3;
+constexpr int copies_a_side = 3;
 
-struct MeasuredTile {
+struct GalleryDetail {
     std::string_view name;
-    scene::TechniqueId technique; ///< texture: all that look for heights
+    scene::TechniqueId technique; // texture: all techniques for heightfields
     std::optional<material::LayerKind> layers;
 };
 
-constexpr std::array<MeasuredTile, 4> measured_tiles{
+constexpr std::array<GalleryDetail, 4> gallery_details{
     {{"brick", scene::TechniqueId::texture, std::nullopt},
      {"fence", scene::TechniqueId::lattice, material::LayerKind::symmetric},
      {"copper", scene::TechniqueId::dual_layer, material::LayerKind::dual},
      {"rings", scene::TechniqueId::multi_layer, material::LayerKind::multi}}};
 
-const MeasuredTile* measured_tile(std::string_view name) {
+const GalleryDetail* find_detail(std::string_view name) {
     const auto* const found =
-        std::find_if(measured_tiles.begin(), measured_tiles.end(),
-                     [&](const MeasuredTile& tile) { return tile.name == name; });
-    return found == measured_tiles.end() ? nullptr : found;
+        std::find_if(gallery_details.begin(), gallery_details.end(),
+                     [&](const GalleryDetail& detail) { return detail.name == name; });
+    return found == gallery_details.end() ? nullptr : found;
 }
 
 } // namespace
 
-Result<truth::TileSquare> tile_square(std::string_view name, unsigned threads) {
-    auto set = terrains::generate_detail(name, {.size = tile_texels, .threads = threads});
+Result<truth::TileSquare> detail_square(std::string_view name, unsigned threads) {
+    auto set = terrains::generate_detail(name, {.size = detail_texels, .threads = threads});
     if (!set) {
         return set.error();
     }
-    const MeasuredTile* const tile = measured_tile(name);
+    const GalleryDetail* const detail = find_detail(name);
     truth::TileSquare square;
     square.set = std::make_shared<const material::ReliefMaterial>(std::move(*set));
-    square.layers = tile == nullptr ? std::nullopt : tile->layers;
+    square.layers = detail == nullptr ? std::nullopt : detail->layers;
     square.side = square_side;
-    square.repeats = tiles_a_side;
+    square.repeats = copies_a_side;
     square.scale = static_cast<double>(square.set->scale);
     square.offset = square.layers ? -0.5 : -1.0;
     square.light.azimuth = 232.0;
@@ -57,31 +56,29 @@ Result<truth::TileSquare> tile_square(std::string_view name, unsigned threads) {
 }
 
 std::vector<SceneChoice> gallery_scenes() {
-    std::vector<SceneChoice> scenes(measured_tiles.size());
-    std::transform(measured_tiles.begin(), measured_tiles.end(), scenes.begin(),
-                   [](const MeasuredTile& tile) {
-                       return SceneChoice{.terrain = "gallery", .tile = std::string(tile.name)};
-                   });
+    std::vector<SceneChoice> scenes;
+    for (const GalleryDetail& detail : gallery_details) {
+        scenes.push_back({.terrain = "gallery", .detail = std::string(detail.name)});
+    }
     return scenes;
 }
 
 bool suits(scene::TechniqueId id, const SceneChoice& scene) {
-    const MeasuredTile* const tile = measured_tile(scene.tile);
-    if (tile == nullptr) {
+    const GalleryDetail* const detail = find_detail(scene.detail);
+    if (detail == nullptr) {
         return scene::draws_terrain(id);
     }
     if (id == scene::TechniqueId::texture) {
         return true;
     }
-    return tile->layers ? id == tile->technique
-                        : id != scene::TechniqueId::polygons && !scene::looks_for_layers(id);
+    return detail->layers ? id == detail->technique
+                          : id != scene::TechniqueId::polygons && !scene::looks_for_layers(id);
 }
 
 std::vector<scene::TechniqueInfo> techniques_of(const SceneChoice& scene) {
-    std::vector<scene::TechniqueInfo> infos;
     const auto catalogue = scene::technique_catalogue();
-    std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(infos),
-                 [&](const scene::TechniqueInfo& info) { return suits(info.id, scene); });
+    std::vector<scene::TechniqueInfo> infos(catalogue.begin(), catalogue.end());
+    std::erase_if(infos, [&](const scene::TechniqueInfo& info) { return !suits(info.id, scene); });
     return infos;
 }
 

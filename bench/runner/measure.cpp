@@ -1,26 +1,21 @@
 #include "bench/runner/measure.h"
 
 #include <algorithm>
-#include <chrono>
-#include <optional>
 
 #include "engine/core/check.h"
 #include "engine/core/statistics.h"
+#include "engine/core/stopwatch.h"
 
 namespace reljef::bench {
 namespace {
 
-double steady_now_ms() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double, std::milli>(now).count();
-}
-
-// Draws frames in turn and writes down what each took.
 class Rounds {
 public:
     Rounds(std::span<const DrawFrame> frames, const MeasureOptions& options)
         : frames_(frames), options_(options),
-          now_ms_(options.now_ms ? options.now_ms : steady_now_ms), begin_ms_(now_ms_()) {
+          now_ms_(options.now_ms ? options.now_ms
+                                 : [watch = Stopwatch()] { return watch.milliseconds(); }),
+          begin_ms_(now_ms_()) {
         result_.ms.resize(frames.size());
     }
 
@@ -74,20 +69,19 @@ private:
         }
         const double elapsed = seconds_until(now_ms_());
         const double timed = elapsed - *warm_up_seconds_;
-        const bool has_the_least = rounds >= options_.min_rounds && timed >= options_.seconds;
+        const bool has_minimum = rounds >= options_.min_rounds && timed >= options_.seconds;
         return rounds >= options_.max_rounds || elapsed + timed / rounds > options_.max_seconds ||
-               (has_the_least && (timed >= options_.noisy_seconds || is_quiet(rounds)));
+               (has_minimum && (timed >= options_.noisy_seconds || is_quiet(rounds)));
     }
 
-    // Precondition: a round is done.
     bool is_quiet(int rounds) {
         if (!options_.null_pair) {
             return true;
         }
-        if (rounds < ask_at_round_) {
+        if (rounds < next_check_) {
             return false;
         }
-        ask_at_round_ = rounds + std::max(rounds / 4, 1);
+        next_check_ = rounds + std::max(rounds / 4, 1);
         return *noise_floor() <= options_.max_noise;
     }
 
@@ -109,13 +103,13 @@ private:
         }
     }
 
-    // Of all of it, if frames go on taking what they took so far.
+    // Of the whole measurement, if frames keep their mean time.
     [[nodiscard]] double expected_seconds(double elapsed) const {
         const double round = elapsed * static_cast<double>(frames_.size()) / frames_drawn_;
         const double warm_up = warm_up_seconds_.value_or(options_.warm_up_rounds * round);
-        const double least = (options_.warm_up_rounds + options_.min_rounds) * round;
-        const double most = (options_.warm_up_rounds + options_.max_rounds) * round;
-        return std::min({std::max(least, warm_up + options_.seconds), most, options_.max_seconds});
+        const double min = (options_.warm_up_rounds + options_.min_rounds) * round;
+        const double max = (options_.warm_up_rounds + options_.max_rounds) * round;
+        return std::min({std::max(min, warm_up + options_.seconds), max, options_.max_seconds});
     }
 
     [[nodiscard]] double seconds_until(double now) const { return 1e-3 * (now - begin_ms_); }
@@ -125,9 +119,9 @@ private:
     std::function<double()> now_ms_;
     Measurement result_;
     double begin_ms_;
-    std::optional<double> warm_up_seconds_; // once it is over
+    std::optional<double> warm_up_seconds_; // absent during the warm-up
     int frames_drawn_ = 0;
-    int ask_at_round_ = 0; // how noisy it is
+    int next_check_ = 0; // round of the next noise check
     double fraction_ = 0.0;
 };
 

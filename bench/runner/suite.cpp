@@ -1,6 +1,7 @@
 #include "bench/runner/suite.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <span>
@@ -10,31 +11,28 @@
 
 #include "app/cli/progress_line.h"
 #include "bench/runner/measure.h"
-#include "bench/runner/row_error.h"
 #include "bench/runner/time_table.h"
 #include "engine/core/stopwatch.h"
 
 namespace reljef::bench {
 namespace {
 
-// One thing drawn; what its last frame drew.
 struct Entry {
     Row row;
-    std::optional<scene::Technique> technique;
-    view::FrameStats stats{};
+    scene::Technique technique;
+    view::FrameStats stats{};     // of the last frame
     std::vector<double> gpu_ms{}; // of every frame
 };
 
-// Tells the progress of all groups from that of each.
 class SuiteProgress {
 public:
     SuiteProgress(std::string_view label, std::size_t groups, const SuiteOptions& options)
         : line_(fmt::format("measuring {}", label), options.quiet), progress_(options.progress),
-          groups_(static_cast<double>(groups)), judging_(options.quick ? 0.7 : 0.2) {}
+          groups_(static_cast<double>(groups)), error_share_(options.quick ? 0.7 : 0.2) {}
 
     void begin_group(std::size_t index) { index_ = static_cast<double>(index); }
-    void report_judged(double fraction) { report(judging_ * fraction); }
-    void report_timed(double fraction) { report(std::lerp(judging_, 1.0, fraction)); }
+    void report_checked(double fraction) { report(error_share_ * fraction); }
+    void report_timed(double fraction) { report(std::lerp(error_share_, 1.0, fraction)); }
 
 private:
     void report(double fraction_of_group) {
@@ -48,14 +46,13 @@ private:
     cli::ProgressLine line_;
     const Progress& progress_;
     double groups_;
-    double judging_; // the share of a group's time, about
+    double error_share_; // estimate: the part of a group's time spent on errors
     double index_ = 0.0;
 };
 
 std::vector<Entry> entries_of(const Group& group, std::string_view suite, const std::string& scene,
                               glm::ivec2 size) {
-    check(!group.candidates.empty() && group.candidates.front().technique.has_value(),
-          "a group does not begin with texture");
+    check(!group.candidates.empty(), "a group without candidates");
     std::vector<Entry> entries;
     for (const Candidate& candidate : group.candidates) {
         Row row;
@@ -63,7 +60,7 @@ std::vector<Entry> entries_of(const Group& group, std::string_view suite, const 
         row.test = group.test;
         row.scene = scene;
         row.pose = group.pose;
-        row.setting = candidate.setting;
+        row.setting = setting_of(candidate.technique);
         row.size = size;
         row.source = candidate.source;
         entries.push_back({std::move(row), candidate.technique});
@@ -71,20 +68,18 @@ std::vector<Entry> entries_of(const Group& group, std::string_view suite, const 
     return entries;
 }
 
-// What is drawn twice for the noise floor: the first that shows some of the terrain, as the time of
-// others says nothing; texture where none does.
-std::size_t drawn_twice(std::span<const Entry> entries) {
-    const auto first = std::find_if(entries.begin(), entries.end(), [](const Entry& entry) {
-        return entry.technique && !entry.row.shows_nothing();
-    });
+// Index of the entry that the null row repeats: the first that shows terrain, or texture if none
+// does.
+std::size_t repeated_entry(std::span<const Entry> entries) {
+    const auto first = std::find_if(entries.begin(), entries.end(),
+                                    [](const Entry& entry) { return !entry.row.shows_nothing(); });
     return first == entries.end() ? 0 : static_cast<std::size_t>(first - entries.begin());
 }
 
-// It again last.
-std::vector<Entry> ended_by_null_row(std::vector<Entry> entries) {
+std::vector<Entry> with_null_row(std::vector<Entry> entries) {
     if (!entries.empty()) {
-        const Entry& twice = entries[drawn_twice(entries)];
-        Entry null_entry{twice.row, twice.technique};
+        const Entry& repeated = entries[repeated_entry(entries)];
+        Entry null_entry{repeated.row, repeated.technique};
         null_entry.row.null_row = true;
         null_entry.row.source.reset();
         null_entry.row.view.reset();
@@ -95,7 +90,7 @@ std::vector<Entry> ended_by_null_row(std::vector<Entry> entries) {
 
 DrawFrame frame_of(Entry& entry, BenchmarkScene& scene, session::SceneRenderer& driver) {
     return [&]() -> Result<void> {
-        scene.set_technique(*entry.technique);
+        scene.set_technique(entry.technique);
         auto stats = driver.draw(scene.scene(), true);
         if (!stats) {
             return stats.error();
@@ -106,7 +101,7 @@ DrawFrame frame_of(Entry& entry, BenchmarkScene& scene, session::SceneRenderer& 
     };
 }
 
-// So that what was judged is not lost when the run is stopped before all was drawn once.
+// Whether the run was stopped before every entry was drawn once.
 bool lacks_a_round(const Measurement& measurement) {
     return measurement.stopped &&
            std::any_of(measurement.ms.begin(), measurement.ms.end(),
@@ -121,10 +116,10 @@ MeasureOptions one_round() {
     return options;
 }
 
-// Absent where what is drawn twice, as one thing and as the last, has few frames.
-std::optional<double> noise_floor_of(const Measurement& measurement, std::size_t twice) {
+// Absent if the null row (the last list) or the row it repeats has too few frames.
+std::optional<double> noise_floor_of(const Measurement& measurement, std::size_t repeated) {
     const bool is_reliable =
-        std::min(measurement.ms[twice].size(), measurement.ms.back().size()) >= min_frames;
+        std::min(measurement.ms[repeated].size(), measurement.ms.back().size()) >= min_frames;
     return is_reliable ? measurement.noise_floor : std::nullopt;
 }
 
@@ -140,22 +135,19 @@ Timing timing_of(const std::vector<double>& ms, std::optional<double> noise_floo
     return timing;
 }
 
-bool has_row_of(const Candidate& candidate, std::span<const Row> rows) {
-    return std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
-        return row.setting.label == candidate.setting.label;
-    });
-}
-
-// The candidates that are none of the rows.
 LeftOut left_out_of(const Group& group, const std::string& scene, std::span<const Row> rows) {
     LeftOut left_out{scene, group.pose, 0, {}};
-    std::set<std::string> begun; // techniques
+    std::set<scene::TechniqueId> found;
     for (const Candidate& candidate : group.candidates) {
-        const bool is_first = begun.insert(candidate.setting.technique).second;
-        if (!has_row_of(candidate, rows)) {
+        const bool is_first = found.insert(candidate.technique.id()).second;
+        const Setting setting = setting_of(candidate.technique);
+        const bool has_row = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
+            return row.setting.label == setting.label;
+        });
+        if (!has_row) {
             ++left_out.settings;
             if (is_first) {
-                left_out.techniques.push_back(candidate.setting.technique);
+                left_out.techniques.push_back(setting.technique);
             }
         }
     }
@@ -170,13 +162,12 @@ std::string left_out_note(const LeftOut& left_out, std::size_t candidates, bool 
                        fmt::join(left_out.techniques, ", "));
 }
 
-// Measures one suite on one device.
 class SuiteRun {
 public:
-    SuiteRun(const Suite& suite, const SuiteOptions& options, std::stop_token stop)
-        : suite_(suite), options_(options), stop_(std::move(stop)),
-          scenes_({options.size, options.threads, options.quiet}, stop_, suite.keep_scenes),
-          views_(suite.max_view_cols) {}
+    SuiteRun(Results& results, const Suite& suite, const SuiteOptions& options,
+             std::stop_token stop)
+        : results_(results), suite_(suite), options_(options), stop_(std::move(stop)),
+          scenes_(options, stop_, suite.keep_scenes), views_(suite.max_view_cols) {}
 
     Result<void> run() {
         if (suite_.groups.empty()) {
@@ -190,7 +181,7 @@ public:
         }
         results_.environment = environment_of(device->context(), options_.threads);
         is_software_ = device->context().is_software();
-        if (auto opened = open_stages(); !opened) {
+        if (auto opened = open_scenes(); !opened) {
             return opened;
         }
         SuiteProgress progress(suite_.name, suite_.groups.size(), options_);
@@ -203,28 +194,27 @@ public:
         return {};
     }
 
-    Results take() { return std::move(results_); }
-
 private:
-    // That of its scene; where several have it, the path.
+    // The scene's name, or its path if another scene has the same name.
     [[nodiscard]] const std::string& name_of(const Group& group,
                                              const BenchmarkScene& scene) const {
         return shared_names_.contains(scene.name()) ? group.scene.terrain : scene.name();
     }
 
-    // All of them, so that a mistake in the last does not cost the time of measuring the others.
-    Result<void> open_stages() {
+    // Opens all scenes first: an error in the last one costs no measuring.
+    Result<void> open_scenes() {
+        if (!suite_.keep_scenes) {
+            return {};
+        }
+        std::map<std::string, SceneChoice> owners; // by name
         for (const Group& group : suite_.groups) {
-            if (suite_.keep_scenes) {
-                const auto scene = scenes_.get(group.scene);
-                if (!scene) {
-                    return scene.error();
-                }
-                const std::string& name = (*scene)->name();
-                const auto first = owners_.emplace(name, group.scene).first;
-                if (first->second != group.scene) {
-                    shared_names_.insert(name);
-                }
+            const auto scene = scenes_.get(group.scene);
+            if (!scene) {
+                return scene.error();
+            }
+            const std::string& name = (*scene)->name();
+            if (owners.emplace(name, group.scene).first->second != group.scene) {
+                shared_names_.insert(name);
             }
         }
         return {};
@@ -243,8 +233,8 @@ private:
         }
         (*scene)->set_pose(group.pose);
         const std::string& name = name_of(group, **scene);
-        auto entries = judge_all(entries_of(group, suite_.name, name, options_.size), seconds,
-                                 **scene, driver, progress);
+        auto entries = check_errors(entries_of(group, suite_.name, name, options_.size), seconds,
+                                    **scene, driver, progress);
         if (!entries || entries->empty()) {
             return entries ? Result<void>() : entries.error();
         }
@@ -260,21 +250,21 @@ private:
         return {};
     }
 
-    // Those there is time for in `seconds`, where any may be left out, but texture at any rate, and
-    // its null row; where the run is stopped, those that are judged by then.
-    Result<std::vector<Entry>> judge_all(std::vector<Entry> entries, double seconds,
-                                         BenchmarkScene& scene, session::SceneRenderer& driver,
-                                         SuiteProgress& progress) {
+    // Measures errors. Returns the entries to time, with the null row: those that fit into
+    // `seconds` if entries may be left out, but always texture; after a stop, those that are done.
+    Result<std::vector<Entry>> check_errors(std::vector<Entry> entries, double seconds,
+                                            BenchmarkScene& scene, session::SceneRenderer& driver,
+                                            SuiteProgress& progress) {
         std::vector<Entry> kept;
         GroupCost cost;
         const std::size_t count = entries.size();
         for (std::size_t i = 0; i < count && !stop_.stop_requested(); ++i) {
-            const bool may_leave_out = suite_.may_leave_out && i > 0 && entries[i].technique;
+            const bool may_leave_out = suite_.may_leave_out && i > 0;
             cost.elapsed = since_group_.seconds();
             if (may_leave_out && !fits(with_another(cost, frame_seconds(entries[i])), seconds)) {
                 continue;
             }
-            auto after = judge_one(entries[i], cost, scene, driver);
+            auto after = check_error(entries[i], cost, scene, driver);
             if (!after && stop_.stop_requested()) {
                 break;
             }
@@ -286,69 +276,53 @@ private:
             }
             cost = *after;
             kept.push_back(std::move(entries[i]));
-            progress.report_judged(static_cast<double>(i + 1) / static_cast<double>(count));
+            progress.report_checked(static_cast<double>(i + 1) / static_cast<double>(count));
         }
-        return ended_by_null_row(std::move(kept));
+        return with_null_row(std::move(kept));
     }
 
-    // What the group has cost then. Missing techniques cost nothing.
-    Result<GroupCost> judge_one(Entry& entry, const GroupCost& cost, BenchmarkScene& scene,
-                                session::SceneRenderer& driver) {
-        if (!entry.technique) {
-            return cost;
-        }
+    Result<GroupCost> check_error(Entry& entry, const GroupCost& cost, BenchmarkScene& scene,
+                                  session::SceneRenderer& driver) {
         const bool is_texture = cost.frames == 0;
         const Stopwatch since_begin;
-        auto judgement =
-            judge(scene, *entry.technique, driver,
-                  {static_cast<unsigned>(options_.threads), options_.keep_views, stop_});
-        if (!judgement) {
-            return judgement.error();
+        auto measured = scene.measure_error(entry.technique, driver, stop_);
+        if (!measured) {
+            return measured.error();
         }
-        entry.row.error = judgement->error;
-        if (auto kept = keep_view(entry.row, judgement->view); !kept) {
-            return kept.error();
+        entry.row.error = measured->error;
+        if (measured->view) {
+            auto view = views_.make(*measured->view);
+            if (!view) {
+                return view.error();
+            }
+            entry.row.view = std::move(*view);
         }
-        const Stopwatch since_judged;
+        const Stopwatch since_checked;
         if (auto drawn = frame_of(entry, scene, driver)(); !drawn) {
             return drawn.error();
         }
-        const double frame = since_judged.seconds();
+        const double frame = since_checked.seconds();
         frame_seconds_[entry.row.setting.label] = frame;
-        const int frames = is_texture ? 2 : 1; // its null row
+        const int frames = is_texture ? 2 : 1; // and the null row
         return GroupCost{
-            since_group_.seconds(), is_texture ? 0.0 : cost.judging + since_begin.seconds(),
-            is_texture ? 0 : cost.judged + 1, cost.round + frames * frame, cost.frames + frames};
+            since_group_.seconds(), is_texture ? 0.0 : cost.error_seconds + since_begin.seconds(),
+            is_texture ? 0 : cost.checked + 1, cost.round + frames * frame, cost.frames + frames};
     }
 
-    // As the run drew it last.
+    // Of the last frame with the same setting.
     [[nodiscard]] std::optional<double> frame_seconds(const Entry& entry) const {
         const auto known = frame_seconds_.find(entry.row.setting.label);
         return known == frame_seconds_.end() ? std::nullopt : std::optional(known->second);
     }
 
-    Result<void> keep_view(Row& row, const std::optional<ShownView>& shown) {
-        if (shown) {
-            auto view = views_.make(*shown);
-            if (!view) {
-                return view.error();
-            }
-            row.view = std::move(*view);
-        }
-        return {};
-    }
-
     Result<void> time_all(std::vector<Entry> entries, BenchmarkScene& scene,
                           session::SceneRenderer& driver, MeasureOptions timing) {
         std::vector<DrawFrame> frames;
-        std::size_t twice = 0; // of the frames
-        for (std::size_t i = 0; i < entries.size(); ++i) {
-            twice = i == drawn_twice(entries) ? frames.size() : twice;
-            if (entries[i].technique) {
-                frames.push_back(frame_of(entries[i], scene, driver));
-            }
+        for (Entry& entry : entries) {
+            frames.push_back(frame_of(entry, scene, driver));
         }
-        timing.null_pair = {twice, frames.size() - 1};
+        const std::size_t repeated = repeated_entry(entries);
+        timing.null_pair = {repeated, frames.size() - 1};
         auto measurement = measure(frames, timing);
         if (measurement && lacks_a_round(*measurement)) {
             measurement = measure(frames, one_round());
@@ -356,28 +330,26 @@ private:
         if (!measurement) {
             return measurement.error();
         }
-        keep_rows(std::move(entries), *measurement, noise_floor_of(*measurement, twice));
+        keep_rows(std::move(entries), *measurement, noise_floor_of(*measurement, repeated));
         return {};
     }
 
     void keep_rows(std::vector<Entry> entries, const Measurement& measurement,
                    std::optional<double> noise_floor) {
-        const bool has_measure = !entries.front().row.shows_nothing();
+        const bool has_ratios = !entries.front().row.shows_nothing();
         const double texture = median(measurement.ms.front());
-        std::size_t place = 0;
-        for (Entry& entry : entries) {
-            if (entry.technique) {
-                const std::vector<double>& ms = measurement.ms[place++];
-                Timing timing = timing_of(ms, noise_floor);
-                if (has_measure) {
-                    timing.ratio_to_texture = timing.ms.median / texture;
-                }
-                if (!is_software_) {
-                    timing.gpu_ms = median(std::span(entry.gpu_ms).last(ms.size()));
-                }
-                timing.stats = entry.stats;
-                entry.row.timing = timing;
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            Entry& entry = entries[i];
+            const std::vector<double>& ms = measurement.ms[i];
+            Timing timing = timing_of(ms, noise_floor);
+            if (has_ratios) {
+                timing.ratio_to_texture = timing.ms.median / texture;
             }
+            if (!is_software_) {
+                timing.gpu_ms = median(std::span(entry.gpu_ms).last(ms.size()));
+            }
+            timing.stats = entry.stats;
+            entry.row.timing = timing;
             results_.rows.push_back(std::move(entry.row));
         }
     }
@@ -391,6 +363,7 @@ private:
         }
     }
 
+    Results& results_;
     const Suite& suite_;
     const SuiteOptions& options_;
     std::stop_token stop_;
@@ -400,32 +373,25 @@ private:
     RowViews views_;
     bool is_software_ = true;
     std::map<std::string, double> frame_seconds_; // by label
-    std::map<std::string, SceneChoice> owners_;   // by name, the first that has it
     std::set<std::string> shared_names_;
-    Results results_;
 };
 
 } // namespace
 
-Candidate candidate_of(const scene::Technique& technique) {
-    return {setting_of(technique), technique, std::nullopt};
-}
-
 std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& techniques) {
     const scene::Technique texture{scene::Texture{}};
-    std::vector<Candidate> candidates{candidate_of(texture)};
+    std::vector<Candidate> candidates{{texture}};
     for (const scene::Technique& technique : techniques) {
         if (technique != texture) {
-            candidates.push_back(candidate_of(technique));
+            candidates.push_back({technique});
         }
     }
     return candidates;
 }
 
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop) {
-    SuiteRun run(suite, options, stop);
-    const auto done = run.run();
-    Results results = run.take();
+    Results results;
+    const auto done = SuiteRun(results, suite, options, stop).run();
     if (stop.stop_requested()) {
         results.stopped =
             Error{results.rows.empty() ? "interrupted before the first frame was timed"

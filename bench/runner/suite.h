@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -12,39 +11,34 @@
 
 namespace reljef::bench {
 
-/// A row before it is measured.
 struct Candidate {
-    Setting setting;
-    std::optional<scene::Technique> technique; ///< absent: not implemented yet
-    std::optional<SourceFigure> source;
+    scene::Technique technique;
+    std::optional<SourceFigure> source = {};
 };
-Candidate candidate_of(const scene::Technique& technique);
-/// Texture, then the others.
+/// Texture, then the other techniques.
 std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& techniques);
 
-/// What is measured interleaved: settings on one stage from one pose.
+/// Settings of one scene and pose, whose frames are measured interleaved.
 struct Group {
     std::string test; ///< of the sources; may be empty
     SceneChoice scene;
     scene::Pose pose = scene::Pose::overview;
-    /// The first is texture, which the others are told in terms of. Its null row comes by itself.
+    /// The first is texture. The null row is added automatically.
     std::vector<Candidate> candidates;
 };
 
 struct Suite {
     std::string name;
     std::vector<Group> groups;
-    bool keep_scenes = true; ///< all opened before anything is measured, see BenchmarkScenes
+    bool keep_scenes = true; ///< opens all scenes before measuring, see BenchmarkScenes
     int max_view_cols = 0;   ///< of a row's pictures, see RowViews
-    /// Whether a quick run leaves out candidates of a group where there is no time for them, the
-    /// last first as far as it knows their cost; Results::left_out says which.
+    /// Whether a quick run may leave out candidates when time runs out, see Results::left_out.
     bool may_leave_out = true;
 };
 
-/// Measures a suite group by group: first how wrong each candidate's picture is, then how fast it
-/// is drawn. The rows are in the groups' order, each group's null row last. A run that is stopped
-/// or fails on the way keeps the rows it has, and says why in Results::stopped; stopped, it still
-/// draws once what it has judged. Fails without groups.
+/// Measures a suite group by group: first the error of each candidate, then its frame time. Rows
+/// are in the order of the groups, each group's null row last. A run that is stopped or fails keeps
+/// its rows; after a stop it draws the checked candidates once. Fails without groups.
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -31,8 +31,8 @@ double group_seconds(const SuiteOptions& options, double elapsed, std::size_t gr
 }
 
 GroupCost with_another(const GroupCost& cost, std::optional<double> frame) {
-    const double judging = mean_or_0(cost.judging, cost.judged);
-    return {cost.elapsed + judging, cost.judging + judging, cost.judged + 1,
+    const double checking = mean_or_0(cost.error_seconds, cost.checked);
+    return {cost.elapsed + checking, cost.error_seconds + checking, cost.checked + 1,
             cost.round + frame.value_or(mean_or_0(cost.round, cost.frames)), cost.frames + 1};
 }
 
@@ -48,7 +48,7 @@ MeasureOptions measuring(const SuiteOptions& options, std::size_t groups, double
     measure.seconds = seconds_a_group;
     measure.noisy_seconds = noisy_seconds_a_group;
     if (options.quick) {
-        measure.warm_up_rounds = 0; // each was drawn when it was judged
+        measure.warm_up_rounds = 0; // the error check already drew each
         measure.max_rounds = max_quick_rounds;
         measure.seconds = quick_timing / static_cast<double>(groups);
         measure.noisy_seconds = 2.0 * measure.seconds;

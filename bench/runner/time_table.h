@@ -8,31 +8,29 @@
 
 namespace reljef::bench {
 
-/// Of a quick run, to write a page.
+/// Reserved by a quick run to write a page.
 inline constexpr double page_seconds = 3.0;
 
-/// What a group took so far, and what there is to time in it; seconds.
+/// The cost of a group, in seconds.
 struct GroupCost {
-    double elapsed = 0.0; ///< since the group began
-    double judging = 0.0; ///< of that, for the candidates but texture, which waits for the truth
-    int judged = 0;       ///< so many
-    double round = 0.0;   ///< of timing: a frame of each
-    int frames = 0;       ///< in a round
+    double elapsed = 0.0;       ///< since the group began
+    double error_seconds = 0.0; ///< part of it: errors of candidates, without texture (the truth)
+    int checked = 0;            ///< candidates in `error_seconds`
+    double round = 0.0;         ///< of timing: one frame of each candidate
+    int frames = 0;             ///< per round
 };
 
-/// Of the next group, when `groups_left` are left, this one among them, and the run began `elapsed`
-/// seconds ago: an even share of what is left of the time, 0 where none is. Infinite where the run
-/// is not quick, or is told its rounds.
+/// Time for the next of `groups_left` groups when the run began `elapsed` seconds ago: an even
+/// share of the rest, at least 0. Infinite unless the run is quick without a number of rounds.
 double group_seconds(const SuiteOptions& options, double elapsed, std::size_t groups_left);
 
-/// What the group will have cost when one candidate more is judged: as much as the mean of those
-/// before it. `frame`: of it, seconds, where that is known.
+/// The cost with one more candidate of mean cost. `frame`: its frame time in seconds, if known.
 GroupCost with_another(const GroupCost& cost, std::optional<double> frame = std::nullopt);
 
-/// Whether a group of so many seconds has time to draw each min_frames times.
+/// Whether each candidate can be drawn min_frames times within `seconds`.
 bool fits(const GroupCost& cost, double seconds);
 
-/// How to time one of `groups` groups that has so many seconds left.
+/// Options to time one of `groups` groups within `seconds_left`.
 MeasureOptions measuring(const SuiteOptions& options, std::size_t groups, double seconds_left);
 
 } // namespace reljef::bench

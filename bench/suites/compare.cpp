@@ -24,28 +24,23 @@ bool is_same_environment(const Environment& a, const Environment& b) {
            a.threads == b.threads && a.cpu == b.cpu;
 }
 
-bool counts(const Row& row) {
-    return !row.null_row && !row.missing();
-}
-
-// Of rows that are alike the first.
+// The first of equal rows.
 using RowsByName = std::unordered_map<std::string, const Row*>;
 
 RowsByName rows_by_name(const std::vector<Row>& rows) {
     RowsByName named;
     for (const Row& row : rows) {
-        if (counts(row)) {
+        if (!row.null_row) {
             named.emplace(row_name(row), &row);
         }
     }
     return named;
 }
 
-// In the order of the rows.
 std::vector<std::string> names_only_in(const Results& here, const RowsByName& there) {
     std::vector<std::string> names;
     for (const Row& row : here.rows) {
-        if (counts(row) && !there.contains(row_name(row))) {
+        if (!row.null_row && !there.contains(row_name(row))) {
             names.push_back(row_name(row));
         }
     }
@@ -63,36 +58,34 @@ bool overlap(const ConfidenceInterval& a, const ConfidenceInterval& b) {
     return a.low <= b.high && b.low <= a.high;
 }
 
-ConfidenceInterval scaled(const ConfidenceInterval& interval, double factor) {
-    return {factor * interval.low, factor * interval.high};
-}
-
-// A time, or its ratio to texture.
-struct Pace {
+// Median in ms, or its ratio to texture.
+struct MedianTime {
     double value = 0.0;
     ConfidenceInterval interval;
     double noise = 0.0;
 };
 
-// Absent where it says nothing.
-std::optional<Pace> pace_of(const Timing& timing, bool as_ratio) {
+// Absent if there are too few frames or no ratio.
+std::optional<MedianTime> median_time(const Timing& timing, bool as_ratio) {
     if (!timing.interval || timing.frames < min_frames) {
         return std::nullopt;
     }
     const double noise = timing.noise_floor.value_or(0.0);
     if (!as_ratio) {
-        return Pace{timing.ms.median, *timing.interval, noise};
+        return MedianTime{timing.ms.median, *timing.interval, noise};
     }
     if (!timing.ratio_to_texture) {
         return std::nullopt;
     }
     const double ratio = *timing.ratio_to_texture;
-    return Pace{ratio, scaled(*timing.interval, ratio / timing.ms.median), noise};
+    const double factor = ratio / timing.ms.median;
+    return MedianTime{
+        ratio, {factor * timing.interval->low, factor * timing.interval->high}, noise};
 }
 
 std::optional<Change> time_change(const Row& a, const Row& b, bool as_ratio, double threshold) {
-    const auto before = pace_of(*a.timing, as_ratio);
-    const auto after = pace_of(*b.timing, as_ratio);
+    const auto before = median_time(a.timing, as_ratio);
+    const auto after = median_time(b.timing, as_ratio);
     if (!before || !after) {
         return std::nullopt;
     }
@@ -104,11 +97,10 @@ std::optional<Change> time_change(const Row& a, const Row& b, bool as_ratio, dou
     return change;
 }
 
-// One error of a row; infinite: it is not there.
 struct ErrorFigure {
     const char* name = "";
-    double value = 0.0;
-    double rounding = 0.0; ///< a difference up to it is none, in the error's unit
+    double value = 0.0;    // infinite: absent
+    double rounding = 0.0; // smaller differences do not count; in the error's unit
 };
 
 constexpr double hit_rounding = 0x1p-10;    // texels
@@ -142,7 +134,6 @@ Change error_change(const std::string& row, const ErrorFigure& before, const Err
     return change;
 }
 
-// Where only one run held the row against the truth.
 Change lost_error(const Row& a, const Row& b) {
     const auto value_in = [](const Row& row) {
         return row.error ? rms_of(row.error->reprojection_px)
@@ -173,7 +164,7 @@ std::string figure_text(double figure) {
     return std::isfinite(figure) ? fmt::format("{:.4g}", figure) : "none";
 }
 
-// "3.20" to "4.80" as "+50 %"; from nothing, or to no bound, nothing to tell in percent.
+// " (+50.0 %)"; empty if the change has no finite ratio.
 std::string percent_text(const Change& change) {
     const double share = (change.after - change.before) / change.before;
     return std::isfinite(share) ? fmt::format(" ({:+.1f} %)", 100.0 * share) : "";
@@ -200,16 +191,14 @@ std::string names_text(const std::vector<std::string>& names, std::string_view t
     return text.empty() ? "" : fmt::format("{}:\n{}", title, text);
 }
 
-// Why a run has not all rows.
-std::vector<std::string> incompleteness(const Results& results, std::string_view run) {
-    std::vector<std::string> notes;
+void add_incompleteness(std::vector<std::string>& notes, const Results& results,
+                        std::string_view run) {
     if (results.stopped) {
         notes.push_back(fmt::format("The {} run ended early: {}.", run, results.stopped->message));
     }
     if (!results.left_out.empty()) {
         notes.push_back(fmt::format("The {} run left settings out, for want of time.", run));
     }
-    return notes;
 }
 
 std::ptrdiff_t count_of(const std::vector<Change>& changes, Verdict verdict) {
@@ -223,30 +212,30 @@ std::size_t Comparison::regressions() const {
     return static_cast<std::size_t>(count_of(changes, Verdict::worse)) + only_a.size();
 }
 
-Comparison compare(const Results& a, const Results& b, const CompareOptions& options) {
-    check(options.threshold >= 0.0, "a threshold below 0");
+Comparison compare(const Results& a, const Results& b, double threshold) {
+    check(threshold >= 0.0, "a threshold below 0");
     Comparison comparison;
     comparison.same_environment = is_same_environment(a.environment, b.environment);
     const RowsByName rows_a = rows_by_name(a.rows);
     const RowsByName rows_b = rows_by_name(b.rows);
     comparison.only_a = names_only_in(a, rows_b);
     comparison.only_b = names_only_in(b, rows_a);
-    comparison.notes = incompleteness(a, "first");
-    const auto notes_b = incompleteness(b, "second");
-    comparison.notes.insert(comparison.notes.end(), notes_b.begin(), notes_b.end());
+    add_incompleteness(comparison.notes, a, "first");
+    add_incompleteness(comparison.notes, b, "second");
     for (const Row& row : a.rows) {
-        const auto first = rows_a.find(row_name(row));
-        const auto after = rows_b.find(row_name(row));
+        const std::string name = row_name(row);
+        const auto first = rows_a.find(name);
+        const auto after = rows_b.find(name);
         if (after == rows_b.end() || first == rows_a.end() || first->second != &row) {
             continue;
         }
         const bool as_ratio = !comparison.same_environment;
-        if (auto time = time_change(row, *after->second, as_ratio, options.threshold)) {
+        if (auto time = time_change(row, *after->second, as_ratio, threshold)) {
             comparison.changes.push_back(std::move(*time));
         } else {
-            comparison.untimed.push_back(after->first);
+            comparison.untimed.push_back(name);
         }
-        const auto errors = error_changes(row, *after->second, options.threshold);
+        const auto errors = error_changes(row, *after->second, threshold);
         comparison.changes.insert(comparison.changes.end(), errors.begin(), errors.end());
     }
     return comparison;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,48 +15,41 @@ struct Change {
     /// "median ms", "ratio to texture", "error px", "pixels without bound", "hit texels", "wrong
     /// %", "holes", "FLIP"
     std::string figure;
-    double before = 0.0; ///< infinite: an error that is not there
+    double before = 0.0; ///< infinite: no finite error
     double after = 0.0;
-    double noise = 0.0; ///< a share of the smaller one: changes up to it are none
+    double noise = 0.0; ///< a share of the smaller figure; smaller changes do not count
     Verdict verdict = Verdict::same;
 };
 
 struct Comparison {
-    std::vector<Change> changes;      ///< of the rows that both runs have, same ones too
-    std::vector<std::string> only_a;  ///< rows that the other run lacks
-    std::vector<std::string> only_b;  ///< likewise
-    std::vector<std::string> untimed; ///< rows of both runs whose times say nothing
-    std::vector<std::string> notes;   ///< why a run has not all rows
-    bool same_environment = true;     ///< else only ratios to texture are compared, not times
-    /// Figures that got worse, and rows that run `b` lacks.
+    std::vector<Change> changes;      ///< all figures of the rows of both runs
+    std::vector<std::string> only_a;  ///< rows only in run a
+    std::vector<std::string> only_b;  ///< rows only in run b
+    std::vector<std::string> untimed; ///< rows of both runs without comparable times
+    std::vector<std::string> notes;   ///< why a run is incomplete
+    bool same_environment = true;     ///< if false, ratios to texture replace times
+    /// Number of worse figures and of rows only in run a.
     [[nodiscard]] std::size_t regressions() const;
 };
 
-struct CompareOptions {
-    double threshold = 0.10; ///< changes up to this share are none; >= 0
-};
-
-/// What changed from run `a` to run `b`, row by row. Rows are one where suite, test, scene, pose,
-/// label and size are; null rows and missing ones are left out, of rows that are alike the first
-/// counts. Environments are one where renderer, OpenGL, context, threads and processor are; the
-/// commit may differ.
+/// Compares runs `a` and `b` row by row. Rows match by suite, test, scene, pose, label and size;
+/// null rows are skipped, and the first of equal rows counts. Environments match by renderer,
+/// OpenGL, context, threads and processor.
 ///
-/// A time has changed where it differs by more than the threshold and both noise floors, and the
-/// intervals of the medians do not overlap. Of rows that have under min_frames in either run, and
-/// of ratios that are absent, nothing is said: they are `untimed`.
+/// A time changed if it differs by more than `threshold` (a share, >= 0) and both noise floors, and
+/// the intervals of the medians do not overlap. Rows with fewer than min_frames frames or without a
+/// ratio are `untimed`.
 ///
-/// An error has changed where it differs by more than the threshold and by more than rounding can
-/// change it: the same picture has the same error, it has no noise. Rounding is
-/// - of a hit 2^-10 texels: hits are float32, whose unit in the last place is that up to column
-///   16383; of a reprojection error, where a texel is about a pixel wide, as many pixels;
-/// - of wrong pixels and of holes a ten-thousandth of the picture, one pixel at least: such as lie
-///   within that unit of the limit of one texel, hit errors spread over some ten texels;
-/// - of FLIP half a step of 8 bits, 1/510;
-/// - of pixels without a bound none: it puts no place behind the eye.
-/// An error that is not there is worse than any; where neither run measured one, none is compared.
-Comparison compare(const Results& a, const Results& b, const CompareOptions& options = {});
+/// An error changed if it differs by more than `threshold` and by more than rounding:
+/// - hits: 2^-10 texels, the unit in the last place of float32 up to column 16383; the same number
+///   of pixels for the reprojection error, where a texel is about a pixel wide;
+/// - wrong pixels and holes: 1/10,000 of the picture, at least one pixel: pixels whose hit error is
+///   within rounding of the limit of one texel;
+/// - FLIP: half a step of 8 bits, 1/510;
+/// - pixels without bound: 0, because rounding moves no place behind the eye.
+/// A missing error is worse than any; if neither run has one, nothing is compared.
+Comparison compare(const Results& a, const Results& b, double threshold = 0.10);
 
-/// The comparison for people: what changed, what is only in one run, and how much stayed as it was.
 std::string comparison_report(const Comparison& comparison);
 
 } // namespace reljef::bench

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <random>
 
 #include <fmt/format.h>
@@ -11,31 +9,28 @@
 #include "app/cli/message.h"
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
-
 #include "engine/scene/motion/camera_path.h"
 #include "engine/truth/geometric_error.h"
 
 namespace reljef::bench {
 namespace {
 
-using FigureJson = nlohmann::ordered_json;
+constexpr int random_step = 4;      // pixels between the checked ones of a random pose
+constexpr int flight_frames = 60;   // per path
+constexpr double flight_time = 3.0; // seconds of a path from its middle: 20 frames a second
 
-constexpr int random_step = 4;      // pixels between those that are judged of a random pose
-constexpr int flight_frames = 60;   // of a path
-constexpr double flight_time = 3.0; // seconds of the path, from its middle on: 20 frames a second
-
-constexpr double beyond = 0.2;     // of the width, beside the terrain
+constexpr double beyond = 0.2;     // of the width, outside the terrain
 constexpr double min_above = 0.02; // of the width, × e^-1 … e^3
 constexpr double usual_fov = 57.3; // degrees
 
-// The same numbers from every standard library, unlike its distributions.
+// Portable, unlike the standard library's distributions.
 double between(std::mt19937& random, double low, double high) {
     return low +
            (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
 }
 
-// In or beside the terrain, from a fiftieth of its width times 0.37 to 20 above the ground, towards
-// a point on it; every third with a field of view of 10 to 120 degrees.
+// In or beside the terrain, 0.0074 to 0.4 widths above the ground, towards a point of the terrain;
+// every third view has a field of view of 10 to 120 degrees.
 scene::Camera random_view(std::mt19937& random, const scene::TerrainSurface& surface, double near) {
     const Box& bounds = surface.bounds();
     const glm::dvec3 size = bounds.size();
@@ -60,19 +55,19 @@ struct Flight {
     scene::CameraPath path;
 };
 
-// Some pixels of a frame.
+// Every step-th pixel of a frame in both directions.
 struct PixelLattice {
     glm::ivec2 first{0};
     int step = 1;
 };
 
-struct FrameJudgement {
+struct FrameErrors {
     std::size_t pixels = 0;
     std::size_t violations = 0;
     std::size_t holes = 0;
     double worst = 0.0;
 
-    void add(const FrameJudgement& other) {
+    void add(const FrameErrors& other) {
         pixels += other.pixels;
         violations += other.violations;
         holes += other.holes;
@@ -80,18 +75,17 @@ struct FrameJudgement {
     }
 };
 
-// Judges frames of one stage.
-class Judge {
+class FrameChecker {
 public:
-    Judge(const BenchmarkScene& scene, glm::ivec2 size, double error, unsigned threads)
+    FrameChecker(const BenchmarkScene& scene, glm::ivec2 size, double error, unsigned threads)
         : surface_(*scene.terrain().get<scene::TerrainNode>()->surface),
           world_from_local_(scene.terrain().world_from_local()), size_(size), error_(error),
           threads_(threads) {}
 
-    FrameJudgement judge(const scene::Camera& camera, const HitBuffer& hits,
-                         const PixelLattice& lattice) const {
+    FrameErrors check_frame(const scene::Camera& camera, const HitBuffer& hits,
+                            const PixelLattice& lattice) const {
         const int rows = (size_.y - lattice.first.y + lattice.step - 1) / lattice.step;
-        std::vector<FrameJudgement> parts(static_cast<std::size_t>(rows));
+        std::vector<FrameErrors> parts(static_cast<std::size_t>(rows));
         const truth::SurfaceView view{surface_.heightfield().heights.view(), surface_.placement(),
                                       world_from_local_, camera};
         parallel_for(
@@ -99,32 +93,32 @@ public:
             [&](int index) {
                 const int y = lattice.first.y + index * lattice.step;
                 for (int x = lattice.first.x; x < size_.x; x += lattice.step) {
-                    judge_pixel(view, {x, y}, hits(x, y), parts[static_cast<std::size_t>(index)]);
+                    check_pixel(view, {x, y}, hits(x, y), parts[static_cast<std::size_t>(index)]);
                 }
             },
             {threads_, {}, {}});
-        FrameJudgement all;
-        for (const FrameJudgement& part : parts) {
+        FrameErrors all;
+        for (const FrameErrors& part : parts) {
             all.add(part);
         }
         return all;
     }
 
 private:
-    void judge_pixel(const truth::SurfaceView& view, glm::ivec2 pixel, const Hit& hit,
-                     FrameJudgement& judgement) const {
+    void check_pixel(const truth::SurfaceView& view, glm::ivec2 pixel, const Hit& hit,
+                     FrameErrors& errors) const {
         if (!truth::shows_terrain(hit)) {
-            judgement.holes += is_hole(view.camera, glm::dvec2(pixel) + 0.5) ? 1U : 0U;
+            errors.holes += is_hole(view.camera, glm::dvec2(pixel) + 0.5) ? 1U : 0U;
             return;
         }
         const double error = truth::reprojection_error(view, size_, pixel, hit);
-        ++judgement.pixels;
-        judgement.violations += error <= error_ ? 0 : 1;
-        judgement.worst = std::max(judgement.worst, error);
+        ++errors.pixels;
+        errors.violations += error <= error_ ? 0 : 1;
+        errors.worst = std::max(errors.worst, error);
     }
 
-    // The exact rays around it, farther away than the error that is allowed, all meet terrain: it
-    // is no silhouette that lies a little elsewhere.
+    // Whether the exact rays around the pixel, farther away than the error bound, all hit terrain.
+    // Otherwise it may be a silhouette that moved within the bound.
     [[nodiscard]] bool is_hole(const scene::Camera& camera, glm::dvec2 center) const {
         const double reach = error_ + 1.0;
         for (const int i : {4, 0, 1, 2, 3, 5, 6, 7, 8}) {
@@ -151,7 +145,7 @@ ErrorBoundRow row_of(const BenchmarkScene& scene, std::string views, double erro
     return row;
 }
 
-void add_frame(ErrorBoundRow& row, const FrameJudgement& frame, const scene::Camera& camera) {
+void add_frame(ErrorBoundRow& row, const FrameErrors& frame, const scene::Camera& camera) {
     ++row.frames;
     row.pixels += frame.pixels;
     row.violations += frame.violations;
@@ -164,11 +158,9 @@ void add_frame(ErrorBoundRow& row, const FrameJudgement& frame, const scene::Cam
 
 class ErrorBoundRun {
 public:
-    ErrorBoundRun(const ErrorBoundOptions& options, std::stop_token stop)
-        : options_(options), stop_(std::move(stop)), random_(options.seed),
-          line_("judging views", options.suite.quiet) {
-        results_.options = options;
-    }
+    ErrorBoundRun(ErrorBoundResults& results, std::stop_token stop)
+        : results_(results), options_(results.options), stop_(std::move(stop)),
+          random_(options_.seed), line_("judging views", options_.suite.quiet) {}
 
     Result<void> run() {
         auto device = make_device(options_.suite);
@@ -184,13 +176,10 @@ public:
         return {};
     }
 
-    ErrorBoundResults take() { return std::move(results_); }
-
 private:
     Result<void> run_terrain(std::size_t index, session::SceneRenderer& driver) {
-        const SuiteOptions& suite = options_.suite;
-        auto scene = BenchmarkScene::open({.terrain = options_.terrains[index]},
-                                          {suite.size, suite.threads, suite.quiet}, stop_);
+        auto scene =
+            BenchmarkScene::open({.terrain = options_.terrains[index]}, options_.suite, stop_);
         if (!scene) {
             return scene.error();
         }
@@ -204,7 +193,7 @@ private:
         };
         for (const Flight& flight : {Flight{"orbit", scene::orbit_path(bounds)},
                                      Flight{"flyover", scene::flyover_path(bounds, ground)}}) {
-            for (const double error : flight_errors()) {
+            for (const double error : options_.flight_errors) {
                 if (auto done = run_flight(*scene, flight, error, driver); !done) {
                     return done;
                 }
@@ -217,31 +206,25 @@ private:
         scene.set_technique(scene::Technique{scene::Polygons{.error = error}});
     }
 
-    [[nodiscard]] std::vector<double> flight_errors() const {
-        return options_.flight_errors.empty() ? std::vector{options_.error}
-                                              : options_.flight_errors;
-    }
-
-    // The terrain's share of all.
     [[nodiscard]] int poses_of(std::size_t index) const {
         const auto count = static_cast<int>(options_.terrains.size());
         return options_.poses / count + (static_cast<int>(index) < options_.poses % count ? 1 : 0);
     }
 
-    [[nodiscard]] Judge judge_of(const BenchmarkScene& scene, double error) const {
+    [[nodiscard]] FrameChecker checker_of(const BenchmarkScene& scene, double error) const {
         return {scene, options_.suite.size, error, static_cast<unsigned>(options_.suite.threads)};
     }
 
     Result<void> run_random(BenchmarkScene& scene, int poses, session::SceneRenderer& driver) {
         ErrorBoundRow row = row_of(scene, "random", options_.error);
-        const Judge judge = judge_of(scene, options_.error);
+        const FrameChecker checker = checker_of(scene, options_.error);
         const scene::TerrainSurface& surface = *scene.terrain().get<scene::TerrainNode>()->surface;
         const double near = scene.scene().camera().near;
         Result<void> done;
         for (int i = 0; i < poses && done && !stop_.stop_requested(); ++i) {
             scene.set_camera(random_view(random_, surface, near));
             const PixelLattice lattice{glm::ivec2(i, i / random_step) % random_step, random_step};
-            done = judge_frame(scene, lattice, judge, driver, row);
+            done = draw_and_check(scene, lattice, checker, driver, row);
             report_frame();
         }
         return keep(std::move(row), done);
@@ -251,7 +234,7 @@ private:
                             session::SceneRenderer& driver) {
         set_error(scene, error);
         ErrorBoundRow row = row_of(scene, flight.name, error);
-        const Judge judge = judge_of(scene, error);
+        const FrameChecker checker = checker_of(scene, error);
         const scene::Camera camera = scene.scene().camera();
         const double begin = flight.path.begin() + 0.5 * flight.path.duration();
         std::vector<double> ms;
@@ -266,7 +249,7 @@ private:
             }
             ms.push_back(stats->cpu_ms + stats->gpu_ms);
             triangles += static_cast<double>(stats->triangles);
-            done = judge_frame(scene, {}, judge, driver, row);
+            done = draw_and_check(scene, {}, checker, driver, row);
             report_frame();
         }
         if (row.frames > 0) {
@@ -276,15 +259,15 @@ private:
         return keep(std::move(row), done);
     }
 
-    Result<void> judge_frame(const BenchmarkScene& scene, const PixelLattice& lattice,
-                             const Judge& judge, session::SceneRenderer& driver,
-                             ErrorBoundRow& row) {
+    Result<void> draw_and_check(const BenchmarkScene& scene, const PixelLattice& lattice,
+                                const FrameChecker& checker, session::SceneRenderer& driver,
+                                ErrorBoundRow& row) {
         auto hits = driver.draw_hits(scene.scene());
         if (!hits) {
             return hits.error();
         }
         const scene::Camera camera = scene.scene().camera();
-        add_frame(row, judge.judge(camera, *hits, lattice), camera);
+        add_frame(row, checker.check_frame(camera, *hits, lattice), camera);
         return {};
     }
 
@@ -296,9 +279,9 @@ private:
     }
 
     void report_frame() {
-        const double frames = options_.poses + 2.0 * flight_frames *
-                                                   static_cast<double>(options_.terrains.size() *
-                                                                       flight_errors().size());
+        const auto flights =
+            2.0 * static_cast<double>(options_.terrains.size() * options_.flight_errors.size());
+        const double frames = options_.poses + flights * flight_frames;
         const double fraction = ++frames_ / frames;
         line_.update(fraction);
         if (options_.suite.progress) {
@@ -306,12 +289,12 @@ private:
         }
     }
 
+    ErrorBoundResults& results_;
     const ErrorBoundOptions& options_;
     std::stop_token stop_;
     std::mt19937 random_;
     cli::ProgressLine line_;
     double frames_ = 0.0;
-    ErrorBoundResults results_;
 };
 
 FigureJson worst_view(const ErrorBoundRow& row) {
@@ -326,23 +309,22 @@ FigureJson worst_view(const ErrorBoundRow& row) {
 
 } // namespace
 
-bool ErrorBoundResults::kept() const {
+bool ErrorBoundResults::within_bound() const {
     return std::all_of(rows.begin(), rows.end(), [](const ErrorBoundRow& row) {
         return row.violations == 0 && row.holes == 0;
     });
 }
 
 ErrorBoundResults run_error_bound(const ErrorBoundOptions& options, const std::stop_token& stop) {
-    ErrorBoundRun run(options, stop);
-    const auto done = run.run();
-    ErrorBoundResults results = run.take();
+    ErrorBoundResults results{.options = options};
+    const auto done = ErrorBoundRun(results, stop).run();
     results.end = run_end(done, stop, !results.rows.empty());
     return results;
 }
 
 FigureTable figure_table(const ErrorBoundResults& results) {
     const ErrorBoundOptions& options = results.options;
-    const std::string size = fmt::format("{}x{}", options.suite.size.x, options.suite.size.y);
+    const std::string size = size_text(options.suite.size);
     FigureTable table{.schema = "reljef-bench-promise/1",
                       .heading = fmt::format("--max-error {}, {}, {}, {} threads", options.error,
                                              size, cli::printable(results.environment.renderer),
@@ -375,7 +357,7 @@ FigureTable figure_table(const ErrorBoundResults& results) {
                               ms ? FigureJson(ms->p95) : FigureJson(),
                               ms ? FigureJson(ms->p99) : FigureJson()});
     }
-    if (!results.kept()) {
+    if (!results.within_bound()) {
         table.summary = "pixels over the bound, or holes, found; none were expected\n";
     }
     return table;

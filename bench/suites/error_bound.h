@@ -15,43 +15,42 @@ namespace reljef::bench {
 
 struct ErrorBoundOptions {
     SuiteOptions suite;
-    std::vector<std::string> terrains; ///< at least one
-    int poses = 10'000;                ///< random ones, shared evenly among the terrains
-    double error = 1.0;                ///< as --max-error, pixels
-    std::vector<double> flight_errors; ///< each flight once with each; empty: `error`
-    std::uint32_t seed = 1;            ///< of the random poses
+    std::vector<std::string> terrains;      ///< at least one
+    int poses = 10'000;                     ///< random poses, shared evenly among the terrains
+    double error = 1.0;                     ///< as --max-error, pixels
+    std::vector<double> flight_errors{1.0}; ///< bounds of the flights, pixels
+    std::uint32_t seed = 1;                 ///< of the random poses
 };
 
-/// How views of one kind kept --max-error.
+/// Check of --max-error in the views of one kind.
 struct ErrorBoundRow {
     std::string scene;
     std::string views;                  ///< "random", "orbit" or "flyover"
     double error = 1.0;                 ///< the bound, pixels
-    std::size_t frames = 0;             ///< judged
-    std::size_t pixels = 0;             ///< judged that show terrain
+    std::size_t frames = 0;             ///< checked
+    std::size_t pixels = 0;             ///< checked pixels that show terrain
     std::size_t violations = 0;         ///< pixels over the bound
-    std::size_t holes = 0;              ///< pixels without terrain, where terrain is all around
-    double worst_px = 0.0;              ///< infinity if a pixel's error has no bound
+    std::size_t holes = 0;              ///< pixels without terrain, surrounded by terrain
+    double worst_px = 0.0;              ///< infinite if a pixel is unbounded
     std::optional<scene::Camera> worst; ///< its view
-    std::optional<double> triangles;    ///< of flights: mean of the frames
+    std::optional<double> triangles;    ///< of flights: mean per frame
     std::optional<Summary> ms;          ///< of flights
 };
 
 struct ErrorBoundResults {
-    Environment environment;
-    ErrorBoundOptions options;
-    std::vector<ErrorBoundRow> rows;
-    RunEnd end;
+    Environment environment = {};
+    ErrorBoundOptions options = {};
+    std::vector<ErrorBoundRow> rows = {};
+    RunEnd end = {};
 
-    [[nodiscard]] bool kept() const; ///< without a violation or a hole
+    [[nodiscard]] bool within_bound() const; ///< no violation, no hole
 };
 
 FigureTable figure_table(const ErrorBoundResults& results);
 
-/// Draws each terrain from random poses and along the paths orbit and flyover, and compares what
-/// pixels show with the exact reprojection error (truth::reprojection_error): a sixteenth of the
-/// pixels of each random pose, in turns, and all pixels of the flights. Keeps the rows it has when
-/// it is stopped or fails.
+/// Draws each terrain from random poses and along the paths orbit and flyover. Computes the exact
+/// reprojection error of a sixteenth of the pixels of each random pose, alternating, and of all
+/// pixels of the flights. Keeps its rows when it is stopped or fails.
 ErrorBoundResults run_error_bound(const ErrorBoundOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

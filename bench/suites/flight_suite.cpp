@@ -12,12 +12,9 @@
 #include "engine/scene/motion/camera_path.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
-#include "engine/session/terrain_source.h"
 
 namespace reljef::bench {
 namespace {
-
-using FlightJson = nlohmann::ordered_json;
 
 Result<session::DeviceFrames> flight_device(const FlightOptions& options, session::Log& log) {
     auto device = session::Device::create({.context = options.view.context,
@@ -65,7 +62,7 @@ Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
     return {};
 }
 
-FlightJson stream_json(const scene::TileStreamStats& stats) {
+FigureJson stream_json(const scene::TileStreamStats& stats) {
     return {{"read", stats.read},
             {"failed", stats.failed},
             {"cancelled", stats.cancelled},
@@ -87,8 +84,8 @@ std::string times_line(std::string_view what, const std::vector<double>& ms) {
 std::string heading(const FlightResults& results) {
     const FlightOptions& options = results.options;
     std::string text = fmt::format(
-        "{}, {}x{}, {}, {} threads\nframes: {} in {:.1f} s, the first after {:.2f} s\n",
-        cli::printable(options.terrain.terrain), options.view.size.x, options.view.size.y,
+        "{}, {}, {}, {} threads\nframes: {} in {:.1f} s, the first after {:.2f} s\n",
+        cli::printable(options.terrain.terrain), size_text(options.view.size),
         cli::printable(results.environment.renderer), results.environment.threads,
         results.times.drawing_ms.size(), results.seconds, results.seconds_to_first_frame);
     text += times_line("drawing", results.times.drawing_ms);
@@ -128,7 +125,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     }
     results.seconds = watch.seconds();
     if (const auto good = results.raised.report(log, options.view.path); !good) {
-        log.note(good.error().message); // the times hold for the flight as it was flown
+        log.note(good.error().message); // the times are still valid
     }
     results.times = frames->times();
     results.end = run_end({}, stop, !results.times.drawing_ms.empty());
@@ -154,13 +151,13 @@ FigureTable figure_table(const FlightResults& results) {
         .settings = {{"environment", json_of(results.environment)},
                      {"terrain", options.terrain.terrain},
                      {"path", options.view.path},
-                     {"size", fmt::format("{}x{}", options.view.size.x, options.view.size.y)},
+                     {"size", size_text(options.view.size)},
                      {"frames", results.times.drawing_ms.size()},
                      {"seconds", results.seconds},
                      {"seconds_to_first_frame", results.seconds_to_first_frame},
                      {"drawing_ms", json_of(summarize(results.times.drawing_ms))},
                      {"waiting_ms", json_of(summarize(results.times.waiting_ms))},
-                     {"tiles", results.stream ? stream_json(*results.stream) : FlightJson()},
+                     {"tiles", results.stream ? stream_json(*results.stream) : FigureJson()},
                      {"faulty_files", results.failed_files},
                      {"memory",
                       {{"allowed", budget},

@@ -14,30 +14,29 @@ namespace reljef::bench {
 
 struct FlightOptions {
     cli::TerrainChoice terrain;
-    cli::ViewChoice view; ///< with the path and how many frames
+    cli::ViewChoice view; ///< with a path and the number of frames
 };
 
-/// A flight along a path over a terrain that is read as the view needs it, each frame drawn once
-/// all its tiles are there.
+/// A flight over a streamed terrain. Each frame is drawn when all its tiles are resident.
 struct FlightResults {
     FlightOptions options;
     Environment environment;
     double seconds_to_first_frame = 0.0; ///< from opening the terrain
-    double seconds = 0.0;                ///< all in all
+    double seconds = 0.0;                ///< in total
     session::FrameTimes times;
     cli::RaisedFrames raised;
-    std::optional<scene::TileStreamStats> stream; ///< absent where all fits the memory
+    std::optional<scene::TileStreamStats> stream; ///< absent if not streamed
     std::size_t failed_files = 0;
     std::size_t max_memory = 0; ///< of the process, bytes
     RunEnd end;
 };
 
-/// Fails where there is no terrain, path or context.
+/// Fails without a terrain, path or context.
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop);
 
 FigureTable figure_table(const FlightResults& results);
 
-/// As report() of a table. Fails too without a frame, and if files of the terrain were left out.
+/// As report() of a table. Also fails without a frame, and if files of the terrain were skipped.
 Result<void> report(const FlightResults& results, const std::filesystem::path& json);
 
 } // namespace reljef::bench

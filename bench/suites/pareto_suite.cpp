@@ -16,7 +16,7 @@ namespace {
 constexpr std::array poses{scene::Pose::overview, scene::Pose::oblique, scene::Pose::low,
                            scene::Pose::grazing};
 
-constexpr scene::Pose tile_pose = scene::Pose::oblique; // that of the sources' figures
+constexpr scene::Pose detail_pose = scene::Pose::oblique; // as in the figures of the sources
 
 constexpr int max_view_cols = 512; // there are hundreds of rows
 
@@ -34,12 +34,11 @@ double value_at(const scene::NumberInfo& parameter, double share) {
     return parameter.whole ? std::round(value) : value;
 }
 
-// What the command line would refuse is no setting.
 bool is_accepted(const scene::Technique& technique) {
     return scene::parse_technique(scene::to_string(technique)).has_value();
 }
 
-// What a technique costs by its kind, about: the first cost the least.
+// Ranks techniques by the typical cost of their kind.
 int cost_rank(const scene::TechniqueInfo& info) {
     constexpr int searches = 2;
     constexpr std::array<std::pair<std::string_view, int>, 5> ranks{
@@ -60,7 +59,7 @@ std::vector<scene::TechniqueInfo> by_cost(std::vector<scene::TechniqueInfo> info
     return infos;
 }
 
-// The values of a parameter but its default, by how many of them lie between.
+// The values of a parameter except its default, grouped by their distance from it in steps.
 std::vector<std::vector<double>> values_by_distance(const scene::NumberInfo& parameter) {
     const std::vector<double> values = values_over_range(parameter);
     const auto usual = std::find(values.begin(), values.end(), parameter.default_value);
@@ -73,7 +72,7 @@ std::vector<std::vector<double>> values_by_distance(const scene::NumberInfo& par
     return rings;
 }
 
-// A technique with one parameter as far from its default as `ring` says.
+// A technique with one parameter `ring` + 1 steps from its default.
 std::vector<scene::Technique> settings_of_ring(const scene::TechniqueInfo& info, std::size_t ring) {
     std::vector<scene::Technique> settings;
     for (const scene::ParameterInfo& parameter : info.parameters) {
@@ -89,8 +88,8 @@ std::vector<scene::Technique> settings_of_ring(const scene::TechniqueInfo& info,
     return settings;
 }
 
-// The words of an option but its default, by their places, or its range. Where the default is none
-// of its words, the first stands for all of them.
+// Indices of an option's words except its default. An option whose default is no word has a range;
+// its first word stands for it.
 std::vector<std::size_t> choices_of(const scene::OptionInfo& option) {
     const auto usual = static_cast<std::size_t>(
         std::find(option.words.begin(), option.words.end(), option.default_value) -
@@ -104,11 +103,11 @@ std::vector<std::size_t> choices_of(const scene::OptionInfo& option) {
     return choices;
 }
 
-// The cheap kinds first; the options of what is measured nowhere else.
+// Techniques that suit a scene; on heightfield textures also the options.
 std::vector<scene::Technique> usual_settings(const SceneChoice& scene) {
     const std::vector<scene::TechniqueInfo> infos = techniques_of(scene);
     std::vector<scene::Technique> settings = settings_over_range(infos);
-    if (suits(scene::TechniqueId::relief, scene) && !scene.tile.empty()) {
+    if (suits(scene::TechniqueId::relief, scene) && !scene.detail.empty()) {
         const auto options = settings_of_options();
         settings.insert(settings.begin() + static_cast<std::ptrdiff_t>(infos.size()),
                         options.begin(), options.end());
@@ -116,28 +115,26 @@ std::vector<scene::Technique> usual_settings(const SceneChoice& scene) {
     return settings;
 }
 
-std::vector<SceneChoice> pareto_stages(const ParetoOptions& options) {
+std::vector<SceneChoice> pareto_scenes(const ParetoOptions& options) {
     const std::vector<std::string> built_in{"gallery", "natural", "urban"};
-    const bool by_itself = options.terrains.empty();
+    const bool is_default = options.terrains.empty();
     std::vector<SceneChoice> scenes;
-    for (const std::string& terrain : by_itself ? built_in : options.terrains) {
+    for (const std::string& terrain : is_default ? built_in : options.terrains) {
         if (terrain == "gallery") {
-            const auto tiles = gallery_scenes();
-            scenes.insert(scenes.end(), tiles.begin(), tiles.end());
+            const auto details = gallery_scenes();
+            scenes.insert(scenes.end(), details.begin(), details.end());
         } else {
-            scenes.push_back({terrain, by_itself && options.suite.quick ? quick_samples : 0});
+            scenes.push_back({terrain, is_default && options.suite.quick ? quick_samples : 0});
         }
     }
     return scenes;
 }
 
-// Of those that were chosen; empty: all that suit it. A terrain that was named is to be drawn as
-// it was asked for, or the run says why not.
 std::vector<scene::Technique> settings_on(const SceneChoice& scene, const ParetoOptions& options) {
     if (options.techniques.empty()) {
         return usual_settings(scene);
     }
-    const bool takes_any = scene.tile.empty() && !options.terrains.empty();
+    const bool takes_any = scene.detail.empty() && !options.terrains.empty();
     std::vector<scene::Technique> settings;
     std::copy_if(
         options.techniques.begin(), options.techniques.end(), std::back_inserter(settings),
@@ -195,10 +192,10 @@ std::vector<scene::Technique> settings_of_options() {
 
 std::vector<Group> pareto_groups(const ParetoOptions& options) {
     std::vector<Group> groups;
-    for (const SceneChoice& scene : pareto_stages(options)) {
+    for (const SceneChoice& scene : pareto_scenes(options)) {
         const auto settings = settings_on(scene, options);
         for (const scene::Pose pose : poses) {
-            if (!settings.empty() && (scene.tile.empty() || pose == tile_pose)) {
+            if (!settings.empty() && (scene.detail.empty() || pose == detail_pose)) {
                 groups.push_back({"", scene, pose, candidates_of(settings)});
             }
         }

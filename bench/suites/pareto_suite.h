@@ -12,43 +12,39 @@ namespace reljef::bench {
 
 struct ParetoOptions {
     SuiteOptions suite;
-    /// Empty: the gallery's tiles (gallery_tiles.h), natural and urban, of quick_samples a side
-    /// where the run is quick; of the chosen techniques each on those that it suits.
+    /// Empty: the gallery (gallery_tiles.h), natural and urban, in a quick run with quick_samples a
+    /// side; techniques are then measured only on scenes that they suit.
     std::vector<std::string> terrains;
-    std::vector<scene::Technique> techniques; ///< beside texture; empty: settings_over_range()
+    std::vector<scene::Technique> techniques; ///< besides texture; empty: settings_over_range()
 };
 
-/// A quarter of a side of the built-in terrains: so polygons and cones, too, are measured in a
-/// minute.
+/// A quarter of the default side: a minute then suffices for polygons and cones, too.
 inline constexpr int quick_samples = 257;
 
-/// At most so many values of one parameter are measured.
+/// Maximum number of values of one parameter, besides its default.
 inline constexpr int max_values = 5;
 
-/// Values over the range of a parameter, its ends and its default among them, at most `max_values`
-/// and the default; in even steps of the logarithm where the range is above 0 and its end over ten
-/// times its beginning, else in even steps. Whole where it is. Ascending, none twice.
+/// Up to max_values values over the range of a parameter, with both ends, and its default: in equal
+/// steps of the logarithm if the range is positive and its end is more than 10 times its beginning,
+/// else in equal steps; rounded for whole parameters. Ascending, distinct.
 std::vector<double> values_over_range(const scene::NumberInfo& parameter);
 
-/// Every technique of a list as it is by default, the cheapest first by its kind: the flat one,
-/// parallax, searches, exact, what is prepared beforehand, triangles; then each with one parameter
-/// at a time over its range, as far as the catalogue takes it, the values next to the default
-/// first. None twice.
+/// The default of every technique, sorted by the typical cost of its kind: flat, parallax,
+/// searches, exact, precomputed, triangles. Then every technique with one parameter varied over its
+/// range, the values next to the default first. Distinct settings that the catalogue accepts.
 std::vector<scene::Technique>
 settings_over_range(const std::vector<scene::TechniqueInfo>& techniques);
 
-/// `relief` with each option there is, one at a time, as by default where it has numbers.
+/// `relief` with one option at a time; options with numbers have their defaults.
 std::vector<scene::Technique> settings_of_options();
 
-/// What run_pareto() measures: stages, poses and settings; of the chosen techniques each where it
-/// suits, but on a terrain that was named all of them.
+/// The scenes, poses and settings of run_pareto(). Chosen techniques are skipped on detail textures
+/// and default terrains that they do not suit.
 std::vector<Group> pareto_groups(const ParetoOptions& options);
 
-/// Time against error: the settings on each terrain from each of the poses overview, oblique, low
-/// and grazing, and on the gallery's tiles, those that suit each and the options, from oblique; and
-/// the front of each (pareto_front.h), without an area where the default of a
-/// technique was left out. Fails where a technique suits nothing of what is measured. See
-/// run_suite().
+/// Measures the settings on each terrain from the poses overview, oblique, low and grazing, and on
+/// each detail texture of the gallery from oblique, with the options. Adds the Pareto fronts. Fails
+/// if no technique suits any scene. See run_suite().
 Results run_pareto(const ParetoOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

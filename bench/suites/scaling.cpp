@@ -30,12 +30,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array scaling_poses{scene::Pose::overview, scene::Pose::low};
-constexpr int judged_step = 4; // pixels
+constexpr int checked_step = 4; // pixels
 constexpr int scaling_warm_up = 3;
 constexpr int scaling_frames = 20;
 constexpr double megabyte = 1024.0 * 1024.0;
 
-// Restarts the peak of process_memory() (proc(5), clear_refs).
+// Resets the peak of process_memory() (proc(5), clear_refs).
 void reset_peak_memory() {
     malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << "5";
@@ -80,25 +80,17 @@ Result<ScalingView> open_view(const fs::path& path, const ScalingOptions& option
     return ScalingView{watch, std::move(*device), std::move(*scene)};
 }
 
-void set_pose(session::TerrainScene& scene, scene::Pose pose) {
-    scene::Camera& camera = *scene.camera->get<scene::Camera>();
-    const double near = camera.near;
-    camera = scene::pose_camera(pose, scene.bounds,
-                                [&](double x, double y) { return scene.ground(x, y); });
-    camera.near = near;
-}
-
-// Knows the exact height at each sample of the raster.
-class ScalingJudge {
+// Reprojection errors against the exact heights at the samples of the raster.
+class ScalingErrors {
 public:
-    ScalingJudge(const ScalingView& scene, glm::ivec2 size, int side)
+    ScalingErrors(const ScalingView& scene, glm::ivec2 size, int side)
         : node_(*scene.scene.terrain->get<scene::TerrainNode>()),
           camera_(scene.scene.scene.camera()), size_(size), side_(side) {}
 
-    [[nodiscard]] std::vector<double> errors(const HitBuffer& hits) const {
+    [[nodiscard]] std::vector<double> of(const HitBuffer& hits) const {
         std::vector<double> errors;
-        for (int y = 0; y < size_.y; y += judged_step) {
-            for (int x = 0; x < size_.x; x += judged_step) {
+        for (int y = 0; y < size_.y; y += checked_step) {
+            for (int x = 0; x < size_.x; x += checked_step) {
                 if (truth::shows_terrain(hits(x, y))) {
                     errors.push_back(error({x, y}, hits(x, y)));
                 }
@@ -137,10 +129,8 @@ private:
 
 class ScalingRun {
 public:
-    ScalingRun(const ScalingOptions& options, std::stop_token stop)
-        : options_(options), stop_(std::move(stop)) {
-        results_.options = options;
-    }
+    ScalingRun(ScalingResults& results, std::stop_token stop)
+        : results_(results), options_(results.options), stop_(std::move(stop)) {}
 
     Result<void> run() {
         const std::vector<int>& sides = options_.sides;
@@ -159,8 +149,6 @@ public:
         }
         return {};
     }
-
-    ScalingResults take() { return std::move(results_); }
 
 private:
     Result<void> run_side(const fs::path& path, int side) {
@@ -184,7 +172,7 @@ private:
                 return done;
             }
             if (row.frames == 0) {
-                return {}; // stopped before
+                return {}; // stopped
             }
             results_.rows.push_back(row);
             if (options_.suite.progress) {
@@ -195,7 +183,7 @@ private:
         return {};
     }
 
-    // The first pose counts from opening the file, the others from moving the camera.
+    // Times the first pose from opening the file, the others from moving the camera.
     Result<void> draw(ScalingView& view, ScalingRow& row) const {
         const Stopwatch since_pose;
         const Stopwatch& watch = row.pose == scaling_poses.front() ? view.watch : since_pose;
@@ -240,8 +228,8 @@ private:
         if (!hits) {
             return hits.error();
         }
-        const ScalingJudge judge(view, options_.suite.size, row.side);
-        const std::vector<double> errors = judge.errors(*hits);
+        const ScalingErrors exact(view, options_.suite.size, row.side);
+        const std::vector<double> errors = exact.of(*hits);
         row.pixels = errors.size();
         if (!errors.empty()) {
             row.worst_px = *std::max_element(errors.begin(), errors.end());
@@ -250,12 +238,12 @@ private:
         return {};
     }
 
+    ScalingResults& results_;
     const ScalingOptions& options_;
     std::stop_token stop_;
-    ScalingResults results_;
 };
 
-// The lowest and the highest resolution from one pose; null where one is missing.
+// The lowest and the highest resolution from one pose; null if absent.
 std::array<const ScalingRow*, 2> extremes(const ScalingResults& results, scene::Pose pose) {
     const auto [low, high] =
         std::minmax_element(results.options.sides.begin(), results.options.sides.end());
@@ -306,9 +294,8 @@ void add_targets(const ScalingResults& results, FigureTable& table) {
 } // namespace
 
 ScalingResults run_scaling(const ScalingOptions& options, const std::stop_token& stop) {
-    ScalingRun run(options, stop);
-    const auto done = run.run();
-    ScalingResults results = run.take();
+    ScalingResults results{.options = options};
+    const auto done = ScalingRun(results, stop).run();
     results.end = run_end(done, stop, !results.rows.empty());
     return results;
 }
@@ -334,11 +321,11 @@ FigureTable figure_table(const ScalingResults& results) {
                                   {"/p99_px", "p99 px", 3}},
                       .end = results.end};
     table.heading =
-        fmt::format("--max-error {}, --memory {}, {}x{}, {}, {} threads", options.error,
-                    options.memory_megabytes, options.suite.size.x, options.suite.size.y,
+        fmt::format("--max-error {}, --memory {}, {}, {}, {} threads", options.error,
+                    options.memory_megabytes, size_text(options.suite.size),
                     cli::printable(results.environment.renderer), results.environment.threads);
     table.settings = {{"environment", json_of(results.environment)},
-                      {"size", fmt::format("{}x{}", options.suite.size.x, options.suite.size.y)},
+                      {"size", size_text(options.suite.size)},
                       {"max_error", options.error},
                       {"memory_mb", options.memory_megabytes},
                       {"marks", nullptr}};

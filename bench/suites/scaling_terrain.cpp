@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 
 constexpr double ground_side = 40'000.0; // metres
 constexpr glm::dvec2 ground_corner{380'000.0, 5'120'000.0};
-constexpr double bytes_a_sample = 4.0 * 17.0 / 16.0; // of the raster, its overviews included
+constexpr double bytes_a_sample = 4.0 * 17.0 / 16.0; // with overviews
 
-// The ground is a sum of waves of all directions, the shorter the lower.
+// The ground is a sum of waves in random directions. Shorter waves are lower.
 struct Wave {
     glm::dvec2 number{0.0}; // radians along the ground's sides
     double phase = 0.0;     // radians
@@ -35,30 +35,28 @@ struct Wave {
 constexpr std::size_t wave_count = 24;
 constexpr double mean_height = 1500.0;
 constexpr double first_height = 700.0;
-constexpr double first_number = 9.0; // radians along a side
-constexpr double shorter = 1.32;     // by so much each wave than the one before
-constexpr double lower = 1.4;
-
-std::array<Wave, wave_count> made_waves() {
-    std::array<Wave, wave_count> made;
-    double number = first_number;
-    double height = first_height;
-    for (std::size_t i = 0; i < wave_count; ++i) {
-        const auto chance = [&](std::uint32_t seed) {
-            return 2.0 * std::numbers::pi *
-                   terrains::unit_hash(seed, static_cast<std::int32_t>(i), 0);
-        };
-        const double direction = chance(1);
-        made[i] = {number * glm::dvec2(std::cos(direction), std::sin(direction)), chance(2),
-                   height};
-        number *= shorter;
-        height /= lower;
-    }
-    return made;
-}
+constexpr double first_number = 9.0;  // radians along a side
+constexpr double number_ratio = 1.32; // of successive waves
+constexpr double height_ratio = 1.4;
 
 const std::array<Wave, wave_count>& waves() {
-    static const std::array<Wave, wave_count> made = made_waves();
+    static const auto made = [] {
+        std::array<Wave, wave_count> made_waves;
+        double number = first_number;
+        double height = first_height;
+        for (std::size_t i = 0; i < wave_count; ++i) {
+            const auto random_angle = [&](std::uint32_t seed) {
+                return 2.0 * std::numbers::pi *
+                       terrains::unit_hash(seed, static_cast<std::int32_t>(i), 0);
+            };
+            const double direction = random_angle(1);
+            made_waves[i] = {number * glm::dvec2(std::cos(direction), std::sin(direction)),
+                             random_angle(2), height};
+            number *= number_ratio;
+            height /= height_ratio;
+        }
+        return made_waves;
+    }();
     return made;
 }
 
@@ -66,7 +64,7 @@ double place_of_sample(int sample, int side) {
     return (sample + 0.5) / side;
 }
 
-// Rows of samples: sin(x + y) = sin x cos y + cos x sin y, where x hangs on the column alone.
+// Computes rows of samples: sin(x + y) = sin x cos y + cos x sin y, x depends on the column only.
 class GroundRows {
 public:
     explicit GroundRows(int side) : side_(side) {

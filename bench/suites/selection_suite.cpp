@@ -16,7 +16,7 @@ constexpr double max_ms = 0.2; // for 10,000 tiles
 
 struct SelectionView {
     const char* name;
-    glm::dvec3 eye; // in sides of all copies from the middle of their southern border
+    glm::dvec3 eye; // relative to the southern border's middle, in sides of all copies
     glm::dvec3 target;
 };
 
@@ -92,7 +92,7 @@ SelectionResults run_selection(const SelectionOptions& options, const std::stop_
 FigureTable figure_table(const SelectionResults& results) {
     FigureTable table{.schema = "reljef-bench-selection/1",
                       .heading = "selecting the tiles of a view, without drawing them",
-                      .settings = nlohmann::ordered_json::object(),
+                      .settings = FigureJson::object(),
                       .columns = {{"/view", "view"},
                                   {"/tiles", "tiles"},
                                   {"/seen", "selected"},

@@ -12,15 +12,15 @@ namespace reljef::bench {
 
 struct SelectionOptions {
     SuiteOptions suite;
-    int copies = 60; ///< of a terrain of 13 x 13 tiles, side by side
+    int copies = 60; ///< of a terrain with 13 x 13 tiles, side by side
     int rounds = 1000;
 };
 
-/// Time to select the tiles of a view, without drawing them.
+/// Time to select the tiles of a view.
 struct SelectionRow {
     std::string view;
-    std::size_t tiles = 0;    ///< of the scene
-    std::size_t selected = 0; ///< of these
+    std::size_t tiles = 0; ///< in the scene
+    std::size_t selected = 0;
     Summary ms;
 };
 

@@ -39,9 +39,8 @@ constexpr std::array<SourceMeasurement, 24> measurements{{
 
 constexpr int chosen_configuration = 2;
 
-// What the sources call a technique.
 struct SourceTechnique {
-    std::string_view name;
+    std::string_view name; // the sources' name
     scene::Technique technique;
 };
 
@@ -75,19 +74,17 @@ Group group_of(std::string_view test, const SceneChoice& scene) {
     const std::vector<SourceMeasurement> found = measurements_of(test);
     Group group{std::string(test), scene, scene::Pose::overview, {}};
     for (const SourceMeasurement& measurement : found) {
-        Candidate candidate = candidate_of(technique_of(measurement.technique));
-        candidate.source =
-            SourceFigure{measurement.fps, found.front().fps / measurement.fps,
-                         fmt::format("{}, configuration {}", test, chosen_configuration)};
-        group.candidates.push_back(std::move(candidate));
+        group.candidates.push_back(
+            {technique_of(measurement.technique),
+             SourceFigure{measurement.fps, found.front().fps / measurement.fps,
+                          fmt::format("{}, configuration {}", test, chosen_configuration)}});
     }
     return group;
 }
 
-// The same with techniques that the sources do not have.
 Group with_ours(Group group, std::initializer_list<scene::Technique> techniques) {
     for (const scene::Technique& technique : techniques) {
-        group.candidates.push_back(candidate_of(technique));
+        group.candidates.push_back({technique});
     }
     return group;
 }

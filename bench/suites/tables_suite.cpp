@@ -14,7 +14,6 @@ namespace {
 
 constexpr glm::ivec2 sources_size{1024, 768};
 
-// Of a tile those of the chosen ones that suit it.
 std::vector<scene::Technique> techniques_on(const SceneChoice& scene,
                                             const std::vector<scene::Technique>& chosen) {
     std::vector<scene::Technique> techniques;
@@ -26,16 +25,17 @@ std::vector<scene::Technique> techniques_on(const SceneChoice& scene,
     }
     std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(techniques),
                  [&](const scene::Technique& technique) {
-                     return scene.tile.empty() || suits(technique.id(), scene);
+                     return scene.detail.empty() || suits(technique.id(), scene);
                  });
     return techniques;
 }
 
-void add_group(std::vector<Group>& groups, const SceneChoice& scene, scene::Pose usual_pose,
+void add_group(std::vector<Group>& groups, const SceneChoice& scene, scene::Pose default_pose,
                const TablesOptions& options) {
     const auto techniques = techniques_on(scene, options.techniques);
     if (!techniques.empty()) {
-        groups.push_back({"", scene, options.pose.value_or(usual_pose), candidates_of(techniques)});
+        groups.push_back(
+            {"", scene, options.pose.value_or(default_pose), candidates_of(techniques)});
     }
 }
 
@@ -47,8 +47,8 @@ std::vector<Group> terrain_groups(const TablesOptions& options) {
             add_group(groups, {terrain}, scene::Pose::overview, options);
             continue;
         }
-        for (const SceneChoice& tile : gallery_scenes()) {
-            add_group(groups, tile, scene::Pose::oblique, options);
+        for (const SceneChoice& detail : gallery_scenes()) {
+            add_group(groups, detail, scene::Pose::oblique, options);
         }
     }
     return groups;

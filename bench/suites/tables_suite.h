@@ -12,19 +12,16 @@ namespace reljef::bench {
 
 struct TablesOptions {
     SuiteOptions suite;
-    /// Every technique on each of them, of the gallery on its tiles (gallery_tiles.h); empty, and
-    /// `techniques` too: the sources' tests; empty otherwise: natural and urban.
+    /// "gallery" stands for its detail textures (gallery_tiles.h). Empty: natural and urban, or the
+    /// tests of the sources if `techniques` and `pose` are empty, too.
     std::vector<std::string> terrains;
-    /// On the terrains, beside texture, which is always measured; empty: every technique as it is
-    /// by default.
+    /// Besides texture; empty: the default of every technique.
     std::vector<scene::Technique> techniques;
-    /// From where; absent: the sources' tests, or overview, of the gallery's tiles oblique.
+    /// Absent: overview; of detail textures oblique.
     std::optional<scene::Pose> pose;
 };
 
-/// The sources' seven tests (source_tests.h), or the techniques on terrains of one's own, the whole
-/// terrain in view unless the pose says otherwise. Techniques of the sources that do not exist yet
-/// are missing rows. See run_suite().
+/// Measures the tests of the sources (source_tests.h) or techniques on terrains. See run_suite().
 Results run_tables(const TablesOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -1,6 +1,6 @@
 #include "tests/bench/bench_program.h"
 
-#include "bench/reljef_bench_program.h"
+#include "bench/commands.h"
 #include "tests/support/forked_program.h"
 
 namespace reljef::test {

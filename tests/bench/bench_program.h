@@ -8,7 +8,7 @@
 
 namespace reljef::test {
 
-/// An ESRI ASCII grid of 3 by 3 samples, which takes no time to open or draw.
+/// An ESRI ASCII grid of 3 by 3 samples.
 inline constexpr std::string_view small_dem =
     "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3\n4 5 6\n7 8 9\n";
 

@@ -16,7 +16,7 @@ TEST(BenchCtrlC, keeps_the_rows_it_has_and_leaves_no_part_files) {
     const auto dem = folder.write("dem.asc", test::small_dem).string();
     const auto file = folder.path() / "t.json";
     test::ProgramOptions options;
-    options.interruption = {SIGINT, [](int process) { // some of a million rounds are over
+    options.interruption = {SIGINT, [](int process) { // after some of a million rounds
                                 return test::processor_seconds(process) > 5.0;
                             }};
     const auto result =

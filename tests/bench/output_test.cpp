@@ -99,7 +99,7 @@ TEST(BenchOutputs, page_that_cannot_be_written_is_refused_before_measuring) {
 TEST(BenchOutputs, folder_named_with_a_slash_at_its_end_is_that_folder) {
     const test::TemporaryFolder folder;
     const OutputChoice choice{{}, {}, {}, folder.path() / "page" / ""};
-    for (int time = 0; time < 2; ++time) { // there is none, there is one
+    for (int time = 0; time < 2; ++time) { // without and with the folder
         ASSERT_TRUE(check_outputs(choice, {}));
         testing::internal::CaptureStdout();
         const auto done = report(test::made_results(), choice);
@@ -110,7 +110,7 @@ TEST(BenchOutputs, folder_named_with_a_slash_at_its_end_is_that_folder) {
     EXPECT_THAT(folder.names(), ElementsAre("page"));
 }
 
-// What is told of it, nothing where it is none.
+// The usage error; empty if there is none.
 std::string misuse_of(const OutputChoice& choice) {
     try {
         static_cast<void>(check_outputs(choice, {}));
@@ -173,16 +173,16 @@ TEST(BenchOutputs, page_that_fails_keeps_the_other_files_as_they_were) {
 TEST(BenchOutputs, folder_that_was_made_goes_again_where_it_stays_empty) {
     const test::TemporaryFolder folder;
     const auto page = folder.path() / "page";
-    ASSERT_TRUE(MadeFolder::make(page));
+    ASSERT_TRUE(make_folder(page));
     EXPECT_FALSE(std::filesystem::exists(page)); // the object is gone
     {
-        const auto made = MadeFolder::make(page);
+        const auto made = make_folder(page);
         ASSERT_TRUE(made);
         std::ofstream(page / "a file") << "kept";
     }
     EXPECT_TRUE(std::filesystem::exists(page / "a file"));
     std::filesystem::remove(page / "a file");
-    ASSERT_TRUE(MadeFolder::make(page));
+    ASSERT_TRUE(make_folder(page));
     EXPECT_TRUE(std::filesystem::exists(page)); // it was there before
 }
 

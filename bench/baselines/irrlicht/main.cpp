@@ -1,6 +1,5 @@
-// Draws a terrain with Irrlicht's terrain node, as reljef-bench asks: see protocol.h.
+// Draws a terrain with Irrlicht's terrain node for reljef-bench, see protocol.h.
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -52,7 +51,7 @@ std::optional<Arguments> arguments_of(const std::vector<std::string>& words) {
     return arguments;
 }
 
-// Irrlicht's y is up and its z north: east, up, north.
+// Irrlicht's axes are east, up, north.
 core::vector3df from_east_north_up(std::istream& words) {
     f32 east = 0.0F;
     f32 north = 0.0F;
@@ -61,9 +60,9 @@ core::vector3df from_east_north_up(std::istream& words) {
     return {east, up, north};
 }
 
-class Peer {
+class Renderer {
 public:
-    explicit Peer(Arguments arguments) : arguments_(std::move(arguments)) {
+    explicit Renderer(Arguments arguments) : arguments_(std::move(arguments)) {
         SIrrlichtCreationParameters parameters;
         parameters.DriverType = video::EDT_OPENGL;
         parameters.WindowSize = arguments_.size;
@@ -83,14 +82,14 @@ public:
                                 static_cast<f32>(arguments_.size.Height));
         texture_ = make_texture();
     }
-    Peer(const Peer&) = delete;
-    ~Peer() {
+    Renderer(const Renderer&) = delete;
+    ~Renderer() {
         if (device_ != nullptr) {
             device_->drop();
         }
     }
 
-    [[nodiscard]] bool is_there() const { return device_ != nullptr; }
+    [[nodiscard]] bool is_open() const { return device_ != nullptr; }
 
     std::string answer(const std::string& line) {
         std::istringstream words(line);
@@ -153,12 +152,12 @@ private:
 
     std::string place_eye(std::istream& words) {
         const core::vector3df eye = from_east_north_up(words);
-        const core::vector3df look = from_east_north_up(words);
+        const core::vector3df target = from_east_north_up(words);
         f32 near = 1.0F;
         f32 far = 2.0F;
         words >> near >> far;
         camera_->setPosition(eye);
-        camera_->setTarget(look);
+        camera_->setTarget(target);
         camera_->updateAbsolutePosition();
         camera_->setNearValue(near);
         camera_->setFarValue(far);
@@ -218,14 +217,14 @@ int main(int argc, char** argv) {
         std::cout << "failed eight arguments and the files they name were expected" << std::endl;
         return EXIT_FAILURE;
     }
-    Peer baseline(std::move(*arguments));
-    if (!baseline.is_there()) {
+    Renderer renderer(std::move(*arguments));
+    if (!renderer.is_open()) {
         std::cout << "failed Irrlicht opens no window here" << std::endl;
         return EXIT_FAILURE;
     }
     std::cout << "ok" << std::endl;
     for (std::string line; std::getline(std::cin, line) && line != "quit";) {
-        std::cout << baseline.answer(line) << std::endl;
+        std::cout << renderer.answer(line) << std::endl;
     }
     return EXIT_SUCCESS;
 }

@@ -74,7 +74,7 @@ TEST(BenchPeers, BothShowTheSameTerrain) {
     EXPECT_EQ(report.at("complete"), true);
     ASSERT_EQ(report.at("rows").size(), 18U);
     for (std::size_t i = 0; i < 18; i += 9) {
-        const auto& irrlicht = report.at("rows").at(i); // every sample a vertex
+        const auto& irrlicht = report.at("rows").at(i); // with a vertex for every sample
         const auto& polygons = report.at("rows").at(i + 5);
         EXPECT_EQ(irrlicht.at("triangles"), 2048);
         EXPECT_EQ(irrlicht.at("what"), "irrlicht:lods=1");

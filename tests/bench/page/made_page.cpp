@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "bench/report/report_json.h"
 #include "tests/bench/report/made_results.h"
 
 namespace reljef::test {
@@ -13,7 +12,7 @@ namespace {
 
 struct MadeRow {
     std::string label;
-    double ms = 0.0; ///< 0: it is missing
+    double ms = 0.0;
     double error_px = 0.0;
     double source_fps = 0.0;
 };
@@ -43,16 +42,9 @@ bench::RowError error_of(double rms_px) {
 bench::Row row_of(const MadeRow& made, double texture_ms) {
     bench::Row row = made_results().rows[0];
     row.setting = setting_named(made.label);
-    row.timing->stats.triangles = made.label.starts_with("polygons") ? 2'093'058 : 2;
-    if (made.ms > 0.0) {
-        const auto stats = row.timing->stats;
-        row.timing = made_timing(made.ms, made.ms / texture_ms);
-        row.timing->stats = stats;
-        row.error = error_of(made.error_px);
-    } else {
-        row.timing.reset();
-        row.error.reset();
-    }
+    row.timing = made_timing(made.ms, made.ms / texture_ms);
+    row.timing.stats.triangles = made.label.starts_with("polygons") ? 2'093'058 : 2;
+    row.error = error_of(made.error_px);
     return row;
 }
 
@@ -74,7 +66,7 @@ std::vector<bench::Row> rows_of(const std::string& test, const std::string& scen
 
 } // namespace
 
-std::string made_report(const std::string& scene) {
+bench::Results made_report(const std::string& scene) {
     bench::Results results = made_results();
     results.rows = rows_of("relief-4", "natural",
                            {{"texture", 6.31, 7.94, 824.0},
@@ -84,8 +76,7 @@ std::string made_report(const std::string& scene) {
                             {"polygons:lods=5", 12.4, 0.43, 170.0},
                             {"parallax", 8.05, 5.12, 716.0},
                             {"relief:steps=64", 61.3, 0.18, 55.0},
-                            {"exact", 93.7, 0.0004, 0.0},
-                            {"cone:steps=32", 0.0, 0.0, 0.0}});
+                            {"exact", 93.7, 0.0004, 0.0}});
     results.rows[1].error->reprojection_px->unbounded = 3;
     results.rows.push_back(results.rows[0]);
     results.rows.back().null_row = true;
@@ -97,16 +88,16 @@ std::string made_report(const std::string& scene) {
                                               {"relief:steps=8", 17.2, 9.31, 0.0}});
     others[1].error->reprojection_px.reset();
     others[1].error->hit_texels.reset();
-    others[2].timing->noise_floor = 0.143;
-    others[3].timing->frames = 3;
-    others[3].timing->interval.reset();
-    others[3].timing->noise_floor.reset();
+    others[2].timing.noise_floor = 0.143;
+    others[3].timing.frames = 3;
+    others[3].timing.interval.reset();
+    others[3].timing.noise_floor.reset();
     results.rows.insert(results.rows.end(), others.begin(), others.end());
     results.notes = {"a note on " + scene};
-    return bench::json_report(results);
+    return results;
 }
 
-std::string made_pareto_report() {
+bench::Results made_pareto_report() {
     std::vector<MadeRow> made{{"texture", 6.31, 7.94}};
     for (int steps = 8; steps <= 256; steps *= 2) {
         made.push_back({"relief:steps=" + std::to_string(steps), 7.5 + 0.8 * steps, 22.0 / steps});
@@ -126,10 +117,10 @@ std::string made_pareto_report() {
     front.holed = {"relief:steps=8"};
     results.fronts = {front};
     results.left_out = {{"natural", scene::Pose::overview, 7, {"exact"}}};
-    return bench::json_report(results);
+    return results;
 }
 
-std::vector<bench::RowPictures> made_pictures(int cols, int rows) {
+bench::Results with_pictures(bench::Results results, int cols, int rows) {
     Image shown(cols, rows);
     Image truth(cols, rows);
     Grid<float> error(cols, rows);
@@ -149,9 +140,10 @@ std::vector<bench::RowPictures> made_pictures(int cols, int rows) {
     }
     const auto right = std::make_shared<const Image>(truth);
     bench::RowViews views;
-    const auto shown_view = views.make({shown, right, error}).value();
-    const auto true_view = views.make({truth, right, error}).value();
-    return {{0, shown_view}, {1, true_view}, {2, shown_view}};
+    results.rows[0].view = views.make({shown, right, error}).value();
+    results.rows[1].view = views.make({truth, right, error}).value();
+    results.rows[2].view = results.rows[0].view;
+    return results;
 }
 
 } // namespace reljef::test

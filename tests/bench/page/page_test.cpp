@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/page/page_data_uri.h"
-#include "bench/report/page_heat_map.h"
 #include "bench/report/report_json.h"
 #include "tests/bench/page/made_page.h"
 #include "tests/bench/report/made_results.h"
@@ -38,27 +36,32 @@ std::string data_of(const std::string& page, const std::string& id) {
     return page.substr(begin, page.find("</script>", begin) - begin);
 }
 
-std::string page_of(const std::string& report, std::span<const RowPictures> pictures = {}) {
+Result<void> write_page(const std::filesystem::path& folder, const Results& results) {
+    auto page = prepare_page(folder, results);
+    return page ? page->file.commit() : page.error();
+}
+
+std::string page_of(const Results& results) {
     const test::TemporaryFolder folder;
-    const auto written = write_page(folder.path() / "page", report, pictures);
+    const auto written = write_page(folder.path() / "page", results);
     EXPECT_TRUE(written) << written.error().message;
     return test::read_bytes(folder.path() / "page" / "index.html");
 }
 
 TEST(Page, holds_the_report_as_it_is) {
-    const std::string report = test::made_report();
+    const Results report = test::made_report();
     const std::string page = page_of(report);
-    EXPECT_EQ(json::parse(data_of(page, "report")), json::parse(report));
+    EXPECT_EQ(json::parse(data_of(page, "report")), json::parse(json_report(report)));
     EXPECT_EQ(count_of(page, "<!DOCTYPE html>"), 1U);
     EXPECT_EQ(count_of(page, "</html>"), 1U);
 }
 
 TEST(Page, refers_to_nothing_outside_itself) {
-    const std::string page = page_of(test::made_report(), test::made_pictures());
+    const std::string page = page_of(test::with_pictures(test::made_report()));
     EXPECT_EQ(count_of(page, "src=\""), 0U);
     EXPECT_EQ(count_of(page, "url("), 0U);
     EXPECT_EQ(count_of(page, "@import"), 0U);
-    EXPECT_EQ(count_of(page, "<link"), 1U); // an icon of no bytes, lest one be asked for
+    EXPECT_EQ(count_of(page, "<link"), 1U); // an empty icon; without it browsers request one
     EXPECT_EQ(count_of(page, "http"), 2U);  // the policy, and the name of SVG
     EXPECT_THAT(page, HasSubstr("default-src 'none'"));
     EXPECT_THAT(page, Not(HasSubstr("{{")));
@@ -68,9 +71,9 @@ TEST(Page, no_name_ends_a_script_or_begins_markup) {
     for (const char* const name :
          {"</script><script>alert(1)</script>", "<!--<script>", "]]>{{pictures}}",
           "a\"b'c&amp;<img>", "\\u003c/script>", "</SCRIPT >"}) {
-        const std::string report = test::made_report(name);
+        const Results report = test::made_report(name);
         const std::string page = page_of(report);
-        EXPECT_EQ(json::parse(data_of(page, "report")), json::parse(report)) << name;
+        EXPECT_EQ(json::parse(data_of(page, "report")), json::parse(json_report(report))) << name;
         EXPECT_EQ(count_of(page, "<script"), count_of(page_of(test::made_report()), "<script"));
         EXPECT_EQ(data_of(page, "report").find('<'), std::string::npos) << name;
         EXPECT_EQ(count_of(page, "</html>"), 1U);
@@ -83,7 +86,7 @@ TEST(Page, any_name_comes_back_as_it_was) {
     for (int round = 0; round < 200; ++round) {
         std::string name;
         for (int i = 0; i < 24; ++i) {
-            name += letters[random() % (letters.size() - 2)]; // no half of the last letter
+            name += letters[random() % (letters.size() - 2)]; // only whole UTF-8 letters
         }
         const std::string page = page_of(test::made_report(name));
         ASSERT_EQ(json::parse(data_of(page, "report"))["rows"].back()["scene"], name);
@@ -91,15 +94,15 @@ TEST(Page, any_name_comes_back_as_it_was) {
 }
 
 TEST(Page, takes_what_the_json_report_writes) {
-    const std::string page = page_of(json_report(test::made_results("caf\xE9.tif")));
+    const std::string page = page_of(test::made_results("caf\xE9.tif"));
     EXPECT_EQ(json::parse(data_of(page, "report")).at("rows").size(), 3U);
 }
 
 TEST(Page, rows_of_one_view_share_their_truth) {
     const json album =
-        json::parse(data_of(page_of(test::made_report(), test::made_pictures()), "album"));
+        json::parse(data_of(page_of(test::with_pictures(test::made_report())), "album"));
     ASSERT_EQ(album.at("rows").size(), 3U);
-    EXPECT_EQ(album.at("images").size(), 7U); // three times shown and heat, one truth
+    EXPECT_EQ(album.at("images").size(), 7U); // three pictures, three heat maps, one truth
     for (const json& row : album.at("rows")) {
         EXPECT_EQ(row.at("truth"), album.at("rows").at(0).at("truth"));
         EXPECT_NE(row.at("heat"), row.at("shown"));
@@ -116,39 +119,22 @@ TEST(Page, rows_of_one_view_share_their_truth) {
 
 TEST(Page, folder_is_made_where_its_parent_exists) {
     const test::TemporaryFolder folder;
-    const auto refused = write_page(folder.path() / "none" / "page", test::made_report(), {});
+    const auto refused = write_page(folder.path() / "none" / "page", test::made_report());
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, HasSubstr("none"));
     EXPECT_TRUE(folder.names().empty());
-    ASSERT_TRUE(write_page(folder.path() / "page", test::made_report(), {}));
+    ASSERT_TRUE(write_page(folder.path() / "page", test::made_report()));
     EXPECT_EQ(folder.names(), std::vector<std::string>{"page"});
 }
 
 TEST(Page, file_in_place_of_the_folder_is_named_and_kept) {
     const test::TemporaryFolder folder;
     const auto file = folder.write("page", "earlier");
-    for (const auto& refused :
-         {write_page(file, test::made_report(), {}), check_page_target(file)}) {
+    for (const auto& refused : {write_page(file, test::made_report()), check_page_target(file)}) {
         ASSERT_FALSE(refused);
         EXPECT_THAT(refused.error().message, HasSubstr("page"));
     }
     EXPECT_EQ(test::read_bytes(file), "earlier");
-}
-
-TEST(Page, what_is_no_report_keeps_the_earlier_page) {
-    const test::TemporaryFolder folder;
-    const auto file = folder.write("index.html", "earlier");
-    const std::string report = test::made_report();
-    for (const std::string& text :
-         {std::string(), report.substr(0, report.size() / 2), std::string("[]"),
-          std::string(R"({"schema":"reljef-bench/2","rows":[]})"), std::string(R"({"schema":1})"),
-          std::string(R"({"schema":"reljef-bench/1","rows":1})"), "\xE9" + report}) {
-        const auto refused = write_page(folder.path(), text, {});
-        ASSERT_FALSE(refused) << text.substr(0, 40);
-        EXPECT_THAT(refused.error().message, HasSubstr("reljef-bench/1"));
-    }
-    EXPECT_EQ(test::read_bytes(file), "earlier");
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"index.html"});
 }
 
 TEST(Page, target_is_checked_without_a_trace) {
@@ -159,18 +145,6 @@ TEST(Page, target_is_checked_without_a_trace) {
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, HasSubstr("none"));
     EXPECT_TRUE(folder.names().empty());
-}
-
-TEST(PageDeathTest, pictures_of_no_row_and_rows_without_pictures_are_refused) {
-    const test::TemporaryFolder folder;
-    auto pictures = test::made_pictures();
-    pictures[1].row = 99;
-    EXPECT_DEATH(static_cast<void>(write_page(folder.path(), test::made_report(), pictures)),
-                 "not in the report");
-    pictures = test::made_pictures();
-    pictures[1].view = nullptr;
-    EXPECT_DEATH(static_cast<void>(write_page(folder.path(), test::made_report(), pictures)),
-                 "without pictures");
 }
 
 // RFC 4648, section 10.
@@ -188,23 +162,23 @@ TEST(DataUri, is_base64_as_the_standard_has_it) {
     }
 }
 
-// What no browser can be found for is skipped, not passed.
+// Skipped without a browser.
 TEST(PageInBrowser, loads_plots_sorts_wipes_and_fits_everywhere) {
     RELJEF_RELEASE_ONLY("the browser is not ours, and the page has tests of its own");
     const test::TemporaryFolder folder;
-    const auto pictures = test::made_pictures();
     const std::string hostile =
         "</script><script>window.broken=1</script><img src=x onerror=window.broken=2>.tif";
-    ASSERT_TRUE(write_page(folder.path() / "tables", test::made_report(), pictures));
-    ASSERT_TRUE(write_page(folder.path() / "pareto", test::made_pareto_report(), {}));
-    ASSERT_TRUE(write_page(folder.path() / "hostile", test::made_report(hostile), pictures));
+    ASSERT_TRUE(write_page(folder.path() / "tables", test::with_pictures(test::made_report())));
+    ASSERT_TRUE(write_page(folder.path() / "pareto", test::made_pareto_report()));
+    ASSERT_TRUE(
+        write_page(folder.path() / "hostile", test::with_pictures(test::made_report(hostile))));
 
     Results bare = test::made_results();
     bare.stopped = Error{"interrupted"};
     for (Row& row : bare.rows) {
         row.error.reset();
     }
-    ASSERT_TRUE(write_page(folder.path() / "bare", json_report(bare), {}));
+    ASSERT_TRUE(write_page(folder.path() / "bare", bare));
 
     const auto folder_of = [&](const char* name) { return (folder.path() / name).string(); };
     test::ProgramOptions options;

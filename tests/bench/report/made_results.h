@@ -15,7 +15,7 @@ bench::RowError made_error(double rms_px);
 /// A run on the scene `scene`: texture, polygons that take four times as long, and the null row.
 bench::Results made_results(const std::string& scene = "natural");
 
-/// The same as the sources' test relief-4, with their figures and a row of relief that is missing.
+/// The same as the sources' test relief-4, with their figures and a row of relief.
 bench::Results made_source_results();
 
 } // namespace reljef::test

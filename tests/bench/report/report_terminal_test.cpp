@@ -23,7 +23,7 @@ std::string line_with(const std::string& report, const std::string& word) {
     return {};
 }
 
-// Characters on the screen, for UTF-8.
+// Width of UTF-8 text on the screen.
 std::size_t width_of(const std::string& line) {
     std::size_t width = 0;
     for (const char c : line) {
@@ -52,17 +52,11 @@ TEST(TerminalReport, sources_figures_stand_beside_ours) {
     EXPECT_THAT(terminal_report(test::made_results()), Not(HasSubstr("source")));
 }
 
-TEST(TerminalReport, missing_technique_is_told_and_has_no_figure_of_ours) {
-    const std::string report = terminal_report(test::made_source_results());
-    EXPECT_THAT(line_with(report, "relief  "), HasSubstr("55.0   14.98"));
-    EXPECT_THAT(report, HasSubstr("missing, not there yet: relief\n"));
-}
-
 TEST(TerminalReport, noisy_table_says_so) {
     Results results = test::made_results();
     EXPECT_THAT(terminal_report(results), Not(HasSubstr("NOISY")));
     for (Row& row : results.rows) {
-        row.timing->noise_floor = 0.123;
+        row.timing.noise_floor = 0.123;
     }
     EXPECT_THAT(terminal_report(results), HasSubstr("noise floor 12.3 %: NOISY\n"));
 }
@@ -93,7 +87,7 @@ TEST(TerminalReport, ratio_is_no_figure_where_texture_shows_nothing) {
     Results results = test::made_results();
     results.rows[0].error->reprojection_px.reset();
     for (Row& row : results.rows) {
-        row.timing->ratio_to_texture.reset();
+        row.timing.ratio_to_texture.reset();
     }
     const std::string report = terminal_report(results);
     EXPECT_THAT(line_with(report, "polygons"), HasSubstr("–     –"));
@@ -169,21 +163,21 @@ TEST(TerminalReport, long_notes_and_fronts_are_broken_between_words) {
 
 TEST(TerminalReport, times_below_a_millisecond_keep_their_digits) {
     Results results = test::made_results();
-    results.rows[0].timing->ms = {0.042, 0.051, 0.06};
+    results.rows[0].timing.ms = {0.042, 0.051, 0.06};
     EXPECT_THAT(terminal_report(results), HasSubstr("0.042"));
 }
 
 TEST(TerminalReport, floor_that_was_not_measured_is_told) {
     Results results = test::made_results();
     results.rows.resize(1);
-    results.rows[0].timing->noise_floor.reset();
+    results.rows[0].timing.noise_floor.reset();
     EXPECT_THAT(terminal_report(results), HasSubstr("noise floor unknown"));
 }
 
 TEST(TerminalReport, cautions_about_too_few_frames) {
     Results results = test::made_results();
     EXPECT_THAT(terminal_report(results), Not(HasSubstr("Caution")));
-    results.rows[1].timing->frames = 4;
+    results.rows[1].timing.frames = 4;
     EXPECT_THAT(terminal_report(results), HasSubstr("Caution: under 5 frames"));
 }
 

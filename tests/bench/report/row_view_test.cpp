@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/report/page_heat_map.h"
 #include "engine/io/image/image.h"
 #include "tests/support/temporary_folder.h"
 
@@ -43,7 +42,7 @@ TEST(RowViewTest, AReducedColourIsTheLinearMean) {
     const auto made = RowViews(32).make(view).value();
     EXPECT_EQ(made->size, glm::ivec2(32, 32));
     const Rgba8 middle = decoded(made->shown, "shown.jpg")(16, 16);
-    EXPECT_NEAR(middle.r, 188, 2); // half the light; 128 were the mean of the codes
+    EXPECT_NEAR(middle.r, 188, 2); // half the light; the mean of the sRGB values is 128
 }
 
 TEST(RowViewTest, AReducedErrorIsTheGreatestAndNoneOnlyWhereAllAreNone) {

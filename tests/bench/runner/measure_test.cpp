@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// Things to draw that write down their order and take a known time of a made-up clock.
+// Frames that record their order and take a known time of a simulated clock.
 class Measuring : public testing::Test {
 protected:
     DrawFrame thing(char name, double takes_ms) {
@@ -144,7 +144,7 @@ TEST_F(Measuring, progress_rises_to_one) {
     }
 }
 
-// Texture and texture again, whose second takes `times` as long as the first until `quiet_at_ms`.
+// Two equal frames; the second takes `times` as long as the first until `quiet_at_ms`.
 class MeasuringNoise : public Measuring {
 protected:
     std::vector<DrawFrame> pair(double times, double quiet_at_ms) {

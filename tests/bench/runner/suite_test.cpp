@@ -12,19 +12,12 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Candidate, of_the_catalogue_has_every_parameter_in_its_label) {
-    const Candidate candidate = candidate_of(scene::Technique{scene::Polygons{}});
-    ASSERT_TRUE(candidate.technique);
-    EXPECT_EQ(candidate.setting.technique, "polygons");
-    EXPECT_EQ(candidate.setting.label, scene::to_string(*candidate.technique));
-    EXPECT_EQ(candidate.setting.parameters.front().name, "lods");
-}
-
-// Without a technique where the catalogue has none of that name.
-Candidate candidate_named(const std::string& text) {
-    const auto technique = scene::parse_technique(text);
-    return technique ? candidate_of(*technique)
-                     : Candidate{{text, {}, text}, std::nullopt, std::nullopt};
+TEST(SettingOf, has_every_parameter_in_its_label) {
+    const scene::Technique polygons{scene::Polygons{}};
+    const Setting setting = setting_of(polygons);
+    EXPECT_EQ(setting.technique, "polygons");
+    EXPECT_EQ(setting.label, scene::to_string(polygons));
+    EXPECT_EQ(setting.parameters.front().name, "lods");
 }
 
 class SuiteOnTinyTerrain : public testing::Test {
@@ -41,7 +34,7 @@ protected:
     Group group(const std::string& dem, std::vector<std::string> techniques) {
         Group group{"a test", {folder_.write("dem.asc", dem).string()}, scene::Pose::overview, {}};
         for (const std::string& technique : techniques) {
-            group.candidates.push_back(candidate_named(technique));
+            group.candidates.push_back({scene::parse_technique(technique).value()});
         }
         return group;
     }
@@ -49,20 +42,18 @@ protected:
     test::TemporaryFolder folder_;
 };
 
-TEST_F(SuiteOnTinyTerrain, missing_technique_is_a_row_without_figures) {
-    Group with_missing = group(std::string(test::small_dem), {"texture", "magic", "polygons"});
-    with_missing.candidates[1].source = SourceFigure{50.0, 2.0, "somewhere"};
-    const Results results = run_suite({"a suite", {with_missing}}, options(), {});
+TEST_F(SuiteOnTinyTerrain, row_has_the_figures_of_its_own_technique) {
+    Group both = group(std::string(test::small_dem), {"texture", "polygons"});
+    both.candidates[1].source = SourceFigure{50.0, 2.0, "somewhere"};
+    const Results results = run_suite({"a suite", {both}}, options(), {});
     ASSERT_FALSE(results.stopped) << results.stopped->message;
-    ASSERT_EQ(results.rows.size(), 4U);
-    EXPECT_TRUE(results.rows[1].missing());
-    EXPECT_FALSE(results.rows[1].error);
+    ASSERT_EQ(results.rows.size(), 3U);
     EXPECT_EQ(results.rows[1].source->fps, 50.0);
     EXPECT_EQ(results.rows[1].test, "a test");
-    EXPECT_EQ(results.rows[2].setting.technique, "polygons");
-    EXPECT_EQ(results.rows[2].timing->stats.triangles, 8U); // its own, not the next one's
-    EXPECT_TRUE(results.rows[3].null_row);
-    EXPECT_EQ(results.rows[3].timing->stats.triangles, 2U);
+    EXPECT_EQ(results.rows[1].setting.technique, "polygons");
+    EXPECT_EQ(results.rows[1].timing.stats.triangles, 8U);
+    EXPECT_TRUE(results.rows[2].null_row);
+    EXPECT_EQ(results.rows[2].timing.stats.triangles, 2U);
 }
 
 TEST_F(SuiteOnTinyTerrain, pose_of_the_group_is_that_of_the_picture) {
@@ -75,12 +66,12 @@ TEST_F(SuiteOnTinyTerrain, pose_of_the_group_is_that_of_the_picture) {
     ASSERT_EQ(results.rows.size(), 6U);
     EXPECT_EQ(results.rows[0].pose, scene::Pose::map);
     EXPECT_EQ(results.rows[3].pose, scene::Pose::low);
-    // Straight down, flat or not, every place is where it is.
+    // Seen straight down, a flat surface shows every place at its position.
     EXPECT_LT(results.rows[0].error->reprojection_px->distribution.max, 0.01);
     EXPECT_GT(results.rows[3].error->reprojection_px->distribution.rms, 1.0);
 }
 
-// Seen from its own valley floor, a bowl's flat surface, at its rim or above, is overhead.
+// From the floor of a bowl, the flat surface at the height of its rim is overhead.
 TEST_F(SuiteOnTinyTerrain,
        technique_that_shows_none_of_the_terrain_there_is_has_holes_and_no_zero) {
     Group below = group("ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
@@ -96,13 +87,13 @@ TEST_F(SuiteOnTinyTerrain,
     EXPECT_GT(texture.wrong_percent, 10.0);
     EXPECT_GT(texture.holes, 0U);
     EXPECT_TRUE(results.rows[1].error->reprojection_px);
-    for (const Row& row : results.rows) { // a ratio to a picture of nothing says nothing
-        EXPECT_GT(row.timing->ms.median, 0.0);
-        EXPECT_FALSE(row.timing->ratio_to_texture);
+    for (const Row& row : results.rows) { // no ratio to a picture without terrain
+        EXPECT_GT(row.timing.ms.median, 0.0);
+        EXPECT_FALSE(row.timing.ratio_to_texture);
     }
     EXPECT_TRUE(results.rows[2].null_row);
-    EXPECT_EQ(results.rows[2].setting.technique, "polygons"); // nor does a floor of its time
-    EXPECT_EQ(results.rows[2].timing->stats.triangles, 32U);
+    EXPECT_EQ(results.rows[2].setting.technique, "polygons"); // not texture
+    EXPECT_EQ(results.rows[2].timing.stats.triangles, 32U);
 }
 
 TEST_F(SuiteOnTinyTerrain, under_five_frames_there_is_no_interval_no_floor_and_the_row_is_noisy) {
@@ -110,21 +101,21 @@ TEST_F(SuiteOnTinyTerrain, under_five_frames_there_is_no_interval_no_floor_and_t
     few.rounds = 4;
     const Group both = group(std::string(test::small_dem), {"texture", "polygons"});
     for (const Row& row : run_suite({"a suite", {both}}, few, {}).rows) {
-        EXPECT_FALSE(row.timing->interval);
-        EXPECT_FALSE(row.timing->noise_floor);
+        EXPECT_FALSE(row.timing.interval);
+        EXPECT_FALSE(row.timing.noise_floor);
         EXPECT_TRUE(row.noisy());
     }
     few.rounds = 5;
     for (const Row& row : run_suite({"a suite", {both}}, few, {}).rows) {
-        EXPECT_TRUE(row.timing->interval);
-        EXPECT_TRUE(row.timing->noise_floor);
+        EXPECT_TRUE(row.timing.interval);
+        EXPECT_TRUE(row.timing.noise_floor);
     }
 }
 
 TEST_F(SuiteOnTinyTerrain, cpu_renderer_tells_no_time_of_a_gpu) {
     const Group one = group(std::string(test::small_dem), {"texture"});
     for (const Row& row : run_suite({"a suite", {one}}, options(), {}).rows) {
-        EXPECT_FALSE(row.timing->gpu_ms);
+        EXPECT_FALSE(row.timing.gpu_ms);
     }
 }
 
@@ -154,7 +145,7 @@ TEST_F(SuiteOnTinyTerrain, settings_without_time_are_left_out_counted_and_named)
     EXPECT_EQ(run_suite(whole, hurried, {}).rows.size(), 5U);
 }
 
-TEST_F(SuiteOnTinyTerrain, stop_while_judging_keeps_what_is_judged) {
+TEST_F(SuiteOnTinyTerrain, stop_while_errors_are_measured_keeps_what_is_done) {
     std::vector<std::string> labels{"texture"};
     for (int n = 1; n <= 30; ++n) {
         labels.push_back("relief:n=" + std::to_string(n) + ",k=1");
@@ -163,7 +154,7 @@ TEST_F(SuiteOnTinyTerrain, stop_while_judging_keeps_what_is_judged) {
     int told = 0;
     auto watched = options();
     watched.progress = [&](double /*fraction*/) {
-        if (++told == 3) { // three are judged
+        if (++told == 3) { // three errors are measured
             stop.request_stop();
         }
     };
@@ -175,7 +166,7 @@ TEST_F(SuiteOnTinyTerrain, stop_while_judging_keeps_what_is_judged) {
     EXPECT_EQ(results.rows[2].setting.label, "relief:n=2,k=1");
     EXPECT_TRUE(results.rows[3].null_row);
     for (const Row& row : results.rows) {
-        EXPECT_EQ(row.timing->frames, 1U);
+        EXPECT_EQ(row.timing.frames, 1U);
         EXPECT_TRUE(row.error);
         EXPECT_TRUE(row.noisy());
     }
@@ -185,7 +176,7 @@ TEST_F(SuiteOnTinyTerrain, stop_while_judging_keeps_what_is_judged) {
                                                      "stopped")));
 }
 
-// The terrain is a thread of 1 mm by 200 m; the rays of 32 rows pass it by two metres and more.
+// The terrain is 1 mm by 200 m; the rays of 32 rows miss it by at least two metres.
 TEST_F(SuiteOnTinyTerrain, picture_without_a_pixel_of_terrain_is_an_error_and_keeps_earlier_rows) {
     const Group seen = group(std::string(test::small_dem), {"texture"});
     Group unseen = seen;

@@ -39,7 +39,7 @@ TEST(TimeTable, only_quick_runs_that_are_not_told_their_rounds_are_bounded) {
     EXPECT_EQ(measuring(rounds, 1, 0.0).max_rounds, 3);
 }
 
-// Whatever the groups take, if each keeps to its share the run keeps to the minute.
+// If each group keeps to its share, the run ends within a minute.
 TEST(TimeTable, groups_that_keep_to_their_share_end_in_time) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -54,26 +54,28 @@ TEST(TimeTable, groups_that_keep_to_their_share_end_in_time) {
 }
 
 TEST(TimeTable, candidate_more_costs_what_those_before_it_did) {
-    const GroupCost cost{.elapsed = 3.0, .judging = 0.8, .judged = 4, .round = 0.6, .frames = 6};
+    const GroupCost cost{
+        .elapsed = 3.0, .error_seconds = 0.8, .checked = 4, .round = 0.6, .frames = 6};
     const GroupCost more = with_another(cost);
     EXPECT_DOUBLE_EQ(more.elapsed, 3.2);
-    EXPECT_DOUBLE_EQ(more.judging, 1.0);
-    EXPECT_EQ(more.judged, 5);
+    EXPECT_DOUBLE_EQ(more.error_seconds, 1.0);
+    EXPECT_EQ(more.checked, 5);
     EXPECT_DOUBLE_EQ(more.round, 0.7);
     EXPECT_EQ(more.frames, 7);
     EXPECT_DOUBLE_EQ(with_another(cost, 2.0).round, 2.6);
     EXPECT_EQ(with_another({}).round, 0.0);
 }
 
-TEST(TimeTable, group_fits_where_all_it_judged_can_be_drawn_often_enough) {
-    const GroupCost cost{.elapsed = 2.0, .judging = 1.0, .judged = 1, .round = 0.5, .frames = 2};
+TEST(TimeTable, group_fits_if_all_its_candidates_can_be_drawn_often_enough) {
+    const GroupCost cost{
+        .elapsed = 2.0, .error_seconds = 1.0, .checked = 1, .round = 0.5, .frames = 2};
     const double needed = 2.0 + 0.5 * static_cast<double>(min_frames);
     EXPECT_TRUE(fits(cost, needed));
     EXPECT_FALSE(fits(cost, needed - 0.01));
     EXPECT_TRUE(fits(cost, std::numeric_limits<double>::infinity()));
 }
 
-// Candidates are let in one by one, as the suite does; each costs what the book says.
+// Adds candidates one by one, as the suite does.
 TEST(TimeTable, candidates_that_were_let_in_fit_into_the_groups_time) {
     std::mt19937 random(2);
     std::lognormal_distribution<double> seconds(-3.0, 1.0);

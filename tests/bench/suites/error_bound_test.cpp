@@ -21,14 +21,14 @@ ErrorBoundOptions few_poses(const std::string& terrain) {
     return options;
 }
 
-TEST(ErrorBound, judges_random_poses_and_two_flights_the_same_each_time) {
-    RELJEF_RELEASE_ONLY("drawing and judging have tests of their own");
+TEST(ErrorBound, checks_random_poses_and_two_flights_the_same_each_time) {
+    RELJEF_RELEASE_ONLY("drawing and checking have tests of their own");
     const test::TemporaryFolder folder;
     const auto dem = folder.write("dem.asc", test::small_dem).string();
     const ErrorBoundResults results = run_error_bound(few_poses(dem), {});
     ASSERT_FALSE(results.end.stopped) << results.end.stopped->message;
     ASSERT_EQ(results.rows.size(), 3U);
-    EXPECT_TRUE(results.kept());
+    EXPECT_TRUE(results.within_bound());
     EXPECT_EQ(results.rows[0].views, "random");
     EXPECT_EQ(results.rows[0].frames, 10U);
     EXPECT_GT(results.rows[0].pixels, 100U);
@@ -41,7 +41,7 @@ TEST(ErrorBound, judges_random_poses_and_two_flights_the_same_each_time) {
     EXPECT_EQ(report.at("rows").at(1).at("views"), "orbit");
 }
 
-TEST(ErrorBound, flights_are_judged_by_each_error_that_is_asked_for) {
+TEST(ErrorBound, flights_are_checked_with_each_error_bound) {
     const test::TemporaryFolder folder;
     auto options = few_poses(folder.write("dem.asc", test::small_dem).string());
     options.poses = 1;
@@ -62,9 +62,9 @@ TEST(ErrorBound, flights_are_judged_by_each_error_that_is_asked_for) {
 TEST(ErrorBound, a_pixel_too_far_off_is_a_violation) {
     ErrorBoundResults results;
     results.rows.emplace_back();
-    EXPECT_TRUE(results.kept());
+    EXPECT_TRUE(results.within_bound());
     results.rows.back().violations = 1;
-    EXPECT_FALSE(results.kept());
+    EXPECT_FALSE(results.within_bound());
     EXPECT_NE(figure_table(results).summary, "");
 }
 

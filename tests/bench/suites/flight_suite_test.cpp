@@ -10,7 +10,7 @@
 namespace reljef::bench {
 namespace {
 
-/// 301 by 301 samples on Earth, of which a megabyte holds an overview.
+/// 301 by 301 samples on Earth; a memory budget of 1 MB holds an overview.
 std::string large_dem() {
     std::string text = "ncols 301\nnrows 301\nxllcenter 7\nyllcenter 45\ncellsize 0.001\n";
     for (int row = 0; row < 301; ++row) {
@@ -48,7 +48,7 @@ TEST(Flight, counts_what_it_read_took_and_waited_for) {
     EXPECT_FALSE(results->end.stopped);
     ASSERT_TRUE(results->stream);
     EXPECT_GT(results->stream->read, 1);
-    // Each sample is two characters or more of text, but bytes are those of the values: four.
+    // Counts the four bytes of each value, not the characters of the text.
     EXPECT_GE(results->stream->bytes_read, 4U * 129U * 129U);
     EXPECT_EQ(results->times.drawing_ms.size(), 4U);
     EXPECT_EQ(results->times.waiting_ms.size(), 4U);

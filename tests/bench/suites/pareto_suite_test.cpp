@@ -65,7 +65,7 @@ TEST(SettingsOverRange, begin_with_every_technique_the_cheap_kinds_first) {
     EXPECT_LT(place("exact"), place("polygons"));
 }
 
-// Else a run short of time would look at all of one technique and at nothing of the next.
+// A run that is short of time then measures some settings of every technique.
 TEST(SettingsOverRange, go_through_the_techniques_in_turns_from_their_defaults_outward) {
     const std::vector<scene::Technique> settings = settings_over_range(scene::terrain_techniques());
     const auto place = [&](const std::string& label) {
@@ -91,10 +91,10 @@ std::vector<std::string> planned(const std::vector<std::string>& techniques,
     }
     std::vector<std::string> rows;
     for (const Group& group : pareto_groups(options)) {
-        const std::string scene = group.scene.tile.empty() ? group.scene.terrain : group.scene.tile;
+        const std::string scene = group.scene.detail.empty() ? group.scene.terrain : group.scene.detail;
         for (const Candidate& candidate : group.candidates) {
             rows.push_back(scene + " " + std::string(scene::to_string(group.pose)) + " " +
-                           candidate.setting.label);
+                           scene::to_string(candidate.technique));
         }
     }
     return rows;

@@ -45,7 +45,7 @@ TEST_F(Scaling, TheSameGroundIsSeenWholeAndTileByTile) {
     EXPECT_THAT(figure_markdown(figure_table(results)), testing::HasSubstr("| 700 | low | true |"));
 }
 
-// Ten times the time, the picture soon, and just the memory that there is.
+// Ten times the frame time, an early first picture and exactly the memory budget.
 ScalingResults made_scaling() {
     ScalingResults results;
     results.options.sides = {64, 700};

@@ -29,8 +29,7 @@ TEST(SourceTests, there_are_seven_and_each_begins_with_texture) {
     std::set<std::string> names;
     for (const Group& group : source_groups()) {
         names.insert(group.test);
-        EXPECT_EQ(group.candidates.front().setting.label, "texture");
-        EXPECT_TRUE(group.candidates.front().technique);
+        EXPECT_EQ(group.candidates.front().technique.id(), scene::TechniqueId::texture);
         EXPECT_EQ(group.pose, scene::Pose::overview);
     }
     EXPECT_EQ(names, (std::set<std::string>{"parallax-1", "parallax-2", "parallax-3", "relief-1",
@@ -41,8 +40,9 @@ TEST(SourceTests, every_candidate_has_the_sources_figure_of_the_newer_machine) {
     for (const Group& group : source_groups()) {
         const double texture = group.candidates.front().source->fps;
         for (const Candidate& candidate : group.candidates) {
-            const bool is_ours = candidate.setting.technique == "exact" ||
-                                 candidate.setting.label.find("error=") != std::string::npos;
+            const bool is_ours =
+                setting_of(candidate.technique).technique == "exact" ||
+                setting_of(candidate.technique).label.find("error=") != std::string::npos;
             ASSERT_NE(candidate.source.has_value(), is_ours);
             if (is_ours) {
                 EXPECT_EQ(group.test, "relief-4");
@@ -60,12 +60,12 @@ TEST(SourceTests, relief_4_asks_for_all_its_techniques_by_our_names) {
                                        [](const Group& group) { return group.test == "relief-4"; });
     std::vector<std::string> techniques;
     for (const Candidate& candidate : relief_4->candidates) {
-        techniques.push_back(candidate.setting.technique);
+        techniques.push_back(setting_of(candidate.technique).technique);
     }
     EXPECT_THAT(techniques, testing::ElementsAre("texture", "polygons", "polygons", "polygons",
                                                  "parallax", "relief", "polygons", "exact"));
     EXPECT_EQ(relief_4->candidates[1].source->fps, 5.0);
-    EXPECT_EQ(relief_4->candidates[1].setting.label, "polygons:lods=1");
+    EXPECT_EQ(scene::to_string(relief_4->candidates[1].technique), "polygons:lods=1");
 }
 
 TEST(SourceTests, quick_ones_differ_in_one_terrain_alone) {

@@ -1,4 +1,4 @@
-#include "bench/report/page_heat_map.h"
+#include "bench/report/row_view.h"
 
 #include <cmath>
 #include <limits>
@@ -78,7 +78,7 @@ TEST(HeatMap, no_bound_and_no_error_have_marks_of_their_own) {
     const Image hatch = heat_map(Grid<float>(16, 16, none));
     int lines = 0;
     for (const Rgba8 pixel : hatch.samples()) {
-        EXPECT_LT(std::abs(pixel.r - pixel.b), 8); // grey, as no colour of the scale is
+        EXPECT_LT(std::abs(pixel.r - pixel.b), 8); // grey, unlike the scale
         lines += pixel == hatch(0, 0) ? 1 : 0;
     }
     EXPECT_EQ(lines, 64); // a quarter of it
