@@ -10,6 +10,7 @@
 #include "app/cli/message.h"
 #include "app/cli/options.h"
 #include "app/cli/parsed_option.h"
+#include "app/cli/standard_input.h"
 #include "app/commands.h"
 #include "app/place_file.h"
 #include "engine/core/parallel_for.h"
@@ -196,6 +197,10 @@ cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt) {
                      "file with a line LAT,LON for each place; - for standard input")
         ->type_name("FILE");
     arguments->callback([choice] {
+        if (choice->terrain.terrain == "-" && choice->points == "-") {
+            throw CLI::ValidationError(
+                "--points: - found, and TERRAIN is - too; one standard input was expected");
+        }
         if (choice->places.empty() && choice->points.empty()) {
             throw CLI::ValidationError("height: no place found, --at LAT,LON or --points FILE was "
                                        "expected");
@@ -208,7 +213,10 @@ cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt) {
         "Examples:\n"
         "  reljef height N45E006.hgt --at 45.8326,6.8652\n"
         "  reljef height tiles/ --points - < places.csv > heights.csv");
-    return {arguments, [choice, &interrupt] { return print_heights(*choice, interrupt); }};
+    return {arguments, [choice, &interrupt] {
+                return cli::with_standard_input(choice->terrain.terrain, interrupt.token(),
+                                                [&] { return print_heights(*choice, interrupt); });
+            }};
 }
 
 } // namespace reljef::app

@@ -11,6 +11,7 @@
 
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"
+#include "app/cli/standard_input.h"
 #include "app/commands.h"
 #include "engine/io/raster/raster.h"
 #include "engine/session/terrain_source.h"
@@ -310,7 +311,10 @@ cli::Command add_info_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_terrain_options(*arguments, choice->terrain);
     arguments->add_flag("--json", choice->json, "print JSON");
     arguments->footer("Examples:\n  reljef info N45E006.hgt\n  reljef info dem.tif --json");
-    return {arguments, [choice, &interrupt] { return print_info(*choice, interrupt); }};
+    return {arguments, [choice, &interrupt] {
+                return cli::with_standard_input(choice->terrain.terrain, interrupt.token(),
+                                                [&] { return print_info(*choice, interrupt); });
+            }};
 }
 
 } // namespace reljef::app

@@ -10,6 +10,7 @@
 #include "app/cli/output_files.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/raised_frames.h"
+#include "app/cli/standard_input.h"
 #include "app/cli/usage_error.h"
 #include "app/commands.h"
 #include "app/frame_sink.h"
@@ -402,7 +403,10 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef render urban --detail cobble:width=3 -o street.png\n"
         "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
         "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr");
-    return {arguments, [choice, &interrupt] { return render(*choice, interrupt); }};
+    return {arguments, [choice, &interrupt] {
+                return cli::with_standard_input(choice->terrain.terrain, interrupt.token(),
+                                                [&] { return render(*choice, interrupt); });
+            }};
 }
 
 } // namespace reljef::app

@@ -7,6 +7,7 @@
 
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"
+#include "app/cli/standard_input.h"
 #include "app/commands.h"
 #include "app/viewer/opening.h"
 #include "app/viewer/viewer.h"
@@ -116,7 +117,8 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef view urban --technique texture --size 1600x900");
     return {arguments, [arguments, choice, &interrupt] {
                 choice->frames_given = arguments->count("--frames") > 0;
-                return view(*choice, interrupt);
+                return cli::with_standard_input(choice->terrain.terrain, interrupt.token(),
+                                                [&] { return view(*choice, interrupt); });
             }};
 }
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/standard_input.h"
 #include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/suites/flight_suite.h"
@@ -49,7 +50,11 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
         "Example:\n"
         "  reljef-bench flight srtm/ --path track.gpx --frames 6000 --memory 64 --json "
         "flight.json");
-    return {arguments, [choice, &interrupt] { return run_flight_command(*choice, interrupt); }};
+    return {arguments, [choice, &interrupt] {
+                return cli::with_standard_input(
+                    choice->options.terrain.terrain, interrupt.token(),
+                    [&] { return run_flight_command(*choice, interrupt); });
+            }};
 }
 
 } // namespace reljef::bench

@@ -13,7 +13,7 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
     command.add_flag("--quick", options.quick,
                      "finish within a minute: smaller pictures, fewer frames");
     cli::add_parsed(command, "--rounds", options.rounds,
-                    cli::whole_number_in("--rounds", 1, 1'000'000),
+                    cli::number_in<int>("--rounds", 1, 1'000'000),
                     "frames per technique (at least 5, and as many as fit in 20 s per table, or in "
                     "60 s if it is noisy)",
                     "N");
@@ -30,7 +30,7 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
         "OpenGL context: auto, glfw (window), egl (GPU without a window) or osmesa (CPU) (auto)",
         "KIND");
     cli::add_parsed(command, "--threads", options.threads,
-                    cli::whole_number_in("--threads", 0, 1024),
+                    cli::number_in<int>("--threads", 0, 1024),
                     "number of threads; 0: one per processor (0)", "N");
     command
         .add_option("--shader-dir", options.shader_dir,

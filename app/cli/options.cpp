@@ -295,7 +295,8 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
             "TERRAIN", choice.terrain,
             "natural, urban, gallery, a scene file (.toml), a DEM file in any format of GDAL, a "
             "folder of DEM files, an https:// address, or web tiles with heights in colours: "
-            "terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png")
+            "terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png; - for a DEM file from "
+            "standard input")
         ->required();
     add_parsed(command, "--area", choice.area, parse_area,
                "use only this part of a folder of files, degrees", "SOUTH,WEST,NORTH,EAST");

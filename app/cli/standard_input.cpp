@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <system_error>
 #include <vector>
@@ -19,18 +20,27 @@ namespace fs = std::filesystem;
 
 constexpr int poll_ms = 100; // how late Ctrl-C may be noticed
 
-Result<std::shared_ptr<const fs::path>> temporary_folder() {
-    std::error_code code;
-    std::string name = (fs::temp_directory_path(code) / "reljef-XXXXXX").string();
-    if (code || mkdtemp(name.data()) == nullptr) {
-        return Error{"standard input: no folder for temporary files found, one was expected"};
+class TemporaryFolder {
+public:
+    TemporaryFolder() : path_((fs::temp_directory_path() / "reljef-XXXXXX").string()) {
+        is_made_ = mkdtemp(path_.data()) != nullptr;
     }
-    return std::shared_ptr<const fs::path>(new fs::path(name), [](const fs::path* folder) {
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
         std::error_code ignored;
-        fs::remove_all(*folder, ignored);
-        delete folder;
-    });
-}
+        if (is_made_) {
+            fs::remove_all(path_, ignored);
+        }
+    }
+
+    [[nodiscard]] bool is_made() const { return is_made_; }
+    [[nodiscard]] fs::path path() const { return path_; }
+
+private:
+    std::string path_;
+    bool is_made_ = false;
+};
 
 // The bytes that are there; none at the end.
 Result<std::size_t> read_some(std::vector<char>& buffer, const std::stop_token& stop) {
@@ -68,23 +78,25 @@ Result<void> copy_standard_input(const fs::path& path, const std::stop_token& st
 
 } // namespace
 
-Result<TerrainInput> terrain_input(const std::string& terrain, const std::stop_token& stop) {
+Result<void> with_standard_input(std::string& terrain, const std::stop_token& stop,
+                                 const std::function<Result<void>()>& run) {
     if (terrain != "-") {
-        return TerrainInput{terrain, nullptr};
+        return run();
     }
     if (isatty(STDIN_FILENO) != 0) {
         fail_usage("TERRAIN: - found, and standard input is a terminal; a pipe or a file was "
                    "expected");
     }
-    auto folder = temporary_folder();
-    if (!folder) {
-        return folder.error();
+    const TemporaryFolder folder;
+    if (!folder.is_made()) {
+        return Error{fmt::format("standard input: {} cannot be created", folder.path().string())};
     }
-    const fs::path path = **folder / "standard input";
+    const fs::path path = folder.path() / "standard input";
     if (auto copied = copy_standard_input(path, stop); !copied) {
-        return copied.error();
+        return copied;
     }
-    return TerrainInput{path.string(), std::move(*folder)};
+    terrain = path.string();
+    return run();
 }
 
 } // namespace reljef::cli
