@@ -28,8 +28,8 @@ struct HeightChoice {
 // Bytes of a file that are processed together. They need about five times as much memory.
 std::size_t bytes_of_piece(const cli::TerrainChoice& choice) {
     constexpr std::size_t part = 16; // of the memory
-    constexpr std::size_t most = std::size_t{64} << 20U;
-    return std::min((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / part, most);
+    constexpr std::size_t max_bytes = std::size_t{64} << 20U;
+    return std::min((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / part, max_bytes);
 }
 
 std::vector<glm::dvec2> places_of(const std::vector<std::string>& texts) {
@@ -53,9 +53,9 @@ std::vector<glm::dvec2> places_of(const std::vector<std::string>& texts) {
 
 constexpr int digits_of_heights = 6; // after the point: micrometres
 
-void append_answer(std::string_view place, const io::HeightAnswer& answer, std::string& out) {
+void append_answer(std::string_view place, const io::HeightSample& answer, std::string& out) {
     out += place;
-    if (answer.kind != io::HeightAnswer::Kind::height) {
+    if (answer.kind != io::HeightSample::Kind::height) {
         out += ",nan\n";
         return;
     }
@@ -68,7 +68,7 @@ void print(const std::string& out) {
 
 // Prints the answers in order. Several threads format them.
 void print_answers(std::span<const std::string_view> texts,
-                   std::span<const io::HeightAnswer> answers, unsigned threads) {
+                   std::span<const io::HeightSample> answers, unsigned threads) {
     constexpr std::size_t lines_a_part = 1U << 14U;
     std::vector<std::string> parts((texts.size() + lines_a_part - 1) / lines_a_part);
     const auto append_part = [&](int number) {
@@ -87,12 +87,12 @@ void print_answers(std::span<const std::string_view> texts,
 
 void keep_errors(std::vector<io::FileError> found, const cli::TerrainChoice& choice,
                  std::vector<io::FileError>& errors) {
-    for (io::FileError& fault : found) {
-        if (std::find(errors.begin(), errors.end(), fault) == errors.end()) {
+    for (io::FileError& error : found) {
+        if (std::find(errors.begin(), errors.end(), error) == errors.end()) {
             if (!choice.quiet) {
-                cli::write_stderr(fmt::format("reljef: left out: {}\n", fault.message));
+                cli::write_stderr(fmt::format("reljef: left out: {}\n", error.message));
             }
-            errors.push_back(std::move(fault));
+            errors.push_back(std::move(error));
         }
     }
 }
@@ -129,7 +129,7 @@ Result<void> print_places(const HeightChoice& choice, const session::HeightSourc
     std::string out;
     for (std::size_t i = 0; i < choice.places.size(); ++i) {
         const glm::dvec2 place = choice.places[i];
-        if (found.answers[i].kind == io::HeightAnswer::Kind::outside) {
+        if (found.answers[i].kind == io::HeightSample::Kind::outside) {
             print(out);
             return Error{fmt::format("--at: {},{} found, a place on {}{} was expected{}", place.x,
                                      place.y, choice.terrain.terrain,

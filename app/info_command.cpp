@@ -38,15 +38,16 @@ struct FullGrid {
 };
 
 // Rows and columns that were read; some may be added to wrap the globe.
-geo::ClosedRows rows_of(const terrain::Heightfield& heightfield) {
-    return heightfield.georeference ? heightfield.georeference->geodetic.rows() : geo::ClosedRows();
+geo::WrappedRows rows_of(const terrain::Heightfield& heightfield) {
+    return heightfield.georeference ? heightfield.georeference->geodetic.rows()
+                                    : geo::WrappedRows();
 }
 
 // Number of samples that were read, without those added to wrap the globe.
 glm::ivec2 size_that_was_read(const terrain::Heightfield& heightfield) {
-    const geo::ClosedRows rows = rows_of(heightfield);
-    return {heightfield.heights.cols() - rows.closing().cols(),
-            heightfield.heights.rows() - rows.closing().rows()};
+    const geo::WrappedRows rows = rows_of(heightfield);
+    return {heightfield.heights.cols() - rows.wrap().cols(),
+            heightfield.heights.rows() - rows.wrap().rows()};
 }
 
 // The place of a source sample, both in read samples.
@@ -145,7 +146,7 @@ std::optional<FullGrid> grid_of_tiles(const io::TileSet& tiles,
     FullGrid full{grid->cols, grid->rows, 1, {}, {}};
     full.reduction = static_cast<int>(std::lround(std::abs(step.x / grid->step.x)));
     const glm::dvec2 first = (grid->first - glm::dvec2(affine.x0, affine.y0)) / step -
-                             glm::dvec2(0, rows_of(heightfield).closing().north_rows());
+                             glm::dvec2(0, rows_of(heightfield).wrap().north_rows());
     const glm::dvec2 last = first + grid->step / step * glm::dvec2(grid->cols - 1, grid->rows - 1);
     full.first = read_from_source(heightfield, first);
     full.last = read_from_source(heightfield, last);

@@ -113,7 +113,7 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
     const std::array<cli::NamedFile, 2> inputs{
         {{"PICTURE", choice.picture}, {"--back", choice.back}}};
     const auto outputs = outputs_of(choice);
-    cli::expect_apart(outputs, inputs);
+    cli::check_distinct(outputs, inputs);
     if (auto good = cli::check_writable(outputs); !good) {
         return good;
     }

@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include "app/cli/console_log.h"
+#include "app/cli/lifted_frames.h"
 #include "app/cli/options.h"
 #include "app/cli/output_files.h"
 #include "app/cli/progress_line.h"
-#include "app/cli/raised_frames.h"
 #include "app/cli/standard_input.h"
 #include "app/cli/usage_error.h"
 #include "app/commands.h"
@@ -89,7 +89,7 @@ session::Underground underground(const RenderChoice& choice) {
 }
 
 // Returns the frames whose cameras were raised above the ground.
-Result<cli::RaisedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
+Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
                                       session::FrameMaker& maker,
                                       const std::optional<scene::CameraPath>& path,
                                       const cli::Interrupt& interrupt) {
@@ -102,7 +102,7 @@ Result<cli::RaisedFrames> draw_frames(const RenderChoice& choice, session::Terra
         return sink.error();
     }
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
-    cli::RaisedFrames raised;
+    cli::LiftedFrames raised;
     cli::ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (path) {
@@ -131,7 +131,7 @@ Result<cli::RaisedFrames> draw_frames(const RenderChoice& choice, session::Terra
         fmt::print("{}", maker.stats());
     }
     const auto written = sheet.write(choice.contact_sheet);
-    return written ? Result<cli::RaisedFrames>(raised) : written.error();
+    return written ? Result<cli::LiftedFrames>(raised) : written.error();
 }
 
 void expect_standard_output(const RenderChoice& choice) {
@@ -277,7 +277,7 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         return path.error();
     }
     session::Lift lift;
-    cli::RaisedFrames raised;
+    cli::LiftedFrames raised;
     if (*path) {
         raised.add(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token(),
                                              underground(choice)));
@@ -328,7 +328,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
                         choice.terrain.terrain));
     }
     const auto inputs = inputs_of(choice, *description);
-    cli::expect_apart(outputs_of(choice, inputs), inputs);
+    cli::check_distinct(outputs_of(choice, inputs), inputs);
     session::SourceOptions terrain = choice.terrain;
     terrain.streamed = !choice.truth;
     session::SceneOptions view = choice.view;

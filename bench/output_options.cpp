@@ -79,7 +79,7 @@ Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::Name
         all.push_back({"--html", page_file(choice.html).parent_path()});
         all.push_back({"--html", page_file(choice.html)});
     }
-    cli::expect_apart(all, inputs);
+    cli::check_distinct(all, inputs);
     if (auto writable = cli::check_writable(outputs); !writable || choice.html.empty()) {
         return writable;
     }

@@ -26,7 +26,7 @@ Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& comm
     }
     ParetoOptions options = choice.options;
     if (!options.terrains.empty()) { // the default terrains suit every technique
-        expect_suited(options.techniques, options.terrains);
+        check_suited(options.techniques, options.terrains);
     }
     options.suite = with_quick_size(options.suite, command, pareto_quick_size);
     options.suite.keep_views = !choice.outputs.html.empty();

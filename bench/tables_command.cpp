@@ -39,9 +39,9 @@ Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& comm
         return good;
     }
     TablesOptions options = choice.options;
-    expect_suited(options.techniques, options.terrains.empty()
-                                          ? std::vector<std::string>{"natural", "urban"}
-                                          : options.terrains);
+    check_suited(options.techniques, options.terrains.empty()
+                                         ? std::vector<std::string>{"natural", "urban"}
+                                         : options.terrains);
     options.suite = with_quick_size(options.suite, command, tables_quick_size);
     options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_tables(options, interrupt.token()), choice.outputs);

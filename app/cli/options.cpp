@@ -17,7 +17,7 @@
 namespace reljef::cli {
 namespace {
 
-constexpr int largest_picture_side = 16384;
+constexpr int max_picture_side = 16384;
 
 auto point_of(const char* option) {
     return [=](const std::string& text) -> Result<glm::dvec3> {
@@ -26,10 +26,10 @@ auto point_of(const char* option) {
             return numbers.error();
         }
         const glm::dvec3 point((*numbers)[0], (*numbers)[1], (*numbers)[2]);
-        if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(world_reach)))) {
+        if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(max_world_coordinate)))) {
             return Error{
                 fmt::format("{}: '{}' found, at most {} metres from the middle were expected",
-                            option, text, world_reach)};
+                            option, text, max_world_coordinate)};
         }
         return point;
     };
@@ -47,9 +47,9 @@ Result<session::GeodeticView> parse_geodetic_view(const std::string& text) {
                                  "expected",
                                  text)};
     }
-    if (std::abs(height) > world_reach) {
+    if (std::abs(height) > max_world_coordinate) {
         return Error{fmt::format("--camera: height {} found, at most {} metres were expected",
-                                 height, world_reach)};
+                                 height, max_world_coordinate)};
     }
     return session::GeodeticView{latitude, longitude, height, heading, pitch};
 }
@@ -280,11 +280,11 @@ Result<glm::ivec2> parse_size(std::string_view text) {
     const auto height =
         cross == std::string_view::npos ? std::nullopt : number_from<int>(text.substr(cross + 1));
     const auto fits = [](std::optional<int> side) {
-        return side && *side >= 1 && *side <= largest_picture_side;
+        return side && *side >= 1 && *side <= max_picture_side;
     };
     if (!fits(width) || !fits(height)) {
         return Error{fmt::format("--size: '{}' found, WxH with each from 1 to {} was expected",
-                                 text, largest_picture_side)};
+                                 text, max_picture_side)};
     }
     return glm::ivec2(*width, *height);
 }
@@ -323,7 +323,7 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                     "of pictures (colour, height, normal)")
         ->type_name("NAME|FOLDER");
     add_parsed(command, "--exaggeration", choice.exaggeration,
-               number_in("--exaggeration", 0.0, terrain::largest_exaggeration, true),
+               number_in("--exaggeration", 0.0, terrain::max_exaggeration, true),
                "factor for the heights, in the picture only (1)", "X");
     add_parsed(command, "--placement", choice.placement,
                word_of<terrain::PlacementKind>("--placement",

@@ -38,7 +38,7 @@ bool would_replace(const fs::path& output, const fs::path& input) {
 
 } // namespace
 
-void expect_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
+void check_distinct(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (const NamedFile& input : inputs) {
             if (would_replace(outputs[i].path, input.path)) {

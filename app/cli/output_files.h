@@ -15,7 +15,7 @@ struct NamedFile {
 
 /// Throws CLI::ParseError if an output would replace an input, a file in an input folder or another
 /// output, also under another name. Empty paths are ignored.
-void expect_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs);
+void check_distinct(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs);
 
 /// Fails if a file cannot be created. Leaves no files behind. Empty paths are ignored.
 Result<void> check_writable(std::span<const NamedFile> outputs);

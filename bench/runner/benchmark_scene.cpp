@@ -39,7 +39,7 @@ bool shows_gallery(const std::string& terrain) {
 
 constexpr int detail_rays_per_side = 2; // per pixel of the true picture; texels are pixel-sized
 
-scene::Material material_of(const truth::TileSquare& square) {
+scene::Material material_of(const truth::DetailSquare& square) {
     scene::Material material;
     material.detail = {.set = square.set,
                        .repeats = glm::vec2(static_cast<float>(square.repeats)),
@@ -86,7 +86,7 @@ Result<BenchmarkScene> BenchmarkScene::open_detail(const SceneChoice& choice,
     if (!square) {
         return square.error();
     }
-    auto plane = truth::TilePlane::create(*square);
+    auto plane = truth::DetailPlane::create(*square);
     if (!plane) {
         return plane.error();
     }

@@ -12,9 +12,9 @@
 #include "engine/core/result.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
+#include "engine/truth/detail_plane.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
-#include "engine/truth/tile_plane.h"
 
 namespace reljef::bench {
 
@@ -92,7 +92,7 @@ private:
     scene::Pose pose_ = scene::Pose::overview;
     std::optional<truth::SceneCaster> caster_;
     std::optional<truth::Shading> shading_;
-    std::optional<truth::TilePlane> detail_; // absent for terrains
+    std::optional<truth::DetailPlane> detail_; // absent for terrains
     std::optional<TruePicture> truth_;
 };
 

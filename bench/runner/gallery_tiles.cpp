@@ -37,13 +37,13 @@ const GalleryDetail* find_detail(std::string_view name) {
 
 } // namespace
 
-Result<truth::TileSquare> detail_square(std::string_view name, unsigned threads) {
+Result<truth::DetailSquare> detail_square(std::string_view name, unsigned threads) {
     auto set = terrains::generate_detail(name, {.size = detail_texels, .threads = threads});
     if (!set) {
         return set.error();
     }
     const GalleryDetail* const detail = find_detail(name);
-    truth::TileSquare square;
+    truth::DetailSquare square;
     square.set = std::make_shared<const material::ReliefMaterial>(std::move(*set));
     square.layers = detail == nullptr ? std::nullopt : detail->layers;
     square.side = square_side;
@@ -72,7 +72,7 @@ bool suits(scene::TechniqueId id, const SceneChoice& scene) {
         return true;
     }
     return detail->layers ? id == detail->technique
-                          : id != scene::TechniqueId::polygons && !scene::looks_for_layers(id);
+                          : id != scene::TechniqueId::polygons && !scene::searches_layers(id);
 }
 
 std::vector<scene::TechniqueInfo> techniques_of(const SceneChoice& scene) {
@@ -82,8 +82,8 @@ std::vector<scene::TechniqueInfo> techniques_of(const SceneChoice& scene) {
     return infos;
 }
 
-void expect_suited(const std::vector<scene::Technique>& techniques,
-                   const std::vector<std::string>& terrains) {
+void check_suited(const std::vector<scene::Technique>& techniques,
+                  const std::vector<std::string>& terrains) {
     std::vector<SceneChoice> scenes;
     for (const std::string& terrain : terrains) {
         const auto more =

@@ -11,7 +11,7 @@ namespace reljef::bench {
 
 /// A detail texture of the gallery, 256 texels a side, three copies along each side of a level
 /// square of 4 m. Heightfields lie below the square, layers around it. Fails on an unknown name.
-Result<truth::TileSquare> detail_square(std::string_view name, unsigned threads);
+Result<truth::DetailSquare> detail_square(std::string_view name, unsigned threads);
 
 /// The scenes of `--terrain gallery`: a heightfield and each kind of layers.
 std::vector<SceneChoice> gallery_scenes();
@@ -22,8 +22,8 @@ std::vector<SceneChoice> gallery_scenes();
 bool suits(scene::TechniqueId id, const SceneChoice& scene);
 
 /// Throws a usage error (CLI::ParseError) if techniques are given and none suits any terrain.
-void expect_suited(const std::vector<scene::Technique>& techniques,
-                   const std::vector<std::string>& terrains);
+void check_suited(const std::vector<scene::Technique>& techniques,
+                  const std::vector<std::string>& terrains);
 
 /// The techniques of the catalogue that suit a scene.
 std::vector<scene::TechniqueInfo> techniques_of(const SceneChoice& scene);

@@ -131,7 +131,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     results.end = run_end({}, stop, !results.times.drawing_ms.empty());
     results.failed_files = session::failed_files(scene->scene);
     results.max_memory =
-        std::max({results.max_memory, process_memory().most, results.times.memory_before});
+        std::max({results.max_memory, process_memory().peak, results.times.memory_before});
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
     if (stream != nullptr) {
         results.stream = stream->stats();

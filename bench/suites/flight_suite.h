@@ -4,8 +4,8 @@
 #include <optional>
 #include <stop_token>
 
+#include "app/cli/lifted_frames.h"
 #include "app/cli/options.h"
-#include "app/cli/raised_frames.h"
 #include "bench/report/figure_table.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/frame_maker.h"
@@ -24,7 +24,7 @@ struct FlightResults {
     double seconds_to_first_frame = 0.0; ///< from opening the terrain
     double seconds = 0.0;                ///< in total
     session::FrameTimes times;
-    cli::RaisedFrames raised;
+    cli::LiftedFrames raised;
     std::optional<scene::TileStreamStats> stream; ///< absent if not streamed
     std::size_t failed_files = 0;
     std::size_t max_memory = 0; ///< of the process, bytes

@@ -223,7 +223,7 @@ private:
         }
         row.frames = ms.size();
         row.ms = summarize(ms);
-        row.memory_bytes = process_memory().most;
+        row.memory_bytes = process_memory().peak;
         const auto hits = view.device.renderer().draw_hits(view.scene.scene);
         if (!hits) {
             return hits.error();

@@ -12,7 +12,7 @@
 namespace reljef {
 
 /// Maximum coordinate, metres. Doubles still resolve 1e-7 m there, and the whole Earth fits.
-inline constexpr double world_reach = 1e9;
+inline constexpr double max_world_coordinate = 1e9;
 
 /// A point as two floats per axis: the nearest float and the remainder, with twice the precision.
 struct SplitPoint {

@@ -77,16 +77,16 @@ glm::dvec2 GeodeticMap::middle() const {
     return first_ + 0.5 * step_ * glm::dvec2(control_.cols() - 1, control_.rows() - 1);
 }
 
-GeodeticMap GeodeticMap::closed(const GlobalWrap& closing, int cols, int rows) const {
+GeodeticMap GeodeticMap::closed(const GlobalWrap& wrap, int cols, int rows) const {
     GeodeticMap map(*this);
-    map.rows_ = ClosedRows(closing, rows);
-    if (closing.east) {
+    map.rows_ = WrappedRows(wrap, rows);
+    if (wrap.east) {
         map.middle_longitude_ = latitude_longitude({0.5 * cols, 0.5 * (rows - 1)}).y;
     }
     return map;
 }
 
-double ClosedRows::source_row(double row) const {
+double WrappedRows::source_row(double row) const {
     const double source = row - closing_.north_rows();
     if (closing_.north > 0.0 && source < 0.0) {
         return source * closing_.north;
@@ -97,7 +97,7 @@ double ClosedRows::source_row(double row) const {
     return source;
 }
 
-double ClosedRows::closed_row(double source_row) const {
+double WrappedRows::closed_row(double source_row) const {
     double source = source_row;
     if (closing_.north > 0.0 && source < 0.0) {
         source /= closing_.north;

@@ -61,13 +61,13 @@ struct GlobalWrap {
 };
 
 /// Row coordinates of a closed raster: pole rows are closer to their neighbours than other rows.
-class ClosedRows {
+class WrappedRows {
 public:
-    ClosedRows() = default;
-    ClosedRows(const GlobalWrap& closing, int source_rows)
-        : closing_(closing), last_(source_rows - 1.0) {}
+    WrappedRows() = default;
+    WrappedRows(const GlobalWrap& wrap, int source_rows)
+        : closing_(wrap), last_(source_rows - 1.0) {}
 
-    [[nodiscard]] const GlobalWrap& closing() const { return closing_; }
+    [[nodiscard]] const GlobalWrap& wrap() const { return closing_; }
     /// Converts between rows of the closed raster and rows of the source.
     [[nodiscard]] double source_row(double row) const;
     [[nodiscard]] double closed_row(double source_row) const;
@@ -93,8 +93,8 @@ public:
     GeodeticMap(const Grid<glm::dvec3>& normals, glm::dvec2 first, glm::dvec2 step);
 
     /// The map of the closed raster; the source has `cols`×`rows` samples.
-    [[nodiscard]] GeodeticMap closed(const GlobalWrap& closing, int cols, int rows) const;
-    [[nodiscard]] const ClosedRows& rows() const { return rows_; }
+    [[nodiscard]] GeodeticMap closed(const GlobalWrap& wrap, int cols, int rows) const;
+    [[nodiscard]] const WrappedRows& rows() const { return rows_; }
 
     /// (latitude, longitude), degrees. Extrapolates outside the control points, but not past a
     /// pole.
@@ -129,7 +129,7 @@ private:
     double middle_longitude_ = 0.0; // degrees
     glm::dvec2 first_{0.0};
     glm::dvec2 step_{1.0};
-    ClosedRows rows_;
+    WrappedRows rows_;
 };
 
 /// Position of a raster on the Earth.

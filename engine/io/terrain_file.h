@@ -13,7 +13,7 @@ namespace reljef::io {
 /// - voids masked and filled: the declared value, a mask or alpha of 0, NaN, infinity, −32768 and
 ///   −32767 even if undeclared, and isolated −9999;
 /// - a georeference if there is one, exact to 1e-4 m;
-/// - Terrain::color from the imagery, at its own resolution up to longest_image_side and a share of
+/// - Terrain::color from the imagery, at its own resolution up to max_image_side and a share of
 ///   the budget; alpha is 0 outside the images.
 /// Terrain::notes reports oddities. Writes no files. Thread-safe.
 Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,

@@ -19,7 +19,7 @@ constexpr int min_chunk = 16384; // places per transform
 // Samples: rounding error of places that are computed to be on a sample.
 constexpr double on_sample = 1e-7;
 
-using Kind = HeightAnswer::Kind;
+using Kind = HeightSample::Kind;
 
 // Degrees: 1 µm. PROJ's inverse of a datum shift grid is iterative and errs by tens of µm.
 constexpr double inexact = 1e-11;
@@ -113,25 +113,25 @@ struct Block {
 };
 
 /// Clamps a point between the outermost row and a pole to the layer's cells.
-glm::dvec2 in_reach(const TileLayer& layer, const geo::GlobalWrap& closing, glm::dvec2 point) {
+glm::dvec2 in_reach(const TileLayer& layer, const geo::GlobalWrap& wrap, glm::dvec2 point) {
     const double north = -point.y;
     const double south = point.y - (layer.rows - 1.0);
-    if (north > 0.0 && north <= closing.north + on_sample) {
+    if (north > 0.0 && north <= wrap.north + on_sample) {
         point.y = std::max(point.y, -0.5);
-    } else if (south > 0.0 && south <= closing.south + on_sample) {
+    } else if (south > 0.0 && south <= wrap.south + on_sample) {
         point.y = std::min(point.y, layer.rows - 0.5);
     }
     return point;
 }
 
-std::vector<Block> blocks_of(const TileLayer& layer, const geo::GlobalWrap& closing,
+std::vector<Block> blocks_of(const TileLayer& layer, const geo::GlobalWrap& wrap,
                              std::span<const glm::dvec2> points) {
     std::unordered_map<std::int64_t, std::size_t> numbers;
     std::vector<Block> blocks;
     const double first = -0.5 - on_sample;
     const glm::dvec2 last = glm::dvec2(layer.cols, layer.rows) - 1.0 - first;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::dvec2 point = in_reach(layer, closing, points[i]);
+        const glm::dvec2 point = in_reach(layer, wrap, points[i]);
         if (!(point.x >= first && point.y >= first && point.x <= last.x && point.y <= last.y)) {
             continue;
         }
@@ -151,7 +151,7 @@ enum class Reach { samples, half_a_cell };
 
 /// Heights of the poles of a global layer, metres; NaN if unused.
 struct Poles {
-    geo::GlobalWrap closing;
+    geo::GlobalWrap wrap;
     double north = void_value;
     double south = void_value;
 };
@@ -181,13 +181,13 @@ Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
     }
     Poles poles;
     if (any_north || any_south) {
-        poles.closing =
+        poles.wrap =
             closing_of(crs_from_text(layer.crs), layer.crs_from_lattice, layer.cols, layer.rows);
     }
-    if (any_north && poles.closing.north > 0.0) {
+    if (any_north && poles.wrap.north > 0.0) {
         poles.north = mean_of_row(layer, 0, reading, errors);
     }
-    if (any_south && poles.closing.south > 0.0) {
+    if (any_south && poles.wrap.south > 0.0) {
         poles.south = mean_of_row(layer, last, reading, errors);
     }
     return poles;
@@ -217,7 +217,7 @@ public:
         found.reserve(block_.points.size());
         for (const int index : block_.points) {
             found.push_back(
-                locate(in_reach(layer_, poles_.closing, points_[static_cast<std::size_t>(index)])));
+                locate(in_reach(layer_, poles_.wrap, points_[static_cast<std::size_t>(index)])));
         }
         const CellWindow window = window_of(found);
         if (window.cols == 0) {
@@ -226,7 +226,7 @@ public:
         const Grid<double> heights = read_cells(layer_, window, reading, errors);
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].tile != nullptr) {
-                const HeightAnswer flat =
+                const HeightSample flat =
                     answer_at(heights, found[i].point - glm::dvec2(window.first));
                 answer(block_.points[i], towards_pole(flat, block_.points[i]));
             }
@@ -268,13 +268,13 @@ private:
         });
     }
     /// Interpolates between the outermost row and a pole.
-    [[nodiscard]] HeightAnswer towards_pole(HeightAnswer answer, int index) const {
+    [[nodiscard]] HeightSample towards_pole(HeightSample answer, int index) const {
         const double row = points_[static_cast<std::size_t>(index)].y;
         const bool north = row < 0.0;
         const double beyond = north ? -row : row - (layer_.rows - 1.0);
         const double pole = north ? poles_.north : poles_.south;
         if (beyond > 0.0 && !std::isnan(pole)) {
-            const double steps = north ? poles_.closing.north : poles_.closing.south;
+            const double steps = north ? poles_.wrap.north : poles_.wrap.south;
             answer.height = glm::mix(answer.height, pole, std::min(beyond / steps, 1.0));
         }
         return answer;
@@ -292,15 +292,15 @@ private:
         }
         return window;
     }
-    static HeightAnswer answer_at(const Grid<double>& heights, glm::dvec2 at) {
+    static HeightSample answer_at(const Grid<double>& heights, glm::dvec2 at) {
         const glm::ivec2 low(glm::floor(at));
         const glm::ivec2 high(glm::ceil(at));
         const glm::dvec2 part = at - glm::dvec2(low);
         const double north = glm::mix(heights(low.x, low.y), heights(high.x, low.y), part.x);
         const double south = glm::mix(heights(low.x, high.y), heights(high.x, high.y), part.x);
         const double height = glm::mix(north, south, part.y);
-        return std::isnan(height) ? HeightAnswer{Kind::in_void, 0.0}
-                                  : HeightAnswer{Kind::height, height};
+        return std::isnan(height) ? HeightSample{Kind::in_void, 0.0}
+                                  : HeightSample{Kind::height, height};
     }
 
     const TileLayer& layer_;
@@ -312,7 +312,7 @@ private:
 };
 
 /// Places without an answer so far. At the edges of cells, voids count as answers.
-std::vector<int> unanswered(std::span<const HeightAnswer> answers, Reach reach) {
+std::vector<int> unanswered(std::span<const HeightSample> answers, Reach reach) {
     std::vector<int> requested;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const Kind kind = answers[i].kind;
@@ -331,12 +331,12 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
     }
     const auto points = lattice_points(layer, places, requested, threads);
     const Poles poles = poles_of(layer, points, reading, result.errors);
-    const std::vector<Block> blocks = blocks_of(layer, poles.closing, points);
+    const std::vector<Block> blocks = blocks_of(layer, poles.wrap, points);
     std::mutex mutex;
     const auto answer_block = [&](int number) {
         std::vector<FileError> errors;
         BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach, poles);
-        heights.find(reading, errors, [&](int index, HeightAnswer answer) {
+        heights.find(reading, errors, [&](int index, HeightSample answer) {
             const auto place = static_cast<std::size_t>(requested[static_cast<std::size_t>(index)]);
             result.answers[place] = answer;
         });

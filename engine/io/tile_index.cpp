@@ -151,7 +151,7 @@ struct Described {
 };
 
 Described with_error(Described described, std::string message) {
-    described.file.use = TileUse::error;
+    described.file.use = FileKind::error;
     described.file.error = std::move(message);
     return described;
 }
@@ -196,11 +196,11 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
     file.declares_voids = declares != 0;
     std::string error = set_place(dataset, name, described);
     if (kind_of_values(dataset) != ValueKind::plain) {
-        file.use = TileUse::picture;
+        file.use = FileKind::picture;
         file.error = std::move(error); // matters only if used as heights
         return described;
     }
-    file.use = TileUse::heights;
+    file.use = FileKind::heights;
     return error.empty() ? described : with_error(std::move(described), std::move(error));
 }
 
@@ -225,7 +225,7 @@ TileIndex numbered(std::vector<std::optional<Described>> all) {
         if (!described) {
             continue;
         }
-        if (described->file.use == TileUse::heights) {
+        if (described->file.use == FileKind::heights) {
             const auto [entry, is_new] =
                 numbers.try_emplace(described->wkt, static_cast<int>(index.crs.size()));
             if (is_new) {
@@ -277,7 +277,7 @@ std::optional<Described> find_unchanged(const TileIndex& index, const IndexedFil
         found->sidecar_hash != now.sidecar_hash) {
         return std::nullopt;
     }
-    const bool placed = found->use == TileUse::heights;
+    const bool placed = found->use == FileKind::heights;
     return Described{*found, placed ? index.crs[static_cast<std::size_t>(found->crs)] : ""};
 }
 
@@ -321,7 +321,7 @@ Result<TileIndex> index_tiles(const fs::path& path, const TileSetOptions& option
     if (!only.file.error.empty()) {
         return Error{only.file.error};
     }
-    only.file.use = TileUse::heights; // the luminance of a single picture
+    only.file.use = FileKind::heights; // the luminance of a single picture
     return numbered({std::move(only)});
 }
 

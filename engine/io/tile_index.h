@@ -12,7 +12,7 @@
 
 namespace reljef::io {
 
-enum class TileUse : std::uint8_t { heights, picture, error };
+enum class FileKind : std::uint8_t { heights, picture, error };
 
 struct IndexedFile {
     std::string path;               ///< relative to the folder, with '/'
@@ -20,7 +20,7 @@ struct IndexedFile {
     std::int64_t modified = 0;      ///< ticks of the file system's clock
     std::uint64_t sidecar_hash = 0; ///< checksum of its sidecar files' names, sizes and times
     bool opened = false;            ///< false: try again next time
-    TileUse use = TileUse::error;
+    FileKind use = FileKind::error;
     std::string error; ///< why it cannot be used
     int cols = 0;
     int rows = 0;

@@ -72,7 +72,7 @@ template <class File, class Visit> void visit_fields(File& file, const Visit& vi
 bool is_consistent(const TileIndex& index) {
     const int systems = static_cast<int>(index.crs.size());
     return std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
-        return file.use != TileUse::heights ||
+        return file.use != FileKind::heights ||
                (file.crs >= 0 && file.crs < systems && std::min(file.cols, file.rows) >= 2 &&
                 std::max(file.cols, file.rows) <= terrain::max_tree_samples);
     });

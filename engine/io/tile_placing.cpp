@@ -159,10 +159,10 @@ std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesyste
     for (std::size_t i = 0; i < index.files.size(); ++i) {
         const IndexedFile& file = index.files[i];
         const std::filesystem::path path = folder / file.path;
-        if (file.use == TileUse::error) {
+        if (file.use == FileKind::error) {
             errors.push_back({path, file.error});
         }
-        if (file.use != TileUse::heights) {
+        if (file.use != FileKind::heights) {
             continue;
         }
         auto place = placed(static_cast<int>(i), file, systems[static_cast<std::size_t>(file.crs)]);

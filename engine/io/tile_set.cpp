@@ -134,7 +134,7 @@ std::string shared_vertical_datum(std::span<const TileLayer> layers,
 void note_pictures(const TileIndex& index, std::vector<std::string>& notes) {
     const auto pictures =
         std::count_if(index.files.begin(), index.files.end(),
-                      [](const IndexedFile& file) { return file.use == TileUse::picture; });
+                      [](const IndexedFile& file) { return file.use == FileKind::picture; });
     if (pictures > 0) {
         notes.push_back(fmt::format("{} {} in colour: not taken for heights (--imagery drapes one)",
                                     pictures, pictures == 1 ? "picture" : "pictures"));
@@ -311,7 +311,7 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const geo::GeodeticArea& ar
                     static_cast<int>(high.y - low.y) + 1};
 }
 
-geo::GlobalWrap TileSet::closing(const TileGrid& grid) const {
+geo::GlobalWrap TileSet::wrap(const TileGrid& grid) const {
     return closing_of(crs_from_text(state_->crs), affine_of(grid), grid.cols, grid.rows);
 }
 

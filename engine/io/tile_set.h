@@ -65,7 +65,7 @@ struct TileWindow {
     std::size_t bytes_read = 0;    ///< of samples read from files
 };
 
-struct HeightAnswer {
+struct HeightSample {
     enum class Kind : std::uint8_t { height, in_void, outside } kind = Kind::outside;
     double height = 0.0; ///< metres above the DEM's own zero; for Kind::height
 };
@@ -99,7 +99,7 @@ public:
     /// The part of `grid` in an area; fails if it is empty.
     [[nodiscard]] Result<TileGrid> part(const TileGrid& grid, const geo::GeodeticArea& area) const;
     /// The samples that close a global grid.
-    [[nodiscard]] geo::GlobalWrap closing(const TileGrid& grid) const;
+    [[nodiscard]] geo::GlobalWrap wrap(const TileGrid& grid) const;
     /// The centres of blocks of `reduction`×`reduction` samples.
     [[nodiscard]] static TileGrid reduced(const TileGrid& grid, int reduction);
 
@@ -108,7 +108,7 @@ public:
     [[nodiscard]] TileWindow read(const TileGrid& grid, Gaps gaps, std::stop_token stop = {}) const;
 
     struct Heights {
-        std::vector<HeightAnswer> answers;
+        std::vector<HeightSample> answers;
         std::vector<FileError> errors;
         std::size_t bytes_read = 0; ///< as in TileWindow
     };

@@ -41,7 +41,7 @@ void add_read(const TileWindow& other, TileWindow& window) {
 }
 
 /// Copies the heights of the first two columns to the columns from `last`.
-void close_east(const TileSet& tiles, const ClosedGrid& ground, const TileGrid& part, int last,
+void close_east(const TileSet& tiles, const WrappedGrid& ground, const TileGrid& part, int last,
                 Gaps gaps, const std::stop_token& stop, TileWindow& window) {
     TileGrid first = part;
     first.first.x = ground.grid.first.x - part.step.x;
@@ -72,16 +72,16 @@ void close_pole(const TileWindow& outermost, double pole_height, const FromPole&
 
 } // namespace
 
-ClosedGrid closed_grid(const TileGrid& grid, const geo::GlobalWrap& closing, int refinement) {
-    ClosedGrid result{grid, closing, refinement};
-    result.grid.first.y -= grid.step.y * closing.north_rows();
+WrappedGrid wrapped_grid(const TileGrid& grid, const geo::GlobalWrap& wrap, int refinement) {
+    WrappedGrid result{grid, wrap, refinement};
+    result.grid.first.y -= grid.step.y * wrap.north_rows();
     result.grid.step /= static_cast<double>(refinement);
-    result.grid.cols = (grid.cols + closing.cols() - 1) * refinement + 1;
-    result.grid.rows = (grid.rows + closing.rows() - 1) * refinement + 1;
+    result.grid.cols = (grid.cols + wrap.cols() - 1) * refinement + 1;
+    result.grid.rows = (grid.rows + wrap.rows() - 1) * refinement + 1;
     return result;
 }
 
-TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
+TileWindow read_tree_tile(const TileSet& tiles, const WrappedGrid& ground,
                           const terrain::TileTree& tree, terrain::TreeTile tile, Gaps gaps,
                           std::stop_token stop) {
     const TileGrid& grid = ground.grid;
@@ -94,22 +94,22 @@ TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
                         grid.step * static_cast<double>(step), end.x + 3, end.y + 3};
     TileWindow window = tiles.read(part, gaps, stop);
     Inside cols = inside_of(first.x, step, part.cols, grid.cols);
-    cols.first = ground.closing.east ? 0 : cols.first;
+    cols.first = ground.wrap.east ? 0 : cols.first;
     repeat_border(window.heights, cols, inside_of(first.y, step, part.rows, grid.rows));
-    if (ground.closing.east && first.x + end.x * step >= last.x) {
+    if (ground.wrap.east && first.x + end.x * step >= last.x) {
         close_east(tiles, ground, part, end.x + 1, gaps, stop, window);
     }
     const double refinement = ground.refinement;
     const auto read_row = [&](double y) {
         return tiles.read({{part.first.x, y}, part.step, part.cols, 1}, gaps, stop);
     };
-    if (ground.closing.north > 0.0 && first.y == 0) {
+    if (ground.wrap.north > 0.0 && first.y == 0) {
         const double outermost_y = grid.first.y + refinement * grid.step.y;
         close_pole(
             read_row(outermost_y), ground.north_height,
             [&](int row) { return (row - 1) * step / refinement; }, window);
     }
-    if (ground.closing.south > 0.0 && first.y + end.y * step >= last.y) {
+    if (ground.wrap.south > 0.0 && first.y + end.y * step >= last.y) {
         const double outermost_y = grid.first.y + (last.y - refinement) * grid.step.y;
         close_pole(
             read_row(outermost_y), ground.south_height,

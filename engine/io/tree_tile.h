@@ -10,20 +10,20 @@
 namespace reljef::io {
 
 /// A grid with the samples that close it around the Earth.
-struct ClosedGrid {
+struct WrappedGrid {
     TileGrid grid; ///< pole rows lie one step outside
-    geo::GlobalWrap closing{};
+    geo::GlobalWrap wrap{};
     int refinement = 1;        ///< samples per sample of the source
     double north_height = 0.0; ///< poles, metres
     double south_height = 0.0;
 };
 
-/// Refines a grid and adds the samples of its closing.
-ClosedGrid closed_grid(const TileGrid& grid, const geo::GlobalWrap& closing, int refinement);
+/// Refines a grid and adds the samples of its wrap.
+WrappedGrid wrapped_grid(const TileGrid& grid, const geo::GlobalWrap& wrap, int refinement);
 
 /// Heights at the vertices of a tree's tile and one step around them; repeats the border outside
 /// the grid. Averages over a step above level 0. NaN at voids and holes.
-TileWindow read_tree_tile(const TileSet& tiles, const ClosedGrid& ground,
+TileWindow read_tree_tile(const TileSet& tiles, const WrappedGrid& ground,
                           const terrain::TileTree& tree, terrain::TreeTile tile, Gaps gaps,
                           std::stop_token stop = {});
 

@@ -189,7 +189,7 @@ public:
 
     float ratio(glm::ivec2 cell) {
         cell_ = cell;
-        ratio_ = std::min(widest_cone, relaxed_ ? near_relaxed_ratio() : 1.0F / slope_within(1));
+        ratio_ = std::min(max_cone_ratio, relaxed_ ? near_relaxed_ratio() : 1.0F / slope_within(1));
         if (limit_.x >= 0) {
             test_cell(limit_); // the same cell often limits the next one
         }

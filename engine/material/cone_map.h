@@ -17,10 +17,10 @@ enum class ConeKind {
 
 /// Maximum cone ratio, samples per unit of heights in [0,1]. A wider cone saves little: a ray that
 /// falls so slowly has left most maps.
-inline constexpr float widest_cone = 1024.0F;
+inline constexpr float max_cone_ratio = 1024.0F;
 
 /// The cone ratios (radius over height) of a bilinear height surface, in samples per unit of the
-/// heights, at most widest_cone. Cell (col, row) lies between the samples (col, row) and
+/// heights, at most max_cone_ratio. Cell (col, row) lies between the samples (col, row) and
 /// (col + 1, row + 1); its ratio is valid for a cone on any point of its bilinear patch. Scaling
 /// the surface keeps the ratios: the cones become ellipses.
 ///

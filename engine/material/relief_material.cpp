@@ -115,7 +115,7 @@ Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, WrapMod
     return normals;
 }
 
-Grid<float> seen_heights(const Grid<float>& heights, bool from_behind) {
+Grid<float> visible_heights(const Grid<float>& heights, bool from_behind) {
     Grid<float> seen = heights;
     if (from_behind) {
         for (float& height : seen.samples()) {

@@ -16,7 +16,7 @@
 
 namespace reljef::material {
 
-/// Precomputed cones over cone_field() of seen_heights().
+/// Precomputed cones over cone_field() of visible_heights().
 struct KnownCones {
     WrapMode border = WrapMode::wrap; ///< wrap, or clamp where the tile does not repeat
     bool from_behind = false;
@@ -49,7 +49,7 @@ inline constexpr double max_tile_scale = 10.0; ///< height of 1, in tile widths
 Grid<glm::vec3> tile_normals(GridView<const float> heights, float scale, WrapMode border);
 
 /// The heights; from behind 1 − heights.
-Grid<float> seen_heights(const Grid<float>& heights, bool from_behind);
+Grid<float> visible_heights(const Grid<float>& heights, bool from_behind);
 
 /// Whether opposite borders do not match: their mean height difference exceeds `seam_limit` times
 /// that of neighbouring texels. Precondition: not empty.

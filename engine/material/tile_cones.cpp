@@ -31,7 +31,7 @@ Grid<float> cone_field(GridView<const float> heights, WrapMode border) {
 Grid<float> tile_cones(const Grid<float>& of_field, int cols, int rows, WrapMode border) {
     const int margin = field_margin(cols, rows, border);
     const bool wraps = border == WrapMode::wrap;
-    const float widest = wraps ? static_cast<float>(margin) : widest_cone;
+    const float widest = wraps ? static_cast<float>(margin) : max_cone_ratio;
     Grid<float> cones(wraps ? cols : std::max(cols - 1, 1), wraps ? rows : std::max(rows - 1, 1));
     for (int row = 0; row < cones.rows(); ++row) {
         for (int col = 0; col < cones.cols(); ++col) {

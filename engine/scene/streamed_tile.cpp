@@ -168,13 +168,12 @@ std::size_t bytes_of_tile(int texels_per_cell) {
 }
 
 TileBuilder::TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
-                         int reduction, const ImageryDetail& imagery,
-                         const geo::GlobalWrap& closing)
+                         int reduction, const ImageryDetail& imagery, const geo::GlobalWrap& wrap)
     : overview_(std::move(overview)), tree_(tree), reduction_(reduction), imagery_(imagery),
       tint_(overview_->heightfield()) {
     check(reduction >= 1 && imagery.refinement >= 1,
           "an overview of a reduction of at least 1 was expected");
-    rows_ = {closing, (tree.rows() - 1) / imagery.refinement + 1 - closing.rows()};
+    rows_ = {wrap, (tree.rows() - 1) / imagery.refinement + 1 - wrap.rows()};
     if (const auto& georeference = overview_->heightfield().georeference) {
         overview_rows_ = georeference->geodetic.rows();
     }
@@ -190,7 +189,7 @@ glm::dvec2 TileBuilder::first(terrain::TreeTile tile) const {
 
 glm::dvec2 TileBuilder::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
     glm::dvec2 at(tree_.sample(tile, vertex));
-    if (rows_.closing().east) {
+    if (rows_.wrap().east) {
         const int step = terrain::TileTree::step(tile);
         at.x += step * (std::min(vertex.x, 0) + std::max(vertex.x - tree_.cells(tile).x, 0));
     }
@@ -211,7 +210,7 @@ glm::dvec2 TileBuilder::from_overview(glm::dvec2 sample) const {
 
 glm::dvec2 TileBuilder::around_overview(glm::dvec2 overview_sample) const {
     const int turn = overview_->heightfield().heights.cols() - 1;
-    if (overview_rows_.closing().east) {
+    if (overview_rows_.wrap().east) {
         overview_sample.x -= turn * std::floor(overview_sample.x / turn);
     }
     return overview_sample;

@@ -92,10 +92,9 @@ struct ImageryDetail {
 class TileBuilder {
 public:
     /// `reduction`: an overview sample is the middle of reduction × reduction samples of the
-    /// terrain. `closing`: the wrap of the tree's raster around the Earth.
+    /// terrain. `wrap`: the wrap of the tree's raster around the Earth.
     TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
-                int reduction, const ImageryDetail& imagery = {},
-                const geo::GlobalWrap& closing = {});
+                int reduction, const ImageryDetail& imagery = {}, const geo::GlobalWrap& wrap = {});
 
     [[nodiscard]] const terrain::TileTree& tree() const { return tree_; }
     [[nodiscard]] const TerrainSurface& overview() const { return *overview_; }
@@ -113,7 +112,7 @@ public:
     [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;
     /// Wraps a sample into the columns of an overview that goes around the Earth.
     [[nodiscard]] glm::dvec2 around_overview(glm::dvec2 overview_sample) const;
-    [[nodiscard]] const geo::ClosedRows& rows() const { return rows_; }
+    [[nodiscard]] const geo::WrappedRows& rows() const { return rows_; }
     /// Whether a tile has all samples of the terrain. Finer tiles only have finer images.
     [[nodiscard]] bool has_all_samples(terrain::TreeTile tile) const;
     [[nodiscard]] glm::ivec2 picture_size(terrain::TreeTile tile) const;
@@ -143,8 +142,8 @@ private:
     terrain::TileTree tree_;
     int reduction_;
     ImageryDetail imagery_;
-    geo::ClosedRows rows_;
-    geo::ClosedRows overview_rows_;
+    geo::WrappedRows rows_;
+    geo::WrappedRows overview_rows_;
     terrain::HeightTint tint_;
 };
 

@@ -70,7 +70,7 @@ std::string times_text(const FrameTimes& times) {
 std::string memory_text(std::size_t before) {
     return fmt::format("memory: {:.1f} MB of the process at most, {:.1f} MB before the terrain was "
                        "read\n",
-                       static_cast<double>(process_memory().most) / megabyte,
+                       static_cast<double>(process_memory().peak) / megabyte,
                        static_cast<double>(before) / megabyte);
 }
 
@@ -81,7 +81,7 @@ DeviceFrames::DeviceFrames(Device device, Log& log, const DeviceFramesOptions& o
     if (options_.timed) {
         static_cast<void>(device_.renderer().draw(busy_scene(), true));
         static_cast<void>(device_.renderer().draw(scene::Scene(), true)); // frees the other's mesh
-        times_.memory_before = process_memory().most;
+        times_.memory_before = process_memory().peak;
     }
 }
 

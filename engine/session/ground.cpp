@@ -123,8 +123,8 @@ std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const
             return distance_between(terrain, ray, before, distance);
         }
         before = distance;
-        const double least = std::max(std::min(min_share * distance, beside), 1e-3);
-        distance += height ? std::max(max_share * *height, least) : std::max(beside, least);
+        const double min_step = std::max(std::min(min_share * distance, beside), 1e-3);
+        distance += height ? std::max(max_share * *height, min_step) : std::max(beside, min_step);
     }
     return std::nullopt;
 }
@@ -185,12 +185,12 @@ double keep_above_ground(TerrainScene& scene) {
     if (!sample) {
         return 0.0;
     }
-    const double least =
+    const double min_height =
         highest_at(terrain, glm::dvec2(*sample)) + min_clearance(scene) / placement.exaggeration();
-    if (!(sample->z < least)) {
+    if (!(sample->z < min_height)) {
         return 0.0;
     }
-    const glm::dvec3 rise = way_up(placement, *sample, least);
+    const glm::dvec3 rise = way_up(placement, *sample, min_height);
     camera.eye += rise;
     camera.target += rise;
     return glm::length(rise);
@@ -199,7 +199,7 @@ double keep_above_ground(TerrainScene& scene) {
 Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance) {
     const scene::TerrainSurface& surface = *terrain.surface;
     const auto sample = sample_of(surface, eye);
-    if (!sample || terrain::touches_void(surface.heightfield(), glm::dvec2(*sample))) {
+    if (!sample || terrain::uses_void(surface.heightfield(), glm::dvec2(*sample))) {
         return {};
     }
     const double exaggeration = surface.placement().exaggeration();

@@ -64,7 +64,7 @@ Result<std::shared_ptr<const material::ConeMaps>> cones_over(const Grid<float>& 
 
 Result<void> add_side(material::ReliefMaterial& set, material::KnownCones side, int threads,
                       Log& log, const std::stop_token& stop) {
-    const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
+    const Grid<float> heights = material::visible_heights(set.heights, side.from_behind);
     auto cones =
         cones_over(material::cone_field(heights.view(), side.border), set.name, threads, log, stop);
     if (!cones) {

@@ -41,9 +41,9 @@ constexpr std::size_t bytes_of_picture_reader = std::size_t{8} << 20U;
 unsigned readers_within(const io::TileTerrainOptions& options) {
     const std::size_t each =
         options.raster.imagery.empty() ? bytes_of_reader : bytes_of_picture_reader;
-    const std::size_t most =
+    const std::size_t max_threads =
         std::max<std::size_t>(1, options.raster.memory_budget / work_part / each);
-    return static_cast<unsigned>(std::min<std::size_t>(thread_count(options.threads), most));
+    return static_cast<unsigned>(std::min<std::size_t>(thread_count(options.threads), max_threads));
 }
 
 bool fits(const Result<io::TileSet::TerrainPlan>& plan) {
@@ -79,11 +79,11 @@ std::optional<OverviewPlan> overview_plan(const io::TileSet& tiles, io::TileTerr
 // Makes texels of the finest tiles at most as large as pixels of the finest image.
 int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double texel) {
     constexpr int max_refinement = 64;
-    const int most =
+    const int limit =
         std::min(max_refinement, terrain::max_tree_samples /
                                      std::max(stream.plan.grid.cols, stream.plan.grid.rows));
     int refinement = 1;
-    while (2 * refinement <= most && texel > 1.001 * refinement * imagery.finest_pixel()) {
+    while (2 * refinement <= limit && texel > 1.001 * refinement * imagery.finest_pixel()) {
         refinement *= 2;
     }
     return refinement;
@@ -116,7 +116,7 @@ bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& 
     const io::TileFile& finest = tiles.files().front();
     const double side =
         std::max(plan->grid.cols * finest.spacing.x, plan->grid.rows * finest.spacing.y);
-    return side > io::longest_image_side * imagery.set->finest_pixel();
+    return side > io::max_image_side * imagery.set->finest_pixel();
 }
 
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const SourceOptions& choice,

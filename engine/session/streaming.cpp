@@ -86,7 +86,7 @@ void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
     io::ImageryWindow window =
         images.read(io::picture_grid(grid, tile, cells, maker.picture_size(tile)),
                     maker.texel(tile.level), stop);
-    io::close_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
+    io::wrap_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
     content.picture = {std::move(window.texels), window.whole, window.has_more};
     add_errors(content.picture_errors, window.errors);
 }
@@ -118,19 +118,19 @@ int readings_of(const scene::Scene& scene) {
 }
 
 // From the file; for voids and after errors the mean of the overview's row.
-double pole_height(const io::HeightAnswer& answer, const Grid<float>& overview, int row) {
+double pole_height(const io::HeightSample& answer, const Grid<float>& overview, int row) {
     const auto values = overview.row(row);
-    return answer.kind == io::HeightAnswer::Kind::height
+    return answer.kind == io::HeightSample::Kind::height
                ? answer.height
                : std::accumulate(values.begin(), values.end(), 0.0) /
                      static_cast<double>(values.size());
 }
 
-io::ClosedGrid ground_of(const io::TileSet& tiles, const StreamSource& stream,
-                         const Grid<float>& overview) {
-    io::ClosedGrid ground = io::closed_grid(stream.plan.grid, tiles.closing(stream.plan.grid),
-                                            stream.imagery.refinement);
-    if (ground.closing.rows() > 0) {
+io::WrappedGrid ground_of(const io::TileSet& tiles, const StreamSource& stream,
+                          const Grid<float>& overview) {
+    io::WrappedGrid ground =
+        io::wrapped_grid(stream.plan.grid, tiles.wrap(stream.plan.grid), stream.imagery.refinement);
+    if (ground.wrap.rows() > 0) {
         const auto poles = tiles.heights(std::array{glm::dvec2(90.0, 0.0), glm::dvec2(-90.0, 0.0)});
         ground.north_height = pole_height(poles.answers[0], overview, 0);
         ground.south_height = pole_height(poles.answers[1], overview, overview.rows() - 1);
@@ -147,13 +147,13 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     }
     return_freed_blocks();
     const scene::ImageryDetail imagery = source.stream->imagery;
-    const io::ClosedGrid ground =
+    const io::WrappedGrid ground =
         ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
     const bool wraps_longitude =
-        ground.closing.around && overview->placement().kind() == terrain::PlacementKind::ellipsoid;
+        ground.wrap.around && overview->placement().kind() == terrain::PlacementKind::ellipsoid;
     const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, wraps_longitude);
     scene::TileBuilder maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
-                             ground.closing);
+                             ground.wrap);
     const auto read = [tiles = *source.tiles, images = source.imagery, ground, maker,
                        reduction = source.stream->plan.reduction,
                        step_of_overview = source.stream->step_of_overview,

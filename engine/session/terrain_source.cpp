@@ -203,8 +203,8 @@ bool has_many_files(const io::SceneDescription& description) {
     return fs::is_directory(description.heights, ignored) || io::is_web_tiles(description.heights);
 }
 
-Result<void> refuse_folder_options(const SourceOptions& choice,
-                                   const io::SceneDescription& description) {
+Result<void> check_folder_options(const SourceOptions& choice,
+                                  const io::SceneDescription& description) {
     const char* option = choice.area ? "--area" : choice.gaps ? "--gaps" : nullptr;
     if (option == nullptr && !description.area) {
         return {};
@@ -226,7 +226,7 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
         return read_tiles({std::move(*tiles), std::move(imagery)}, choice, std::move(description),
                           log, stop);
     }
-    if (auto fits = refuse_folder_options(choice, description); !fits) {
+    if (auto fits = check_folder_options(choice, description); !fits) {
         return fits.error();
     }
     SetOrImagery found = set_to_stream(choice, description, stop);
@@ -290,8 +290,8 @@ void log_notes(const TerrainSource& source, Log& log) {
     for (const std::string& note : source.terrain.notes) {
         log.note(note);
     }
-    for (const std::string& fault : source.terrain.errors) {
-        log.message(MessageKind::left_out, fault);
+    for (const std::string& error : source.terrain.errors) {
+        log.message(MessageKind::left_out, error);
     }
 }
 
@@ -370,7 +370,7 @@ Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_t
                                  description->name)};
     }
     if (!has_many_files(*description)) {
-        if (auto fits = refuse_folder_options(choice, *description); !fits) {
+        if (auto fits = check_folder_options(choice, *description); !fits) {
             return fits.error();
         }
     }

@@ -65,7 +65,7 @@ DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& 
         return DetailLevel::none;
     }
     const double lift = static_cast<double>(detail.scale) * detail.width;
-    return scene::looks_for_surface(detail.technique.id()) &&
+    return scene::searches_surface(detail.technique.id()) &&
                    is_seen(lift, seen_height_pixels(terrain).x)
                ? DetailLevel::relief
                : DetailLevel::light;

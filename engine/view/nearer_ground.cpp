@@ -185,9 +185,9 @@ void NearerGround::make_horizon() {
         return ground_.range(low, high);
     };
     horizon_.emplace(ground,
-                     terrain::HorizonReach{builder_.spacing(0),
-                                           glm::length(samples * overview.spacing),
-                                           sectors_of_tiles, stretch_growth_of_tiles},
+                     terrain::HorizonOptions{builder_.spacing(0),
+                                             glm::length(samples * overview.spacing),
+                                             sectors_of_tiles, stretch_growth_of_tiles},
                      *view_);
 }
 

@@ -109,7 +109,7 @@ private:
     };
 
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        if (scene::looks_for_surface(terrain.material.technique.id())) {
+        if (scene::searches_surface(terrain.material.technique.id())) {
             add_relief(terrain, world_from_local);
         } else if (!add_streamed(terrain, world_from_local)) {
             add_tiles(terrain, world_from_local);

@@ -168,18 +168,18 @@ private:
     [[nodiscard]] terrain::ErrorView view_of(const StreamedDraw& draw,
                                              const StreamedShape& shape) const {
         const double error = scene::error_bound(draw.terrain->material.technique);
-        const double most = error * share_beside(error_of_vertices(draw) / error);
+        const double own_error = error * share_beside(error_of_vertices(draw) / error);
         return error_view(list_.camera, list_.size, draw.world_from_local * shape.local_from_plane,
-                          terrain::PlacementKind::plane, std::max(most, min_error));
+                          terrain::PlacementKind::plane, std::max(own_error, min_error));
     }
 
     // On a border those of the coarser tile.
     [[nodiscard]] double error_of_vertices(const StreamedDraw& draw) const {
-        double most = draw.error;
+        double max_drawn_error = draw.error;
         for (const terrain::TreeTile other : cover_.touching(draw.tile->id)) {
-            most = std::max(most, draws_.at(other)->error);
+            max_drawn_error = std::max(max_drawn_error, draws_.at(other)->error);
         }
-        return most;
+        return max_drawn_error;
     }
 
     const DrawList& list_;

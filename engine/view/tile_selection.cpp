@@ -335,12 +335,13 @@ double error_within_memory(const StreamView& view, const scene::StreamedTile& ro
     return 1.0;
 }
 
-std::vector<terrain::TreeTile> most_urgent(std::vector<Candidate> missing) {
+std::vector<terrain::TreeTile> by_urgency(std::vector<Candidate> missing) {
     std::sort(missing.begin(), missing.end(), [](const Candidate& a, const Candidate& b) {
         return a.urgency != b.urgency ? a.urgency > b.urgency : a.id < b.id;
     });
     missing.resize(std::min(missing.size(), max_requests));
     std::vector<terrain::TreeTile> requested;
+    requested.reserve(missing.size());
     for (const Candidate& candidate : missing) {
         requested.push_back(candidate.id);
     }
@@ -374,7 +375,7 @@ TileSelection walk_until_complete(const StreamView& view, const scene::StreamedT
             continue;
         }
         if (!requested) {
-            requested = most_urgent(walk.missing());
+            requested = by_urgency(walk.missing());
         }
         if (walk.missing().empty()) {
             TileSelection selection = walk.take();

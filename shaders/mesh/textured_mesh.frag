@@ -5,7 +5,7 @@
 #ifndef HIT
 #include "frame/surface_light.glsl"
 #include "material/tile_light.glsl"
-#include "material/tile_looks.glsl"
+#include "material/tile_lighting.glsl"
 #endif
 
 #ifdef WARPED

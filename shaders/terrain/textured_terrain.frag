@@ -6,7 +6,7 @@
 #include "material/tile_surface.glsl"
 #include "frame/surface_light.glsl"
 #include "material/tile_light.glsl"
-#include "material/tile_looks.glsl"
+#include "material/tile_lighting.glsl"
 #include "terrain/ground_color.glsl"
 
 vec3 seen_in(mat3 space, vec3 albedo, vec2 right, vec2 up, float visibility, float height_share) {

@@ -140,8 +140,8 @@ std::vector<std::int32_t> streams_of(const Drainage& drainage) {
 
 /// Metres of alluvium over the rock of a stream's bed.
 float alluvium(float square_kilometres) {
-    constexpr float least = 1.2247449F; // the root of stream_catchment
-    return std::clamp(14.0F * (std::sqrt(square_kilometres) - least), 0.0F, 190.0F);
+    constexpr float min_extent = 1.2247449F; // the root of stream_catchment
+    return std::clamp(14.0F * (std::sqrt(square_kilometres) - min_extent), 0.0F, 190.0F);
 }
 
 /// The floor level at every stream. The floor of a side valley lies above that of the main valley.

@@ -23,11 +23,11 @@ struct Curb {
     /// Signed distance to the nearest crossing roadway, metres; negative inside it.
     [[nodiscard]] float clearance(float along) const {
         const float place = street.along(at(along, 0.0F));
-        float least = 1e9F;
+        float nearest = 1e9F;
         for (const Junction& junction : street.junctions) {
-            least = std::min(least, std::abs(place - junction.at) - junction.half);
+            nearest = std::min(nearest, std::abs(place - junction.at) - junction.half);
         }
-        return least;
+        return nearest;
     }
 };
 

@@ -38,11 +38,11 @@ glm::vec2 centroid(const Convex& shape) {
 }
 
 float inner_distance(const Convex& shape, glm::vec2 point) {
-    float least = edge_plane(shape, 0).distance(point);
+    float nearest = edge_plane(shape, 0).distance(point);
     for (std::size_t i = 1; i < shape.size(); ++i) {
-        least = std::min(least, edge_plane(shape, i).distance(point));
+        nearest = std::min(nearest, edge_plane(shape, i).distance(point));
     }
-    return least;
+    return nearest;
 }
 
 Convex clipped(const Convex& shape, const HalfPlane& keep) {
@@ -136,11 +136,11 @@ Footprint::Footprint(const Convex& shape) {
 }
 
 float Footprint::distance(glm::vec2 point) const {
-    float least = 1e30F;
+    float nearest = 1e30F;
     for (const HalfPlane& plane : planes) {
-        least = std::min(least, plane.distance(point));
+        nearest = std::min(nearest, plane.distance(point));
     }
-    return least;
+    return nearest;
 }
 
 } // namespace reljef::terrains::urban

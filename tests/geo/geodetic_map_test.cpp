@@ -151,13 +151,13 @@ TEST(GeodeticMap, OfAWholeGlobeEndsAtThePoles) {
     }
     // 35×17 samples 10° apart, 36 and 18 with what closes them.
     const GeodeticMap source(degrees, glm::dvec2(0.0), {4.25, 2.0});
-    GlobalWrap closing{.around = true, .east = true, .north = 1.0, .south = 1.0};
-    const GeodeticMap whole = source.closed(closing, 35, 17);
+    GlobalWrap wrap{.around = true, .east = true, .north = 1.0, .south = 1.0};
+    const GeodeticMap whole = source.closed(wrap, 35, 17);
     EXPECT_NEAR(whole.latitude_longitude({3.0, 0.0}).x, 90.0, 1e-12);
     EXPECT_NEAR(whole.latitude_longitude({3.0, 18.0}).x, -90.0, 1e-12);
     EXPECT_EQ(whole.latitude_longitude({3.0, 5.0}), source.latitude_longitude({3.0, 4.0}));
     EXPECT_LE(whole.latitude_longitude({3.0, -1.0}).x, 90.0);
-    const ClosedRows rows({.north = 0.25, .south = 0.5}, 17);
+    const WrappedRows rows({.north = 0.25, .south = 0.5}, 17);
     EXPECT_EQ(rows.source_row(0.0), -0.25);
     EXPECT_EQ(rows.source_row(1.0), 0.0);
     EXPECT_EQ(rows.source_row(18.0), 16.5);

@@ -167,9 +167,9 @@ void expect_corners(std::span<const glm::dvec2> pixels, std::span<const glm::dve
     }
 }
 
-void expect_the_very_values(std::span<const HeightAnswer> found, std::span<const double> values) {
+void expect_the_very_values(std::span<const HeightSample> found, std::span<const double> values) {
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const bool no_height = found[i].kind == HeightAnswer::Kind::in_void;
+        const bool no_height = found[i].kind == HeightSample::Kind::in_void;
         ASSERT_EQ(no_height, GdalPrograms::is_void(values[i])) << "sample " << i;
         ASSERT_TRUE(no_height || found[i].height == GdalPrograms::metres(values[i]))
             << "sample " << i << ": " << found[i].height << ", " << values[i];
@@ -177,7 +177,7 @@ void expect_the_very_values(std::span<const HeightAnswer> found, std::span<const
 }
 
 /// To a micrometre; `around`: four values for each, all of them no voids where it is compared.
-void expect_bilinear(std::span<const HeightAnswer> found, const Questions& asked,
+void expect_bilinear(std::span<const HeightSample> found, const Questions& asked,
                      std::span<const double> around) {
     std::size_t compared = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {

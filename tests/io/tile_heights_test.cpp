@@ -107,8 +107,8 @@ TEST(TileHeights, AtASampleAreItsOwnValueToTheLastBit) {
         const auto found = tiles->heights(places);
         for (std::size_t i = 0; i < places.size(); ++i) {
             const double value = stored.value(samples[i].x, samples[i].y);
-            ASSERT_EQ(found.answers[i].kind, is_void(file, value) ? HeightAnswer::Kind::in_void
-                                                                  : HeightAnswer::Kind::height)
+            ASSERT_EQ(found.answers[i].kind, is_void(file, value) ? HeightSample::Kind::in_void
+                                                                  : HeightSample::Kind::height)
                 << file.file << " " << samples[i].x << "," << samples[i].y << " " << value;
             ASSERT_EQ(found.answers[i].height, is_void(file, value) ? 0.0 : value * file.metres)
                 << file.file << " " << samples[i].x << "," << samples[i].y;

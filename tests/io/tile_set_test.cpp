@@ -18,7 +18,7 @@ namespace {
 
 using test::made_raster;
 using ::testing::HasSubstr;
-using Kind = HeightAnswer::Kind;
+using Kind = HeightSample::Kind;
 
 /// West, north of the outer corner, and the step, in the units of the CRS.
 struct Corner {
@@ -235,7 +235,7 @@ TEST_F(TileSets, TheAntimeridianIsNoEdge) {
     EXPECT_EQ(terrain.heightfield.heights(100, 3), static_cast<float>(waves(-179.995, -16.035)));
     const std::vector<glm::dvec2> places{
         {-16.2, 180.0}, {-16.2, -180.0}, {-16.2, 179.9999}, {-16.2, 180.0001}};
-    for (const HeightAnswer& answer : open().heights(places).answers) {
+    for (const HeightSample& answer : open().heights(places).answers) {
         ASSERT_EQ(answer.kind, Kind::height);
         EXPECT_NEAR(answer.height, -16.2, 1e-2);
     }

@@ -171,8 +171,8 @@ TEST(ConeMap, ARelaxedConeIsNeverTheNarrowerOne) {
 
 TEST(ConeMap, OverAPlaneItIsAsWideAsThePlaneLets) {
     const auto level = material::cone_maps(Grid<float>(9, 7, 0.3F).view()).value();
-    EXPECT_NEAR(level.plain(4, 3), material::widest_cone, 0.01);
-    EXPECT_NEAR(level.relaxed(4, 3), material::widest_cone, 0.01);
+    EXPECT_NEAR(level.plain(4, 3), material::max_cone_ratio, 0.01);
+    EXPECT_NEAR(level.relaxed(4, 3), material::max_cone_ratio, 0.01);
     const auto slope = test::made_heights(
         40, 40, [](int col, int row) { return (3.0 * col + 4.0 * row) / 512.0; });
     const auto cones = material::cone_maps(slope.view()).value();
@@ -206,7 +206,7 @@ TEST(ConeMap, InterpolatedAndCodedItIsNowhereWider) {
             const Grid<float> samples = material::cones_at_samples(cells);
             ASSERT_EQ(samples.cols(), surface.heights.cols());
             for (const int highest : {255, 65535}) {
-                const auto codes = material::cone_codes(samples, material::widest_cone, highest);
+                const auto codes = material::cone_codes(samples, material::max_cone_ratio, highest);
                 for (int i = 0; i < 50; ++i) {
                     const Tip tip = random_tip(chance, surface.heights);
                     const float cell = cells(tip.cell.x, tip.cell.y) * (1.0F + 0x1p-20F);
@@ -214,7 +214,8 @@ TEST(ConeMap, InterpolatedAndCodedItIsNowhereWider) {
                     const glm::dvec2 place(tip.place);
                     ASSERT_LE(bilinear(samples, place, value), cell);
                     const float code = bilinear(codes, place, value);
-                    ASSERT_LE(material::cone_of_code(code, material::widest_cone, highest), cell);
+                    ASSERT_LE(material::cone_of_code(code, material::max_cone_ratio, highest),
+                              cell);
                 }
             }
         }
@@ -227,11 +228,11 @@ TEST(ConeMap, ACodeIsTheNextOneBelow) {
     for (int i = 0; i < 2000; ++i) {
         ratio(0, 0) = static_cast<float>(std::pow(10.0, chance.between(-3.0, 3.0)));
         for (const int highest : {255, 65535}) {
-            const int code = material::cone_codes(ratio, material::widest_cone, highest)(0, 0);
+            const int code = material::cone_codes(ratio, material::max_cone_ratio, highest)(0, 0);
             EXPECT_LE(
-                material::cone_of_code(static_cast<float>(code), material::widest_cone, highest),
+                material::cone_of_code(static_cast<float>(code), material::max_cone_ratio, highest),
                 ratio(0, 0));
-            EXPECT_GE(material::cone_of_code(static_cast<float>(code + 1), material::widest_cone,
+            EXPECT_GE(material::cone_of_code(static_cast<float>(code + 1), material::max_cone_ratio,
                                              highest),
                       ratio(0, 0) * (1.0F - 0x1p-20F));
         }

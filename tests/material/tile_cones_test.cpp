@@ -64,7 +64,7 @@ TEST(TileCones, OfATileThatDoesNotRepeatHaveACellBetweenEachTwoTexels) {
         5, 1, material::WrapMode::clamp);
     EXPECT_EQ(cones.plain.cols(), 4);
     EXPECT_EQ(cones.plain.rows(), 1);
-    EXPECT_NEAR(cones.plain(3, 0), material::widest_cone, 1e-3F); // rounded down
+    EXPECT_NEAR(cones.plain(3, 0), material::max_cone_ratio, 1e-3F); // rounded down
 }
 
 // A ridge that rises towards the tile's border is a wall beyond it: what rises along every way on

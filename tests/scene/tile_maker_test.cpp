@@ -116,7 +116,7 @@ double globe_height(glm::dvec2 sample) {
 
 /// 72×36 samples around the Earth, 5° apart, and what closes them.
 TileBuilder globe_maker() {
-    constexpr geo::GlobalWrap closing{.around = true, .east = true, .north = 0.5, .south = 0.5};
+    constexpr geo::GlobalWrap wrap{.around = true, .east = true, .north = 0.5, .south = 0.5};
     Grid<glm::dvec2> degrees(9, 9);
     for (int row = 0; row < 9; ++row) {
         for (int col = 0; col < 9; ++col) {
@@ -134,17 +134,13 @@ TileBuilder globe_maker() {
     globe.heightfield.spacing = glm::dvec2(555e3);
     globe.heightfield.georeference.emplace();
     globe.heightfield.georeference->geodetic =
-        geo::GeodeticMap(degrees, glm::dvec2(0.0), {71.0 / 8.0, 35.0 / 8.0})
-            .closed(closing, 72, 36);
+        geo::GeodeticMap(degrees, glm::dvec2(0.0), {71.0 / 8.0, 35.0 / 8.0}).closed(wrap, 72, 36);
     auto surface =
         TerrainSurface::create(std::make_shared<const terrain::Terrain>(std::move(globe)),
                                {.placement = terrain::PlacementKind::ellipsoid});
     EXPECT_TRUE(surface);
-    return {std::make_shared<const TerrainSurface>(std::move(*surface)),
-            TileTree(73, 38),
-            1,
-            {},
-            closing};
+    return {
+        std::make_shared<const TerrainSurface>(std::move(*surface)), TileTree(73, 38), 1, {}, wrap};
 }
 
 TEST(TileMakers, OfAWholeGlobeMeetAcrossTheAntimeridianAndAtThePoles) {

@@ -33,7 +33,7 @@ Result<PathKey> key_of(TomlTable& table) {
 
 constexpr NumberRange any_latitude{-90.0, 90.0, false};
 constexpr NumberRange any_longitude{-720.0, 720.0, false};
-constexpr NumberRange any_height{-world_reach, world_reach, false};
+constexpr NumberRange any_height{-max_world_coordinate, max_world_coordinate, false};
 constexpr NumberRange any_heading{-720.0, 720.0, false};
 constexpr NumberRange any_pitch{-90.0, 90.0, false};
 

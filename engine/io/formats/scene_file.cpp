@@ -22,7 +22,7 @@ constexpr NumberRange height_offsets{-1e6, 1e6, false};
 constexpr NumberRange spacings{terrain::min_spacing, terrain::max_spacing, false};
 constexpr NumberRange sizes{16.0, 4096.0, false};
 constexpr NumberRange seeds{0.0, 4294967295.0, false};
-constexpr NumberRange exaggerations{0.0, terrain::largest_exaggeration, true};
+constexpr NumberRange exaggerations{0.0, terrain::max_exaggeration, true};
 constexpr NumberRange azimuths{-360.0, 360.0, false};
 constexpr NumberRange altitudes{0.0, 90.0, true};
 constexpr NumberRange tile_widths{material::min_tile_width, material::max_tile_width, false};

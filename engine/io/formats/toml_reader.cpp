@@ -288,12 +288,12 @@ void TomlTable::read(std::string_view key, std::optional<glm::dvec3>& value) {
     for (std::size_t i = 0; good && i < 3; ++i) {
         const toml::node& element = *array->get(i);
         const auto number = element.is_number() ? element.value<double>() : std::optional<double>();
-        good = number && std::abs(*number) <= world_reach;
+        good = number && std::abs(*number) <= max_world_coordinate;
         found[static_cast<int>(i)] = number.value_or(0.0);
     }
     if (!good) {
         fail(key, fmt::format("is {}, three numbers [x, y, z] of at most {} metres were expected",
-                              text_of(*node), world_reach));
+                              text_of(*node), max_world_coordinate));
         return;
     }
     value = found;

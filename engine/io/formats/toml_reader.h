@@ -46,7 +46,7 @@ public:
     /// One or more of these.
     void read(std::string_view key, std::vector<std::filesystem::path>& values,
               const std::filesystem::path& folder);
-    /// Three numbers of at most world_reach.
+    /// Three numbers of at most max_world_coordinate.
     void read(std::string_view key, std::optional<glm::dvec3>& value);
 
     /// A nested table; empty if absent.

@@ -83,9 +83,9 @@ Result<std::vector<GeodeticKey>> keys_along(const std::vector<TrackPoint>& point
                                      "and longitudes in degrees were expected",
                                      name, point.place.y, point.place.x)};
         }
-        if (std::abs(point.height.value_or(0.0)) > world_reach) {
+        if (std::abs(point.height.value_or(0.0)) > max_world_coordinate) {
             return Error{fmt::format("{}: its line has a height of {} m, at most {} m was expected",
-                                     name, *point.height, world_reach)};
+                                     name, *point.height, max_world_coordinate)};
         }
         GeodeticKey key;
         key.latitude = point.place.y;

@@ -158,7 +158,7 @@ Channels cone_channels(const Grid<float>& cones, bool as_floats) {
     if (as_floats) {
         return height_channels(cones);
     }
-    const auto codes = material::cone_codes(cones, material::widest_cone, highest);
+    const auto codes = material::cone_codes(cones, material::max_cone_ratio, highest);
     Grid<float> shares(cones.cols(), cones.rows());
     std::transform(codes.samples().begin(), codes.samples().end(), shares.samples().begin(),
                    [](std::uint16_t code) { return static_cast<float>(code) / highest; });

@@ -23,9 +23,9 @@ void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
     }
     const std::size_t before = paths.size();
     for (const IndexedFile& file : index->files) {
-        if (file.use == TileUse::error) {
+        if (file.use == FileKind::error) {
             errors.push_back(file.error);
-        } else if (file.use == TileUse::picture || file.type == "Byte" || file.type == "UInt16") {
+        } else if (file.use == FileKind::picture || file.type == "Byte" || file.type == "UInt16") {
             paths.push_back(folder / file.path);
         }
     }

@@ -152,7 +152,7 @@ glm::ivec2 target_size(const SampleGrid& grid, const CommonSpace& space, glm::dv
     const double used = static_cast<double>(grid.cols) * grid.rows * bytes_per_sample;
     const double whole = static_cast<double>(budget);
     const double pixels = std::max(whole - used, whole * min_budget_share) / bytes_per_pixel;
-    const double shrink = std::min({1.0, longest_image_side / std::max(desired.x, desired.y),
+    const double shrink = std::min({1.0, max_image_side / std::max(desired.x, desired.y),
                                     std::sqrt(pixels / (desired.x * desired.y))});
     return glm::ivec2(glm::max(glm::floor(desired * shrink + 1e-6), 2.0));
 }
@@ -376,7 +376,7 @@ void note_stretching(std::span<const PlacedImage> pictures, GDALDataset& heights
 
 Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
                            std::vector<std::string>& notes, std::vector<std::string>& errors) {
-    const SampleGrid grid = closed(place.grid, place.closing);
+    const SampleGrid grid = closed(place.grid, place.wrap);
     std::vector<std::string> wrong;
     const ImageFiles files =
         image_files(options.imagery, wrong, options.stop, options.imagery_white);
@@ -412,7 +412,7 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
         return Error{wrong.front()};
     }
     Image result = std::move(drape).take();
-    close_picture(result, {place.closing, place.grid.rows}, 0.0, grid.rows - 1);
+    wrap_picture(result, {place.wrap, place.grid.rows}, 0.0, grid.rows - 1);
     const double share = covered_share(result);
     if (share == 0.0) {
         return shows_nothing(options);

@@ -301,13 +301,13 @@ std::optional<std::string> ImagerySet::missing_overviews() const {
     return std::nullopt;
 }
 
-void close_picture(Image& picture, const geo::ClosedRows& rows, double first, double samples) {
+void wrap_picture(Image& picture, const geo::WrappedRows& rows, double first, double samples) {
     constexpr double same_row = 1e-6;
     const double step = samples / (picture.rows() - 1);
     const int last = picture.rows() - 1;
     const auto texel_of = [&](int row) {
         const double source = rows.source_row(first + row * step);
-        return (source + rows.closing().north_rows() - first) / step;
+        return (source + rows.wrap().north_rows() - first) / step;
     };
     for (int row = 0; row <= last && texel_of(row) > row + same_row; ++row) {
         copy_row(picture, std::min(static_cast<int>(std::ceil(texel_of(row) - same_row)), last),

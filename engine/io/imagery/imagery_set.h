@@ -67,6 +67,6 @@ private:
 
 /// Replaces the texels beyond a pole by those at the pole's row. The picture's texels lie edge to
 /// edge over `samples` of the closed rows, starting at row `first`.
-void close_picture(Image& picture, const geo::ClosedRows& rows, double first, double samples);
+void wrap_picture(Image& picture, const geo::WrappedRows& rows, double first, double samples);
 
 } // namespace reljef::io

@@ -149,10 +149,10 @@ std::optional<geo::Georeference> georeference_of(GDALDataset& dataset,
         std::move(names.name),
         std::move(names.code),
         wkt_of(dataset.GetSpatialRef() != nullptr ? *dataset.GetSpatialRef() : crs),
-        affine_of_samples(affine, closed(grid, place.closing)),
+        affine_of_samples(affine, closed(grid, place.wrap)),
         std::move(names.horizontal_unit),
         vertical_datum_of(dataset),
-        fit->map.closed(place.closing, grid.cols, grid.rows),
+        fit->map.closed(place.wrap, grid.cols, grid.rows),
         std::nullopt};
 }
 
@@ -180,10 +180,10 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
     if (!polar && ground) {
         note_rotation(*ground, notes);
     }
-    place.closing =
+    place.wrap =
         closing_of(crs, affine_of_samples(affine, place.grid), place.grid.cols, place.grid.rows);
     place.georeference = georeference_of(dataset, crs, affine, *exact, place, notes);
-    place.closing = place.georeference ? place.closing : geo::GlobalWrap{};
+    place.wrap = place.georeference ? place.wrap : geo::GlobalWrap{};
     return place;
 }
 

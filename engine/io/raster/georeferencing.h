@@ -48,7 +48,7 @@ struct Place {
     glm::dvec2 spacing{1.0};      ///< metres
     bool spacing_assumed = false; ///< unknown
     std::optional<geo::Georeference> georeference;
-    geo::GlobalWrap closing; ///< applied to `georeference`, but not to `grid`
+    geo::GlobalWrap wrap; ///< applied to `georeference`, but not to `grid`
 };
 
 /// Fails for an invalid geotransform, an absurd spacing and a conflicting RasterOptions::spacing.

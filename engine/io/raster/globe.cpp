@@ -37,23 +37,23 @@ int samples_around(const OGRSpatialReference& crs, const geo::PixelAffine& affin
 geo::GlobalWrap closing_of(const OGRSpatialReference& crs, const geo::PixelAffine& affine, int cols,
                            int rows) {
     const int around = samples_around(crs, affine);
-    geo::GlobalWrap closing;
+    geo::GlobalWrap wrap;
     if (around == 0 || cols < around || cols > around + 1 || affine.y_row >= 0.0) {
-        return closing;
+        return wrap;
     }
-    closing.around = true;
-    closing.east = cols == around;
+    wrap.around = true;
+    wrap.east = cols == around;
     const double pole = 0.25 * whole_turn(crs);
     const double step = -affine.y_row;
-    closing.north = steps_to_pole(affine.y0, pole, step);
-    closing.south = steps_to_pole(-(affine.y0 - step * (rows - 1)), pole, step);
-    return closing;
+    wrap.north = steps_to_pole(affine.y0, pole, step);
+    wrap.south = steps_to_pole(-(affine.y0 - step * (rows - 1)), pole, step);
+    return wrap;
 }
 
-SampleGrid closed(SampleGrid grid, const geo::GlobalWrap& closing) {
-    grid.origin.y -= grid.step.y * closing.north_rows();
-    grid.cols += closing.cols();
-    grid.rows += closing.rows();
+SampleGrid closed(SampleGrid grid, const geo::GlobalWrap& wrap) {
+    grid.origin.y -= grid.step.y * wrap.north_rows();
+    grid.cols += wrap.cols();
+    grid.rows += wrap.rows();
     return grid;
 }
 

@@ -15,7 +15,7 @@ int samples_around(const OGRSpatialReference& crs, const geo::PixelAffine& affin
 geo::GlobalWrap closing_of(const OGRSpatialReference& crs, const geo::PixelAffine& affine, int cols,
                            int rows);
 
-/// The grid with the samples of a closing; pole rows lie one step outside.
-SampleGrid closed(SampleGrid grid, const geo::GlobalWrap& closing);
+/// The grid with the samples of a wrap; pole rows lie one step outside.
+SampleGrid closed(SampleGrid grid, const geo::GlobalWrap& wrap);
 
 } // namespace reljef::io

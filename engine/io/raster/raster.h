@@ -37,7 +37,7 @@ struct RasterOptions {
 inline constexpr std::size_t bytes_per_sample = 40;
 
 /// Maximum side of a draped image, pixels.
-inline constexpr int longest_image_side = 4096;
+inline constexpr int max_image_side = 4096;
 
 /// Limits GDAL's block cache, which all readers share.
 void limit_block_cache(std::size_t bytes);

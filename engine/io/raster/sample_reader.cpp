@@ -174,13 +174,12 @@ template <class T> void flip(Grid<T>& grid, const Place& place) {
     }
 }
 
-template <class T>
-Grid<T> with_closing_samples(const Grid<T>& grid, const geo::GlobalWrap& closing) {
-    Grid<T> result(grid.cols() + closing.cols(), grid.rows() + closing.rows());
+template <class T> Grid<T> with_closing_samples(const Grid<T>& grid, const geo::GlobalWrap& wrap) {
+    Grid<T> result(grid.cols() + wrap.cols(), grid.rows() + wrap.rows());
     for (int row = 0; row < grid.rows(); ++row) {
-        const auto target = result.row(row + closing.north_rows());
+        const auto target = result.row(row + wrap.north_rows());
         std::copy(grid.row(row).begin(), grid.row(row).end(), target.begin());
-        if (closing.east) {
+        if (wrap.east) {
             target[target.size() - 1] = target[0];
         }
     }
@@ -221,19 +220,19 @@ void close_pole(Grid<float>& heights, Grid<std::uint8_t>& voids, int pole_row, i
     }
 }
 
-/// Adds the samples of a closing. A pole gets the mean of its row, and is a void if the row is.
+/// Adds the samples of a wrap. A pole gets the mean of its row, and is a void if the row is.
 void close_samples(Grid<float>& heights, Grid<std::uint8_t>& void_mask,
-                   const geo::GlobalWrap& closing) {
-    if (closing.cols() == 0 && closing.rows() == 0) {
+                   const geo::GlobalWrap& wrap) {
+    if (wrap.cols() == 0 && wrap.rows() == 0) {
         return;
     }
     const int cols = heights.cols();
-    heights = with_closing_samples(heights, closing);
-    void_mask = void_mask.empty() ? std::move(void_mask) : with_closing_samples(void_mask, closing);
-    if (closing.north > 0.0) {
+    heights = with_closing_samples(heights, wrap);
+    void_mask = void_mask.empty() ? std::move(void_mask) : with_closing_samples(void_mask, wrap);
+    if (wrap.north > 0.0) {
         close_pole(heights, void_mask, 0, 1, cols);
     }
-    if (closing.south > 0.0) {
+    if (wrap.south > 0.0) {
         close_pole(heights, void_mask, heights.rows() - 1, heights.rows() - 2, cols);
     }
 }
@@ -298,7 +297,7 @@ terrain::Heightfield heightfield_of(Samples samples, Place& place) {
     terrain::Heightfield result;
     result.range = terrain::height_range(samples.heights, samples.void_mask);
     terrain::fill_voids(samples.heights, samples.void_mask);
-    close_samples(samples.heights, samples.void_mask, place.closing);
+    close_samples(samples.heights, samples.void_mask, place.wrap);
     result.heights = std::move(samples.heights);
     result.void_mask = std::move(samples.void_mask);
     result.void_count = static_cast<std::size_t>(std::count(

@@ -31,7 +31,7 @@ ShaderVariant ground_variant(const scene::TerrainDetail& detail, view::DetailLev
     if (level == view::DetailLevel::relief) {
         return {ShaderKind::relief_terrain, features | technique_features(detail.technique)};
     }
-    const std::uint32_t look = scene::looks_for_surface(detail.technique.id())
+    const std::uint32_t look = scene::searches_surface(detail.technique.id())
                                    ? feature_normal_map
                                    : technique_features(detail.technique);
     return {ShaderKind::textured_terrain, features | look};

@@ -31,10 +31,10 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
     if (material.detail.set == nullptr) {
         return {ShaderKind::mesh, features};
     }
-    const bool wraps = scene::shown_detail(material).border == material::WrapMode::wrap;
+    const bool wraps = scene::visible_detail(material).border == material::WrapMode::wrap;
     features |= wraps ? feature_wrap : 0U;
     features |= technique_features(material.technique);
-    if (!scene::looks_for_surface(material.technique.id())) {
+    if (!scene::searches_surface(material.technique.id())) {
         return {ShaderKind::textured_mesh, features};
     }
     const bool in_hull = material.technique.options.true_silhouettes;
@@ -42,7 +42,7 @@ ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t featur
 }
 
 DetailBlock mesh_detail(const view::MeshDraw& draw, const MeshResidency& residency) {
-    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
+    const scene::SurfaceDetail detail = scene::visible_detail(draw.mesh->material);
     const double lift = scene::relief_height(*draw.mesh->mesh, detail);
     DetailBlock block = detail_block(*detail.set, residency.surface(draw), static_cast<float>(lift),
                                      mesh_height(draw));

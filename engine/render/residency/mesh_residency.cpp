@@ -70,7 +70,7 @@ bool has_hull(const view::MeshDraw& draw) {
 TileSide side_of(const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
     return {layers_for(material.technique.id()),
-            scene::shown_detail(material).border == material::WrapMode::wrap, draw.from_behind};
+            scene::visible_detail(material).border == material::WrapMode::wrap, draw.from_behind};
 }
 
 std::vector<PlainVertex> plain_vertices(const scene::Mesh& mesh) {
@@ -156,8 +156,8 @@ Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, view::Fra
 
 template <class Resident>
 bool MeshResidency::Derived<Resident>::is_for(const view::MeshDraw& draw) const {
-    return owner.lock() == draw.mesh->mesh && detail == scene::shown_detail(draw.mesh->material) &&
-           texels == max_texels(draw);
+    return owner.lock() == draw.mesh->mesh &&
+           detail == scene::visible_detail(draw.mesh->material) && texels == max_texels(draw);
 }
 
 Result<void> MeshResidency::prepare(const std::vector<view::MeshDraw>& draws,
@@ -206,7 +206,7 @@ Result<void> MeshResidency::prepare_hull(const view::MeshDraw& draw, view::Frame
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
+    const scene::SurfaceDetail detail = scene::visible_detail(draw.mesh->material);
     auto hull = resident_hull(hull_parts(*draw.mesh->mesh, detail), stats);
     if (!hull) {
         return hull.error();
@@ -239,7 +239,7 @@ Result<void> MeshResidency::prepare_displaced(const view::MeshDraw& draw, view::
         return {};
     }
     const double texels = max_texels(draw);
-    const scene::SurfaceDetail detail = scene::shown_detail(draw.mesh->material);
+    const scene::SurfaceDetail detail = scene::visible_detail(draw.mesh->material);
     const scene::Mesh fine =
         scene::tessellated(*draw.mesh->mesh, scene::cuts_for(*draw.mesh->mesh, detail, texels));
     auto made = upload_mesh(textured_vertices(fine, scene::displaced_positions(fine, detail)),
@@ -261,7 +261,7 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
         }
         const auto plane = scene::texture_plane(*draw.mesh->mesh);
         check(plane.has_value(), "a warp of a mesh that is not flat");
-        const scene::SurfaceDetail detail = scene::shown_detail(material);
+        const scene::SurfaceDetail detail = scene::visible_detail(material);
         const Grid<glm::vec4> shown =
             warped_tile(*plane, detail, scene::relief_height(*draw.mesh->mesh, detail),
                         warp_eye(camera, draw.world_from_local));

@@ -134,7 +134,7 @@ Result<ResidentSurface> resident_surface(const material::ReliefMaterial& set, co
     if (side.layers) {
         return resident_layers(set, side, stats);
     }
-    const Grid<float> shown = material::seen_heights(set.heights, side.from_behind);
+    const Grid<float> shown = material::visible_heights(set.heights, side.from_behind);
     auto heights = upload_grid(
         shown, {.format = gl::Format::r32f, .levels = gl::full_chain, .wrap = wrap_of(side.wraps)},
         stats);
@@ -151,14 +151,14 @@ Result<ResidentSurface> resident_surface(const material::ReliefMaterial& set, co
 Result<gl::Texture2D> max_mipmap_texture(const material::ReliefMaterial& set, const TileSide& side,
                                          view::FrameStats& stats) {
     const Grid<float> heights =
-        with_next_copies(material::seen_heights(set.heights, side.from_behind), side.wraps);
+        with_next_copies(material::visible_heights(set.heights, side.from_behind), side.wraps);
     return upload_levels(max_mipmap(heights.view()), stats);
 }
 
 Result<gl::Texture2D> tile_cone_texture(const material::ReliefMaterial& set, const TileSide& side,
                                         view::FrameStats& stats) {
     const material::WrapMode border = border_as(side.wraps);
-    const Grid<float> heights = material::seen_heights(set.heights, side.from_behind);
+    const Grid<float> heights = material::visible_heights(set.heights, side.from_behind);
     const Grid<float> field = material::cone_field(heights.view(), border);
     const auto known = known_cones(set, side);
     const material::ConeMaps cones =

@@ -118,7 +118,7 @@ GroundMap ground_map(const scene::TerrainSurface& surface,
                      const std::optional<scene::TerrainLight>& light, int largest_side) {
     const Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     const Grid<glm::vec2> gradients =
-        terrain::scene_gradients(surface.heightfield(), surface.placement());
+        terrain::surface_gradients(surface.heightfield(), surface.placement());
     std::optional<scene::TerrainIrradiance> irradiance;
     if (light) {
         irradiance.emplace(surface, *light);

@@ -246,7 +246,7 @@ bool searches_for_surface(ShaderKind kind) {
            kind == ShaderKind::relief_hull || kind == ShaderKind::relief_terrain;
 }
 
-ShaderVariant without_meaningless(ShaderVariant variant) {
+ShaderVariant canonical_variant(ShaderVariant variant) {
     variant.features &= ~(has_ground(variant.kind) ? feature_hit : 0U);
     const std::uint32_t own =
         own_features(variant) | (is_multisampled(variant) ? feature_multisampled : 0U);
@@ -266,7 +266,7 @@ ShaderVariant without_meaningless(ShaderVariant variant) {
 }
 
 Result<gl::Program*> ShaderLibrary::program(ShaderVariant variant) {
-    variant = without_meaningless(variant);
+    variant = canonical_variant(variant);
     const auto found = programs_.find(variant);
     if (found != programs_.end()) {
         return &found->second;

@@ -74,7 +74,7 @@ struct ShaderVariant {
 /// The variant without features that have no effect. Hits have no light, fog, shadows, smooth edges
 /// or samples. The sky has no fog. Sky and surface detail on terrains are never hit. A terrain's
 /// light is in its map unless a relief casts shadows. Parallax follows no ray.
-ShaderVariant without_meaningless(ShaderVariant variant);
+ShaderVariant canonical_variant(ShaderVariant variant);
 
 /// Programs by variant, compiled on first use. Needs a current context.
 class ShaderLibrary {

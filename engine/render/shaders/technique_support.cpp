@@ -38,7 +38,7 @@ unsigned int last_texture_unit(scene::TechniqueId id, bool is_mesh) {
     if (id == scene::TechniqueId::cone) {
         return is_mesh ? bindings::cone_map_unit : bindings::relief_cone_map_unit;
     }
-    if (scene::looks_for_layers(id)) {
+    if (scene::searches_layers(id)) {
         return bindings::normal_map_v_unit;
     }
     if (is_mesh) {
@@ -69,7 +69,7 @@ bool draws(scene::TechniqueId id, bool is_mesh) {
 
 Result<void> check_surface(const scene::Technique& technique, const DrawnSurface& surface,
                            const gl::Limits& limits) {
-    const auto lack = lack_of(technique.id(), surface, limits);
+    const auto lack = missing_support(technique.id(), surface, limits);
     if (!lack) {
         return {};
     }
@@ -87,8 +87,8 @@ DrawnSurface surface_of(const scene::TerrainNode& terrain) {
 
 } // namespace
 
-std::optional<std::string> lack_of(scene::TechniqueId id, const DrawnSurface& surface,
-                                   const gl::Limits& limits) {
+std::optional<std::string> missing_support(scene::TechniqueId id, const DrawnSurface& surface,
+                                           const gl::Limits& limits) {
     if (version_of(limits.version) < shader_version) {
         return fmt::format("OpenGL {} found, 4.5 was expected", limits.version);
     }
@@ -119,7 +119,7 @@ nearest_technique(scene::TechniqueId id, const DrawnSurface& surface, const gl::
                 continue;
             }
             const scene::TechniqueId other = catalogue[static_cast<std::size_t>(place)].id;
-            if (draws(other, surface.is_mesh) && !lack_of(other, surface, limits)) {
+            if (draws(other, surface.is_mesh) && !missing_support(other, surface, limits)) {
                 return other;
             }
         }

@@ -20,8 +20,8 @@ struct DrawnSurface {
 /// The context's limit that the technique exceeds, as "found, expected": the OpenGL version, the
 /// texture units of its maps, or the texture size of the heights and their max mipmap. Empty if it
 /// can draw the surface.
-std::optional<std::string> lack_of(scene::TechniqueId id, const DrawnSurface& surface,
-                                   const gl::Limits& limits);
+std::optional<std::string> missing_support(scene::TechniqueId id, const DrawnSurface& surface,
+                                           const gl::Limits& limits);
 
 /// The nearest technique in the catalogue, predecessors first, that can draw the surface.
 std::optional<scene::TechniqueId>

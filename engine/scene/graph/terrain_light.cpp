@@ -24,7 +24,7 @@ Grid<std::uint8_t> visibility_of_sun(const TerrainSurface& surface, const Terrai
     return terrain::sun_visibility(heightfield.heights.view(), heightfield.spacing,
                                    surface.placement().exaggeration(), to_sun_on_grid,
                                    heightfield.georeference &&
-                                       heightfield.georeference->geodetic.rows().closing().around);
+                                       heightfield.georeference->geodetic.rows().wrap().around);
 }
 
 } // namespace
@@ -40,7 +40,7 @@ Image albedo_map(const TerrainSurface& surface) {
 }
 
 TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light)
-    : gradients_(terrain::scene_gradients(surface.heightfield(), surface.placement())),
+    : gradients_(terrain::surface_gradients(surface.heightfield(), surface.placement())),
       visibility_(visibility_of_sun(surface, light)),
       world_from_normal_(glm::inverseTranspose(light.world_from_local)),
       to_sun_(to_light(light.sun)), sun_(light.sun.color), sky_(light.sun.ambient),

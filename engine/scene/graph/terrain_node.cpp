@@ -6,11 +6,11 @@ namespace reljef::scene {
 namespace {
 
 Error for_meshes_only(TechniqueId id) {
-    const bool moves = id == TechniqueId::displacement || looks_for_layers(id);
+    const bool moves = id == TechniqueId::displacement || searches_layers(id);
     return Error{fmt::format("technique {}: a terrain found, a mesh with a tile of detail was "
                              "expected; {} {} a terrain by its heights",
                              technique_info(id).name,
-                             looks_for_layers(id) ? "exact" : (moves ? "polygons" : "texture"),
+                             searches_layers(id) ? "exact" : (moves ? "polygons" : "texture"),
                              moves ? "shapes" : "lights")};
 }
 
@@ -36,7 +36,7 @@ std::string_view reason_against_terrain(const Technique& technique, const Terrai
 
 bool shows_detail(TechniqueId id) {
     return id != TechniqueId::polygons && id != TechniqueId::displacement &&
-           id != TechniqueId::prewarp && !looks_for_layers(id);
+           id != TechniqueId::prewarp && !searches_layers(id);
 }
 
 bool has_foreign_options(const TechniqueOptions& options) {
@@ -48,7 +48,7 @@ bool has_foreign_options(const TechniqueOptions& options) {
 
 } // namespace
 
-SurfaceDetail shown_detail(const Material& material) {
+SurfaceDetail visible_detail(const Material& material) {
     SurfaceDetail detail = material.detail;
     detail.border = material.technique.options.border.value_or(detail.border);
     return detail;

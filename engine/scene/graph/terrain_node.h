@@ -28,7 +28,7 @@ struct Material {
 };
 
 /// The detail with the border that the technique names.
-SurfaceDetail shown_detail(const Material& material);
+SurfaceDetail visible_detail(const Material& material);
 
 /// Whether the inner side of a mesh is drawn, too.
 bool is_seen_from_behind(const Material& material);
@@ -96,7 +96,7 @@ class TileStream;
 struct TerrainNode {
     std::shared_ptr<const TerrainSurface> surface;
     Material material;
-    /// Finer tiles of the same terrain, of which the surface is the overview; null: none.
+    /// Finer tiles of the same terrain; the surface is their overview. Null: none.
     std::shared_ptr<TileStream> stream = {};
     std::shared_ptr<const TerrainDetail> detail = {}; ///< for polygons only; null: none
     /// Prepared maps of the surface; null: the renderer makes them on demand.

@@ -127,30 +127,30 @@ Geometry geometry_of(TechniqueId id) {
     }
 }
 
-bool looks_for_surface(TechniqueId id) {
+bool searches_surface(TechniqueId id) {
     return geometry_of(id) == Geometry::box;
 }
 
 bool draws_terrain(TechniqueId id) {
     return id != TechniqueId::displacement && id != TechniqueId::bump &&
-           id != TechniqueId::emboss && id != TechniqueId::normal && !looks_for_layers(id);
+           id != TechniqueId::emboss && id != TechniqueId::normal && !searches_layers(id);
 }
 
 bool draws_any_mesh(TechniqueId id) {
     return id != TechniqueId::prewarp;
 }
 
-bool looks_for_layers(TechniqueId id) {
+bool searches_layers(TechniqueId id) {
     return id == TechniqueId::lattice || id == TechniqueId::dual_layer ||
            id == TechniqueId::multi_layer;
 }
 
 bool needs_plane(TechniqueId id) {
-    return looks_for_surface(id) || id == TechniqueId::prewarp;
+    return searches_surface(id) || id == TechniqueId::prewarp;
 }
 
 bool is_two_sided(const Technique& technique) {
-    return technique.options.two_sided || looks_for_layers(technique.id());
+    return technique.options.two_sided || searches_layers(technique.id());
 }
 
 double error_bound(const Technique& technique) {

@@ -29,7 +29,7 @@ enum class Geometry {
 Geometry geometry_of(TechniqueId id);
 
 /// Whether each pixel searches for the surface along its ray.
-bool looks_for_surface(TechniqueId id);
+bool searches_surface(TechniqueId id);
 
 bool draws_terrain(TechniqueId id);
 
@@ -38,7 +38,7 @@ bool draws_terrain(TechniqueId id);
 bool draws_any_mesh(TechniqueId id);
 
 /// Whether it searches for solids between layers, which are visible from both sides.
-bool looks_for_layers(TechniqueId id);
+bool searches_layers(TechniqueId id);
 
 /// Whether it draws surfaces over a plane only, none on the ellipsoid.
 bool needs_plane(TechniqueId id);

@@ -109,7 +109,7 @@ void choose_border(TechniqueOptions& options, std::optional<std::size_t> word) {
 }
 
 std::string_view reason_without_ray(TechniqueId id) {
-    return looks_for_surface(id) ? "" : "it looks for no surface along a ray; relief and exact do";
+    return searches_surface(id) ? "" : "it looks for no surface along a ray; relief and exact do";
 }
 
 std::string_view reason_without_path(TechniqueId id) {
@@ -119,13 +119,13 @@ std::string_view reason_without_path(TechniqueId id) {
 }
 
 std::string_view reason_against_steps(TechniqueId id) {
-    if (!looks_for_surface(id)) {
+    if (!searches_surface(id)) {
         return reason_without_ray(id);
     }
     if (id == TechniqueId::pom) {
         return "its own min and max say the same";
     }
-    if (looks_for_layers(id)) {
+    if (searches_layers(id)) {
         return "its steps are as many from wherever it is seen; steep, relief and interval take it";
     }
     const bool steps_equally =
@@ -134,24 +134,24 @@ std::string_view reason_against_steps(TechniqueId id) {
 }
 
 std::string_view reason_against_edges(TechniqueId id) {
-    return looks_for_layers(id)
+    return searches_layers(id)
                ? "what its rays miss may lie behind a hole; relief and exact take it"
                : reason_without_path(id);
 }
 
 std::string_view reason_against_sides(TechniqueId id) {
-    return looks_for_layers(id) ? "it is seen from both sides as it is" : reason_without_ray(id);
+    return searches_layers(id) ? "it is seen from both sides as it is" : reason_without_ray(id);
 }
 
 std::string_view reason_against_border(TechniqueId id) {
-    return looks_for_surface(id) ? ""
-                                 : "it shows what lies beyond the tile as its material says; "
-                                   "relief and exact take it";
+    return searches_surface(id) ? ""
+                                : "it shows what lies beyond the tile as its material says; "
+                                  "relief and exact take it";
 }
 
 std::string_view reason_against_silhouettes_of(TechniqueId id) {
-    return looks_for_layers(id) ? "its sheets show both sides as they are; relief and exact take it"
-                                : reason_without_path(id);
+    return searches_layers(id) ? "its sheets show both sides as they are; relief and exact take it"
+                               : reason_without_path(id);
 }
 
 constexpr std::array<OptionInfo, 8> option_infos{

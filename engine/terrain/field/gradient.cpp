@@ -28,19 +28,19 @@ public:
     }
 
     [[nodiscard]] bool is_pole(int row) const {
-        return row < closing().north_rows() || row > last_.y - closing().south_rows();
+        return row < wrap().north_rows() || row > last_.y - wrap().south_rows();
     }
     // Limits of the places that differences may use.
     [[nodiscard]] glm::dvec2 low() const {
-        return {closing().around ? -1.0 : 0.0, closing().north_rows()};
+        return {wrap().around ? -1.0 : 0.0, wrap().north_rows()};
     }
     [[nodiscard]] glm::dvec2 high() const {
-        return {last_.x + (closing().around ? 1 : 0), last_.y - closing().south_rows()};
+        return {last_.x + (wrap().around ? 1 : 0), last_.y - wrap().south_rows()};
     }
 
     // Rise per sample along the columns (east) and against the rows (north), metres.
     [[nodiscard]] glm::dvec2 rise(const Grid<float>& heights, int col, int row) const {
-        const bool around = closing().around;
+        const bool around = wrap().around;
         const int west = col > 0 ? col - 1 : around ? last_.x - 1 : 0;
         const int east = col < last_.x ? col + 1 : around ? 1 : last_.x;
         const int north = std::max(row - 1, 0);
@@ -52,9 +52,9 @@ public:
     }
 
 private:
-    [[nodiscard]] const geo::GlobalWrap& closing() const { return rows_.closing(); }
+    [[nodiscard]] const geo::GlobalWrap& wrap() const { return rows_.wrap(); }
     glm::ivec2 last_;
-    geo::ClosedRows rows_;
+    geo::WrappedRows rows_;
 };
 
 // Differences over a sample, or half a sample at the border: the map may end there.
@@ -125,7 +125,7 @@ glm::vec2 scene_slope(const Axes& axes, glm::dvec2 rise_per_sample) {
 
 } // namespace
 
-Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement& placement) {
+Grid<glm::vec2> surface_gradients(const Heightfield& heightfield, const Placement& placement) {
     const Grid<float>& heights = heightfield.heights;
     check(heights.cols() >= 2 && heights.rows() >= 2, "gradients need at least 2x2 samples");
     Grid<glm::vec2> gradients(heights.cols(), heights.rows());

@@ -11,7 +11,7 @@ namespace reljef::terrain {
 /// Gradient (∂z/∂x, ∂z/∂y) of the placed surface at every sample in the scene frame, rise over run:
 /// central differences inside, one-sided at the border. It includes the exaggeration and the
 /// ellipsoid's curvature. Precondition: at least 2×2 samples.
-Grid<glm::vec2> scene_gradients(const Heightfield& heightfield, const Placement& placement);
+Grid<glm::vec2> surface_gradients(const Heightfield& heightfield, const Placement& placement);
 
 /// The grid's axes at a sample in the scene frame, as unit columns: along the columns (east),
 /// against the rows (north), up.

@@ -134,7 +134,7 @@ double bilinear_height(GridView<const float> heights, glm::dvec2 sample) {
     return (1.0 - cell.v) * top + cell.v * bottom;
 }
 
-bool touches_void(const Heightfield& heightfield, glm::dvec2 sample) {
+bool uses_void(const Heightfield& heightfield, glm::dvec2 sample) {
     const Grid<std::uint8_t>& mask = heightfield.void_mask;
     if (mask.empty()) {
         return false;

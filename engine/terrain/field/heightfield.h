@@ -54,7 +54,7 @@ Grid<float> unit_heights(GridView<const float> heights);
 double bilinear_height(GridView<const float> heights, glm::dvec2 sample);
 
 /// Whether a sample that contributes to bilinear_height() is a void.
-bool touches_void(const Heightfield& heightfield, glm::dvec2 sample);
+bool uses_void(const Heightfield& heightfield, glm::dvec2 sample);
 
 /// Fills voids smoothly from a pyramid of averages (pull-push, Gortler et al. 1996). Voids
 /// everywhere give 0. Precondition: `void_mask` is empty or has the size of the heights.

@@ -96,7 +96,7 @@ std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const Min
                    view);
 }
 
-Horizon::Horizon(GroundRange ground, const HorizonReach& reach, const HorizonView& view)
+Horizon::Horizon(GroundRange ground, const HorizonOptions& reach, const HorizonView& view)
     : ground_(std::move(ground)), view_(view),
       sector_angle_(2.0 * std::numbers::pi / reach.sectors),
       sectors_(static_cast<std::size_t>(reach.sectors)) {

@@ -26,7 +26,7 @@ struct HorizonView {
 using GroundRange = std::function<std::optional<HeightRange>(glm::dvec2 low, glm::dvec2 high)>;
 
 /// The part of the ground that a horizon uses.
-struct HorizonReach {
+struct HorizonOptions {
     double first = 1.0;               ///< nearest distance, metres
     double last = 1.0;                ///< farthest distance, metres
     int sectors = 256;                ///< of azimuth, >= 8
@@ -39,7 +39,7 @@ struct HorizonReach {
 class Horizon {
 public:
     /// Precondition: the eye is more than view.near above the ground.
-    Horizon(GroundRange ground, const HorizonReach& reach, const HorizonView& view);
+    Horizon(GroundRange ground, const HorizonOptions& reach, const HorizonView& view);
     /// Empty on an ellipsoid, or if the eye is not more than view.near above the ground. The
     /// pyramid outlives the horizon.
     static std::optional<Horizon> create(const Heightfield& heightfield,

@@ -11,9 +11,9 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
                                     double exaggeration) {
     const Grid<float>& heights = heightfield.heights;
     check(!heights.empty(), "placement of an empty heightfield");
-    if (!(exaggeration > 0.0 && exaggeration <= largest_exaggeration)) {
+    if (!(exaggeration > 0.0 && exaggeration <= max_exaggeration)) {
         return Error{fmt::format("exaggeration {}: a number above 0 and at most {} was expected",
-                                 exaggeration, largest_exaggeration)};
+                                 exaggeration, max_exaggeration)};
     }
     if (kind == PlacementKind::ellipsoid && !heightfield.georeference) {
         return Error{

@@ -12,7 +12,7 @@
 namespace reljef::terrain {
 
 /// Larger factors leave too little precision.
-inline constexpr double largest_exaggeration = 1e6;
+inline constexpr double max_exaggeration = 1e6;
 
 enum class PlacementKind { plane, ellipsoid };
 

@@ -262,15 +262,15 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
     const glm::dvec2 step =
         glm::dvec2(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1) /
         static_cast<double>(lattice);
-    Derivatives most;
+    Derivatives bound;
     for (int j = 0; j <= lattice - 2; ++j) {
         for (int i = 0; i <= lattice - 2; ++i) {
             for (const double height : {heightfield.range.low, heightfield.range.high}) {
-                most.add(derivatives_at(placement, {i * step.x, j * step.y}, step, height));
+                bound.add(derivatives_at(placement, {i * step.x, j * step.y}, step, height));
             }
         }
     }
-    return {first_margin * most.first, second_margin * most.second, first_margin * most.turn};
+    return {first_margin * bound.first, second_margin * bound.second, first_margin * bound.turn};
 }
 
 void Bisection::store_positions(const ParallelOptions& parallel) {
@@ -306,14 +306,14 @@ void Bisection::store_cell_rows(int first, int last) {
     }
     for (int row = first; row < last; ++row) {
         for (int col = 0; col < cells.cols(); ++col) {
-            CellBend most = bends(col, row - low);
+            CellBend bound = bends(col, row - low);
             for (int i = 0; i < 9; ++i) {
                 const CellBend& near = bends.clamped(col + i % 3 - 1, row - low + i / 3 - 1);
-                most.side = std::max(most.side, near.side);
-                most.reach = std::max(most.reach, near.reach);
+                bound.side = std::max(bound.side, near.side);
+                bound.reach = std::max(bound.reach, near.reach);
             }
-            cells(col, row) = {rounded_up(0.25 * std::max(most.middle, most.side)),
-                               rounded_up(1.5 * most.reach * sphere_growth + bending_.curvature),
+            cells(col, row) = {rounded_up(0.25 * std::max(bound.middle, bound.side)),
+                               rounded_up(1.5 * bound.reach * sphere_growth + bending_.curvature),
                                0.0F};
         }
     }

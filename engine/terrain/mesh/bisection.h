@@ -23,7 +23,7 @@ inline constexpr int steps_per_sample = 64;
 /// The split of two triangles at the middle of their common longest edge.
 struct Split {
     /// Upper bound of the distance between the unsplit triangles, or any descendants, and the
-    /// surface, scene metres; infinity where they must be split.
+    /// surface, scene metres; infinity if they must be split.
     double error = 0.0;
     /// A bounding sphere of the triangles and their surface, scene metres.
     glm::dvec3 center{0.0};

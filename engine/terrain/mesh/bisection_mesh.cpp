@@ -98,13 +98,13 @@ private:
 enum class Visibility { none, part, whole };
 
 Visibility visibility_of(const ErrorView& view, const Split& split) {
-    double least = std::numeric_limits<double>::infinity();
+    double min_distance = std::numeric_limits<double>::infinity();
     for (const glm::dvec4& side : view.sides) {
-        least = std::min(least, glm::dot(glm::dvec3(side), split.center) + side.w);
+        min_distance = std::min(min_distance, glm::dot(glm::dvec3(side), split.center) + side.w);
     }
-    return least < -split.radius  ? Visibility::none
-           : least > split.radius ? Visibility::whole
-                                  : Visibility::part;
+    return min_distance < -split.radius  ? Visibility::none
+           : min_distance > split.radius ? Visibility::whole
+                                         : Visibility::part;
 }
 
 // Smallest depth of a split's sphere.

@@ -228,7 +228,7 @@ TEST_F(Imagery, IsScaledDownToTheBudget) {
 TEST_F(Imagery, IsNeverLongerThanItsLimit) {
     const auto terrain = drape(flat(50, 50), picture(5000, 20));
     ASSERT_TRUE(terrain) << terrain.error().message;
-    EXPECT_EQ(terrain->color.cols(), longest_image_side);
+    EXPECT_EQ(terrain->color.cols(), max_image_side);
 }
 
 TEST_F(Imagery, AlphaAndPalettesAndDeepGreyAreUnderstood) {

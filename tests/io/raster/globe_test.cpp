@@ -129,9 +129,9 @@ TEST_F(WholeGlobe, OnTheGridLinesIsClosedAlready) {
     const terrain::Heightfield heightfield = read();
     EXPECT_EQ(heightfield.heights.cols(), 73);
     EXPECT_EQ(heightfield.heights.rows(), 37);
-    const geo::GlobalWrap closing = heightfield.georeference->geodetic.rows().closing();
-    EXPECT_TRUE(closing.around);
-    EXPECT_FALSE(closing.east);
+    const geo::GlobalWrap wrap = heightfield.georeference->geodetic.rows().wrap();
+    EXPECT_TRUE(wrap.around);
+    EXPECT_FALSE(wrap.east);
 }
 
 TEST_F(WholeGlobe, WhatGoesNotAllAroundStaysAsItIs) {
@@ -184,8 +184,8 @@ TEST_F(WholeGlobe, HeightsAreBetweenTheSamplesOnBothSides) {
                                          {2.5, -179.0}, {90.0, 0.0},   {90.0, 77.0}, {88.75, 2.5},
                                          {-90.0, 5.0},  {-90.0, 100.0}};
     const auto found = tiles().heights(places);
-    for (const HeightAnswer& answer : found.answers) {
-        ASSERT_EQ(answer.kind, HeightAnswer::Kind::height);
+    for (const HeightSample& answer : found.answers) {
+        ASSERT_EQ(answer.kind, HeightSample::Kind::height);
     }
     const auto height = [&](std::size_t i) { return found.answers[i].height; };
     const double west = static_cast<float>(globe_height(2.5, 177.5));
@@ -218,10 +218,10 @@ TEST_F(WholeGlobe, AnAreaAllAroundHasAllColumnsWhereverItBegins) {
 TEST_F(WholeGlobe, TilesMeetAcrossTheAntimeridianAtEveryLevel) {
     write({720, 360, -179.75, 89.75, 0.5}, {2, 4});
     const TileSet set = tiles();
-    const geo::GlobalWrap closing = set.closing(set.grid());
+    const geo::GlobalWrap wrap = set.wrap(set.grid());
     EXPECT_EQ(set.files().size(), 1U);
     EXPECT_EQ(set.grid().cols, 720);
-    ClosedGrid ground = closed_grid(set.grid(), closing, 1);
+    WrappedGrid ground = wrapped_grid(set.grid(), wrap, 1);
     ground.north_height = 1234.5;
     ground.south_height = 567.5;
     ASSERT_EQ(ground.grid.cols, 721);
@@ -253,7 +253,7 @@ TEST_F(WholeGlobe, TilesMeetAcrossTheAntimeridianAtEveryLevel) {
 TEST_F(WholeGlobe, FinerTilesRiseEvenlyToThePole) {
     write({});
     const TileSet set = tiles();
-    ClosedGrid ground = closed_grid(set.grid(), set.closing(set.grid()), 4);
+    WrappedGrid ground = wrapped_grid(set.grid(), set.wrap(set.grid()), 4);
     ground.north_height = 1000.0;
     const terrain::TileTree tree(ground.grid.cols, ground.grid.rows);
     const auto heights = read_tree_tile(set, ground, tree, {0, 0, 0}, Gaps::holes).heights;
@@ -273,10 +273,10 @@ TEST_F(WholeGlobe, APictureShowsAtThePoleWhatLiesThere) {
             picture(col, row) = {grey, grey, grey, 255};
         }
     }
-    geo::GlobalWrap closing;
-    closing.north = 0.5;
-    closing.south = 0.5;
-    close_picture(picture, {closing, 3}, 0.0, 4.0);
+    geo::GlobalWrap wrap;
+    wrap.north = 0.5;
+    wrap.south = 0.5;
+    wrap_picture(picture, {wrap, 3}, 0.0, 4.0);
     EXPECT_EQ(picture(1, 0).r, 1);
     EXPECT_EQ(picture(1, 1).r, 2);
     EXPECT_EQ(picture(1, 2).r, 2);
@@ -292,7 +292,7 @@ TEST_F(WholeGlobe, SlopesAreTheSameOnBothSidesAndAtAllOfAPole) {
         const auto placement =
             terrain::Placement::create(heightfield, terrain::PlacementKind::ellipsoid);
         ASSERT_TRUE(placement);
-        const auto gradients = terrain::scene_gradients(heightfield, *placement);
+        const auto gradients = terrain::surface_gradients(heightfield, *placement);
         const int last = gradients.cols() - 1;
         for (int row = 0; row < gradients.rows(); ++row) {
             const float size = glm::length(gradients(0, row));

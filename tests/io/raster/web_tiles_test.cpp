@@ -95,7 +95,7 @@ protected:
         const auto found = tiles.heights(places);
         ASSERT_TRUE(found.errors.empty()) << found.errors.front().message;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            ASSERT_EQ(found.answers[i].kind, HeightAnswer::Kind::height) << i;
+            ASSERT_EQ(found.answers[i].kind, HeightSample::Kind::height) << i;
             ASSERT_NEAR(found.answers[i].height, heights[i], 1e-9) << i;
         }
     }
@@ -111,7 +111,7 @@ TEST_P(TilePyramids, GiveTheHeightsOfTheirColours) {
     ASSERT_TRUE(tiles) << tiles.error().message;
     expect_heights(*tiles);
     const auto missing = tiles->heights(std::vector{place_of_pixel(34 * 256 + 9, 23 * 256 + 9, 6)});
-    EXPECT_EQ(missing.answers.front().kind, HeightAnswer::Kind::in_void);
+    EXPECT_EQ(missing.answers.front().kind, HeightSample::Kind::in_void);
 }
 
 TEST_P(TilePyramids, ComeFromAnAddressToo) {

@@ -47,10 +47,10 @@ inline std::vector<ShaderVariant> all_variants() {
         const auto kind = static_cast<ShaderKind>(index);
         const std::uint32_t all = possible_features(kind);
         std::uint32_t features = all;
-        variants.insert(without_meaningless({kind, features}));
+        variants.insert(canonical_variant({kind, features}));
         while (features != 0) {
             features = (features - 1) & all; // the next subset
-            variants.insert(without_meaningless({kind, features}));
+            variants.insert(canonical_variant({kind, features}));
         }
     }
     return {variants.begin(), variants.end()};

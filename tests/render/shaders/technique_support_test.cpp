@@ -26,20 +26,20 @@ constexpr DrawnSurface usual_tile{true, {512, 512}};
 
 TEST(TechniqueSupport, LeastOfWhatOpenGl45HasDrawsEveryTechnique) {
     for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
-        EXPECT_FALSE(lack_of(info.id, usual_tile, usual_limits())) << info.name;
-        EXPECT_FALSE(lack_of(info.id, usual_terrain, usual_limits())) << info.name;
+        EXPECT_FALSE(missing_support(info.id, usual_tile, usual_limits())) << info.name;
+        EXPECT_FALSE(missing_support(info.id, usual_terrain, usual_limits())) << info.name;
     }
 }
 
 TEST(TechniqueSupport, HeightsTooWideForATextureLeaveTriangles) {
     const DrawnSurface wide{false, {65536, 2}};
     for (const TechniqueId id : {TechniqueId::relief, TechniqueId::exact, TechniqueId::prewarp}) {
-        const auto lack = lack_of(id, wide, usual_limits());
+        const auto lack = missing_support(id, wide, usual_limits());
         ASSERT_TRUE(lack);
         EXPECT_THAT(*lack, HasSubstr("65536 x 2 samples found"));
         EXPECT_THAT(*lack, HasSubstr("at most 16384"));
     }
-    EXPECT_FALSE(lack_of(TechniqueId::polygons, wide, usual_limits()));
+    EXPECT_FALSE(missing_support(TechniqueId::polygons, wide, usual_limits()));
     EXPECT_EQ(nearest_technique(TechniqueId::relief, wide, usual_limits()), TechniqueId::polygons);
 }
 
@@ -47,31 +47,33 @@ TEST(TechniqueSupport, HeightsTooWideForATextureLeaveTriangles) {
 TEST(TechniqueSupport, PyramidTooWideLeavesTheTechniqueBeforeExact) {
     gl::Limits limits = usual_limits();
     limits.max_texture_size = 1100;
-    EXPECT_TRUE(lack_of(TechniqueId::exact, usual_terrain, limits));
+    EXPECT_TRUE(missing_support(TechniqueId::exact, usual_terrain, limits));
     EXPECT_EQ(nearest_technique(TechniqueId::exact, usual_terrain, limits), TechniqueId::cone);
-    EXPECT_FALSE(lack_of(TechniqueId::exact, {false, {1024, 1024}}, limits));
+    EXPECT_FALSE(missing_support(TechniqueId::exact, {false, {1024, 1024}}, limits));
 }
 
 TEST(TechniqueSupport, FewTextureUnitsLeaveWhatTakesFewMaps) {
     gl::Limits limits = usual_limits();
     limits.max_fragment_texture_units = 6;
-    EXPECT_THAT(*lack_of(TechniqueId::cone, usual_tile, limits), HasSubstr("6 texture units"));
+    EXPECT_THAT(*missing_support(TechniqueId::cone, usual_tile, limits),
+                HasSubstr("6 texture units"));
     EXPECT_EQ(nearest_technique(TechniqueId::cone, usual_tile, limits), TechniqueId::pom);
     EXPECT_EQ(nearest_technique(TechniqueId::prewarp, usual_tile, limits),
               TechniqueId::multi_layer);
-    EXPECT_FALSE(lack_of(TechniqueId::prewarp, usual_terrain, limits));
+    EXPECT_FALSE(missing_support(TechniqueId::prewarp, usual_terrain, limits));
 }
 
 TEST(TechniqueSupport, OldOpenGlDrawsNothing) {
     for (const char* const version : {"3.2 (Core Profile)", "4.4.0 NVIDIA", "", "old"}) {
         gl::Limits limits = usual_limits();
         limits.version = version;
-        EXPECT_THAT(*lack_of(TechniqueId::texture, usual_terrain, limits), HasSubstr("4.5"));
+        EXPECT_THAT(*missing_support(TechniqueId::texture, usual_terrain, limits),
+                    HasSubstr("4.5"));
         EXPECT_EQ(nearest_technique(TechniqueId::relief, usual_terrain, limits), std::nullopt);
     }
     gl::Limits newer = usual_limits();
     newer.version = "10.0";
-    EXPECT_FALSE(lack_of(TechniqueId::texture, usual_terrain, newer));
+    EXPECT_FALSE(missing_support(TechniqueId::texture, usual_terrain, newer));
 }
 
 TEST(TechniqueSupport, OneSentenceNamesWhatIsLackingAndWhatWorks) {

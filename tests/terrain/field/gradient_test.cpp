@@ -13,7 +13,7 @@ namespace {
 
 TEST(Gradient, OfLevelGroundIsZero) {
     const Heightfield heightfield = test::plane_heightfield(Grid<float>(7, 5, 1234.5F), {3.0, 4.0});
-    const auto gradients = scene_gradients(heightfield, test::placed(heightfield));
+    const auto gradients = surface_gradients(heightfield, test::placed(heightfield));
     for (const glm::vec2& gradient : gradients.samples()) {
         EXPECT_EQ(gradient, glm::vec2(0.0F));
     }
@@ -23,7 +23,7 @@ TEST(Gradient, OfARampIsExactEverywhereTheBorderToo) {
     const Heightfield heightfield = test::plane_heightfield(
         test::made_heights(9, 6, [](int col, int row) { return 3.0 * col - 5.0 * row; }),
         {2.0, 4.0});
-    const auto gradients = scene_gradients(heightfield, test::placed(heightfield, 2.0));
+    const auto gradients = surface_gradients(heightfield, test::placed(heightfield, 2.0));
     for (const glm::vec2& gradient : gradients.samples()) {
         EXPECT_EQ(gradient, glm::vec2(3.0F, 2.5F)) << "rises to the east and to the north";
     }
@@ -33,7 +33,7 @@ TEST(Gradient, OfTwoByTwoIsOneSided) {
     Grid<float> heights(2, 2, 0.0F);
     heights(1, 0) = 6.0F;
     const Heightfield heightfield = test::plane_heightfield(heights, {2.0, 3.0});
-    const auto gradients = scene_gradients(heightfield, test::placed(heightfield));
+    const auto gradients = surface_gradients(heightfield, test::placed(heightfield));
     EXPECT_EQ(gradients(0, 0), glm::vec2(3.0F, 0.0F));
     EXPECT_EQ(gradients(1, 1), glm::vec2(0.0F, 2.0F));
 }
@@ -53,7 +53,7 @@ glm::dvec2 slope_of_placed(const Heightfield& heightfield, const Placement& plac
 void expect_slopes_of_placed(const Heightfield& heightfield, double exaggeration,
                              double tolerance) {
     const Placement placement = test::placed(heightfield, exaggeration);
-    const auto gradients = scene_gradients(heightfield, placement);
+    const auto gradients = surface_gradients(heightfield, placement);
     for (int row = 1; row < gradients.rows() - 1; row += 7) {
         for (int col = 1; col < gradients.cols() - 1; col += 7) {
             const glm::dvec2 expected = slope_of_placed(heightfield, placement, col, row);
@@ -91,7 +91,7 @@ TEST(Gradient, UsesTheLengthOfADegreeWhereItIs) {
 TEST(Gradient, OfTheSeaFallsAwayWithTheEarth) {
     const Heightfield sea =
         test::geographic_heightfield(Grid<float>(201, 201, 0.0F), 1.0, 0.0, 0.01);
-    const auto gradients = scene_gradients(sea, test::placed(sea));
+    const auto gradients = surface_gradients(sea, test::placed(sea));
     EXPECT_NEAR(gradients(100, 100).x, 0.0F, 1e-6F);
     EXPECT_NEAR(gradients(100, 100).y, 0.0F, 1e-6F);
     EXPECT_NEAR(gradients(200, 100).x, -std::tan(glm::radians(1.0)), 1e-4);
@@ -101,7 +101,7 @@ TEST(Gradient, OfTheSeaFallsAwayWithTheEarth) {
 TEST(Gradient, StaysFiniteBeyondTheHorizonOfAWholeEarth) {
     const Heightfield earth =
         test::geographic_heightfield(Grid<float>(360, 180, 10.0F), 89.5, -179.5, 1.0);
-    const auto gradients = scene_gradients(earth, test::placed(earth));
+    const auto gradients = surface_gradients(earth, test::placed(earth));
     for (const glm::vec2& gradient : gradients.samples()) {
         ASSERT_TRUE(std::isfinite(gradient.x) && std::isfinite(gradient.y))
             << "sample " << &gradient - gradients.samples().data();

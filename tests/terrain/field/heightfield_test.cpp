@@ -91,24 +91,24 @@ TEST(TouchesVoid, ExactlyWhereTheVoidHasWeight) {
     heightfield.heights = Grid<float>(4, 4);
     heightfield.void_mask = Mask(4, 4);
     heightfield.void_mask(2, 1) = 1;
-    EXPECT_TRUE(touches_void(heightfield, {2.0, 1.0}));
-    EXPECT_TRUE(touches_void(heightfield, {1.01, 1.0}));
-    EXPECT_TRUE(touches_void(heightfield, {2.99, 1.99}));
-    EXPECT_TRUE(touches_void(heightfield, {1.5, 0.5}));
-    EXPECT_FALSE(touches_void(heightfield, {1.0, 1.0}));
-    EXPECT_FALSE(touches_void(heightfield, {3.0, 1.0}));
-    EXPECT_FALSE(touches_void(heightfield, {2.5, 2.0}));
-    EXPECT_FALSE(touches_void(heightfield, {2.0, 0.0}));
+    EXPECT_TRUE(uses_void(heightfield, {2.0, 1.0}));
+    EXPECT_TRUE(uses_void(heightfield, {1.01, 1.0}));
+    EXPECT_TRUE(uses_void(heightfield, {2.99, 1.99}));
+    EXPECT_TRUE(uses_void(heightfield, {1.5, 0.5}));
+    EXPECT_FALSE(uses_void(heightfield, {1.0, 1.0}));
+    EXPECT_FALSE(uses_void(heightfield, {3.0, 1.0}));
+    EXPECT_FALSE(uses_void(heightfield, {2.5, 2.0}));
+    EXPECT_FALSE(uses_void(heightfield, {2.0, 0.0}));
     heightfield.void_mask = Mask(4, 4);
     heightfield.void_mask(3, 3) = 1;
-    EXPECT_TRUE(touches_void(heightfield, {3.0, 3.0}));
-    EXPECT_FALSE(touches_void(heightfield, {2.0, 3.0}));
+    EXPECT_TRUE(uses_void(heightfield, {3.0, 3.0}));
+    EXPECT_FALSE(uses_void(heightfield, {2.0, 3.0}));
 }
 
 TEST(TouchesVoid, NeverWithoutAMask) {
     Heightfield heightfield;
     heightfield.heights = Grid<float>(4, 4);
-    EXPECT_FALSE(touches_void(heightfield, {1.0, 1.0}));
+    EXPECT_FALSE(uses_void(heightfield, {1.0, 1.0}));
 }
 
 TEST(FillVoids, LeavesKnownHeightsAlone) {

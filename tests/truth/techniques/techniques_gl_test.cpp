@@ -351,7 +351,7 @@ TEST_F(TechniquesGlTest, ThoseOfMeshesAreRefusedForATerrainWithWhatWorks) {
         ASSERT_FALSE(drawn) << info.name;
         EXPECT_NE(drawn.error().message.find("a mesh with a tile of detail was expected"),
                   std::string::npos);
-        const char* const works = scene::looks_for_layers(info.id)              ? "exact"
+        const char* const works = scene::searches_layers(info.id)               ? "exact"
                                   : info.id == scene::TechniqueId::displacement ? "polygons"
                                                                                 : "texture";
         EXPECT_NE(drawn.error().message.find(works), std::string::npos);

@@ -15,7 +15,7 @@
 namespace reljef::truth {
 
 /// A level square around the origin, covered with copies of a relief material and lit by a sun.
-struct TileSquare {
+struct DetailSquare {
     std::shared_ptr<const material::ReliefMaterial> set; ///< from completed()
     std::optional<material::LayerKind> layers;           ///< absent: solid below the heights
     double side = 1.0;                                   ///< of the square, metres; > 0
@@ -28,10 +28,10 @@ struct TileSquare {
 /// The true picture of such a square, seen through it as through a window, in double precision.
 /// Lit as by the driver (Blinn and Phong, the material's normal map) with an exact shadow ray from
 /// each hit. Thread-safe.
-class TilePlane {
+class DetailPlane {
 public:
     /// Fails as ReliefPlane::create and LayeredPlane::create.
-    static Result<TilePlane> create(TileSquare square);
+    static Result<DetailPlane> create(DetailSquare square);
 
     /// Hits as from the driver: col and row in the tile, height in [0,1], depth. The background is
     /// black. Fails when stopped.
@@ -46,7 +46,7 @@ public:
                                                  unsigned threads = 0) const;
 
 private:
-    TilePlane() = default;
+    DetailPlane() = default;
     [[nodiscard]] std::optional<ReliefHit> first_hit(const Ray& ray, Interval range) const;
     [[nodiscard]] std::optional<ReliefHit> seen(const scene::Camera& camera, const Ray& ray) const;
     [[nodiscard]] glm::dvec3 normal_at(const ReliefHit& hit) const;
@@ -57,7 +57,7 @@ private:
     [[nodiscard]] double reprojection(const scene::Camera& camera, glm::ivec2 size,
                                       glm::ivec2 pixel, const Hit& hit) const;
 
-    TileSquare square_;
+    DetailSquare square_;
     glm::dvec2 texels_{0.0};
     double width_ = 1.0;     // of a tile, metres
     glm::dvec3 center_{0.0}; // of the tile with texture coordinates 0 … 1

@@ -1,4 +1,4 @@
-#include "engine/truth/tile_plane.h"
+#include "engine/truth/detail_plane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // edge.
 constexpr double shadow_start = 1e-4;
 
-ReliefOptions relief_options(const TileSquare& square, double width) {
+ReliefOptions relief_options(const DetailSquare& square, double width) {
     return {width, square.scale, square.offset, Border::wrap};
 }
 
@@ -47,10 +47,10 @@ Interval depth_range(const scene::Camera& camera) {
 
 } // namespace
 
-Result<TilePlane> TilePlane::create(TileSquare square) {
-    TilePlane plane;
+Result<DetailPlane> DetailPlane::create(DetailSquare square) {
+    DetailPlane plane;
     plane.square_ = std::move(square);
-    const TileSquare& made = plane.square_;
+    const DetailSquare& made = plane.square_;
     plane.texels_ = {made.set->heights.cols(), made.set->heights.rows()};
     plane.width_ = made.side / made.repeats;
     plane.center_ = {0.5 * (plane.width_ - made.side), 0.5 * (made.side - plane.width_), 0.0};
@@ -75,7 +75,7 @@ Result<TilePlane> TilePlane::create(TileSquare square) {
     return plane;
 }
 
-std::optional<ReliefHit> TilePlane::first_hit(const Ray& ray, Interval range) const {
+std::optional<ReliefHit> DetailPlane::first_hit(const Ray& ray, Interval range) const {
     const Ray moved{ray.origin - center_, ray.direction};
     if (const auto* const relief = std::get_if<ReliefPlane>(&surface_)) {
         return relief->first_hit(moved, range);
@@ -84,7 +84,7 @@ std::optional<ReliefHit> TilePlane::first_hit(const Ray& ray, Interval range) co
 }
 
 // The square is a window; a surface without layers is invisible from behind.
-std::optional<ReliefHit> TilePlane::seen(const scene::Camera& camera, const Ray& ray) const {
+std::optional<ReliefHit> DetailPlane::seen(const scene::Camera& camera, const Ray& ray) const {
     const glm::dvec3 entry = ray.at(-ray.origin.z / ray.direction.z);
     const bool crosses = std::max(std::abs(entry.x), std::abs(entry.y)) <= 0.5 * square_.side;
     return crosses && (ray.direction.z < 0.0 || square_.layers)
@@ -93,7 +93,7 @@ std::optional<ReliefHit> TilePlane::seen(const scene::Camera& camera, const Ray&
 }
 
 // v and the normals' second component grow against y.
-glm::dvec3 TilePlane::normal_at(const ReliefHit& hit) const {
+glm::dvec3 DetailPlane::normal_at(const ReliefHit& hit) const {
     if (!square_.layers) {
         const glm::vec3 leaning =
             tile_value(square_.set->normals, hit.texture_coordinate, std::identity());
@@ -108,13 +108,13 @@ glm::dvec3 TilePlane::normal_at(const ReliefHit& hit) const {
     return glm::normalize(glm::dvec3(u, -v, hit.layer % 2 == 0 ? upright : -upright));
 }
 
-bool TilePlane::sees_sun(const Ray& ray, double t) const {
+bool DetailPlane::sees_sun(const Ray& ray, double t) const {
     const double start = shadow_start * width_ / std::max(texels_.x, texels_.y);
     return !first_hit({ray.at(t), scene::to_light(square_.light)}, {start, infinite});
 }
 
 // Blinn 1977.
-glm::vec3 TilePlane::color_at(const ReliefHit& hit, const Ray& ray) const {
+glm::vec3 DetailPlane::color_at(const ReliefHit& hit, const Ray& ray) const {
     const scene::Light& light = square_.light;
     const glm::dvec3 to_sun = scene::to_light(light);
     const glm::dvec3 normal = normal_at(hit);
@@ -133,13 +133,13 @@ glm::vec3 TilePlane::color_at(const ReliefHit& hit, const Ray& ray) const {
            light.color * static_cast<float>(added);
 }
 
-Hit TilePlane::hit_of(const ReliefHit& hit) const {
+Hit DetailPlane::hit_of(const ReliefHit& hit) const {
     const glm::vec2 texel(hit.texture_coordinate * texels_ - 0.5);
     return {texel.x, texel.y, static_cast<float>(hit.height), static_cast<float>(hit.t)};
 }
 
-Result<Picture> TilePlane::draw(const scene::Camera& camera, glm::ivec2 size,
-                                const DrawOptions& options) const {
+Result<Picture> DetailPlane::draw(const scene::Camera& camera, glm::ivec2 size,
+                                  const DrawOptions& options) const {
     check(options.rays_per_side >= 1, "at least one ray a pixel was expected");
     Picture picture{HitBuffer(size.x, size.y), Image(size.x, size.y)};
     const auto color = [&](glm::dvec2 place) {
@@ -156,7 +156,7 @@ Result<Picture> TilePlane::draw(const scene::Camera& camera, glm::ivec2 size,
     return done ? Result<Picture>(std::move(picture)) : done.error();
 }
 
-double TilePlane::true_height(glm::dvec2 coordinate, double hit_height) const {
+double DetailPlane::true_height(glm::dvec2 coordinate, double hit_height) const {
     if (!square_.layers) {
         return tile_value(square_.set->heights, coordinate, std::identity());
     }
@@ -169,8 +169,8 @@ double TilePlane::true_height(glm::dvec2 coordinate, double hit_height) const {
     return nearest;
 }
 
-double TilePlane::reprojection(const scene::Camera& camera, glm::ivec2 size, glm::ivec2 pixel,
-                               const Hit& hit) const {
+double DetailPlane::reprojection(const scene::Camera& camera, glm::ivec2 size, glm::ivec2 pixel,
+                                 const Hit& hit) const {
     const glm::dvec2 center = glm::dvec2(pixel) + 0.5;
     const glm::dvec2 coordinate = (glm::dvec2(hit.col, hit.row) + 0.5) / texels_;
     const double height = true_height(coordinate, static_cast<double>(hit.height));
@@ -193,8 +193,8 @@ double TilePlane::reprojection(const scene::Camera& camera, glm::ivec2 size, glm
     return min_distance;
 }
 
-Result<GeometricErrors> TilePlane::errors(const scene::Camera& camera, const HitBuffer& shown,
-                                          const HitBuffer& truth, unsigned threads) const {
+Result<GeometricErrors> DetailPlane::errors(const scene::Camera& camera, const HitBuffer& shown,
+                                            const HitBuffer& truth, unsigned threads) const {
     const glm::ivec2 size(shown.cols(), shown.rows());
     const PixelMeasure measure{[&, size](glm::ivec2 pixel, const Hit& hit) {
                                    return reprojection(camera, size, pixel, hit);

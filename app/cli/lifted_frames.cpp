@@ -1,4 +1,4 @@
-#include "app/cli/raised_frames.h"
+#include "app/cli/lifted_frames.h"
 
 #include <algorithm>
 
@@ -8,14 +8,14 @@
 
 namespace reljef::cli {
 
-void RaisedFrames::add(const session::Lift& lift) {
+void LiftedFrames::add(const session::Lift& lift) {
     ++frames_;
     raised_ += lift ? 1 : 0;
     underground_ += lift.depth > 0.0 ? 1 : 0;
     max_metres_ = std::max(max_metres_, lift.metres);
 }
 
-Result<void> RaisedFrames::report(session::Log& log, const std::string& path) const {
+Result<void> LiftedFrames::report(session::Log& log, const std::string& path) const {
     if (raised_ == 0) {
         return {};
     }

@@ -9,7 +9,7 @@
 namespace reljef::cli {
 
 /// Counts the frames whose camera was raised above the ground.
-class RaisedFrames {
+class LiftedFrames {
 public:
     void add(const session::Lift& lift);
 

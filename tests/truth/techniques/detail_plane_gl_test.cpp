@@ -1,4 +1,4 @@
-#include "engine/truth/tile_plane.h"
+#include "engine/truth/detail_plane.h"
 
 #include <cmath>
 #include <string>
@@ -17,16 +17,16 @@ class TilePlaneGlTest : public test::GlTest {};
 
 constexpr int panel_repeats = 3;
 
-TilePlane plane_of(const Panel& panel, const scene::Light& light,
-                   std::optional<material::LayerKind> layers = std::nullopt) {
+DetailPlane plane_of(const Panel& panel, const scene::Light& light,
+                     std::optional<material::LayerKind> layers = std::nullopt) {
     const scene::SurfaceDetail& detail = panel.detail();
-    return TilePlane::create({.set = detail.set,
-                              .layers = layers,
-                              .side = static_cast<double>(plane_side),
-                              .repeats = panel_repeats,
-                              .scale = static_cast<double>(detail.scale),
-                              .offset = static_cast<double>(detail.offset),
-                              .light = light})
+    return DetailPlane::create({.set = detail.set,
+                                .layers = layers,
+                                .side = static_cast<double>(plane_side),
+                                .repeats = panel_repeats,
+                                .scale = static_cast<double>(detail.scale),
+                                .offset = static_cast<double>(detail.offset),
+                                .light = light})
         .value();
 }
 
@@ -58,7 +58,7 @@ TEST_F(TilePlaneGlTest, ExactWithItsShadowIsThePictureAndTheHitsOfTheTruth) {
         Panel panel = colored_panel(wave_tile(32), 0.3F);
         panel.detail().offset = offset;
         panel.scene.add_light(light);
-        const TilePlane truth = plane_of(panel, light);
+        const DetailPlane truth = plane_of(panel, light);
         const Picture picture =
             truth.draw(panel.scene.camera(), mesh_picture, {.rays_per_side = 3}).value();
         const Image shown = panel.picture("exact:shadow=hard");
@@ -77,7 +77,7 @@ TEST_F(TilePlaneGlTest, FourLayersAreWhatTheTruthShowsThem) {
     Panel panel = colored_panel(wave_tile(32), 0.0F);
     panel.detail().offset = -0.5F;
     panel.scene.add_light(light);
-    const TilePlane truth = plane_of(panel, light, material::LayerKind::symmetric);
+    const DetailPlane truth = plane_of(panel, light, material::LayerKind::symmetric);
     const Picture picture =
         truth.draw(panel.scene.camera(), mesh_picture, {.rays_per_side = 3}).value();
     const Image shown = panel.picture("lattice:n=64,k=8,shadow=hard");
@@ -92,7 +92,7 @@ TEST_F(TilePlaneGlTest, FourLayersAreWhatTheTruthShowsThem) {
 // ray from the square to the tile, seen from the eye.
 TEST_F(TilePlaneGlTest, FlatPictureOfASunkenLevelTileIsOffByTheParallaxOfItsDepth) {
     Panel panel(Grid<float>(8, 8, 0.0F));
-    const TilePlane truth = plane_of(panel, {});
+    const DetailPlane truth = plane_of(panel, {});
     const scene::Camera camera = panel.scene.camera();
     const Picture picture = truth.draw(camera, mesh_picture).value();
     const HitBuffer hits = panel.hits("texture");
