@@ -1,8 +1,11 @@
 """A headless Chromium, driven through chromedriver's WebDriver protocol (W3C WebDriver)."""
 
+import contextlib
 import json
+import os
 import re
 import shutil
+import signal
 import subprocess
 import time
 import urllib.error
@@ -19,7 +22,7 @@ def missing_programs():
 class Browser:
     def __init__(self):
         self.driver = subprocess.Popen(['chromedriver', '--port=0'], stdout=subprocess.PIPE,
-                                       stderr=subprocess.STDOUT, text=True)
+                                       stderr=subprocess.STDOUT, text=True, start_new_session=True)
         self.session = None
         try:
             self.address = f'http://127.0.0.1:{self._port()}/session'
@@ -29,13 +32,17 @@ class Browser:
             raise
 
     def close(self):
-        try:
+        # A browser that hangs must not hold up what is finished.
+        with contextlib.suppress(OSError):
             if self.session:
-                self._send('DELETE', f'/{self.session}')
-        finally:
-            self.driver.terminate()
-            self.driver.wait()
-            self.driver.stdout.close()
+                self._send('DELETE', f'/{self.session}', timeout=10)
+        os.killpg(self.driver.pid, signal.SIGTERM)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.driver.wait(timeout=10)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.driver.pid, signal.SIGKILL)
+        self.driver.wait()
+        self.driver.stdout.close()
 
     def open(self, page):
         self.call('POST', 'url', {'url': page.resolve().as_uri()})
@@ -116,12 +123,12 @@ class Browser:
                 return found.group(1)
         raise RuntimeError('chromedriver ended without a port')
 
-    def _send(self, method, path, body=None):
+    def _send(self, method, path, body=None, timeout=60):
         request = urllib.request.Request(self.address + path, method=method,
                                          data=None if body is None else json.dumps(body).encode(),
                                          headers={'Content-Type': 'application/json'})
         try:
-            with self._opener().open(request, timeout=60) as answer:
+            with self._opener().open(request, timeout=timeout) as answer:
                 return json.load(answer)['value']
         except urllib.error.HTTPError as refused:
             raise RuntimeError(f'{method} {path}: {refused.read().decode()[:400]}') from None

@@ -3,8 +3,8 @@
 #include <glm/vec4.hpp>
 
 #include "engine/core/grid.h"
-#include "engine/scene/graph/surface_detail.h"
 #include "engine/scene/graph/mesh.h"
+#include "engine/scene/graph/surface_detail.h"
 
 namespace reljef::render {
 

@@ -91,7 +91,8 @@ std::vector<std::string> planned(const std::vector<std::string>& techniques,
     }
     std::vector<std::string> rows;
     for (const Group& group : pareto_groups(options)) {
-        const std::string scene = group.scene.detail.empty() ? group.scene.terrain : group.scene.detail;
+        const std::string scene =
+            group.scene.detail.empty() ? group.scene.terrain : group.scene.detail;
         for (const Candidate& candidate : group.candidates) {
             rows.push_back(scene + " " + std::string(scene::to_string(group.pose)) + " " +
                            scene::to_string(candidate.technique));
