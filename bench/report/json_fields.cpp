@@ -189,7 +189,8 @@ void JsonReader::field(const char* key, std::vector<Setting::Parameter>& value) 
     object(key, [&](JsonReader& parameters) {
         for (const auto& item : parameters.json_->items()) {
             const JsonRange any{.low = std::numeric_limits<double>::lowest()};
-            parameters.field(item.key().c_str(), value.emplace_back(item.key()).value, any);
+            value.push_back({item.key(), 0.0});
+            parameters.field(item.key().c_str(), value.back().value, any);
         }
     });
 }

@@ -109,7 +109,8 @@ public:
     }
     template <class Value> void object(const char* key, std::optional<Value>& value) {
         if (has(key)) {
-            object(key, [&](JsonReader& inner) { describe(inner, value.emplace()); });
+            value = Value();
+            object(key, [&](JsonReader& inner) { describe(inner, *value); });
         }
     }
     template <class Value> void array(const char* key, std::vector<Value>& values) {

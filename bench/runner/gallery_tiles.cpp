@@ -57,6 +57,7 @@ Result<truth::DetailSquare> detail_square(std::string_view name, unsigned thread
 
 std::vector<SceneChoice> gallery_scenes() {
     std::vector<SceneChoice> scenes;
+    scenes.reserve(gallery_details.size());
     for (const GalleryDetail& detail : gallery_details) {
         scenes.push_back({.terrain = "gallery", .detail = std::string(detail.name)});
     }

@@ -318,6 +318,7 @@ private:
     Result<void> time_all(std::vector<Entry> entries, BenchmarkScene& scene,
                           session::SceneRenderer& driver, MeasureOptions timing) {
         std::vector<DrawFrame> frames;
+        frames.reserve(entries.size());
         for (Entry& entry : entries) {
             frames.push_back(frame_of(entry, scene, driver));
         }
