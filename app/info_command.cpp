@@ -272,7 +272,7 @@ void print_text(const Json& info, const cli::TerrainChoice& choice) {
     fmt::print("  voids    {}\n", info["voids"].dump());
     fmt::print("  memory   {:.1f} MB when drawn\n", number(info["memory_bytes"]) * 1e-6);
     for (const auto& model : info.value("models", Json::array())) {
-        fmt::print("  model    {}, with a tile of {}\n", text(model["name"]),
+        fmt::print("  model    {}, with the detail texture {}\n", text(model["name"]),
                    text(model["textures"]));
     }
     for (const auto& note : info["notes"]) {

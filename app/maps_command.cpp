@@ -39,14 +39,13 @@ struct MapChoice {
          {MapKind::normals, "--normals", "normals of the heights: x, y, z in r, g, b"},
          {MapKind::combined, "--combined", "normals in r, g, b and heights in alpha"},
          {MapKind::cones, "--cones",
-          "cone map: an empty cone above each texel (Dummer 2006). The value r is the cone's "
-          "radius in texels at a height of 1. .exr stores r, other formats the square root of "
-          "r / 1024"},
+          "cone map: an empty cone above each texel (Dummer 2006). The value is the radius in "
+          "texels at height 1; formats other than .exr store the square root of radius / 1024"},
          {MapKind::relaxed_cones, "--relaxed-cones",
           "relaxed cone map: a ray in a cone crosses the surface at most once (GPU Gems 3 ch. "
           "18); values as for --cones"},
          {MapKind::layers, "--layers",
-          "depths of the layers of a sheet. The back is --back, else the same as the front"}}};
+          "depths of the layers of a sheet. Without --back, the back equals the front"}}};
 };
 
 std::vector<cli::NamedFile> outputs_of(const MapChoice& choice) {
@@ -214,8 +213,7 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
                        "from colors: darker is higher");
     cli::add_parsed(arguments, "--green", choice.making.green_up,
                     cli::word_of<bool>("--green", {{"down", false}, {"up", true}}),
-                    "green channel of normals: down, along the rows, or up, against them (down)",
-                    "WAY");
+                    "direction of the green channel: down (row order) or up (down)", "WAY");
     arguments.add_flag("--sobel", choice.making.sobel,
                        "compute normals with Sobel's filter instead of bilinear slopes");
     cli::add_parsed(arguments, "--threads", choice.threads,

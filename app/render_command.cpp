@@ -188,7 +188,7 @@ std::vector<cli::NamedFile> inputs_of(const RenderChoice& choice,
         {"--textures", choice.terrain.textures.value_or("")},
         {"the gallery's textures", description.gallery_textures},
         {"--detail", choice.view.detail.value_or(session::DetailChoice{}).textures},
-        {"the tile of detail", description.detail.value_or(io::DetailDescription{}).textures},
+        {"the detail texture", description.detail.value_or(io::DetailDescription{}).textures},
         {"--path", choice.view.path}};
     for (const std::filesystem::path& image : description.imagery) {
         files.push_back({"the terrain's imagery", image});
@@ -322,10 +322,9 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
         return description.error();
     }
     if (choice.truth && description->generator == "gallery") {
-        return usage_error(
-            fmt::format("--truth: {} found, whose models the exact picture does not know; a "
-                        "terrain was expected, or --technique exact",
-                        choice.terrain.terrain));
+        return usage_error(fmt::format("--truth: {} found, which has no exact picture; a "
+                                       "terrain was expected, or --technique exact",
+                                       choice.terrain.terrain));
     }
     const auto inputs = inputs_of(choice, *description);
     cli::check_distinct(outputs_of(choice, inputs), inputs);

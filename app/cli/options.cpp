@@ -127,9 +127,9 @@ Result<session::DetailChoice> parse_detail(const std::string& text) {
         colon != std::string::npos && text.find('=', colon) != std::string::npos;
     session::DetailChoice choice{has_numbers ? text.substr(0, colon) : text, {}, {}};
     if (choice.textures.empty() || choice.textures.back() == ':') {
-        return Error{fmt::format(
-            "--detail: '{}' found, a tile's name or folder, then :width=W,scale=S was expected",
-            text)};
+        return Error{fmt::format("--detail: '{}' found, the name or folder of a detail texture, "
+                                 "then :width=W,scale=S was expected",
+                                 text)};
     }
     std::string rest = has_numbers ? text.substr(colon + 1) : std::string();
     while (!rest.empty()) {
@@ -314,7 +314,7 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         .add_option("--imagery", choice.imagery,
                     "picture or folder of pictures to drape over the terrain; may be repeated. "
                     "Pictures with more than 4096 pixels along a side of the terrain are read "
-                    "tile by tile, unless an error bound is named")
+                    "tile by tile, unless --max-error is given")
         ->allow_extra_args(false)
         ->type_name("FILE");
     command
@@ -366,10 +366,9 @@ void add_samples_option(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--samples", choice.samples,
         word_of<int>("--samples", {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}),
-        "samples per pixel, for smooth edges: 1, 2, 4, 8 or 16; also the number of rays of "
-        "techniques that trace rays (4 if the picture has triangles and at most 4096x4096 pixels, "
-        "else 1; without this option, view reduces samples and resolution while a slow view "
-        "moves)",
+        "samples per pixel, for smooth edges: 1, 2, 4, 8 or 16. Techniques that trace rays trace "
+        "this many. Default: 4 if the picture has triangles and at most 4096x4096 pixels, else 1; "
+        "view then uses fewer while a slow view moves",
         "N");
 }
 

@@ -67,7 +67,15 @@ const Command* Parser::named(std::string_view verb) const {
 
 void Parser::check_verb(std::span<char*> texts) const {
     const std::string_view found = texts.empty() ? "" : texts[0];
-    if (named(found) != nullptr || found.starts_with('-')) {
+    if (named(found) != nullptr) {
+        return;
+    }
+    if (found.starts_with('-')) {
+        if (arguments_->get_option_no_throw(std::string(found)) == nullptr) {
+            throw CLI::ValidationError(fmt::format("{} found, a {} or an option was expected{}",
+                                                   found, program_.verb,
+                                                   suggestion(found, option_names(*arguments_))));
+        }
         return;
     }
     std::vector<std::string> verbs;
@@ -102,8 +110,9 @@ const Command& Parser::parse(std::span<char*> texts) {
         const CLI::App& parsed = command != nullptr ? *command->arguments : *arguments_;
         const std::vector<std::string> extras = arguments_->remaining(true);
         const std::string first = extras.empty() ? std::string(texts[0]) : extras.front();
-        throw CLI::ValidationError(fmt::format("{}: {} found, which it does not know{}", texts[0],
-                                               first, suggestion(first, option_names(parsed))));
+        throw CLI::ValidationError(fmt::format("{}: {} found, a known option was expected{}",
+                                               texts[0], first,
+                                               suggestion(first, option_names(parsed))));
     }
     return *std::find_if(commands_.begin(), commands_.end(),
                          [](const Command& one) { return one.arguments->parsed(); });

@@ -22,16 +22,20 @@ constexpr int poll_ms = 100; // how late Ctrl-C may be noticed
 
 class TemporaryFolder {
 public:
-    TemporaryFolder() : path_((fs::temp_directory_path() / "reljef-XXXXXX").string()) {
-        is_made_ = mkdtemp(path_.data()) != nullptr;
+    TemporaryFolder() {
+        std::error_code code;
+        path_ = (fs::temp_directory_path(code) / "reljef-XXXXXX").string();
+        is_made_ = !code && mkdtemp(path_.data()) != nullptr;
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     ~TemporaryFolder() {
+        const int reason = errno; // why standard output was lost
         std::error_code ignored;
         if (is_made_) {
             fs::remove_all(path_, ignored);
         }
+        errno = reason;
     }
 
     [[nodiscard]] bool is_made() const { return is_made_; }
@@ -45,10 +49,12 @@ private:
 // The bytes that are there; none at the end.
 Result<std::size_t> read_some(std::vector<char>& buffer, const std::stop_token& stop) {
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-    while (::poll(&input, 1, poll_ms) <= 0) {
+    int ready = 0;
+    while (ready == 0 || (ready < 0 && errno == EINTR)) {
         if (stop.stop_requested()) {
             return Error{"interrupted"};
         }
+        ready = ::poll(&input, 1, poll_ms);
     }
     const ssize_t count = ::read(STDIN_FILENO, buffer.data(), buffer.size());
     return count < 0 ? Result<std::size_t>(Error{
@@ -89,14 +95,26 @@ Result<void> with_standard_input(std::string& terrain, const std::stop_token& st
     }
     const TemporaryFolder folder;
     if (!folder.is_made()) {
-        return Error{fmt::format("standard input: {} cannot be created", folder.path().string())};
+        return Error{
+            "standard input: no folder for temporary files found (TMPDIR), one that can be "
+            "written was expected"};
     }
     const fs::path path = folder.path() / "standard input";
     if (auto copied = copy_standard_input(path, stop); !copied) {
         return copied;
     }
     terrain = path.string();
-    return run();
+    auto done = run();
+    terrain = "-";
+    if (done) {
+        return done;
+    }
+    Error error = done.error();
+    for (auto at = error.message.find(path.string()); at != std::string::npos;
+         at = error.message.find(path.string())) {
+        error.message.replace(at, path.string().size(), "standard input");
+    }
+    return error;
 }
 
 } // namespace reljef::cli

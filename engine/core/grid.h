@@ -10,7 +10,8 @@
 
 namespace reljef {
 
-/// A view of a rectangle of samples, like Grid; rows lie `stride` elements apart.
+/// A view of a rectangle of samples; rows lie `stride` elements apart. `col` grows east, `row`
+/// grows south. Valid as long as its grid.
 template <class T> class GridView {
 public:
     GridView() = default;
@@ -50,7 +51,8 @@ private:
     std::ptrdiff_t stride_ = 0;
 };
 
-/// A rectangle of samples, row-major. `col` grows east, `row` grows south.
+/// A rectangle of samples, row-major. `col` grows east, `row` grows south; (0,0) is the centre of
+/// the north-west sample.
 template <class T> class Grid {
 public:
     Grid() = default;

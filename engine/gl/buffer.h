@@ -8,7 +8,8 @@
 
 namespace reljef::gl {
 
-/// A buffer object: vertices, indices or a uniform block.
+/// A buffer object: vertices, indices or a uniform block. Default-constructed and moved-from ones
+/// hold nothing (id 0, size 0).
 class Buffer {
 public:
     Buffer() = default;

@@ -40,9 +40,9 @@ enum class Wrap { clamp, repeat };
 inline constexpr int full_chain = 0;
 
 struct TextureOptions {
-    glm::ivec2 size{1, 1};
+    glm::ivec2 size{1, 1}; ///< columns, rows of level 0
     Format format = Format::rgba8;
-    int levels = 1;
+    int levels = 1; ///< mip levels, or full_chain
     Filter filter = Filter::bilinear;
     Wrap wrap = Wrap::clamp;
 };

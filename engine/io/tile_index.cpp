@@ -90,8 +90,8 @@ private:
 };
 
 /// Sets `sidecar_hash` of all files. The sidecar files of "a.tif" are named "a.…" and are no
-/// rasters
-/// ("a.prj", "a.tif.aux.xml"); those of an .adf are all .adf files of its folder. Ignores case.
+/// rasters ("a.prj", "a.tif.aux.xml"); those of an .adf are all .adf files of its folder. Ignores
+/// case.
 void set_sidecar_hashes(std::span<IndexedFile> files) {
     SidecarHashes families;
     for (const IndexedFile& file : files) {

@@ -51,7 +51,7 @@ struct TileLayer {
     std::int64_t modified = 0; ///< time of the newest tile
     double period = 0.0;       ///< 360 degrees in units of x; 0: not in degrees
     DegreeBox box{};
-    std::vector<LayerTile> tiles; ///< newest first; turned ones lie outside [0, cols)
+    std::vector<LayerTile> tiles; ///< newest first; wrapped ones lie outside [0, cols)
 
     [[nodiscard]] glm::dvec2 lattice_from_crs(glm::dvec2 point) const {
         return lattice_steps * (point - glm::dvec2(crs_from_lattice.x0, crs_from_lattice.y0));

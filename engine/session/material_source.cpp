@@ -77,7 +77,8 @@ open_detail(const io::SceneDescription& description, const SourceOptions& terrai
     const auto requested = requested_detail(description, view);
     if (!requested) {
         if (view.detail_technique) {
-            return usage_error("--detail-technique: found without --detail, whose tile it draws");
+            return usage_error(
+                "--detail-technique: found without --detail, one was expected with it");
         }
         return Detail();
     }

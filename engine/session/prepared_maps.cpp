@@ -101,7 +101,10 @@ MissingMaps missing_maps(const TerrainScene& scene,
     if (scene.models.empty()) {
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
         const scene::Technique shown = technique.value_or(node.material.technique);
-        missing.cones = shown.id() == scene::TechniqueId::cone && node.cones == nullptr;
+        const Grid<float>& heights = node.surface->heightfield().heights;
+        const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
+        missing.cones =
+            has_cells && shown.id() == scene::TechniqueId::cone && node.cones == nullptr;
         missing.bisection =
             scene::error_bound(shown) > 0.0 && node.stream == nullptr && node.bisection == nullptr;
         missing.surface = missing.cones || missing.bisection ? node.surface : nullptr;

@@ -45,7 +45,7 @@ struct Candidate {
     double along = 0.0; // metres from the eye, along the ground
     terrain::TreeTile id;
     Box expected;         // local metres
-    double urgency = 0.0; // the smallest screen space error of its ancestors
+    double urgency = 0.0; // the smallest relative error of its ancestors
     terrain::TreeTile parent;
     bool is_hidden = false;   // the parent is hidden
     bool is_foreseen = false; // an ancestor is not loaded: neither requested nor drawn
@@ -124,7 +124,7 @@ public:
     }
 
     /// The error on the picture, or the size of its texels, relative to its bound.
-    [[nodiscard]] double screen_space_error_of(const scene::TileSummary& tile) const {
+    [[nodiscard]] double relative_error_of(const scene::TileSummary& tile) const {
         if (tile.id.level == 0) {
             return 0.0;
         }
@@ -162,8 +162,8 @@ private:
 };
 
 struct WalkLimits {
-    double max_screen_space_error = 1.0; // tiles with larger errors are refined
-    std::set<terrain::TreeTile> leaves;  // not refined: children are missing
+    double max_relative_error = 1.0;    // tiles with larger errors are refined
+    std::set<terrain::TreeTile> leaves; // not refined: children are missing
     // Whether nearer ground hides tiles. Only without other limits, because borders move to the
     // vertices of the coarsest tile, however far away these are.
     bool hides = true;
@@ -235,9 +235,9 @@ private:
 
     void add(const Candidate& candidate, KnownTile known, bool is_above_hidden) {
         const scene::TileSummary& summary = known.summary;
-        const double screen_space_error = view_.screen_space_error_of(summary);
-        const bool is_refined = screen_space_error > limits_.max_screen_space_error &&
-                                !limits_.leaves.contains(summary.id);
+        const double relative_error = view_.relative_error_of(summary);
+        const bool is_refined =
+            relative_error > limits_.max_relative_error && !limits_.leaves.contains(summary.id);
         const Box box =
             is_refined ? view_.builder().bounds(summary.id, range_below(summary, errors_hidden))
                        : summary.bounds;
@@ -248,8 +248,7 @@ private:
         }
         use_or_request(candidate, known.tile);
         if (is_refined) {
-            push_children(candidate, known, std::min(candidate.urgency, screen_space_error),
-                          is_hidden);
+            push_children(candidate, known, std::min(candidate.urgency, relative_error), is_hidden);
         } else {
             add_leaf(candidate, std::move(known.tile), is_hidden);
         }
@@ -297,23 +296,22 @@ private:
     TileSelection selection_;
 };
 
-// The screen space error above which tiles may be refined so that all drawn tiles fit in memory.
+// The relative error above which tiles may be refined so that all drawn tiles fit in memory.
 // Refines the largest errors first. Depends on known tiles only, loaded or not.
-double error_within_memory(const StreamView& view, const scene::StreamedTile& root) {
+double relative_error_within_memory(const StreamView& view, const scene::StreamedTile& root) {
     struct Open {
-        double screen_space_error;
+        double relative_error;
         scene::TileSummary tile;
 
         bool operator<(const Open& other) const {
-            return screen_space_error != other.screen_space_error
-                       ? screen_space_error < other.screen_space_error
-                       : other.tile.id < tile.id;
+            return relative_error != other.relative_error ? relative_error < other.relative_error
+                                                          : other.tile.id < tile.id;
         }
     };
     std::size_t leaves = 1;
     std::priority_queue<Open> open;
-    open.push({view.screen_space_error_of(root), root});
-    while (!open.empty() && open.top().screen_space_error > 1.0) {
+    open.push({view.relative_error_of(root), root});
+    while (!open.empty() && open.top().relative_error > 1.0) {
         const Open next = open.top();
         open.pop();
         std::size_t seen = 0;
@@ -323,13 +321,13 @@ double error_within_memory(const StreamView& view, const scene::StreamedTile& ro
             }
             ++seen;
             if (const auto known = view.known(child)) {
-                const double screen_space_error = view.screen_space_error_of(known->summary);
-                open.push({std::min(next.screen_space_error, screen_space_error), known->summary});
+                const double relative_error = view.relative_error_of(known->summary);
+                open.push({std::min(next.relative_error, relative_error), known->summary});
             }
         }
         leaves += std::max<std::size_t>(seen, 1) - 1; // never decreases: the limit is safe
         if (leaves > view.stream().max_drawn()) {
-            return next.screen_space_error;
+            return next.relative_error;
         }
     }
     return 1.0;
@@ -365,7 +363,7 @@ TileSelection walk_until_complete(const StreamView& view, const scene::StreamedT
     while (true) {
         TreeWalk walk(view, limits, options);
         if (!walk.walk(root)) {
-            limits.max_screen_space_error = error_within_memory(view, root);
+            limits.max_relative_error = relative_error_within_memory(view, root);
             limits.hides = false;
             continue;
         }

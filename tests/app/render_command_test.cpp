@@ -120,7 +120,7 @@ TEST(RenderCommand, tiles_are_refused_where_there_are_none_and_where_they_are_un
     refused({"urban", "--imagery", "a.png"}, "--imagery: a.png found, but urban brings its own");
     refused({"gallery", "--max-error", "1"}, "--max-error: gallery found, a terrain was expected");
     refused({"urban", "--area", "1,2,3,4"}, "--area found, but it is no folder of tiles");
-    refused({"urban", "--technique", "emboss"}, "a mesh with a tile of detail was expected");
+    refused({"urban", "--technique", "emboss"}, "a mesh with a detail texture was expected");
     refused({"urban", "--technique", "lattice"}, "exact shapes a terrain by its heights");
     refused({"gallery", "--textures", "brick", "--technique", "prewarp"},
             "a mesh that is not flat found");
@@ -156,7 +156,7 @@ TEST(RenderCommand, a_tile_of_detail_is_refused_where_it_is_unknown_or_nothing_s
     refused(2, {"--detail", "rock", "--detail-technique", "relief:depth=write"},
             "none beside steps and shadow");
     refused(2, {"--detail-technique", "relief"}, "without --detail");
-    refused(2, {"--technique", "displacement"}, "a mesh with a tile of detail was expected");
+    refused(2, {"--technique", "displacement"}, "a mesh with a detail texture was expected");
 }
 
 // Of the metres that they are drawn as.

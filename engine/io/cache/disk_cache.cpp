@@ -105,21 +105,25 @@ CacheHeader header_of(const CacheKey& key, std::span<const float> numbers) {
 }
 
 Error unusable(const fs::path& path, const CacheKind& kind, std::string_view found) {
-    return Error{fmt::format("{}: {} found, {} (version {}) were expected; they are made anew",
+    return Error{fmt::format("{}: {} found, {} (version {}) were expected; they are computed again",
                              path.string(), found, kind.name, kind.version)};
 }
 
 // Reads and verifies `count` floats.
 Result<std::vector<float>> read_numbers(const fs::path& path, const CacheKey& key,
                                         std::size_t count) {
-    constexpr std::size_t max_bytes = std::size_t{1} << 32U;
-    const auto bytes = read_text_file(path, max_bytes);
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) { // a device may never end
+        return unusable(path, key.kind, "no file");
+    }
+    const std::size_t expected_bytes = sizeof(CacheHeader) + count * sizeof(float);
+    const auto bytes = read_text_file(path, expected_bytes + 1);
     if (!bytes) {
         return bytes.error();
     }
     std::vector<float> numbers(count);
     const auto content = std::as_writable_bytes(std::span(numbers));
-    if (bytes->size() != sizeof(CacheHeader) + content.size()) {
+    if (bytes->size() != expected_bytes) {
         return unusable(path, key.kind, fmt::format("a length of {} bytes", bytes->size()));
     }
     CacheHeader header;

@@ -16,9 +16,11 @@ Result<void> check_image_file(const std::filesystem::path& path);
 /// Fails if the size in a picture's header is impossible for its file size or exceeds the limits.
 Result<void> check_image_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec);
 
-/// Opens a picture with OpenImageIO, unassociated alpha, and returns `read(input)`.
+/// Opens a picture with OpenImageIO, unassociated alpha, and returns `read(input)`. Errors name
+/// what was `expected`.
 template <class T, class Read>
-Result<T> read_picture(const std::filesystem::path& path, const Read& read) {
+Result<T> read_picture(const std::filesystem::path& path, const Read& read,
+                       const char* expected = "a picture") {
     if (auto file = check_image_file(path); !file) {
         return file.error();
     }
@@ -27,14 +29,14 @@ Result<T> read_picture(const std::filesystem::path& path, const Read& read) {
         desired.attribute("oiio:UnassociatedAlpha", 1);
         const auto input = OIIO::ImageInput::open(path.string(), &desired);
         if (input == nullptr) {
-            return Error{fmt::format("{}: cannot be read ({}), a picture was expected",
-                                     path.string(), OIIO::geterror())};
+            return Error{fmt::format("{}: cannot be read ({}), {} was expected", path.string(),
+                                     OIIO::geterror(), expected)};
         }
         const auto size = check_image_size(path, input->spec());
         return size ? read(*input) : Result<T>(size.error());
     } catch (const std::exception& problem) {
-        return Error{fmt::format("{}: cannot be read ({}), a picture was expected", path.string(),
-                                 problem.what())};
+        return Error{fmt::format("{}: cannot be read ({}), {} was expected", path.string(),
+                                 problem.what(), expected)};
     }
 }
 

@@ -63,7 +63,7 @@ bool has_last_block(GDALDataset& image) {
     return block != nullptr;
 }
 
-/// At min_memory 0; 0 if unreadable.
+/// The highest value of a window, at least 0; 0 if unreadable.
 double highest_in(GDALRasterBand& band, const PixelWindow& window) {
     std::vector<double> values(static_cast<std::size_t>(window.size.x) *
                                static_cast<std::size_t>(window.size.y));

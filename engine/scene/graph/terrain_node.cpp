@@ -7,7 +7,7 @@ namespace {
 
 Error for_meshes_only(TechniqueId id) {
     const bool moves = id == TechniqueId::displacement || searches_layers(id);
-    return Error{fmt::format("technique {}: a terrain found, a mesh with a tile of detail was "
+    return Error{fmt::format("technique {}: a terrain found, a mesh with a detail texture was "
                              "expected; {} {} a terrain by its heights",
                              technique_info(id).name,
                              searches_layers(id) ? "exact" : (moves ? "polygons" : "texture"),
@@ -131,12 +131,12 @@ Result<void> check_technique(const Technique& technique, const TerrainSurface& s
 
 Result<void> check_terrain_detail_technique(const Technique& technique) {
     if (!shows_detail(technique.id())) {
-        return Error{fmt::format("technique {}: a tile of detail on a terrain found, a mesh was "
+        return Error{fmt::format("technique {}: a detail texture on a terrain found, a mesh was "
                                  "expected; normal, relief and exact show both",
                                  technique_info(technique.id()).name)};
     }
     if (has_foreign_options(technique.options)) {
-        return Error{fmt::format("technique {}: a tile of detail on a terrain found with an option "
+        return Error{fmt::format("technique {}: a detail texture on a terrain found with an option "
                                  "that only meshes have, none beside steps and shadow was expected",
                                  to_string(technique))};
     }

@@ -37,34 +37,31 @@ constexpr double max_halvings = 32.0;
 
 constexpr std::array polygons_parameters{
     parameter_row<&Polygons::max_levels>(
-        {"lods", 1.0, 5.0, "levels of detail at most, by distance; 1: every sample is a vertex"},
+        {"lods", 1.0, 5.0,
+         "maximum number of levels of detail, chosen by distance; 1 draws every sample"},
         "error"),
-    parameter_row<&Polygons::error>(
-        {.name = "error",
-         .high = max_polygons_error,
-         .meaning = "pixels that no pixel is farther from where it belongs, instead of levels; 0: "
-                    "by levels",
-         .is_tacit = true,
-         .min_above_low = min_polygons_error}),
+    parameter_row<&Polygons::error>({.name = "error",
+                                     .high = max_polygons_error,
+                                     .meaning = "error bound, pixels; 0: levels by distance (lods)",
+                                     .is_tacit = true,
+                                     .min_above_low = min_polygons_error}),
     parameter_row<&Polygons::morph>(
         {.name = "morph",
          .high = 1.0,
-         .meaning = "with error, 1: vertices rise to their places as the view nears, so that "
-                    "nothing jumps",
+         .meaning = "1: vertices move gradually when the level changes (geomorphing); needs error",
          .is_tacit = true})};
 
 template <class Kind>
 constexpr ParameterInfo offset_parameter =
     parameter_row<&Kind::offset>({"offset", -1.0, 0.0,
-                                  "where the reference plane lies: 0 lowest, -1 highest "
-                                  "height; a mesh lies at its material's"});
+                                  "height of the reference plane: 0 the lowest, -1 the highest "
+                                  "sample; meshes use that of their material"});
 
 constexpr std::array parallax_parameters{offset_parameter<Parallax>};
 constexpr std::array limited_parameters{offset_parameter<ParallaxLimited>};
 constexpr std::array iterated_parameters{
     offset_parameter<ParallaxIterated>,
-    parameter_row<&ParallaxIterated::iterations>(
-        {"k", 1.0, 64.0, "times the height is looked at again"})};
+    parameter_row<&ParallaxIterated::iterations>({"k", 1.0, 64.0, "parallax steps"})};
 
 template <class Kind>
 constexpr ParameterInfo linear_steps_parameter =
@@ -72,36 +69,35 @@ constexpr ParameterInfo linear_steps_parameter =
 
 constexpr std::array steep_parameters{linear_steps_parameter<Steep>};
 constexpr std::array relief_parameters{
-    linear_steps_parameter<Relief>, parameter_row<&Relief::bisection_steps>(
-                                        {"k", 0.0, max_halvings, "times the bracket is halved"})};
+    linear_steps_parameter<Relief>,
+    parameter_row<&Relief::bisection_steps>({"k", 0.0, max_halvings, "binary search steps"})};
 constexpr std::array interval_parameters{
     linear_steps_parameter<Interval>,
-    parameter_row<&Interval::secant_steps>({"k", 1.0, 32.0, "chords drawn through the bracket"})};
+    parameter_row<&Interval::secant_steps>({"k", 1.0, 32.0, "secant steps"})};
 constexpr std::array pom_parameters{
     parameter_row<&Pom::min_steps>(
-        {"min", 1.0, max_step_count, "equal steps seen from straight above"}),
+        {"min", 1.0, max_step_count, "equal steps in views from straight above"}),
     parameter_row<&Pom::max_steps>(
-        {"max", 1.0, max_step_count, "equal steps seen along the ground"})};
+        {"max", 1.0, max_step_count, "equal steps in views along the surface"})};
 
 template <class Kind>
 constexpr ParameterInfo halvings_parameter = parameter_row<&Kind::bisection_steps>(
-    {"k", 0.0, max_halvings, "times the bracket is halved before the chord"});
+    {"k", 0.0, max_halvings, "binary search steps before the secant step"});
 
 constexpr std::array cone_parameters{
     parameter_row<&Cone::relaxed>(
-        {"relaxed", 0.0, 1.0, "1: cones that a ray may meet the surface in once"}),
-    parameter_row<&Cone::max_steps>({"n", 1.0, max_step_count, "cones at the most"}),
+        {"relaxed", 0.0, 1.0, "1: relaxed cones, in which a ray meets the surface at most once"}),
+    parameter_row<&Cone::max_steps>({"n", 1.0, max_step_count, "maximum number of cone steps"}),
     halvings_parameter<Cone>,
-    parameter_row<&Cone::min_step>(
-        {"step", 0.0, 16.0, "samples a step goes at least; 0: passes over nothing"})};
+    parameter_row<&Cone::min_step>({"step", 0.0, 16.0, "minimum step, samples; 0 misses nothing"})};
 
 template <class Kind>
 constexpr std::array layers_parameters{linear_steps_parameter<Kind>, halvings_parameter<Kind>};
 
 constexpr std::array displacement_parameters{parameter_row<&Displacement::max_texels>(
-    {"texels", 1.0, 256.0, "of the heights between two vertices, at most"})};
+    {"texels", 1.0, 256.0, "maximum number of height texels between two vertices"})};
 constexpr std::array emboss_parameters{parameter_row<&Emboss::delta>(
-    {"delta", 0.25, 64.0, "texels towards the light to the second height"})};
+    {"delta", 0.25, 64.0, "distance to the second height, towards the light, texels"})};
 
 template <class Kind>
 constexpr TechniqueInfo technique_row(std::string_view name, std::string_view meaning,
@@ -121,7 +117,7 @@ constexpr std::array catalogue{
         "the heightfield as triangles: all, fewer by distance, or as few as an error allows",
         "Janković 2010 ch. 2.7 test 4; Lindstrom and Pascucci 2001", polygons_parameters),
     technique_row<Displacement>(
-        "displacement", "a mesh cut fine, its vertices moved along the normal by the height",
+        "displacement", "a fine mesh; each vertex moves along its normal by the height",
         "GPU surface-detail survey (2008) ch. 3.1; Cook 1984", displacement_parameters),
     technique_row<Bump>("bump",
                         "a mesh lit by the height's derivatives: N + F_u (N x P_v) - F_v (N x P_u)",
@@ -134,29 +130,31 @@ constexpr std::array catalogue{
         "GPU surface-detail survey (2008) ch. 3.4; Cohen, Olano and Manocha 1998"),
     technique_row<Parallax>(
         "parallax",
-        "one look at the height shifts the place along the ray: t + (h + b) s v.xy / v.z",
+        "one height lookup shifts the texture coordinate along the ray: t + (h + b) s v.xy / v.z",
         "Janković 2010 ch. 2.3; Kaneko et al. 2001", parallax_parameters),
     technique_row<ParallaxLimited>(
         "parallax-limited", "parallax with offset limiting: t + (h + b) s v.xy",
         "GPU surface-detail survey (2008) ch. 3.5; Welsh 2004", limited_parameters),
     technique_row<ParallaxIterated>(
-        "parallax-iterated", "parallax looked at again from where it led, the heights averaged",
+        "parallax-iterated", "repeated parallax steps with averaged heights",
         "GPU surface-detail survey (2008) ch. 3.5", iterated_parameters),
-    technique_row<Steep>("steep", "equal steps along the ray until one lies below the surface",
-                         "GPU surface-detail survey (2008) ch. 3.6.1; McGuire and McGuire 2005",
-                         steep_parameters),
-    technique_row<Relief>("relief", "equal steps, then the bracket halved",
+    technique_row<Steep>(
+        "steep", "linear search: equal steps along the ray until one is below the surface",
+        "GPU surface-detail survey (2008) ch. 3.6.1; McGuire and McGuire 2005", steep_parameters),
+    technique_row<Relief>("relief", "linear search, then binary search",
                           "Janković 2010 ch. 2.4.6; Policarpo, Oliveira and Comba 2005",
                           relief_parameters),
-    technique_row<Interval>("interval", "equal steps, then chords through the bracket",
+    technique_row<Interval>("interval", "linear search, then secant steps",
                             "Janković 2010 ch. 2.4.9; Risser, Shah and Pattanaik 2006",
                             interval_parameters),
-    technique_row<Pom>("pom", "steps by the angle of view, then one chord",
+    technique_row<Pom>("pom", "linear search with steps by the view angle, then one secant step",
                        "Janković 2010 ch. 2.3.3; Tatarchuk 2005", pom_parameters),
-    technique_row<Cone>("cone", "from cone to cone that holds nothing, or one crossing",
+    technique_row<Cone>("cone",
+                        "cone stepping: each step stays inside an empty cone, or inside a relaxed "
+                        "cone with one crossing",
                         "Dummer 2006; Policarpo and Oliveira 2007 (GPU Gems 3 ch. 18)",
                         cone_parameters),
-    technique_row<Exact>("exact", "the ray against the bilinear surface itself: the true first hit",
+    technique_row<Exact>("exact", "the true first hit of the ray with the bilinear surface",
                          "Tevs, Ihrke and Seidel 2008"),
     technique_row<Lattice>(
         "lattice", "a mesh as a sheet with its heights on both sides of it: height 0 is a hole",
@@ -165,14 +163,14 @@ constexpr std::array catalogue{
         "dual-layer", "a mesh as a sheet with one height map on its front and another on its back",
         "GPU surface-detail survey (2008) ch. 3.6.10", layers_parameters<DualLayer>),
     technique_row<MultiLayer>(
-        "multi-layer", "a mesh as two solids, one over the other: four heights a place",
+        "multi-layer", "a mesh as two solid layers, with four heights per texel",
         "GPU surface-detail survey (2008) ch. 3.6.11; Policarpo and Oliveira 2006",
         layers_parameters<MultiLayer>),
-    technique_row<Prewarp>(
-        "prewarp",
-        "the surface warped forward onto the reference plane, rows and then columns, each frame: "
-        "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
-        "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000")};
+    technique_row<Prewarp>("prewarp",
+                           "the surface, warped forward onto the reference plane in each frame, "
+                           "rows first, then columns: "
+                           "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
+                           "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000")};
 
 static_assert(catalogue.size() == std::variant_size_v<TechniqueParameters>);
 constexpr auto last_index = static_cast<std::size_t>(TechniqueId::multi_layer);

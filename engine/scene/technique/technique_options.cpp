@@ -36,26 +36,25 @@ constexpr auto steps_member = &TechniqueOptions::steps;
 constexpr auto fade_member = &TechniqueOptions::fade;
 constexpr std::array steps_numbers{
     number_row<steps_member, &StepRange::low>(
-        {"min", 1.0, 4096.0, "equal steps seen from straight above"}),
+        {"min", 1.0, 4096.0, "equal steps in views from straight above"}),
     number_row<steps_member, &StepRange::high>(
-        {"max", 1.0, 4096.0, "equal steps seen along the ground"})};
+        {"max", 1.0, 4096.0, "equal steps in views along the surface"})};
 constexpr std::array fade_numbers{
-    number_row<fade_member, &Fade::low>({"min", 0.0, 1.0, "of the heights, seen along the ground"}),
+    number_row<fade_member, &Fade::low>(
+        {"min", 0.0, 1.0, "share of the heights in views along the surface"}),
     number_row<fade_member, &Fade::high>(
-        {"max", 0.0, 1.0, "of the heights, seen from straight above"}),
+        {"max", 0.0, 1.0, "share of the heights in views from straight above"}),
     number_row<fade_member, &Fade::power>({.name = "k",
                                            .low = 1.0,
                                            .high = 64.0,
-                                           .meaning = "the greater, the later they fade",
+                                           .meaning = "exponent; larger values fade later",
                                            .is_tacit = true})};
 constexpr std::array shadow_numbers{number_row<&TechniqueOptions::shadow, &Shadow::depth>(
-    {"M", 0.001, 1.0,
-     "soft: how deep in the surface, of the range of heights, a ray has no light left"})};
-constexpr std::array edges_numbers{
-    number_row<&TechniqueOptions::smooth_edges, &SmoothEdges::distance>(
-        {"E", 1e-6, 1.0,
-         "smooth: over the surface, of the range of heights, where a ray shows nothing "
-         "of it"})};
+    {"M", 0.001, 1.0, "soft: depth of full shadow, as a share of the height range"})};
+constexpr std::array edges_numbers{number_row<&TechniqueOptions::smooth_edges,
+                                              &SmoothEdges::distance>(
+    {"E", 1e-6, 1.0,
+     "smooth: distance over the surface at which blending ends, as a share of the height range"})};
 
 constexpr std::array<std::string_view, 3> shadow_words{"none", "hard", "soft"};
 constexpr std::array<std::string_view, 2> edges_words{"none", "smooth"};
@@ -109,7 +108,9 @@ void choose_border(TechniqueOptions& options, std::optional<std::size_t> word) {
 }
 
 std::string_view reason_without_ray(TechniqueId id) {
-    return searches_surface(id) ? "" : "it looks for no surface along a ray; relief and exact do";
+    return searches_surface(id)
+               ? ""
+               : "it does not search for the surface along a ray; relief and exact do";
 }
 
 std::string_view reason_without_path(TechniqueId id) {
@@ -123,41 +124,42 @@ std::string_view reason_against_steps(TechniqueId id) {
         return reason_without_ray(id);
     }
     if (id == TechniqueId::pom) {
-        return "its own min and max say the same";
+        return "its parameters min and max do the same";
     }
     if (searches_layers(id)) {
-        return "its steps are as many from wherever it is seen; steep, relief and interval take it";
+        return "its number of steps does not depend on the view; steep, relief and interval have "
+               "the option";
     }
     const bool steps_equally =
         id == TechniqueId::steep || id == TechniqueId::relief || id == TechniqueId::interval;
-    return steps_equally ? "" : "it takes no equal steps; steep, relief and interval do";
+    return steps_equally ? "" : "it makes no equal steps; steep, relief and interval do";
 }
 
 std::string_view reason_against_edges(TechniqueId id) {
-    return searches_layers(id)
-               ? "what its rays miss may lie behind a hole; relief and exact take it"
-               : reason_without_path(id);
+    return searches_layers(id) ? "its rays may pass through holes; relief and exact have the option"
+                               : reason_without_path(id);
 }
 
 std::string_view reason_against_sides(TechniqueId id) {
-    return searches_layers(id) ? "it is seen from both sides as it is" : reason_without_ray(id);
+    return searches_layers(id) ? "it shows both sides already" : reason_without_ray(id);
 }
 
 std::string_view reason_against_border(TechniqueId id) {
-    return searches_surface(id) ? ""
-                                : "it shows what lies beyond the tile as its material says; "
-                                  "relief and exact take it";
+    return searches_surface(id)
+               ? ""
+               : "it uses the border of the material; relief and exact have the option";
 }
 
 std::string_view reason_against_silhouettes_of(TechniqueId id) {
-    return searches_layers(id) ? "its sheets show both sides as they are; relief and exact take it"
-                               : reason_without_path(id);
+    return searches_layers(id)
+               ? "its sheets have outlines already; relief and exact have the option"
+               : reason_without_path(id);
 }
 
 constexpr std::array<OptionInfo, 8> option_infos{
     {{.name = "steps",
-      .default_value = "as many as the technique has",
-      .meaning = "equal steps by the angle of view: n = min + (max - min)(1 - cos a)",
+      .default_value = "those of the technique",
+      .meaning = "number of equal steps by the view angle a: n = min + (max - min)(1 - cos a)",
       .source = "GPU surface-detail survey (2008) ch. 3.6.4",
       .numbers = steps_numbers,
       .chosen = chosen_if_on<steps_member, 0>,
@@ -165,7 +167,8 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .reason_against = reason_against_steps},
      {.name = "fade",
       .default_value = "1..1",
-      .meaning = "heights by the angle of view: s times min + (max - min)(1 - (1 - cos a)^k)",
+      .meaning =
+          "scale of the heights by the view angle a: s times min + (max - min)(1 - (1 - cos a)^k)",
       .source = "GPU surface-detail survey (2008) ch. 3.6.4",
       .numbers = fade_numbers,
       .chosen = chosen_if_on<fade_member, 0>,
@@ -173,9 +176,9 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .reason_against = reason_without_ray},
      {.name = "shadow",
       .default_value = "none",
-      .meaning = "a ray from the hit to the sun: hard, lit where it meets nothing; soft, 1 - p/M "
-                 "of the light at its deepest penetration p; none, shadows as computed once for "
-                 "all views",
+      .meaning =
+          "a ray from the hit to the sun. hard: shadow if it hits the surface; soft: 1 - p/M of "
+          "the light at its deepest penetration p; none: shadows computed once for all views",
       .source = "GPU surface-detail survey (2008) ch. 3.6.5-6; Policarpo, Oliveira and Comba 2005",
       .words = shadow_words,
       .numbers = shadow_numbers,
@@ -184,8 +187,8 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .reason_against = reason_without_path},
      {.name = "edges",
       .default_value = "none",
-      .meaning = "the nearest place that the ray passes by less than E is blended into the one it "
-                 "hits, by distance/E",
+      .meaning = "smooth: blends the hit with the nearest surface point within E of the ray, by "
+                 "distance/E",
       .source = "GPU surface-detail survey (2008) ch. 3.6.7",
       .words = edges_words,
       .numbers = edges_numbers,
@@ -194,30 +197,31 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .reason_against = reason_against_edges},
      {.name = "sides",
       .default_value = "one",
-      .meaning = "two: a detail tile is seen from behind too, heights inverted, normals negated",
+      .meaning = "two: also draws the back, with inverted heights and negated normals",
       .source = "GPU surface-detail survey (2008) ch. 3.6.8",
       .words = sides_words,
       .chosen = chosen_if_on<&TechniqueOptions::two_sided, 1>,
       .choose = switch_on<&TechniqueOptions::two_sided, 1>,
       .reason_against = reason_against_sides},
      {.name = "border",
-      .default_value = "as the tile has",
-      .meaning = "what lies beyond a detail tile: its copies, its border drawn out, nothing",
+      .default_value = "that of the material",
+      .meaning = "beyond the detail texture: wrap repeats it, clamp stretches its border, discard "
+                 "shows nothing",
       .words = border_words,
       .chosen = chosen_border,
       .choose = choose_border,
       .reason_against = reason_against_border},
      {.name = "depth",
       .default_value = "none",
-      .meaning = "write: the depth of the hit, so that meshes cut the relief where it is seen",
+      .meaning = "write: writes the depth of the hit, so that meshes intersect the visible relief",
       .words = depth_words,
       .chosen = chosen_if_on<&TechniqueOptions::writes_depth, 1>,
       .choose = switch_on<&TechniqueOptions::writes_depth, 1>,
       .reason_against = reason_without_ray},
      {.name = "silhouettes",
       .default_value = "none",
-      .meaning = "true: rays enter a mesh's relief through a hull around it, and what leaves that "
-                 "has met nothing: its outline is that of its heights, its depth that of the hit",
+      .meaning =
+          "true: rays start at a hull around the mesh, so the relief has its own outline and depth",
       .source = "Hirche, Ehlert, Guthe and Doggett 2004; Porumbescu, Budge, Feng and Joy 2005",
       .words = silhouettes_words,
       .chosen = chosen_if_on<&TechniqueOptions::true_silhouettes, 1>,

@@ -84,10 +84,10 @@ public:
     }
 
     // Visible share of the sun at a height over a sample, not clamped to [0,1]. The penumbra is
-    // `spread` metres per metre of run to each side, and at least `least` metres high.
-    [[nodiscard]] double share(int index, double height, double spread, double min_run) const {
+    // `spread` metres per metre of run to each side, and at least `min_height` metres high.
+    [[nodiscard]] double share(int index, double height, double spread, double min_height) const {
         const Edge& edge = edges_[static_cast<std::size_t>(index)];
-        return 0.5 - (edge.height - height) / std::max(2.0 * spread * edge.run, min_run);
+        return 0.5 - (edge.height - height) / std::max(2.0 * spread * edge.run, min_height);
     }
 
 private:

@@ -83,6 +83,10 @@ TEST(CommandLine, HelpAndVersionHaveTheirUsualNames) {
     test::expect_refusal(test::reljef({"help", "rendr"}), 2, {"did you mean render?"});
 }
 
+TEST(CommandLine, AMisspelledOptionOfTheProgramIsNamed) {
+    test::expect_refusal(test::reljef({"--verion"}), 2, {"--verion found", "--version?"});
+}
+
 TEST(CommandLine, AMisspelledWordIsRefusedWithTheOneThatIsMeant) {
     test::expect_refusal(test::reljef({"rendr", "natural"}), 2,
                          {"verb 'rendr' found", "did you mean render?"});

@@ -51,7 +51,8 @@ TEST_F(StandardInput, ThatIsNoRasterIsOneSentence) {
          {"echo hello |", "cat /dev/null |", "head -c 5000 /dev/zero |"}) {
         const auto result = in_shell(command + reljef_ + "info -", folder_);
         EXPECT_EQ(result.exit_code, 1) << command;
-        EXPECT_THAT(result.err, HasSubstr("standard input: ")) << command;
+        EXPECT_THAT(result.err, HasSubstr("reljef: standard input: ")) << command;
+        EXPECT_THAT(result.err, testing::Not(HasSubstr("/temporary/"))) << command;
         EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
         EXPECT_EQ(result.out, "");
     }
@@ -59,6 +60,23 @@ TEST_F(StandardInput, ThatIsNoRasterIsOneSentence) {
 
 TEST_F(StandardInput, CannotBeTheTerrainAndThePlaces) {
     test::expect_refusal(test::reljef({"height", "-", "--points", "-"}), 2, {"--points: - found"});
+}
+
+// Bytes that never end are no reason not to stop.
+TEST_F(StandardInput, ThatNeverEndsIsInterrupted) {
+    const auto result =
+        in_shell("ulimit -f 8000000; timeout -s INT 1 " + reljef_ + "info - < /dev/zero", folder_);
+    EXPECT_THAT(result.err, HasSubstr("interrupted"));
+}
+
+// Removing the temporary file must not replace the reason.
+TEST_F(StandardInput, ThatIsDrawnToAFullDiskIsNamedRightly) {
+    const auto result =
+        in_shell(reljef_ + "render - --quiet --size 32x24 --context osmesa -o - < '" + dem_ +
+                     "' > /dev/full",
+                 folder_);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("No space left on device"));
 }
 
 TEST_F(StandardInput, ThatIsInterruptedLeavesNothing) {

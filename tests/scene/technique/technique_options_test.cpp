@@ -100,8 +100,8 @@ TEST(TechniqueOptions, ErrorsAreWholeSentences) {
               "option edges: E=0 found, a number from 1e-06 to 1 was expected");
     EXPECT_EQ(error_of("relief:shadow=hard,0.3"),
               "option shadow: shadow=hard,0.3 found, shadow=none|hard|soft[,M] was expected");
-    EXPECT_EQ(error_of("lattice:sides=two"), "technique lattice: option 'sides' found, it is seen "
-                                             "from both sides as it is");
+    EXPECT_EQ(error_of("lattice:sides=two"),
+              "technique lattice: option 'sides' found, it shows both sides already");
 }
 
 TechniqueOptions parsed(const std::string& text) {

@@ -349,7 +349,7 @@ TEST_F(TechniquesGlTest, ThoseOfMeshesAreRefusedForATerrainWithWhatWorks) {
         session::SceneRenderer driver = test::must(test::make_renderer(picture_size));
         const auto drawn = driver.draw(stage.scene);
         ASSERT_FALSE(drawn) << info.name;
-        EXPECT_NE(drawn.error().message.find("a mesh with a tile of detail was expected"),
+        EXPECT_NE(drawn.error().message.find("a mesh with a detail texture was expected"),
                   std::string::npos);
         const char* const works = scene::searches_layers(info.id)               ? "exact"
                                   : info.id == scene::TechniqueId::displacement ? "polygons"
