@@ -61,7 +61,7 @@ TEST(InfoCommand, the_gallery_names_its_models_and_their_tiles) {
     EXPECT_EQ(mixed["models"][0]["textures"], "brick");
     const auto text = test::reljef({"info", "gallery", "--textures", "rock"});
     ASSERT_EQ(text.exit_code, 0) << text.err;
-    EXPECT_NE(text.out.find("torus, with a tile of rock"), std::string::npos);
+    EXPECT_NE(text.out.find("torus, with the detail texture rock"), std::string::npos);
 }
 
 } // namespace

@@ -148,8 +148,8 @@ TEST(RenderCommand, a_tile_of_detail_is_refused_where_it_is_unknown_or_nothing_s
     }
     refused(2, {"--detail", "rock:scale=0"}, "--detail: scale");
     refused(2, {"--detail", "rock:wide=3"}, "width=METRES or scale=S was expected");
-    refused(2, {"--detail", ":width=3"}, "a tile's name or folder, then");
-    refused(2, {"--detail", "rock:"}, "a tile's name or folder, then");
+    refused(2, {"--detail", ":width=3"}, "the name or folder of a detail texture, then");
+    refused(2, {"--detail", "rock:"}, "the name or folder of a detail texture, then");
     refused(2, {"--detail", "rock:width=3,width=4"}, "width found twice");
     refused(2, {"--detail", "rock", "--technique", "exact"}, "polygons was expected");
     refused(2, {"--detail", "rock", "--detail-technique", "lattice"}, "normal, relief and exact");
