@@ -218,7 +218,7 @@ void add_map_options(CLI::App& arguments, MapChoice& choice) {
                        "compute normals with Sobel's filter instead of bilinear slopes");
     cli::add_parsed(arguments, "--threads", choice.threads,
                     cli::number_in<int>("--threads", 0, 1024),
-                    "number of threads; 0: one for each processor (0)", "N");
+                    "number of threads; 0: one per processor (0)", "N");
     arguments.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 

@@ -72,7 +72,7 @@ cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt) {
         "A change counts if it is larger than the threshold and the noise of both runs. Times of\n"
         "rows with fewer than 5 frames are not compared. The exit status is 1 if a figure is "
         "worse\n"
-        "or a row is gone.\n"
+        "or a row is missing.\n"
         "Examples:\n"
         "  reljef-bench compare before.json after.json\n"
         "  reljef-bench compare before.json after.json --threshold 5");

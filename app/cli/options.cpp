@@ -193,8 +193,8 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
             return technique ? Result<std::optional<scene::Technique>>(*technique)
                              : technique.error();
         },
-        "how to draw the surface; 'reljef techniques' lists all (polygons; in the gallery mixed: "
-        "each model has its own)",
+        "how to draw the surface; 'reljef techniques' lists all (polygons; in the gallery, each "
+        "model has its own)",
         "ID[:key=value,...]");
     add_parsed(
         command, "--max-error", choice.max_error, parse_max_error,
@@ -304,7 +304,7 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
         command, "--memory", choice.memory_megabytes, number_in<int>("--memory", 1, 1'000'000),
         "memory for the terrain, megabytes; larger terrains are read tile by tile (512)", "MB");
     add_parsed(command, "--threads", choice.threads, number_in<int>("--threads", 0, 1024),
-               "number of threads; 0: one for each processor (0)", "N");
+               "number of threads; 0: one per processor (0)", "N");
     command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 
