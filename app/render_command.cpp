@@ -88,7 +88,7 @@ session::Underground underground(const RenderChoice& choice) {
                                          : session::Underground::lifted;
 }
 
-// Returns the frames whose cameras were raised above the ground.
+// Returns the frames whose cameras were lifted above the ground.
 Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
                                       session::FrameMaker& maker,
                                       const std::optional<scene::CameraPath>& path,
@@ -102,11 +102,11 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
         return sink.error();
     }
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
-    cli::LiftedFrames raised;
+    cli::LiftedFrames lifted;
     cli::ProgressLine line("drawing", choice.terrain.quiet);
     for (int index = 0; index < frames; ++index) {
         if (path) {
-            raised.add(session::fly_above_ground(scene, *path, index, frames, maker,
+            lifted.add(session::fly_above_ground(scene, *path, index, frames, maker,
                                                  interrupt.token(), underground(choice)));
         }
         auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
@@ -131,7 +131,7 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
         fmt::print("{}", maker.stats());
     }
     const auto written = sheet.write(choice.contact_sheet);
-    return written ? Result<cli::LiftedFrames>(raised) : written.error();
+    return written ? Result<cli::LiftedFrames>(lifted) : written.error();
 }
 
 void expect_standard_output(const RenderChoice& choice) {
@@ -277,9 +277,9 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         return path.error();
     }
     session::Lift lift;
-    cli::LiftedFrames raised;
+    cli::LiftedFrames lifted;
     if (*path) {
-        raised.add(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token(),
+        lifted.add(session::fly_above_ground(scene, **path, 0, 1, maker, interrupt.token(),
                                              underground(choice)));
     } else {
         lift = session::stand_above_ground(scene, maker, interrupt.token(), underground(choice));
@@ -297,14 +297,14 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         if (!drawn) {
             return drawn.error();
         }
-        raised = *drawn;
+        lifted = *drawn;
     }
     if (hits) {
         if (auto written = io::write_hits(choice.hits, *hits); !written) {
             return written;
         }
     }
-    return *path ? raised.report(log, choice.view.path)
+    return *path ? lifted.report(log, choice.view.path)
                  : report_lift(lift, choice, has_camera_of_file, log);
 }
 

@@ -10,19 +10,19 @@ namespace reljef::cli {
 
 void LiftedFrames::add(const session::Lift& lift) {
     ++frames_;
-    raised_ += lift ? 1 : 0;
+    lifted_ += lift ? 1 : 0;
     underground_ += lift.depth > 0.0 ? 1 : 0;
     max_metres_ = std::max(max_metres_, lift.metres);
 }
 
 Result<void> LiftedFrames::report(session::Log& log, const std::string& path) const {
-    if (raised_ == 0) {
+    if (lifted_ == 0) {
         return {};
     }
     const std::string text =
         fmt::format("--path {}: {} of {} frames would be under the ground or too close to it; "
-                    "raised by up to {:.1f} m; --allow-underground keeps them",
-                    path, raised_, frames_, max_metres_);
+                    "lifted by up to {:.1f} m; --allow-underground keeps them",
+                    path, lifted_, frames_, max_metres_);
     if (underground_ > 0 && session::is_path_file(path)) {
         return Error{text};
     }

@@ -8,18 +8,18 @@
 
 namespace reljef::cli {
 
-/// Counts the frames whose camera was raised above the ground.
+/// Counts the frames whose camera was lifted above the ground.
 class LiftedFrames {
 public:
     void add(const session::Lift& lift);
 
-    /// Notes raised frames. They are an error if a path file leads below the ground; measured
+    /// Notes lifted frames. They are an error if a path file leads below the ground; measured
     /// tracks are only inaccurate, and built-in paths may graze a summit.
     [[nodiscard]] Result<void> report(session::Log& log, const std::string& path) const;
 
 private:
     int frames_ = 0;
-    int raised_ = 0;
+    int lifted_ = 0;
     int underground_ = 0;
     double max_metres_ = 0.0;
 };

@@ -19,7 +19,7 @@ constexpr double seconds_across = 20.0;   // duration of a flight across the ter
 constexpr double first_step = 1.0 / 60.0; // longest step after rest, seconds
 constexpr int coarse_levels = 5;          // until the maps of a technique are ready
 constexpr double min_duration = 1e-9;     // of a path, seconds
-constexpr double min_raise = 1e-3;        // metres; less is rounding
+constexpr double min_lift = 1e-3;         // metres; less is rounding
 constexpr double heading_length = 100.0;  // metres ahead that define the heading
 
 /// Heading in degrees clockwise from true north, [0, 360): the forward direction, or the up
@@ -259,8 +259,8 @@ void Viewer::advance_path(double seconds) {
     const scene::Camera requested = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
     flight_.set_camera(requested);
     const scene::Camera next = flight_.camera();
-    if (const double raised = glm::distance(requested.eye, next.eye); raised > min_raise) {
-        path_raised_ = std::max(path_raised_, raised);
+    if (const double lifted = glm::distance(requested.eye, next.eye); lifted > min_lift) {
+        path_lifted_ = std::max(path_lifted_, lifted);
     }
     if (next.eye != camera().eye || next.target != camera().target) {
         show_camera(next);

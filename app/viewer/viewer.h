@@ -65,8 +65,8 @@ public:
     [[nodiscard]] bool wants_to_close() const { return close_; }
     [[nodiscard]] bool wants_mouse() const { return mouse_look_; }
     [[nodiscard]] bool is_playing() const { return playing_; }
-    /// How far the ground raised the path at most, metres.
-    [[nodiscard]] double path_raised() const { return path_raised_; }
+    /// How far the ground lifted the path at most, metres.
+    [[nodiscard]] double path_lifted() const { return path_lifted_; }
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
     // As in AppearanceSwitch.
     [[nodiscard]] bool is_preparing() const { return switch_.is_preparing(); }
@@ -109,7 +109,7 @@ private:
     scene::FreeFlight flight_;
     std::optional<ViewerMap> map_; // while it is shown
     double path_time_ = 0.0;
-    double path_raised_ = 0.0;
+    double path_lifted_ = 0.0;
     scene::Camera before_;   // the last step
     double last_step_ = 0.0; // seconds
     bool playing_ = false;

@@ -103,8 +103,9 @@ private:
     }
 
     void log_raised_path() {
-        if (viewer_.path_raised() > 0.0 && !std::exchange(raise_logged_, true)) {
-            log_.note("the path leads under the ground or too close to it: it is raised there");
+        if (viewer_.path_lifted() > 0.0 && !std::exchange(raise_logged_, true)) {
+            log_.note(
+                "the path leads under the ground or too close to it: the camera is lifted there");
         }
     }
 

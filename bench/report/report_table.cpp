@@ -254,14 +254,14 @@ std::vector<std::string> column_notes(const Results& results) {
     }
     if (std::any_of(begin, end,
                     [](const Row& row) { return row.noisy() && !row.has_few_frames(); })) {
-        notes.push_back(fmt::format("NOISY: what is measured twice, texture or what is named, "
-                                    "lies over {:.0f} % apart; a difference below the floor is "
-                                    "none.",
-                                    100.0 * max_noise));
+        notes.push_back(
+            fmt::format("NOISY: two measurements of the same technique (texture, or the one in the "
+                        "heading) differ by over {:.0f} %. Smaller differences say nothing.",
+                        100.0 * max_noise));
     }
     if (std::any_of(begin, end, [](const Row& row) { return row.has_few_frames(); })) {
-        notes.push_back(fmt::format("Caution: under {} frames of a technique are too few to rely "
-                                    "on, and to tell a noise floor of.",
+        notes.push_back(fmt::format("Caution: under {} frames of a technique are too few for "
+                                    "reliable times and for a noise floor.",
                                     min_frames));
     }
     if (std::any_of(begin, end, [](const Row& row) { return row.setting.technique == "exact"; })) {

@@ -245,7 +245,7 @@ std::string comparison_report(const Comparison& comparison) {
     const std::string environment =
         comparison.same_environment
             ? ""
-            : "The environments differ: times are told as ratios to texture, of each run.\n";
+            : "The environments differ: times are compared as ratios to texture of the same run.\n";
     std::string notes;
     for (const std::string& note : comparison.notes) {
         notes += cli::printable(note) + "\n";

@@ -45,7 +45,7 @@ Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
                                                                     : session::Underground::lifted;
     cli::ProgressLine line("flying", results.options.terrain.quiet);
     for (int index = 0; index < count && !stop.stop_requested(); ++index) {
-        results.raised.add(
+        results.lifted.add(
             session::fly_above_ground(scene, path, index, count, frames, stop, underground));
         ParallelOptions parallel;
         parallel.stop = stop;
@@ -124,7 +124,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
         return flown.error();
     }
     results.seconds = watch.seconds();
-    if (const auto good = results.raised.report(log, options.view.path); !good) {
+    if (const auto good = results.lifted.report(log, options.view.path); !good) {
         log.note(good.error().message); // the times are still valid
     }
     results.times = frames->times();

@@ -24,7 +24,7 @@ struct FlightResults {
     double seconds_to_first_frame = 0.0; ///< from opening the terrain
     double seconds = 0.0;                ///< in total
     session::FrameTimes times;
-    cli::LiftedFrames raised;
+    cli::LiftedFrames lifted;
     std::optional<scene::TileStreamStats> stream; ///< absent if not streamed
     std::size_t failed_files = 0;
     std::size_t max_memory = 0; ///< of the process, bytes

@@ -48,7 +48,7 @@ std::string streams_text(std::span<const scene::TileStreamStats> streams) {
     return text;
 }
 
-// Repeated, because a raised camera may see higher ground.
+// Repeated, because a lifted camera may see higher ground.
 void raise(TerrainScene& scene, FrameMaker& maker, const std::stop_token& stop, int max_rises) {
     for (int i = 0; i < max_rises; ++i) {
         maker.wait_for_tiles(scene.scene, stop);

@@ -108,7 +108,7 @@ std::optional<std::string> with(std::string text, std::string_view part, std::st
     return text.replace(at, part.size(), by);
 }
 
-/// URL with GDAL's placeholders, and the finest level.
+/// The URL in GDAL's form (${x}, ${y}, ${z}), and the finest level.
 struct TileSource {
     std::string url;
     int level = usual_levels;

@@ -232,7 +232,7 @@ TEST_F(TileFolder, frames_that_are_raised_over_the_ground_are_told_once) {
     const auto first = result.err.find("of 5 frames would be under the ground");
     ASSERT_NE(first, std::string::npos) << result.err;
     EXPECT_EQ(result.err.find("of 5 frames", first + 1), std::string::npos);
-    EXPECT_THAT(result.err, HasSubstr("raised by up to 5"));
+    EXPECT_THAT(result.err, HasSubstr("lifted by up to 5"));
 }
 
 TEST_F(TileFolder, a_path_file_below_the_ground_is_an_error_after_whole_pictures) {

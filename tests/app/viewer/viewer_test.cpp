@@ -201,7 +201,7 @@ TEST_F(ViewerTest, PathUnderTheGroundIsRaisedAndThatIsKnown) {
     for (int i = 0; i < 50; ++i) {
         viewer.advance(0.2);
     }
-    EXPECT_EQ(viewer.path_raised(), 0.0) << "around the terrain, and above it";
+    EXPECT_EQ(viewer.path_lifted(), 0.0) << "around the terrain, and above it";
     session::TerrainScene fresh = hill_scene();
     auto below = scene::CameraPath::create(
         {{0.0, {-100, -90, 40}, {0, 0, 0}}, {1.0, {100, -90, -20}, {0, 0, 0}}});
@@ -211,7 +211,7 @@ TEST_F(ViewerTest, PathUnderTheGroundIsRaisedAndThatIsKnown) {
         raised.advance(0.1);
         EXPECT_GT(fresh.camera->get<scene::Camera>()->eye.z, 10.0);
     }
-    EXPECT_GT(raised.path_raised(), 10.0);
+    EXPECT_GT(raised.path_lifted(), 10.0);
 }
 
 TEST_F(ViewerTest, SteeringTakesOverFromThePath) {
