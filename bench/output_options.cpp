@@ -60,14 +60,18 @@ void add_json_option(CLI::App& command, OutputChoice& choice) {
     command.add_option("--json", choice.json, "also write the results as JSON")->type_name("FILE");
 }
 
-void add_output_options(CLI::App& command, OutputChoice& choice) {
-    add_json_option(command, choice);
-    command.add_option("--csv", choice.csv, "also write the results as CSV, one line per row")
-        ->type_name("FILE");
+void add_page_option(CLI::App& command, OutputChoice& choice) {
     command
         .add_option("--html", choice.html,
                     "also write a page with tables, plots and pictures: FOLDER/index.html")
         ->type_name("FOLDER");
+}
+
+void add_output_options(CLI::App& command, OutputChoice& choice) {
+    add_json_option(command, choice);
+    command.add_option("--csv", choice.csv, "also write the results as CSV, one line per row")
+        ->type_name("FILE");
+    add_page_option(command, choice);
     command.add_option("--markdown", choice.markdown, "also write the tables as Markdown")
         ->type_name("FILE");
 }

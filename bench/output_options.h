@@ -21,6 +21,7 @@ struct OutputChoice {
 };
 
 void add_json_option(CLI::App& command, OutputChoice& choice);
+void add_page_option(CLI::App& command, OutputChoice& choice);
 
 /// Adds --json, --csv, --markdown and --html.
 void add_output_options(CLI::App& command, OutputChoice& choice);

@@ -17,6 +17,7 @@ namespace {
 using PageJson = nlohmann::ordered_json;
 
 constexpr std::string_view page_name = "index.html";
+constexpr std::string_view stress_skeleton = "stress.html";
 
 struct Album {
     std::vector<std::string> uris;
@@ -94,8 +95,9 @@ std::string_view page_part(std::string_view name) {
 }
 
 // Replaces each "{{name}}" of the skeleton by the part of that name or by the data, once.
-std::string assembled(std::string_view report, std::string_view pictures) {
-    std::string_view rest = page_part(page_name);
+std::string assembled(std::string_view skeleton, std::string_view report,
+                      std::string_view pictures) {
+    std::string_view rest = page_part(skeleton);
     std::string page;
     for (auto begin = rest.find("{{"); begin != rest.npos; begin = rest.find("{{")) {
         const auto end = rest.find("}}", begin);
@@ -110,6 +112,18 @@ std::string assembled(std::string_view report, std::string_view pictures) {
 
 fs::path without_slash(const fs::path& folder) {
     return folder.has_filename() ? folder : folder.parent_path();
+}
+
+Result<PreparedPage> prepare(const fs::path& folder, const std::string& page) {
+    auto made = make_folder(without_slash(folder));
+    if (!made) {
+        return made.error();
+    }
+    auto file = prepare_file(page_file(folder), std::as_bytes(std::span(page)));
+    if (!file) {
+        return file.error();
+    }
+    return PreparedPage{std::move(*made), std::move(*file)};
 }
 
 } // namespace
@@ -146,17 +160,12 @@ Result<std::shared_ptr<const fs::path>> make_folder(const fs::path& folder) {
 }
 
 Result<PreparedPage> prepare_page(const fs::path& folder, const Results& results) {
-    auto made = make_folder(without_slash(folder));
-    if (!made) {
-        return made.error();
-    }
-    const std::string page = assembled(safe_in_script(json_report(results)),
-                                       safe_in_script(pictures_as_json(results.rows)));
-    auto file = prepare_file(page_file(folder), std::as_bytes(std::span(page)));
-    if (!file) {
-        return file.error();
-    }
-    return PreparedPage{std::move(*made), std::move(*file)};
+    return prepare(folder, assembled(page_name, safe_in_script(json_report(results)),
+                                     safe_in_script(pictures_as_json(results.rows))));
+}
+
+Result<PreparedPage> prepare_stress_page(const fs::path& folder, std::string_view report) {
+    return prepare(folder, assembled(stress_skeleton, safe_in_script(report), {}));
 }
 
 std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes) {

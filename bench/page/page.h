@@ -35,6 +35,10 @@ struct PreparedPage {
 /// in an existing parent. Rows with the same truth share its picture.
 Result<PreparedPage> prepare_page(const std::filesystem::path& folder, const Results& results);
 
+/// The same for a report of the suite stress as JSON (figure_json).
+Result<PreparedPage> prepare_stress_page(const std::filesystem::path& folder,
+                                         std::string_view report);
+
 /// "data:image/png;base64,…" (RFC 2397, RFC 4648).
 std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes);
 

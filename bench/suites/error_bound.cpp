@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include <fmt/format.h>
@@ -179,12 +180,23 @@ public:
 private:
     Result<void> run_terrain(std::size_t index, session::SceneRenderer& driver) {
         auto scene =
-            BenchmarkScene::open({.terrain = options_.terrains[index]}, options_.suite, stop_);
+            BenchmarkScene::open(choice_of(options_.terrains[index]), options_.suite, stop_);
         if (!scene) {
             return scene.error();
         }
         set_error(*scene, options_.error);
-        if (auto done = run_random(*scene, poses_of(index), driver); !done) {
+        const double near = scene->scene().camera().near;
+        const scene::TerrainSurface& surface = *scene->terrain().get<scene::TerrainNode>()->surface;
+        const auto anywhere = [&] { return random_view(random_, surface, near); };
+        const auto near_ground = [&] { return view_near_the_ground(random_, surface); };
+        if (auto done =
+                run_random(*scene, "random", poses_of(options_.poses, index), anywhere, driver);
+            !done) {
+            return done;
+        }
+        if (auto done = run_random(*scene, "near ground", poses_of(options_.near_poses, index),
+                                   near_ground, driver);
+            !done) {
             return done;
         }
         const Box bounds = scene->terrain().world_bounds();
@@ -206,23 +218,29 @@ private:
         scene.set_technique(scene::Technique{scene::Polygons{.error = error}});
     }
 
-    [[nodiscard]] int poses_of(std::size_t index) const {
+    [[nodiscard]] SceneChoice choice_of(const std::string& terrain) const {
+        const bool is_built_in = terrain == "natural" || terrain == "urban";
+        return {.terrain = terrain, .size = is_built_in ? options_.built_in_size : 0};
+    }
+
+    // The share of a terrain in all poses.
+    [[nodiscard]] int poses_of(int poses, std::size_t index) const {
         const auto count = static_cast<int>(options_.terrains.size());
-        return options_.poses / count + (static_cast<int>(index) < options_.poses % count ? 1 : 0);
+        return poses / count + (static_cast<int>(index) < poses % count ? 1 : 0);
     }
 
     [[nodiscard]] FrameChecker checker_of(const BenchmarkScene& scene, double error) const {
         return {scene, options_.suite.size, error, static_cast<unsigned>(options_.suite.threads)};
     }
 
-    Result<void> run_random(BenchmarkScene& scene, int poses, session::SceneRenderer& driver) {
-        ErrorBoundRow row = row_of(scene, "random", options_.error);
+    Result<void> run_random(BenchmarkScene& scene, std::string views, int poses,
+                            const std::function<scene::Camera()>& view,
+                            session::SceneRenderer& driver) {
+        ErrorBoundRow row = row_of(scene, std::move(views), options_.error);
         const FrameChecker checker = checker_of(scene, options_.error);
-        const scene::TerrainSurface& surface = *scene.terrain().get<scene::TerrainNode>()->surface;
-        const double near = scene.scene().camera().near;
         Result<void> done;
         for (int i = 0; i < poses && done && !stop_.stop_requested(); ++i) {
-            scene.set_camera(random_view(random_, surface, near));
+            scene.set_camera(view());
             const PixelLattice lattice{glm::ivec2(i, i / random_step) % random_step, random_step};
             done = draw_and_check(scene, lattice, checker, driver, row);
             report_frame();
@@ -281,7 +299,7 @@ private:
     void report_frame() {
         const auto flights =
             2.0 * static_cast<double>(options_.terrains.size() * options_.flight_errors.size());
-        const double frames = options_.poses + flights * flight_frames;
+        const double frames = options_.poses + options_.near_poses + flights * flight_frames;
         const double fraction = ++frames_ / frames;
         line_.update(fraction);
         if (options_.suite.progress) {
@@ -308,6 +326,19 @@ FigureJson worst_view(const ErrorBoundRow& row) {
 }
 
 } // namespace
+
+scene::Camera view_near_the_ground(std::mt19937& random, const scene::TerrainSurface& surface) {
+    const Box& bounds = surface.bounds();
+    const glm::dvec3 size = bounds.size();
+    const double x = bounds.center().x + between(random, -0.45, 0.45) * size.x;
+    const double y = bounds.center().y + between(random, -0.45, 0.45) * size.y;
+    const double above = 0.3 * std::pow(10.0, between(random, 0.0, 1.0));
+    const glm::dvec3 eye(x, y, surface.height_at(x, y).value_or(bounds.high.z) + above);
+    const double heading = between(random, 0.0, 360.0);
+    scene::Camera camera = scene::camera_from_angles(eye, heading, between(random, -30.0, 5.0));
+    camera.near = 0.1 * above; // cuts no ground away
+    return camera;
+}
 
 bool ErrorBoundResults::within_bound() const {
     return std::all_of(rows.begin(), rows.end(), [](const ErrorBoundRow& row) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <random>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -10,13 +11,16 @@
 #include "bench/report/figure_table.h"
 #include "bench/runner/suite_options.h"
 #include "engine/scene/graph/camera.h"
+#include "engine/scene/graph/terrain_node.h"
 
 namespace reljef::bench {
 
 struct ErrorBoundOptions {
     SuiteOptions suite;
     std::vector<std::string> terrains;      ///< at least one
+    int built_in_size = 0;                  ///< samples a side of natural and urban; 0: theirs
     int poses = 10'000;                     ///< random poses, shared evenly among the terrains
+    int near_poses = 0;                     ///< likewise, see view_near_the_ground()
     double error = 1.0;                     ///< as --max-error, pixels
     std::vector<double> flight_errors{1.0}; ///< bounds of the flights, pixels
     std::uint32_t seed = 1;                 ///< of the random poses
@@ -25,7 +29,7 @@ struct ErrorBoundOptions {
 /// Check of --max-error in the views of one kind.
 struct ErrorBoundRow {
     std::string scene;
-    std::string views;                  ///< "random", "orbit" or "flyover"
+    std::string views;                  ///< "random", "near ground", "orbit" or "flyover"
     double error = 1.0;                 ///< the bound, pixels
     std::size_t frames = 0;             ///< checked
     std::size_t pixels = 0;             ///< checked pixels that show terrain
@@ -47,6 +51,10 @@ struct ErrorBoundResults {
 };
 
 FigureTable figure_table(const ErrorBoundResults& results);
+
+/// An eye 0.3 to 3 m above the ground at a random place, heading anywhere, pitched -30 to 5
+/// degrees.
+scene::Camera view_near_the_ground(std::mt19937& random, const scene::TerrainSurface& surface);
 
 /// Draws each terrain from random poses and along the paths orbit and flyover. Computes the exact
 /// reprojection error of a sixteenth of the pixels of each random pose, alternating, and of all

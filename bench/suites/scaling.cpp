@@ -9,20 +9,17 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "app/cli/console_log.h"
 #include "app/cli/message.h"
 #include "bench/runner/benchmark_scene.h"
 #include "bench/suites/scaling_terrain.h"
+#include "bench/suites/streamed_errors.h"
 #include "engine/core/process_memory.h"
 #include "engine/core/stopwatch.h"
-#include "engine/scene/tile_stream.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
-#include "engine/truth/geometric_error.h"
 
 namespace reljef::bench {
 namespace {
@@ -79,53 +76,6 @@ Result<ScalingView> open_view(const fs::path& path, const ScalingOptions& option
     }
     return ScalingView{watch, std::move(*device), std::move(*scene)};
 }
-
-// Reprojection errors against the exact heights at the samples of the raster.
-class ScalingErrors {
-public:
-    ScalingErrors(const ScalingView& scene, glm::ivec2 size, int side)
-        : node_(*scene.scene.terrain->get<scene::TerrainNode>()),
-          camera_(scene.scene.scene.camera()), size_(size), side_(side) {}
-
-    [[nodiscard]] std::vector<double> of(const HitBuffer& hits) const {
-        std::vector<double> errors;
-        for (int y = 0; y < size_.y; y += checked_step) {
-            for (int x = 0; x < size_.x; x += checked_step) {
-                if (truth::shows_terrain(hits(x, y))) {
-                    errors.push_back(error({x, y}, hits(x, y)));
-                }
-            }
-        }
-        return errors;
-    }
-
-private:
-    [[nodiscard]] double error(glm::ivec2 pixel, const Hit& hit) const {
-        const glm::dvec2 sample(hit.col, hit.row);
-        const glm::dvec2 placed =
-            node_.stream != nullptr ? node_.stream->maker().on_overview(sample) : sample;
-        const scene::Projected shown = scene::project(
-            camera_, size_,
-            node_.surface->placement().world_from_sample({placed, height_at(sample)}));
-        return glm::distance(shown.pixel, glm::dvec2(pixel) + 0.5);
-    }
-
-    [[nodiscard]] double height_at(glm::dvec2 sample) const {
-        const glm::dvec2 inside = glm::clamp(sample, 0.0, side_ - 1.0);
-        const glm::ivec2 first = glm::min(glm::ivec2(inside), side_ - 2);
-        const glm::dvec2 part = inside - glm::dvec2(first);
-        const auto at = [&](int col, int row) {
-            return scaling_height(first + glm::ivec2(col, row), side_);
-        };
-        return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
-                        part.y);
-    }
-
-    const scene::TerrainNode& node_;
-    scene::Camera camera_;
-    glm::ivec2 size_;
-    int side_;
-};
 
 class ScalingRun {
 public:
@@ -228,8 +178,12 @@ private:
         if (!hits) {
             return hits.error();
         }
-        const ScalingErrors exact(view, options_.suite.size, row.side);
-        const std::vector<double> errors = exact.of(*hits);
+        const SampleHeights exact{row.side, [side = row.side](glm::ivec2 sample) {
+                                      return scaling_height(sample, side);
+                                  }};
+        const std::vector<double> errors =
+            streamed_errors(*view.scene.terrain->get<scene::TerrainNode>(), exact,
+                            view.scene.scene.camera(), *hits, checked_step);
         row.pixels = errors.size();
         if (!errors.empty()) {
             row.worst_px = *std::max_element(errors.begin(), errors.end());

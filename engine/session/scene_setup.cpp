@@ -82,9 +82,17 @@ keyframes_of(const TerrainScene& scene, const io::Flight& flight, const std::str
 // The near plane: close enough to cut nothing, and far above the smallest normal float.
 constexpr double near_in_widths = 1e-6;
 
+} // namespace
+
+double near_distance(const Box& bounds) {
+    return std::clamp(near_in_widths * bounds.size().x, 1e-3, 0.1);
+}
+
+namespace {
+
 void set_projection(scene::Camera& camera, const Box& bounds, const SceneOptions& view) {
     camera.vertical_fov = view.vertical_fov;
-    camera.near = std::clamp(near_in_widths * bounds.size().x, 1e-3, 0.1);
+    camera.near = near_distance(bounds);
     if (view.projection == scene::ProjectionKind::orthographic &&
         camera.projection == scene::ProjectionKind::perspective) {
         camera.projection = scene::ProjectionKind::orthographic;

@@ -32,6 +32,9 @@ struct TerrainScene {
     [[nodiscard]] Result<void> check(const scene::Technique& technique) const;
 };
 
+/// The near plane of cameras over a terrain, metres: cuts nothing away that can be seen.
+double near_distance(const Box& bounds);
+
 /// Builds the scene. Fails if the placement or the camera does not fit the terrain; wrong options
 /// are usage errors.
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,

@@ -301,8 +301,10 @@ TEST(RenderCommand, triangles_have_four_samples_a_pixel_and_rays_one) {
     RELJEF_RELEASE_ONLY("the driver has tests of its own");
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "a.png").string();
+    const auto scene =
+        folder.write("small.toml", "[terrain]\ngenerator = \"natural\"\nsize = 129\n").string();
     const auto drawn = [&](const std::string& technique, const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"render", "natural", "--technique", technique,
+        std::vector<std::string> arguments{"render", scene,     "--technique", technique,
                                            "--size", "160x120", "--quiet",     "--context",
                                            "osmesa", "-o",      file};
         arguments.insert(arguments.end(), more.begin(), more.end());

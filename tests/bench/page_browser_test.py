@@ -1,5 +1,5 @@
-"""The report's page in a real browser: page_browser_test.py TABLES PARETO HOSTILE BARE, folders with
-an index.html. Exits with 77 without a browser."""
+"""The report's page in a real browser: page_browser_test.py TABLES PARETO HOSTILE BARE STRESS, folders
+with an index.html. Exits with 77 without a browser."""
 
 import json
 import pathlib
@@ -9,7 +9,7 @@ import unittest
 
 from page_browser import ARROW_LEFT, ARROW_RIGHT, ENTER, Browser, missing_programs
 
-NAMES = ('tables', 'pareto', 'hostile', 'bare')
+NAMES = ('tables', 'pareto', 'hostile', 'bare', 'stress')
 PAGES = {}
 SKIPPED = 77
 
@@ -64,6 +64,14 @@ class PageTest(unittest.TestCase):
         titles = self.browser.script("return [...document.querySelectorAll('#tables h3')].map(node => node.textContent)")
         self.assertTrue(any(scene in title for title in titles), titles)
         self.assertEqual(self.browser.script("return document.querySelectorAll('img[src=x], h3 *').length"), 0)
+
+    def test_page_of_the_stresses_shows_rows_over_limits_first_and_plots_grazing_views(self):
+        self.open('stress')
+        titles = self.browser.script("return [...document.querySelectorAll('#tables h2')].map(node => node.textContent)")
+        self.assertEqual(titles, ['Over a limit', 'Figures'])
+        self.assertEqual(self.browser.script("return document.querySelectorAll('.plot path').length"), 2)
+        self.assertIsNone(self.browser.script('return window.broken || null'))
+        self.assertEqual(self.browser.script("return document.querySelectorAll('#tables td *:not(.tag)').length"), 0)
 
     def notice(self):
         return self.browser.script("return (document.querySelector('.notice[role=note]') || {}).textContent || ''")

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/report_json.h"
+#include "bench/stress/stress_results.h"
 #include "tests/bench/page/made_page.h"
 #include "tests/bench/report/made_results.h"
 #include "tests/support/release_only.h"
@@ -180,13 +181,28 @@ TEST(PageInBrowser, loads_plots_sorts_wipes_and_fits_everywhere) {
     }
     ASSERT_TRUE(write_page(folder.path() / "bare", bare));
 
+    StressResults stress;
+    for (const double elevation : {90.0, 1.0}) {
+        for (const char* technique : {"relief:n=11", "exact"}) {
+            stress.add({.stress = "grazing view",
+                        .terrain = hostile,
+                        .technique = technique,
+                        .figure = "% of pixels wrong",
+                        .value = 0.1 * elevation,
+                        .limit = 0.1,
+                        .at = std::to_string(elevation) + " degrees"});
+        }
+    }
+    auto page = prepare_stress_page(folder.path() / "stress", figure_json(figure_table(stress)));
+    ASSERT_TRUE(page && page->file.commit());
+
     const auto folder_of = [&](const char* name) { return (folder.path() / name).string(); };
     test::ProgramOptions options;
     options.environment["PYTHONDONTWRITEBYTECODE"] = "1";
     const auto result =
         test::run_program(RELJEF_PYTHON3,
                           {RELJEF_PAGE_BROWSER_TEST, folder_of("tables"), folder_of("pareto"),
-                           folder_of("hostile"), folder_of("bare")},
+                           folder_of("hostile"), folder_of("bare"), folder_of("stress")},
                           options);
     constexpr int skipped = 77;
     constexpr int not_started = 127;

@@ -1,0 +1,191 @@
+// The error bound of polygons: in memory from random eyes, and streamed in too little memory.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "bench/stress/stress_run.h"
+#include "bench/suites/error_bound.h"
+#include "bench/suites/scaling_terrain.h"
+#include "bench/suites/streamed_errors.h"
+#include "engine/io/formats/raster_writer.h"
+#include "engine/session/frame_maker.h"
+#include "engine/session/scene_setup.h"
+#include "terrains/generators.h"
+
+namespace reljef::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double stressed_bound = 1.0; // pixels
+constexpr int streamed_side = 16384;   // samples
+constexpr int streamed_megabytes = 64;
+constexpr int block = 12; // samples a side that repeat one of the city
+
+scene::Technique bounded(double error) {
+    return scene::Technique{scene::Polygons{.error = error}};
+}
+
+void add_rows(StressRun& run, const ErrorBoundRow& row) {
+    const std::string at =
+        row.worst ? fmt::format("{} frames, worst from {:.2f},{:.2f},{:.2f}", row.frames,
+                                row.worst->eye.x, row.worst->eye.y, row.worst->eye.z)
+                  : std::string();
+    StressRow figure{.stress = "error bound, " + row.views,
+                     .terrain = row.scene,
+                     .technique = to_string(bounded(row.error)),
+                     .figure = "pixels over the bound",
+                     .value = static_cast<double>(row.violations),
+                     .limit = 0.0,
+                     .at = at};
+    run.add(figure);
+    figure.figure = "holes";
+    figure.value = static_cast<double>(row.holes);
+    run.add(figure);
+    figure.figure = "largest error, px";
+    figure.value = row.worst_px;
+    figure.limit = row.error;
+    run.add(figure);
+}
+
+struct StreamedGround {
+    std::string name;
+    fs::path path;
+    SampleHeights heights;
+};
+
+Result<StreamedGround> write_smooth(const StressRun& run, const fs::path& folder) {
+    StreamedGround ground{"waves", folder / "waves.tif", {}};
+    ground.heights = {streamed_side, [](glm::ivec2 sample) {
+                          return static_cast<double>(
+                              static_cast<float>(scaling_height(sample, streamed_side)));
+                      }};
+    auto done = write_scaling_terrain(ground.path, streamed_side, run.options().suite, run.stop());
+    return done ? Result<StreamedGround>(std::move(ground)) : done.error();
+}
+
+Result<StreamedGround> write_blocky(const StressRun& run, const fs::path& folder) {
+    auto city = terrains::generate_urban({.size = streamed_side / block + 1, .stop = run.stop()});
+    if (!city) {
+        return city.error();
+    }
+    const auto samples = std::make_shared<const Grid<float>>(std::move(city->heightfield.heights));
+    const auto height_at = [samples](glm::ivec2 sample) {
+        return (*samples)(sample.x / block, sample.y / block);
+    };
+    StreamedGround ground{"city in blocks", folder / "city.tif", {streamed_side, height_at}};
+    const io::HeightRaster raster{streamed_side, streamed_side, 0.2, {400'000.0, 5e6}};
+    const auto fill = [&](int first_row, GridView<float> heights) {
+        for (int row = 0; row < heights.rows(); ++row) {
+            for (int col = 0; col < heights.cols(); ++col) {
+                heights(col, row) = height_at({col, first_row + row});
+            }
+        }
+    };
+    auto done = io::write_heights(ground.path, raster, fill, run.parallel());
+    return done ? Result<StreamedGround>(std::move(ground)) : done.error();
+}
+
+Result<session::TerrainScene> open_streamed(const StressRun& run, const fs::path& path) {
+    session::SourceOptions source;
+    source.terrain = path.string();
+    source.memory_megabytes = streamed_megabytes;
+    source.placement = terrain::PlacementKind::plane;
+    source.streamed = true;
+    session::SceneOptions view;
+    view.pose = scene::Pose::overview;
+    view.max_error = stressed_bound;
+    session::Log silent;
+    return session::open_scene(source, view, silent, run.stop());
+}
+
+Result<void> add_streamed_rows(StressRun& run, const StreamedGround& ground) {
+    auto scene = open_streamed(run, ground.path);
+    auto device = session::Device::create({.context = run.options().suite.context,
+                                           .size = run.size(),
+                                           .threads = run.options().suite.threads});
+    if (!scene || !device) {
+        return scene ? device.error() : scene.error();
+    }
+    session::Log silent;
+    session::DeviceFrames frames(std::move(*device), silent);
+    const auto& terrain = *scene->terrain->get<scene::TerrainNode>();
+    std::mt19937 random(run.options().seed);
+    std::size_t over = 0;
+    Worst worst;
+    for (int i = 0; i < run.cases(2, 20) && !run.stopped(); ++i) {
+        const scene::Camera camera = view_near_the_ground(random, *terrain.surface);
+        *scene->camera->get<scene::Camera>() = camera;
+        frames.wait_for_tiles(scene->scene, run.stop());
+        const auto hits = frames.draw_hits(scene->scene, run.parallel());
+        if (!hits) {
+            return hits.error();
+        }
+        for (const double error : streamed_errors(terrain, ground.heights, camera, *hits, 1)) {
+            over += error <= stressed_bound ? 0 : 1;
+            worst.add(error, fmt::format("eye {:.2f},{:.2f},{:.2f}", camera.eye.x, camera.eye.y,
+                                         camera.eye.z));
+        }
+    }
+    StressRow row{.stress = "error bound, streamed at 64 MB",
+                  .terrain = ground.name,
+                  .technique = to_string(bounded(stressed_bound)),
+                  .figure = "pixels over the bound",
+                  .value = static_cast<double>(over),
+                  .limit = 0.0,
+                  .at = worst.at()};
+    run.add(row);
+    row.figure = "largest error, px";
+    row.value = worst.value();
+    row.limit = stressed_bound;
+    run.add(row);
+    return {};
+}
+
+} // namespace
+
+Result<void> stress_error_bound(StressRun& run) {
+    ErrorBoundOptions options;
+    options.suite = run.options().suite;
+    options.suite.quiet = true;
+    options.suite.progress = {};
+    options.terrains = run.options().terrains;
+    options.built_in_size = run.cases(257, 0);
+    options.poses = run.cases(40, 10'000);
+    options.near_poses = run.cases(40, 1'000);
+    options.error = stressed_bound;
+    options.flight_errors = {};
+    options.seed = run.options().seed;
+    const ErrorBoundResults results = run_error_bound(options, run.stop());
+    for (const ErrorBoundRow& row : results.rows) {
+        add_rows(run, row);
+    }
+    return results.end.failed ? Result<void>(*results.end.stopped) : Result<void>();
+}
+
+Result<void> stress_streamed_bound(StressRun& run) {
+    const auto folder = make_scaling_folder({}, streamed_side);
+    if (!folder) {
+        return folder.error();
+    }
+    for (const auto& write : {write_smooth, write_blocky}) {
+        if (run.stopped()) {
+            return {};
+        }
+        const auto ground = write(run, **folder);
+        if (!ground) {
+            return run.stopped() ? Result<void>() : ground.error();
+        }
+        if (auto done = add_streamed_rows(run, *ground); !done) {
+            return run.stopped() ? Result<void>() : done;
+        }
+        std::error_code ignored;
+        fs::remove(ground->path, ignored);
+    }
+    return {};
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,172 @@
+#include "bench/stress/stress_results.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/cli/message.h"
+#include "bench/report/report_table.h"
+
+namespace reljef::bench {
+namespace {
+
+// A class of rows: the same figure of the same stress, with a limit or without.
+struct StressLine {
+    const StressRow* worst = nullptr;
+    std::size_t rows = 0;
+    std::size_t known = 0;
+    std::size_t over = 0;
+};
+
+bool is_same_line(const StressRow& a, const StressRow& b) {
+    return a.stress == b.stress && a.figure == b.figure && a.limit == b.limit;
+}
+
+bool is_worse(const StressRow& a, const StressRow& b) {
+    return std::isnan(a.value) || a.value > b.value;
+}
+
+std::vector<StressLine> lines_of(const std::vector<StressRow>& rows) {
+    std::vector<StressLine> lines;
+    for (const StressRow& row : rows) {
+        auto line = std::find_if(lines.begin(), lines.end(), [&](const StressLine& each) {
+            return is_same_line(*each.worst, row);
+        });
+        if (line == lines.end()) {
+            line = lines.insert(lines.end(), StressLine{&row});
+        }
+        line->worst = is_worse(row, *line->worst) ? &row : line->worst;
+        ++line->rows;
+        const StressVerdict verdict = verdict_of(row);
+        line->known += verdict == StressVerdict::known ? 1 : 0;
+        line->over += verdict == StressVerdict::over ? 1 : 0;
+    }
+    return lines;
+}
+
+std::string number_text(double value) {
+    return fmt::format("{:.4g}", value);
+}
+
+std::string place_text(const StressRow& row) {
+    std::string text;
+    for (const std::string& part : {row.terrain, row.technique, row.at}) {
+        text += (text.empty() || part.empty() ? "" : ", ") + part;
+    }
+    return cli::printable(text);
+}
+
+std::string summary_of(const StressLine& line) {
+    if (!line.worst->limit) {
+        return "reported";
+    }
+    if (line.over > 0) {
+        return fmt::format("{} OVER", line.over);
+    }
+    return line.known > 0 ? fmt::format("{} known", line.known) : "ok";
+}
+
+std::string rows_text(const StressResults& results, StressVerdict verdict,
+                      std::string_view heading) {
+    std::string text;
+    for (const StressRow& row : results.rows) {
+        if (verdict_of(row) == verdict) {
+            text += fmt::format("  {}: {} {}, at most {} was expected ({}){}\n", row.stress,
+                                number_text(row.value), row.figure, number_text(*row.limit),
+                                place_text(row),
+                                row.known.empty() ? "" : "; to be fixed by: " + row.known);
+        }
+    }
+    return text.empty() ? text : fmt::format("{}\n{}", heading, text);
+}
+
+} // namespace
+
+StressVerdict verdict_of(const StressRow& row) {
+    if (!row.limit) {
+        return StressVerdict::reported;
+    }
+    if (row.value <= *row.limit) {
+        return StressVerdict::within;
+    }
+    return row.known.empty() ? StressVerdict::over : StressVerdict::known;
+}
+
+std::string_view to_string(StressVerdict verdict) {
+    switch (verdict) {
+    case StressVerdict::within:
+        return "ok";
+    case StressVerdict::reported:
+        return "reported";
+    case StressVerdict::known:
+        return "known";
+    case StressVerdict::over:
+        return "OVER";
+    }
+    return "";
+}
+
+void StressResults::add(StressRow row) {
+    row.known = known_failure(row);
+    rows.push_back(std::move(row));
+}
+
+std::size_t StressResults::failures() const {
+    return static_cast<std::size_t>(
+        std::count_if(rows.begin(), rows.end(),
+                      [](const StressRow& row) { return verdict_of(row) == StressVerdict::over; }));
+}
+
+FigureTable figure_table(const StressResults& results) {
+    const StressOptions& options = results.options;
+    FigureTable table{.schema = "reljef-bench-stress/1",
+                      .settings = {{"environment", json_of(results.environment)},
+                                   {"size", size_text(options.suite.size)},
+                                   {"quick", options.suite.quick},
+                                   {"seed", options.seed},
+                                   {"over", results.failures()}},
+                      .columns = {{"/stress", "stress"},
+                                  {"/terrain", "terrain"},
+                                  {"/technique", "technique"},
+                                  {"/figure", "figure"},
+                                  {"/value", "value", 4},
+                                  {"/limit", "limit", 4},
+                                  {"/at", "worst at"},
+                                  {"/verdict", "verdict"},
+                                  {"/known", "fixed by"}},
+                      .end = results.end};
+    for (const StressRow& row : results.rows) {
+        const auto text = [](const std::string& word) {
+            return word.empty() ? FigureJson() : FigureJson(word);
+        };
+        table.rows.push_back({row.stress, text(row.terrain), text(row.technique), row.figure,
+                              row.value, row.limit ? FigureJson(*row.limit) : FigureJson(),
+                              text(row.at), to_string(verdict_of(row)), text(row.known)});
+    }
+    return table;
+}
+
+std::string stress_text(const StressResults& results) {
+    std::vector<std::vector<std::string>> cells{
+        {"stress and figure", "rows", "worst", "limit", "verdict"}};
+    std::vector<std::string> places{"worst at"};
+    for (const StressLine& line : lines_of(results.rows)) {
+        const StressRow& worst = *line.worst;
+        cells.push_back({fmt::format("{}: {}", worst.stress, worst.figure),
+                         std::to_string(line.rows), number_text(worst.value),
+                         worst.limit ? number_text(*worst.limit) : "–", summary_of(line)});
+        places.push_back(place_text(worst));
+    }
+    const std::vector<std::size_t> widths = column_widths(cells);
+    std::string text;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        std::string line = padded_line(cells[i], widths);
+        line.pop_back(); // its end
+        text += fmt::format("{}  {}\n", line, places[i]);
+    }
+    text += rows_text(results, StressVerdict::known, "known:");
+    return text + rows_text(results, StressVerdict::over, "over their limits:");
+}
+
+} // namespace reljef::bench

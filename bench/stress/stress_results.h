@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/report/figure_table.h"
+#include "bench/report/results.h"
+#include "bench/runner/suite_options.h"
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::bench {
+
+/// A figure of a stress, with its limit.
+struct StressRow {
+    std::string stress;               ///< the name of the stress, "grazing"
+    std::string terrain = {};         ///< empty: none
+    std::string technique = {};       ///< its text; empty: none
+    std::string figure = {};          ///< what is measured, with its unit
+    double value = 0.0;               ///< the worst case; over any limit if it is not a number
+    std::optional<double> limit = {}; ///< largest allowed value; absent: reported only
+    std::string at = {};              ///< the worst case; empty: all cases are alike
+    std::string known = {};           ///< what will bring it within its limit; set by add()
+};
+
+enum class StressVerdict {
+    within,
+    reported, ///< it has no limit
+    known,    ///< over the limit, and listed in known_failures.cpp
+    over,
+};
+StressVerdict verdict_of(const StressRow& row);
+/// "ok", "reported", "known", "OVER".
+std::string_view to_string(StressVerdict verdict);
+
+struct StressOptions {
+    SuiteOptions suite;
+    std::vector<std::string> terrains;        ///< besides the made ones; empty: natural and urban
+    std::vector<scene::Technique> techniques; ///< empty: all that draw terrains
+    std::vector<std::string> stresses;        ///< of stress_names(); empty: all
+    std::uint32_t seed = 1;                   ///< of random cases
+};
+
+struct StressResults {
+    Environment environment = {};
+    StressOptions options = {};
+    std::vector<StressRow> rows = {};
+    RunEnd end = {};
+
+    /// Adds a row, and what is known about it.
+    void add(StressRow row);
+    /// Rows that are over their limit and not known.
+    [[nodiscard]] std::size_t failures() const;
+};
+
+/// What will bring a row within its limit; empty if it should be within it today.
+std::string_view known_failure(const StressRow& row);
+
+/// All rows, for files.
+FigureTable figure_table(const StressResults& results);
+/// One line for each stress and figure, the rows over their limits and the known ones.
+std::string stress_text(const StressResults& results);
+
+} // namespace reljef::bench

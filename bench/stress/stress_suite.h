@@ -1,0 +1,19 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "bench/stress/stress_results.h"
+
+namespace reljef::bench {
+
+/// "moved-scene", "grazing-view", …
+std::vector<std::string> stress_names();
+
+/// Runs the stresses: those of the options, or all; a quick run leaves out those over terrain
+/// larger than memory. A stress that fails becomes a row over its limit. Keeps its rows when it is
+/// stopped.
+StressResults run_stress(const StressOptions& options, const std::stop_token& stop);
+
+} // namespace reljef::bench

@@ -1,0 +1,228 @@
+// Height maps, files and scales that break searches and arithmetic.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bench/stress/made_surfaces.h"
+#include "bench/stress/stress_stage.h"
+#include "bench/stress/view_check.h"
+#include "bench/suites/scaling_terrain.h"
+#include "engine/core/atomic_file.h"
+#include "engine/scene/motion/poses.h"
+#include "engine/session/scene_setup.h"
+
+namespace reljef::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<StressView> pose_views(const StressStage& stage,
+                                   std::initializer_list<scene::Pose> poses) {
+    const Box bounds = stage.surface().bounds();
+    std::vector<StressView> views;
+    for (const scene::Pose pose : poses) {
+        scene::Camera camera = scene::pose_camera(pose, bounds, [&](double x, double y) {
+            return stage.surface().height_at(x, y).value_or(bounds.low.z);
+        });
+        camera.near = session::near_distance(bounds);
+        views.push_back({std::string(to_string(pose)), camera});
+    }
+    return views;
+}
+
+struct ScaledTerrain {
+    std::string name;
+    terrain::Terrain terrain;
+    double exaggeration = 1.0;
+};
+
+std::vector<ScaledTerrain> scaled_terrains() {
+    constexpr glm::ivec2 size(65);
+    std::vector<ScaledTerrain> all;
+    for (const double exaggeration : {1e-6, 1e-3, 1e3, 1e6}) {
+        all.push_back({fmt::format("exaggeration {:g}", exaggeration), made_hills(size, 2.0, 12.0),
+                       exaggeration});
+    }
+    for (const double spacing : {1e-6, 1e-3, 1e3, 1e6}) {
+        all.push_back(
+            {fmt::format("spacing {:g} m", spacing), made_hills(size, spacing, 6.0 * spacing)});
+    }
+    all.push_back({"1 m of relief over 1e7 m", made_hills(size, 1e7 / 64.0, 1.0)});
+    for (const double level : {1e4, 1e7}) {
+        terrain::Terrain high =
+            made_terrain("high", size, 2.0 * level / 1e4, [level](int col, int row) {
+                return level * (1.0 + 0.001 * std::sin(0.2 * col) * std::cos(0.15 * row));
+            });
+        all.push_back({fmt::format("heights around {:g} m", level), std::move(high)});
+    }
+    return all;
+}
+
+// Whether the exact rays see ground from any of the views.
+Result<bool> shows_ground(StressRun& run, StressStage& stage,
+                          const std::vector<StressView>& views) {
+    for (const StressView& view : views) {
+        stage.look(view.camera);
+        const auto hits = stage.true_hits(run.size(), run.parallel());
+        if (!hits) {
+            return hits.error();
+        }
+        if (std::any_of(hits->samples().begin(), hits->samples().end(), truth::shows_terrain)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+struct OddFile {
+    std::string name;
+    std::string text; ///< an ESRI ASCII grid
+};
+
+std::string ascii_grid(glm::ivec2 size, const std::string& header,
+                       const std::function<std::string(int col, int row)>& value_at) {
+    std::string text =
+        fmt::format("ncols {}\nnrows {}\nxllcorner 0\nyllcorner 0\n{}", size.x, size.y, header);
+    for (int row = 0; row < size.y; ++row) {
+        for (int col = 0; col < size.x; ++col) {
+            text += value_at(col, row) + (col + 1 < size.x ? " " : "\n");
+        }
+    }
+    return text;
+}
+
+std::vector<OddFile> odd_files() {
+    const auto slope = [](int col, int row) { return fmt::format("{}.5", 3 * col + row); };
+    const auto slope_with = [slope](const std::string& word) {
+        return [slope, word](int col, int row) {
+            return col == 3 && row == 4 ? word : slope(col, row);
+        };
+    };
+    const std::string usual = "cellsize 10\nNODATA_value -9999\n";
+    const auto constant = [](const std::string& word) { return [word](int, int) { return word; }; };
+    std::vector<OddFile> files;
+    for (const std::string word : {"nan", "inf", "-inf", "1e39", "-9999"}) {
+        files.push_back({word, ascii_grid({9, 9}, usual, slope_with(word))});
+    }
+    files.push_back({"all void", ascii_grid({9, 9}, usual, constant("-9999"))});
+    files.push_back({"all nan", ascii_grid({9, 9}, usual, constant("nan"))});
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 2), glm::ivec2(1, 40),
+                                  glm::ivec2(40, 1), glm::ivec2(65536, 2)}) {
+        files.push_back({fmt::format("{}x{}", size.x, size.y), ascii_grid(size, usual, slope)});
+    }
+    for (const std::string cell : {"0", "-10", "nan", "1e300", "1e-300"}) {
+        files.push_back(
+            {"cellsize " + cell, ascii_grid({9, 9}, fmt::format("cellsize {}\n", cell), slope)});
+    }
+    return files;
+}
+
+// 0 if the file is refused by a sentence that names it, or drawn as the exact rays see it.
+Result<double> wrong_answers(StressRun& run, const fs::path& path, std::string& what) {
+    session::SourceOptions source;
+    source.terrain = path.string();
+    source.placement = terrain::PlacementKind::plane;
+    session::Log silent;
+    auto opened = session::open_terrain(source, silent, run.stop());
+    if (!opened) {
+        what = opened.error().message;
+        return what.find(path.filename().string()) != std::string::npos ? 0.0 : 1.0;
+    }
+    auto stage = StressStage::create(std::move(opened->terrain));
+    if (!stage) {
+        what = stage.error().message;
+        return 0.0;
+    }
+    double wrong = 0.0;
+    for (const StressView& view :
+         pose_views(*stage, {scene::Pose::overview, scene::Pose::oblique})) {
+        stage->look(view.camera);
+        const auto truth = stage->true_hits(run.size(), run.parallel());
+        const auto shown = stage->hits(run.renderer());
+        if (!truth || !shown) {
+            return truth ? shown.error() : truth.error();
+        }
+        wrong += count_not_finite(*shown) + count_sky_over_ground(*stage, *shown, *truth, 1.0) > 0
+                     ? 1.0
+                     : 0.0;
+    }
+    what = "drawn";
+    return wrong;
+}
+
+} // namespace
+
+Result<void> stress_odd_heights(StressRun& run) {
+    for (terrain::Terrain& terrain : odd_terrains()) {
+        const std::string name = terrain.name;
+        auto stage = StressStage::create(std::move(terrain));
+        if (!stage) {
+            return stage.error();
+        }
+        const auto views =
+            pose_views(*stage, {scene::Pose::overview, scene::Pose::oblique, scene::Pose::grazing});
+        if (auto done = check_views(run, {.stress = "odd heights"}, name, *stage, views); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+Result<void> stress_odd_files(StressRun& run) {
+    const auto folder = make_scaling_folder({}, 1);
+    if (!folder) {
+        return folder.error();
+    }
+    for (const OddFile& file : odd_files()) {
+        if (run.stopped()) {
+            return {};
+        }
+        std::string name = file.name;
+        std::replace(name.begin(), name.end(), ' ', '-');
+        const fs::path path = **folder / (name + ".asc");
+        if (auto written = write_text_file(path, file.text); !written) {
+            return written;
+        }
+        std::string what;
+        const auto wrong = wrong_answers(run, path, what);
+        if (!wrong) {
+            return wrong.error();
+        }
+        run.add({.stress = "odd file",
+                 .terrain = file.name,
+                 .figure = "wrong pictures and unclear errors",
+                 .value = *wrong,
+                 .limit = 0.0,
+                 .at = what == "drawn" ? what : "refused"});
+        run.renderer().forget_scene();
+    }
+    return {};
+}
+
+Result<void> stress_scales(StressRun& run) {
+    for (ScaledTerrain& scaled : scaled_terrains()) {
+        auto stage = StressStage::create(std::move(scaled.terrain), scaled.exaggeration);
+        if (!stage) {
+            return stage.error();
+        }
+        const auto views =
+            pose_views(*stage, {scene::Pose::overview, scene::Pose::oblique, scene::Pose::low});
+        const auto is_seen = shows_ground(run, *stage, views);
+        if (!is_seen) {
+            return run.stopped() ? Result<void>() : is_seen.error();
+        }
+        run.add({.stress = "scale",
+                 .terrain = scaled.name,
+                 .figure = "no view shows ground",
+                 .value = *is_seen ? 0.0 : 1.0,
+                 .limit = 0.0});
+        if (auto done = check_views(run, {.stress = "scale"}, scaled.name, *stage, views); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,125 @@
+#include "bench/stress/view_check.h"
+
+#include <algorithm>
+
+namespace reljef::bench {
+namespace {
+
+bool has_terrain(const HitBuffer& hits) {
+    return std::any_of(hits.samples().begin(), hits.samples().end(), truth::shows_terrain);
+}
+
+// Pixels that show another place than the exact hits by more than a sample, percent.
+Result<double> wrong_percent(const StressStage& stage, const HitBuffer& shown,
+                             const HitBuffer& truth) {
+    if (!has_terrain(shown) && !has_terrain(truth)) {
+        return 0.0;
+    }
+    const auto errors = truth::geometric_errors(stage.surface_view(), shown, truth);
+    return errors ? Result<double>(errors->wrong_percent) : errors.error();
+}
+
+// The rows of one technique.
+class TechniqueRows {
+public:
+    TechniqueRows(const ViewCheck& check, std::string_view terrain,
+                  const scene::Technique& technique)
+        : check_(check), technique_(technique), row_{.stress = check.stress,
+                                                     .terrain = std::string(terrain),
+                                                     .technique = to_string(technique)} {}
+
+    Result<void> add_view(StressRun& run, const StressStage& stage, const StressView& view,
+                          const HitBuffer& truth) {
+        const auto shown = stage.hits(run.renderer());
+        if (!shown) {
+            refusal_ = shown.error().message;
+            return {};
+        }
+        const auto wrong = wrong_percent(stage, *shown, truth);
+        if (!wrong) {
+            return wrong.error();
+        }
+        not_finite_.add(static_cast<double>(count_not_finite(*shown)), view.name);
+        sky_.add(static_cast<double>(
+                     count_sky_over_ground(stage, *shown, truth, silhouette_reach(technique_))),
+                 view.name);
+        wrong_.add(*wrong, view.name);
+        if (check_.has_row_per_view) {
+            add(run, "% of pixels wrong", *wrong, wrong_limit(), view.name);
+        }
+        return {};
+    }
+
+    void add_to(StressRun& run) {
+        if (!refusal_.empty()) {
+            add(run, "refused", 1.0, std::nullopt, refusal_);
+            return;
+        }
+        add(run, "pixels not finite", not_finite_.value(), 0.0, not_finite_.at());
+        add(run, "pixels of sky over ground", sky_.value(),
+            covers_ground(technique_.id()) ? std::optional(0.0) : std::nullopt, sky_.at());
+        if (!check_.has_row_per_view) {
+            add(run, "% of pixels wrong", wrong_.value(), wrong_limit(), wrong_.at());
+        }
+    }
+
+private:
+    [[nodiscard]] std::optional<double> wrong_limit() const {
+        return technique_.id() == scene::TechniqueId::exact ? std::optional(max_wrong_percent)
+                                                            : std::nullopt;
+    }
+    void add(StressRun& run, const char* figure, double value, std::optional<double> limit,
+             const std::string& at) {
+        row_.figure = figure;
+        row_.value = value;
+        row_.limit = limit;
+        row_.at = at;
+        run.add(row_);
+    }
+
+    const ViewCheck& check_;
+    const scene::Technique& technique_;
+    StressRow row_;
+    std::string refusal_; // why the driver cannot draw the surface; empty: it can
+    Worst not_finite_;
+    Worst sky_;
+    Worst wrong_;
+};
+
+} // namespace
+
+Result<void> check_views(StressRun& run, const ViewCheck& check, std::string_view terrain,
+                         StressStage& stage, const std::vector<StressView>& views) {
+    std::vector<HitBuffer> truths;
+    for (const StressView& view : views) {
+        stage.look(view.camera);
+        auto truth = stage.true_hits(run.size(), run.parallel());
+        if (run.stopped()) {
+            return {};
+        }
+        if (!truth) {
+            return truth.error();
+        }
+        truths.push_back(std::move(*truth));
+    }
+    for (const scene::Technique& technique : stressed_techniques(run.options())) {
+        if (!stage.set_technique(technique)) {
+            continue;
+        }
+        TechniqueRows rows(check, terrain, technique);
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            if (run.stopped()) {
+                return {};
+            }
+            stage.look(views[i].camera);
+            if (auto done = rows.add_view(run, stage, views[i], truths[i]); !done) {
+                return done;
+            }
+        }
+        rows.add_to(run);
+    }
+    run.renderer().forget_scene();
+    return {};
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,125 @@
+#include <cstdio>
+#include <memory>
+#include <span>
+
+#include <fmt/ranges.h>
+
+#include "app/cli/options.h"
+#include "app/cli/parsed_option.h"
+#include "bench/commands.h"
+#include "bench/output_options.h"
+#include "bench/page/page.h"
+#include "bench/stress/stress_suite.h"
+#include "bench/suite_arguments.h"
+#include "engine/core/atomic_file.h"
+
+namespace reljef::bench {
+namespace {
+
+constexpr glm::ivec2 full_size{320, 240};
+constexpr glm::ivec2 stress_quick_size{96, 72};
+
+struct StressChoice {
+    StressOptions options;
+    OutputChoice outputs;
+};
+
+// Writes the page and the JSON, or neither.
+Result<void> write_stress(const StressResults& results, const OutputChoice& outputs) {
+    const std::string json = figure_json(figure_table(results));
+    std::vector<AtomicFile> files;
+    if (!outputs.json.empty()) {
+        auto file = prepare_file(outputs.json, std::as_bytes(std::span(json)));
+        if (!file) {
+            return file.error();
+        }
+        files.push_back(std::move(*file));
+    }
+    if (outputs.html.empty()) {
+        return commit_all(files);
+    }
+    auto page = prepare_stress_page(outputs.html, json);
+    if (!page) {
+        return page.error();
+    }
+    files.push_back(std::move(page->file));
+    auto committed = commit_all(files);
+    files.clear(); // before the page's folder
+    return committed;
+}
+
+Result<void> report_stress(const StressResults& results, const OutputChoice& outputs) {
+    if (results.rows.empty()) {
+        return results.end.stopped.value_or(Error{"no rows found, some were expected"});
+    }
+    auto written = write_stress(results, outputs);
+    fmt::print("{}", stress_text(results));
+    if (std::fflush(stdout) != 0 || !written) {
+        return written;
+    }
+    if (results.end.stopped) {
+        return *results.end.stopped;
+    }
+    const std::size_t failures = results.failures();
+    return failures == 0 ? Result<void>()
+                         : Error{fmt::format("{} figures over their limits found, none were "
+                                             "expected",
+                                             failures)};
+}
+
+Result<void> run_stress_command(const StressChoice& choice, const CLI::App& command,
+                                const cli::Interrupt& interrupt) {
+    const auto inputs = terrain_files(choice.options.terrains);
+    if (auto good = check_outputs(choice.outputs, inputs); !good) {
+        return good;
+    }
+    StressOptions options = choice.options;
+    options.suite = with_quick_size(options.suite, command, stress_quick_size);
+    return report_stress(run_stress(options, interrupt.token()), choice.outputs);
+}
+
+void add_stress_options(CLI::App& command, StressChoice& choice) {
+    choice.options.suite.size = full_size;
+    add_terrains_option(command, choice.options.terrains, "natural and urban");
+    add_techniques_option(command, choice.options.techniques,
+                          "all that draw terrains, and polygons:error=1");
+    command
+        .add_option("--only", choice.options.stresses,
+                    fmt::format("run this stress; may be repeated: {} (all)",
+                                fmt::join(stress_names(), ", ")))
+        ->type_name("STRESS")
+        ->check(CLI::IsMember(stress_names()))
+        ->allow_extra_args(false);
+    cli::add_parsed(command, "--seed", choice.options.seed,
+                    cli::number_in<std::uint32_t>("--seed", 0, 4'294'967'295U),
+                    "of random views and paths (1)", "N");
+    add_suite_options(command, choice.options.suite);
+    add_json_option(command, choice.outputs);
+    add_page_option(command, choice.outputs);
+}
+
+} // namespace
+
+cli::Command add_stress_command(CLI::App& program, cli::Interrupt& interrupt) {
+    auto* arguments = program.add_subcommand(
+        "stress", "numerical stability: figures with limits, for all techniques");
+    auto choice = std::make_shared<StressChoice>();
+    add_stress_options(*arguments, *choice);
+    arguments->footer(
+        "Moves scenes to the poles, creeps by a millimetre, looks along the ground, scales by a\n"
+        "millionth and a million, feeds odd heights and files, and repeats frames. Each figure "
+        "has\n"
+        "a limit; the exit status is 1 if one is over it. A figure that is known to be over its\n"
+        "limit names the work that will fix it. --quick draws 96x72 pixels unless --size is given\n"
+        "and leaves out streamed-bound, which writes 1.6 GB of temporary files.\n"
+        "Ctrl-C ends after the current frame; the rows so far are printed and written.\n"
+        "Examples:\n"
+        "  reljef-bench stress --quick\n"
+        "  reljef-bench stress --terrain N45E006.hgt --only near-ground --technique exact\n"
+        "  reljef-bench stress --json stress.json --html stress");
+    return {arguments, [arguments, choice, &interrupt] {
+                return run_stress_command(*choice, *arguments, interrupt);
+            }};
+}
+
+} // namespace reljef::bench
