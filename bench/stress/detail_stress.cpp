@@ -36,7 +36,7 @@ Result<void> check_detail(StressRun& run, const SceneChoice& choice) {
                       .figure = "pixels of sky over ground",
                       .value = sky.value(),
                       .at = sky.at()};
-        if (covers_ground(info.id)) {
+        if (covers_ground(scene::make_technique(info.id))) {
             row.limit = 0.0;
         }
         run.add(row);

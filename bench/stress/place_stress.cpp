@@ -22,6 +22,10 @@ struct Base {
 constexpr double tile_side = 64.0;                 // metres, of a terrain with a sample each metre
 constexpr double max_vertex_error = 0.01;          // pixels
 constexpr glm::ivec2 vertex_error_size{1024, 768}; // to which that limit belongs
+constexpr glm::ivec2 moved_size{320, 240};         // enough pixels for a share of 0.01 %
+// Rasterizers round vertices to 1/256 pixel (GL_SUBPIXEL_BITS is 8), which parts two neighbours by
+// up to 1/256 pixel in x and y.
+constexpr double max_rounding_shift = 1.42 / 256.0; // pixels
 
 glm::dmat4 geocentric_from_local(double latitude, double longitude) {
     const double turn = glm::radians(longitude);
@@ -178,7 +182,7 @@ Result<void> add_moved_pictures(StressRun& run, const std::vector<Base>& bases) 
                 return {};
             }
             stage->place(base.world_from_local);
-            stage->look(standing_camera(*stage, {10.0, -50.0}, 20.0, 0.3));
+            stage->look(standing_camera(*stage, {10.3, -50.7}, 20.0, 0.3));
             auto picture = stage->picture(run.renderer());
             if (!picture) {
                 return picture.error();
@@ -212,8 +216,14 @@ Result<void> stress_moved_scenes(StressRun& run) {
         return resized;
     }
     auto done = add_vertex_errors(run, bases);
+    if (done) {
+        done = run.renderer().resize(moved_size);
+    }
+    if (done) {
+        done = add_moved_pictures(run, bases);
+    }
     const auto restored = run.renderer().resize(run.size());
-    return done && restored ? add_moved_pictures(run, bases) : (done ? restored : done);
+    return done ? restored : done;
 }
 
 Result<void> stress_creeping_camera(StressRun& run) {
@@ -243,7 +253,7 @@ Result<void> stress_creeping_camera(StressRun& run) {
              .technique = to_string(scene::Technique{scene::Polygons{}}),
              .figure = "shift against a neighbour, px of 768",
              .value = worst.value(),
-             .limit = max_vertex_error,
+             .limit = max_vertex_error + max_rounding_shift,
              .at = worst.at()});
     return run.renderer().resize(run.size());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <variant>
 
 #include "engine/truth/draw.h"
 
@@ -84,18 +85,38 @@ std::size_t count_not_finite(const HitBuffer& hits) {
     }));
 }
 
+namespace {
+
+// Whether a ray starts over the terrain, or is more than `metres` above its border where it enters:
+// beneath the triangles of the border it meets no front face.
+bool enters_above(const scene::TerrainSurface& surface, const Ray& ray, double metres) {
+    Box column = surface.bounds();
+    column.low.z = -max_world_coordinate;
+    column.high.z = max_world_coordinate;
+    const auto inside = intersect(ray, column);
+    if (!inside || inside->begin == 0.0) {
+        return inside.has_value();
+    }
+    const glm::dvec3 entry = glm::clamp(ray.at(inside->begin), column.low, column.high);
+    return entry.z > surface.height_at(entry.x, entry.y).value_or(column.high.z) + metres;
+}
+
+} // namespace
+
 std::size_t count_sky_over_ground(const StressStage& stage, const HitBuffer& shown,
-                                  const HitBuffer& truth, double reach) {
+                                  const HitBuffer& truth, const SilhouetteTolerance& tolerance) {
     const truth::SurfaceView view = stage.surface_view();
     const glm::dmat4 local_from_world = glm::inverse(view.world_from_local);
     const glm::ivec2 size(shown.cols(), shown.rows());
+    const glm::dvec3 raised(0.0, 0.0, tolerance.metres); // as if the surface were lower
     const auto shows_ground = [&](glm::dvec2 place) {
-        const Ray ray = scene::view_ray(view.camera, size, place);
-        return stage.surface()
-            .pick({glm::dvec3(local_from_world * glm::dvec4(ray.origin, 1.0)),
-                   glm::dvec3(local_from_world * glm::dvec4(ray.direction, 0.0))})
-            .has_value();
+        const Ray world = scene::view_ray(view.camera, size, place);
+        const Ray ray{glm::dvec3(local_from_world * glm::dvec4(world.origin, 1.0)),
+                      glm::dvec3(local_from_world * glm::dvec4(world.direction, 0.0))};
+        return stage.surface().pick({ray.origin + raised, ray.direction}).has_value() &&
+               (tolerance.metres == 0.0 || enters_above(stage.surface(), ray, tolerance.metres));
     };
+    const bool is_in_truth = tolerance.pixels == 1.0 && tolerance.metres == 0.0;
     std::size_t count = 0;
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) {
@@ -106,10 +127,10 @@ std::size_t count_sky_over_ground(const StressStage& stage, const HitBuffer& sho
             for (int i = 0; i < 9 && is_surrounded; ++i) {
                 const glm::ivec2 step(i % 3 - 1, i / 3 - 1);
                 const glm::ivec2 next = glm::ivec2(x, y) + step;
-                const bool is_known = reach == 1.0 && next == glm::clamp(next, {}, size - 1);
-                is_surrounded =
-                    is_known ? truth::shows_terrain(truth(next.x, next.y))
-                             : shows_ground(glm::dvec2(x, y) + 0.5 + reach * glm::dvec2(step));
+                const bool is_known = is_in_truth && next == glm::clamp(next, {}, size - 1);
+                is_surrounded = is_known ? truth::shows_terrain(truth(next.x, next.y))
+                                         : shows_ground(glm::dvec2(x, y) + 0.5 +
+                                                        tolerance.pixels * glm::dvec2(step));
             }
             count += is_surrounded ? 1 : 0;
         }
@@ -117,14 +138,30 @@ std::size_t count_sky_over_ground(const StressStage& stage, const HitBuffer& sho
     return count;
 }
 
-bool covers_ground(scene::TechniqueId id) {
+bool covers_ground(const scene::Technique& technique) {
     using scene::TechniqueId;
-    return id == TechniqueId::polygons || id == TechniqueId::displacement ||
-           id == TechniqueId::cone || id == TechniqueId::exact;
+    if (const auto* polygons = std::get_if<scene::Polygons>(&technique.parameters)) {
+        return polygons->max_levels == 1 || polygons->error > 0.0;
+    }
+    const TechniqueId id = technique.id();
+    return id == TechniqueId::displacement || id == TechniqueId::cone || id == TechniqueId::exact;
 }
 
-double silhouette_reach(const scene::Technique& technique) {
-    return 1.0 + scene::error_bound(technique);
+SilhouetteTolerance silhouette_tolerance(const StressStage& stage,
+                                         const scene::Technique& technique) {
+    const double bound = scene::error_bound(technique);
+    if (technique.id() != scene::TechniqueId::polygons || bound > 0.0) {
+        return {.pixels = 1.0 + bound};
+    }
+    const Grid<float>& heights = stage.surface().heightfield().heights;
+    double twist = 0.0; // of a cell: the bilinear middle and that of a diagonal differ by a quarter
+    for (int row = 1; row < heights.rows(); ++row) {
+        for (int col = 1; col < heights.cols(); ++col) {
+            twist = std::max(twist, std::abs(double{heights(col, row)} - heights(col - 1, row) -
+                                             heights(col, row - 1) + heights(col - 1, row - 1)));
+        }
+    }
+    return {.metres = 0.25 * twist * stage.surface().placement().exaggeration()};
 }
 
 } // namespace reljef::bench

@@ -48,17 +48,25 @@ private:
 /// Pixels of terrain with a coordinate, height or depth that is no finite number.
 std::size_t count_not_finite(const HitBuffer& hits);
 
-/// Pixels of sky where all exact rays within `reach` pixels hit ground: no silhouette that moved.
-std::size_t count_sky_over_ground(const StressStage& stage, const HitBuffer& shown,
-                                  const HitBuffer& truth, double reach);
+/// How far a technique may draw a silhouette beside the true one.
+struct SilhouetteTolerance {
+    double pixels = 1.0;
+    double metres = 0.0; ///< below it
+};
+/// A pixel, and the error bound. Polygons without a bound also lie below the bilinear surface, by
+/// up to the largest height between a cell and its two triangles.
+SilhouetteTolerance silhouette_tolerance(const StressStage& stage,
+                                         const scene::Technique& technique);
 
-/// Whether no pixel of sky over ground is allowed: polygons, displacement, cone and exact.
-bool covers_ground(scene::TechniqueId id);
+/// Pixels of sky where all exact rays within the tolerance hit ground: no silhouette that moved.
+std::size_t count_sky_over_ground(const StressStage& stage, const HitBuffer& shown,
+                                  const HitBuffer& truth, const SilhouetteTolerance& tolerance);
+
+/// Whether no pixel of sky over ground is allowed: polygons with all samples or an error bound,
+/// displacement, cone and exact.
+bool covers_ground(const scene::Technique& technique);
 
 /// The largest share of wrong pixels of `exact`, percent.
 inline constexpr double max_wrong_percent = 0.1;
-
-/// How far a silhouette of the technique may lie beside the true one, pixels.
-double silhouette_reach(const scene::Technique& technique);
 
 } // namespace reljef::bench

@@ -135,6 +135,8 @@ Result<double> wrong_answers(StressRun& run, const fs::path& path, std::string& 
         what = stage.error().message;
         return 0.0;
     }
+    const SilhouetteTolerance tolerance =
+        silhouette_tolerance(*stage, scene::Technique{scene::Polygons{}});
     double wrong = 0.0;
     for (const StressView& view :
          pose_views(*stage, {scene::Pose::overview, scene::Pose::oblique})) {
@@ -144,9 +146,10 @@ Result<double> wrong_answers(StressRun& run, const fs::path& path, std::string& 
         if (!truth || !shown) {
             return truth ? shown.error() : truth.error();
         }
-        wrong += count_not_finite(*shown) + count_sky_over_ground(*stage, *shown, *truth, 1.0) > 0
-                     ? 1.0
-                     : 0.0;
+        wrong +=
+            count_not_finite(*shown) + count_sky_over_ground(*stage, *shown, *truth, tolerance) > 0
+                ? 1.0
+                : 0.0;
     }
     what = "drawn";
     return wrong;

@@ -22,11 +22,13 @@ Result<double> wrong_percent(const StressStage& stage, const HitBuffer& shown,
 // The rows of one technique.
 class TechniqueRows {
 public:
-    TechniqueRows(const ViewCheck& check, std::string_view terrain,
+    TechniqueRows(const ViewCheck& check, std::string_view terrain, const StressStage& stage,
                   const scene::Technique& technique)
-        : check_(check), technique_(technique), row_{.stress = check.stress,
-                                                     .terrain = std::string(terrain),
-                                                     .technique = to_string(technique)} {}
+        : check_(check), technique_(technique),
+          tolerance_(silhouette_tolerance(stage, technique)), row_{.stress = check.stress,
+                                                                   .terrain = std::string(terrain),
+                                                                   .technique =
+                                                                       to_string(technique)} {}
 
     Result<void> add_view(StressRun& run, const StressStage& stage, const StressView& view,
                           const HitBuffer& truth) {
@@ -40,8 +42,7 @@ public:
             return wrong.error();
         }
         not_finite_.add(static_cast<double>(count_not_finite(*shown)), view.name);
-        sky_.add(static_cast<double>(
-                     count_sky_over_ground(stage, *shown, truth, silhouette_reach(technique_))),
+        sky_.add(static_cast<double>(count_sky_over_ground(stage, *shown, truth, tolerance_)),
                  view.name);
         wrong_.add(*wrong, view.name);
         if (check_.has_row_per_view) {
@@ -57,7 +58,7 @@ public:
         }
         add(run, "pixels not finite", not_finite_.value(), 0.0, not_finite_.at());
         add(run, "pixels of sky over ground", sky_.value(),
-            covers_ground(technique_.id()) ? std::optional(0.0) : std::nullopt, sky_.at());
+            covers_ground(technique_) ? std::optional(0.0) : std::nullopt, sky_.at());
         if (!check_.has_row_per_view) {
             add(run, "% of pixels wrong", wrong_.value(), wrong_limit(), wrong_.at());
         }
@@ -79,6 +80,7 @@ private:
 
     const ViewCheck& check_;
     const scene::Technique& technique_;
+    const SilhouetteTolerance tolerance_;
     StressRow row_;
     std::string refusal_; // why the driver cannot draw the surface; empty: it can
     Worst not_finite_;
@@ -106,7 +108,7 @@ Result<void> check_views(StressRun& run, const ViewCheck& check, std::string_vie
         if (!stage.set_technique(technique)) {
             continue;
         }
-        TechniqueRows rows(check, terrain, technique);
+        TechniqueRows rows(check, terrain, stage, technique);
         for (std::size_t i = 0; i < views.size(); ++i) {
             if (run.stopped()) {
                 return {};

@@ -26,10 +26,10 @@ struct HalfView {
 TEST(StressStage, SkyInTheMiddleOfGroundIsCounted) {
     HalfView view;
     HitBuffer shown = view.truth;
-    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, 1.0), 0U);
+    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, {}), 0U);
     shown(16, 20) = {};
     shown(17, 20) = {};
-    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, 1.0), 2U);
+    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, {}), 2U);
 }
 
 TEST(StressStage, ASilhouetteWithinReachIsNoHole) {
@@ -40,9 +40,9 @@ TEST(StressStage, ASilhouetteWithinReachIsNoHole) {
     }
     HitBuffer shown = view.truth;
     shown(16, horizon) = {};
-    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, 1.0), 0U);
+    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, {}), 0U);
     shown(16, horizon + 3) = {};
-    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, 1.0), 1U);
+    EXPECT_EQ(count_sky_over_ground(view.stage, shown, view.truth, {}), 1U);
 }
 
 TEST(StressStage, AHitThatIsNoNumberIsCounted) {
