@@ -293,7 +293,7 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
     command
         .add_option(
             "TERRAIN", choice.terrain,
-            "natural, urban, gallery, a scene file (.toml), a DEM file in any format of GDAL, a "
+            "natural, urban, gallery, a scene file (.toml), a DEM file, a "
             "folder of DEM files, an https:// address, or web tiles with heights in colours: "
             "terrarium+FOLDER, terrain-rgb+https://host/{z}/{x}/{y}.png; - for a DEM file from "
             "standard input")
@@ -305,6 +305,10 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
         "memory for the terrain, megabytes; larger terrains are read tile by tile (512)", "MB");
     add_parsed(command, "--threads", choice.threads, number_in<int>("--threads", 0, 1024),
                "number of threads; 0: one per processor (0)", "N");
+    command.add_flag("--allow-external", choice.allow_external,
+                     "read files in any format of GDAL, and follow what they refer to. By default, "
+                     "a file is in a common format of elevation or pictures, and a virtual raster "
+                     "(VRT) refers only to files in or below its folder");
     command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 

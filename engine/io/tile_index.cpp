@@ -14,6 +14,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/io/cache/fnv_hash.h"
 #include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/sample_decoder.h"
 #include "engine/terrain/tree/tile_tree.h"
@@ -106,7 +107,7 @@ bool may_be_raster(const fs::path& path) {
     if (is_named_side_file(path) || path.filename().string().starts_with('.')) {
         return false;
     }
-    return is_named_raster(path) || GDALIdentifyDriver(path.string().c_str(), nullptr) != nullptr;
+    return is_named_raster(path) || has_format(path.string());
 }
 
 /// A file with its size and time only.

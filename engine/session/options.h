@@ -31,6 +31,8 @@ struct SourceOptions {
     std::optional<geo::GeodeticArea> area; ///< absent: the scene file's, else all
     std::optional<io::Gaps> gaps;          ///< absent: the scene file's, else holes
     std::string geoid;                     ///< a file, "none", or empty: the installed one
+    /// Files may refer to files anywhere, and be in any format of GDAL; see io::allow_external.
+    bool allow_external = false;
     int memory_megabytes = 512;
     int threads = 0; ///< 0: as many as the machine has
     /// Streams a terrain that does not fit in memory; otherwise it is read as one coarser terrain.

@@ -348,6 +348,7 @@ Result<TerrainSource> open_terrain(io::SceneDescription description, const Sourc
                         "--detail lays one over a terrain",
                         *choice.textures, description.name));
     }
+    io::allow_external(choice.allow_external);
     auto source = read_source(choice, std::move(description), log, stop);
     if (!source) {
         return source.error();
@@ -374,6 +375,7 @@ Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_t
             return fits.error();
         }
     }
+    io::allow_external(choice.allow_external);
     io::limit_block_cache((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / 2);
     auto tiles = open_set(choice, *description, stop);
     if (!tiles) {

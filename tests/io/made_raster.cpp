@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
@@ -113,6 +114,14 @@ bool write(const MadeRaster& raster, const std::filesystem::path& path) {
     const Dataset copy(requested->CreateCopy(path.c_str(), dataset.get(), FALSE, options.List(),
                                              nullptr, nullptr));
     return copy != nullptr;
+}
+
+bool add_to_zip(const std::filesystem::path& archive, const std::string& member,
+                const std::string& bytes) {
+    const std::string name = "/vsizip/" + archive.string() + "/" + member;
+    VSILFILE* const file = VSIFOpenL(name.c_str(), "wb");
+    return file != nullptr && VSIFWriteL(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
+           VSIFCloseL(file) == 0;
 }
 
 std::string stretched_vrt(const std::string& source, const StretchedVrt& vrt) {

@@ -55,6 +55,10 @@ template <class Value> MadeRaster made_raster(int cols, int rows, const Value& v
 /// Writes it; false where GDAL cannot.
 bool write(const MadeRaster& raster, const std::filesystem::path& path);
 
+/// Adds a member to a .zip, which is made if it does not exist.
+bool add_to_zip(const std::filesystem::path& archive, const std::string& member,
+                const std::string& bytes);
+
 struct StretchedVrt {
     double step = 1.0; ///< metres between samples, from 300 km east, 5600 km north in UTM 31
     std::string type;  ///< as GDAL names it: "Byte"

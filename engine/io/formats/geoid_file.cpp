@@ -20,7 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float max_undulation = 150.0F; // metres; the Earth has -107 to 86
-constexpr int max_geoid_side = 1 << 15;  // samples; EGM2008 at 1′ has 21,600
+// EGM2008 at 1′ has 21,600 by 10,801 samples, which take 0.9 GB as floats.
+constexpr int max_geoid_side = 1 << 15;
+constexpr double max_geoid_samples = 1 << 28;
 
 Result<geo::Geoid> unfit(const std::string& name, const std::string& found) {
     return Error{
@@ -65,7 +67,8 @@ Result<geo::Geoid> read_geoid(const fs::path& path) {
     }
     GDALRasterBand& band = *(*dataset)->GetRasterBand(1);
     if (band.GetXSize() < 4 || band.GetYSize() < 4 || band.GetXSize() > max_geoid_side ||
-        band.GetYSize() > max_geoid_side) {
+        band.GetYSize() > max_geoid_side ||
+        static_cast<double>(band.GetXSize()) * band.GetYSize() > max_geoid_samples) {
         return unfit(name, fmt::format("has {}×{} samples", band.GetXSize(), band.GetYSize()));
     }
     auto undulation = undulation_of(band);

@@ -134,8 +134,9 @@ Result<Flight> read_track(const std::filesystem::path& path, double metres_a_sec
     register_drivers();
     const GdalMessages messages;
     const CPLConfigOptionSetter heights("GPX_ELE_AS_25D", "YES", false);
-    const Dataset dataset(
-        GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+    constexpr std::array<const char*, 5> formats{"GPX", "LIBKML", "KML", "GeoJSON", nullptr};
+    const Dataset dataset(GDALDataset::Open(
+        name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, formats.data()));
     if (dataset == nullptr) {
         return Error{fmt::format("{}: cannot be opened as a path{}, a path file (TOML) or a file "
                                  "with a line (GPX, KML, GeoJSON) was expected",

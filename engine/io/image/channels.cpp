@@ -17,8 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double max_values = 1 << 28; // 1 GB; 8192² pixels of RGBA
+
 Result<Channels> read_open_channels(OIIO::ImageInput& input, const fs::path& path) {
     const OIIO::ImageSpec& spec = input.spec();
+    if (static_cast<double>(spec.width) * spec.height * spec.nchannels > max_values) {
+        return Error{fmt::format("{}: claims {}×{} pixels of {} channels, at most {:.0f} values "
+                                 "were expected",
+                                 path.string(), spec.width, spec.height, spec.nchannels,
+                                 max_values)};
+    }
     Channels channels = make_channels(spec.width, spec.height, spec.nchannels);
     channels.bits = static_cast<int>(8 * spec.format.basesize());
     if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data())) {

@@ -14,6 +14,7 @@ constexpr int max_side = 1 << 16;
 constexpr double max_pixels = 1 << 28;
 constexpr double always_allowed = 1 << 24; // pixels
 constexpr double pixels_per_byte = 2000.0; // above the densest format
+constexpr double max_bytes = 1 << 30;      // max_pixels of RGBA; decoders keep as much at once
 
 constexpr std::array<unsigned char, 8> png_signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
@@ -80,6 +81,16 @@ Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec)
             "{}: claims {}×{} pixels of {} channels in {} bytes, at most {:.0f} "
             "pixels were expected",
             path.string(), spec.width, spec.height, spec.nchannels, bytes, max_allowed)};
+    }
+    // A tile may be larger than the picture.
+    const double stored = std::max(pixels, static_cast<double>(spec.tile_width) * spec.tile_height *
+                                               std::max(spec.tile_depth, 1));
+    const double decoded = stored * static_cast<double>(spec.pixel_bytes(true));
+    if (decoded > max_bytes) {
+        return Error{fmt::format("{}: claims {}×{} pixels of {} channels, which take {:.1f} GB, at "
+                                 "most {:.1f} GB were expected",
+                                 path.string(), spec.width, spec.height, spec.nchannels,
+                                 decoded / 1e9, max_bytes / 1e9)};
     }
     return {};
 }

@@ -15,7 +15,9 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/raster.h"
+#include "engine/io/raster/references.h"
 #include "engine/io/raster/web_tiles.h"
 
 namespace reljef::io {
@@ -26,7 +28,6 @@ constexpr GIntBig max_cached_bytes = GIntBig{1} << 28;
 constexpr std::size_t max_messages = 10;
 constexpr std::size_t max_message_length = 200;
 constexpr int max_archive_entries = 1000;
-constexpr std::size_t max_block_bytes = std::size_t{1} << 28;
 
 std::string one_line(std::string text) {
     std::replace_if(
@@ -46,7 +47,7 @@ std::string raster_in_zip(const fs::path& path) {
     const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
     for (int i = 0; i < std::min(entries.size(), max_archive_entries); ++i) {
         std::string entry = archive + "/" + entries[i];
-        if (entry.back() != '/' && GDALIdentifyDriver(entry.c_str(), nullptr) != nullptr) {
+        if (entry.back() != '/' && has_format(entry)) {
             return entry;
         }
     }
@@ -92,25 +93,6 @@ Result<void> check_file(const fs::path& path) {
     return {};
 }
 
-// GDAL always reads whole blocks.
-Result<void> check_blocks(GDALDataset& dataset, const fs::path& path) {
-    for (int index = 1; index <= dataset.GetRasterCount(); ++index) {
-        GDALRasterBand& band = *dataset.GetRasterBand(index);
-        int cols = 0;
-        int rows = 0;
-        band.GetBlockSize(&cols, &rows);
-        const double bytes =
-            static_cast<double>(cols) * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
-        if (bytes > static_cast<double>(max_block_bytes)) {
-            return Error{fmt::format("{}: is stored in blocks of {}×{} samples, which take {} "
-                                     "each, blocks of at most {} were expected",
-                                     path.string(), cols, rows, size_text(bytes),
-                                     size_text(static_cast<double>(max_block_bytes)))};
-        }
-    }
-    return {};
-}
-
 /// Sets an option unless the user has set it.
 void set_default(const char* option, const char* value) {
     if (CPLGetConfigOption(option, nullptr) == nullptr) {
@@ -122,30 +104,43 @@ Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
                           const char* const* options) {
     register_drivers();
     const bool remote = is_remote(path);
-    if (auto file = remote ? Result<void>() : check_file(path); !file) {
-        return file.error();
+    const bool web_tiles = is_web_tiles(path);
+    auto good = web_tiles ? Result<void>() : check_typed_name(path.string());
+    good = good && !remote ? check_file(path) : good;
+    if (!good) {
+        return good.error();
     }
     const auto name = name_for_gdal(path);
     if (!name) {
         return name.error();
     }
-    constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+    CPLStringList formats = format_names();
+    if (web_tiles) {
+        formats = CPLStringList();
+        formats.AddString("WMS");
+    }
     // Remote files: no requests for sidecar files.
     constexpr std::array<const char*, 1> no_siblings{nullptr};
-    Dataset dataset(GDALDataset::Open(name->c_str(), flags, nullptr, options,
-                                      remote ? no_siblings.data() : nullptr));
-    if (dataset == nullptr) {
-        return Error{
-            fmt::format("{}: cannot be opened as a raster{}, a whole file in one of GDAL's "
-                        "formats was expected",
-                        path.string(), messages.reason())};
+    OpenRequest request;
+    request.formats = formats.List();
+    request.options = options;
+    request.siblings = remote ? no_siblings.data() : nullptr;
+    auto dataset = open_checked(*name, request);
+    if (!dataset) {
+        std::string message = dataset.error().message;
+        if (message.starts_with(*name)) {
+            message.replace(0, name->size(), path.string());
+        }
+        return Error{std::move(message)};
     }
-    if (dataset->GetRasterCount() == 0) {
+    if (*dataset == nullptr) {
+        return Error{fmt::format("{}: cannot be opened as a raster{}, a whole file in one of the "
+                                 "formats of elevation and pictures was expected",
+                                 path.string(), messages.reason())};
+    }
+    if ((*dataset)->GetRasterCount() == 0) {
         return Error{fmt::format(
             "{}: holds no raster of its own, a file with one raster was expected", path.string())};
-    }
-    if (auto blocks = check_blocks(*dataset, path); !blocks) {
-        return blocks.error();
     }
     return dataset;
 }
@@ -166,7 +161,9 @@ void register_drivers() {
         // OpenImageIO and GDAL both install an error handler for libtiff at their first TIFF.
         // GDAL must be the last one.
         static_cast<void>(OIIO::ImageInput::create("a.tif"));
-        GDALAllRegister();
+        register_formats();
+        // Virtual rasters run no programs.
+        set_default("GDAL_VRT_ENABLE_PYTHON", "NO");
         // Avoids listing a large folder for each file.
         set_default("GDAL_READDIR_LIMIT_ON_OPEN", "50");
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds

@@ -56,14 +56,14 @@ void add_options(CPLStringList& list, std::initializer_list<std::string> options
 /// Whether GDAL reads the path from a server ("https://…") or a virtual file system ("/vsi…").
 bool is_remote(const std::filesystem::path& path);
 
-/// Opens a raster read-only; the first one of a .zip. Fails without bands or for blocks over 256
-/// MB.
+/// Opens a raster read-only; the first one of a .zip. Fails without bands, and as open_checked
+/// (gdal_drivers.h).
 Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessages& messages);
 /// Ignores overviews.
 Result<Dataset> open_without_overviews(const std::filesystem::path& path,
                                        const GdalMessages& messages);
 
-/// Registers GDAL's drivers once and limits its block cache to 256 MB. Thread-safe.
+/// Registers formats (gdal_drivers.h) once and limits GDAL's block cache to 256 MB. Thread-safe.
 void register_drivers();
 
 } // namespace reljef::io

@@ -39,6 +39,10 @@ inline constexpr std::size_t bytes_per_sample = 40;
 /// Maximum side of a draped image, pixels.
 inline constexpr int max_image_side = 4096;
 
+/// Whether files may refer to files anywhere (references.h) and be in any format of GDAL; not at
+/// first. For the whole process, as GDAL's formats are. Call before other threads open files.
+void allow_external(bool allowed);
+
 /// Limits GDAL's block cache, which all readers share.
 void limit_block_cache(std::size_t bytes);
 

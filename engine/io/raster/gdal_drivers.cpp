@@ -1,0 +1,236 @@
+#include "engine/io/raster/gdal_drivers.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <gdal_frmts.h>
+#include <ogrsf_frmts.h>
+
+#include "engine/io/raster/references.h"
+
+namespace reljef::io {
+namespace {
+
+constexpr std::size_t max_block_bytes = std::size_t{1} << 28;
+// A picture a day for 27 years. GDAL keeps about a kilobyte for each band.
+constexpr int max_bands = 10'000;
+constexpr const char* external_option = "RELJEF_ALLOW_EXTERNAL";
+constexpr const char* front_driver = "reljef";
+
+struct Format {
+    const char* name;
+    void (*register_driver)();
+};
+
+// In GDAL's order: the last ones take files that others know better. None of them follows names to
+// files that references.h does not check; netCDF-4 and HDF5 do.
+constexpr std::array formats{Format{"VRT", &GDALRegister_VRT},
+                             Format{"GTiff", &GDALRegister_GTiff},
+                             Format{"HFA", &GDALRegister_HFA},
+                             Format{"AIG", &GDALRegister_AIGrid},
+                             Format{"AAIGrid", &GDALRegister_AAIGrid},
+                             Format{"GRASSASCIIGrid", &GDALRegister_GRASSASCIIGrid},
+                             Format{"ISG", &GDALRegister_ISG},
+                             Format{"DTED", &GDALRegister_DTED},
+                             Format{"PNG", &GDALRegister_PNG},
+                             Format{"JPEG", &GDALRegister_JPEG},
+                             Format{"GIF", &GDALRegister_GIF},
+                             Format{"BMP", &GDALRegister_BMP},
+                             Format{"SRTMHGT", &GDALRegister_SRTMHGT},
+                             Format{"Leveller", &GDALRegister_Leveller},
+                             Format{"Terragen", &GDALRegister_Terragen},
+                             Format{"JP2OpenJPEG", &GDALRegister_JP2OpenJPEG},
+                             Format{"RST", &GDALRegister_IDRISI},
+                             Format{"GSAG", &GDALRegister_GSAG},
+                             Format{"GSBG", &GDALRegister_GSBG},
+                             Format{"GS7BG", &GDALRegister_GS7BG},
+                             Format{"WEBP", &GDALRegister_WEBP},
+                             Format{"PNM", &GDALRegister_PNM},
+                             Format{"BT", &GDALRegister_BT},
+                             Format{"GTX", &GDALRegister_GTX},
+                             Format{"BYN", &GDALRegister_BYN},
+                             Format{"USGSDEM", &GDALRegister_USGSDEM},
+                             Format{"SAGA", &GDALRegister_SAGA},
+                             Format{"XYZ", &GDALRegister_XYZ},
+                             Format{"HF2", &GDALRegister_HF2},
+                             Format{"ZMap", &GDALRegister_ZMap},
+                             Format{"NGSGEOID", &GDALRegister_NGSGEOID},
+                             Format{"SIGDEM", &GDALRegister_SIGDEM},
+                             Format{"TGA", &GDALRegister_TGA},
+                             Format{"ENVI", &GDALRegister_ENVI},
+                             Format{"EHdr", &GDALRegister_EHdr}};
+
+bool is_format(std::string_view name) {
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](const Format& format) { return format.name == name; });
+}
+
+/// GDAL always reads whole blocks; `bands`: those that a block holds.
+Result<void> check_block(GDALRasterBand& band, int bands, const std::string& name) {
+    int cols = 0;
+    int rows = 0;
+    band.GetBlockSize(&cols, &rows);
+    const double bytes = static_cast<double>(cols) * rows * bands *
+                         GDALGetDataTypeSizeBytes(band.GetRasterDataType());
+    if (bytes <= static_cast<double>(max_block_bytes)) {
+        return {};
+    }
+    return Error{fmt::format("{}: is stored in blocks of {}×{} samples{}, which take {} each, "
+                             "blocks of at most {} were expected",
+                             name, cols, rows, bands > 1 ? fmt::format(" of {} bands", bands) : "",
+                             size_text(bytes), size_text(static_cast<double>(max_block_bytes)))};
+}
+
+/// Of a band, its mask and its overviews. The mask is a band of its own.
+Result<void> check_band(GDALRasterBand& band, int bands, const std::string& name) {
+    auto good = check_block(band, bands, name);
+    for (int i = 0; good && i < band.GetOverviewCount(); ++i) {
+        GDALRasterBand* const overview = band.GetOverview(i);
+        good = overview != nullptr ? check_block(*overview, bands, name) : good;
+    }
+    GDALRasterBand* const mask = good ? band.GetMaskBand() : nullptr;
+    return mask != nullptr ? check_block(*mask, 1, name) : good;
+}
+
+/// Overviews and masks of virtual rasters are other files, which are checked when they are opened.
+Result<void> check_sizes(GDALDataset& dataset, const std::string& name) {
+    const int bands = dataset.GetRasterCount();
+    if (bands > max_bands) {
+        return Error{
+            fmt::format("{}: has {} bands, at most {} were expected", name, bands, max_bands)};
+    }
+    const std::string_view format =
+        dataset.GetDriver() != nullptr ? dataset.GetDriver()->GetDescription() : "";
+    const char* const order = dataset.GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
+    const int bands_of_block = order != nullptr && EQUAL(order, "PIXEL") ? bands : 1;
+    for (int i = 1; i <= bands; ++i) {
+        GDALRasterBand& band = *dataset.GetRasterBand(i);
+        auto good = format == "VRT" ? check_block(band, bands_of_block, name)
+                                    : check_band(band, bands_of_block, name);
+        if (!good) {
+            return good;
+        }
+    }
+    const double bytes =
+        static_cast<double>(dataset.GetRasterXSize()) * dataset.GetRasterYSize() * bands;
+    const bool is_read_whole = format == "WEBP" || format == "GIF";
+    if (is_read_whole && bytes > static_cast<double>(max_block_bytes)) {
+        return Error{fmt::format("{}: takes {} and is in a format that is read whole, at most {} "
+                                 "were expected",
+                                 name, size_text(bytes),
+                                 size_text(static_cast<double>(max_block_bytes)))};
+    }
+    return {};
+}
+
+Result<void> check_opened(GDALDataset& dataset, const std::string& name) {
+    auto good = check_named_files(dataset);
+    good = good ? check_sizes(dataset, name) : good;
+    const bool is_virtual = EQUAL(dataset.GetDriver()->GetDescription(), "VRT");
+    return good && !is_virtual ? check_parts(dataset) : good;
+}
+
+/// Opens what the formats open, checked; stops GDAL from trying its other drivers.
+GDALDataset* open_in_front(GDALOpenInfo* info) {
+    if ((info->nOpenFlags & GDAL_OF_RASTER) == 0 || info->eAccess == GA_Update) {
+        return nullptr;
+    }
+    const CPLStringList names = format_names();
+    OpenRequest request;
+    request.formats = names.List();
+    request.options = info->papszOpenOptions;
+    request.flags = static_cast<unsigned>(info->nOpenFlags);
+    auto dataset = open_checked(info->pszFilename, request);
+    if (!dataset) {
+        CPLError(CE_Failure, CPLE_AppDefined, "%s", dataset.error().message.c_str());
+        return nullptr;
+    }
+    if (*dataset == nullptr && CPLGetLastErrorType() < CE_Failure) {
+        CPLError(CE_Failure, CPLE_OpenFailed, "%s is in none of the formats that are read",
+                 info->pszFilename);
+    }
+    return dataset->release();
+}
+
+/// In front of drivers that the process has registered already.
+void register_front_driver() {
+    auto& manager = *GetGDALDriverManager();
+    std::vector<GDALDriver*> drivers;
+    while (manager.GetDriverCount() > 0) {
+        drivers.push_back(manager.GetDriver(0));
+        manager.DeregisterDriver(drivers.back());
+    }
+    auto front = std::make_unique<GDALDriver>();
+    front->SetDescription(front_driver);
+    front->SetMetadataItem(GDAL_DCAP_RASTER, "YES");
+    front->pfnOpen = &open_in_front;
+    manager.RegisterDriver(front.release()); // the manager owns it
+    for (GDALDriver* const driver : drivers) {
+        manager.RegisterDriver(driver);
+    }
+}
+
+} // namespace
+
+void register_formats() {
+    register_front_driver();
+    for (const Format& format : formats) {
+        format.register_driver();
+    }
+    GDALRegister_MEM(); // rasters in memory
+    GDALRegister_WMS(); // web tiles
+    RegisterOGRGPX();   // tracks
+    RegisterOGRLIBKML();
+    RegisterOGRKML();
+    RegisterOGRGeoJSON();
+}
+
+CPLStringList format_names() {
+    CPLStringList names;
+    auto& manager = *GetGDALDriverManager();
+    for (int i = 0; i < manager.GetDriverCount(); ++i) {
+        const char* const name = manager.GetDriver(i)->GetDescription();
+        if (is_format(name) || (allows_external() && !EQUAL(name, front_driver))) {
+            names.AddString(name);
+        }
+    }
+    return names;
+}
+
+bool has_format(const std::string& name) {
+    const CPLStringList names = format_names();
+    return GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, names.List(), nullptr) != nullptr;
+}
+
+bool allows_external() {
+    return CPLTestBool(CPLGetConfigOption(external_option, "NO"));
+}
+
+void allow_external(bool allowed) {
+    register_drivers();
+    CPLSetConfigOption(external_option, allowed ? "YES" : nullptr);
+    if (allowed) {
+        GDALAllRegister();
+    }
+}
+
+Result<Dataset> open_checked(const std::string& name, const OpenRequest& request) {
+    if (auto good = check_references(name); !good) {
+        return good.error();
+    }
+    Dataset dataset(GDALDataset::Open(name.c_str(), request.flags, request.formats, request.options,
+                                      request.siblings));
+    if (dataset != nullptr) {
+        if (auto good = check_opened(*dataset, name); !good) {
+            return good.error();
+        }
+    }
+    return dataset;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include <cpl_string.h>
+#include <gdal_priv.h>
+
+#include "engine/core/result.h"
+#include "engine/io/raster/gdal_dataset.h"
+
+namespace reljef::io {
+
+/// The formats that reljef reads, and a driver in front of them: every file that GDAL opens, as a
+/// source of a virtual raster, an overview, a mask or a web tile, too, is checked as by
+/// open_checked. Call once.
+void register_formats();
+
+/// Names for GDALOpenEx and GDALIdentifyDriverEx, ending with a null pointer. With
+/// allow_external(true): all that GDAL has registered.
+CPLStringList format_names();
+
+/// Whether one of the formats recognizes the file.
+bool has_format(const std::string& name);
+
+/// Whether files may refer to files outside their folder (references.h).
+bool allows_external();
+
+struct OpenRequest {
+    const char* const* formats = nullptr; ///< as format_names()
+    const char* const* options = nullptr;
+    const char* const* siblings = nullptr;
+    unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+};
+/// Opens a file unless its references (references.h) or its sizes are refused: over 10,000 bands,
+/// or over 256 MB that GDAL holds at once to read any sample of it, its overviews or its masks.
+/// Null if GDAL cannot open it.
+Result<Dataset> open_checked(const std::string& name, const OpenRequest& request);
+
+} // namespace reljef::io

@@ -1,0 +1,210 @@
+#include "engine/io/raster/references.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/terrain_file.h"
+#include "tests/io/made_raster.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::io {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+namespace fs = std::filesystem;
+
+/// The text of a virtual raster of 8 by 8 samples; its source may have `attributes`.
+std::string virtual_raster(const std::string& source, const std::string& attributes) {
+    return fmt::format(R"(<VRTDataset rasterXSize="8" rasterYSize="8">)"
+                       R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource>)"
+                       R"(<SourceFilename {}>{}</SourceFilename></SimpleSource></VRTRasterBand>)"
+                       "</VRTDataset>",
+                       attributes, source);
+}
+constexpr const char* beside = R"(relativeToVRT="1")";
+
+/// A folder with a raster in it, and one outside.
+class References : public ::testing::Test {
+protected:
+    References() {
+        fs::create_directories(inside_ / "sub");
+        for (const fs::path& path : {outside_, inside_ / "a.tif", inside_ / "sub" / "a.tif"}) {
+            EXPECT_TRUE(
+                test::write(test::made_raster(8, 8, [](int col, int) { return col; }), path));
+        }
+    }
+    ~References() override { allow_external(false); }
+    References(const References&) = delete;
+    References& operator=(const References&) = delete;
+
+    [[nodiscard]] fs::path write(const std::string& name, const std::string& text) const {
+        return folder_.write("inside/" + name, text);
+    }
+    /// The error of reading all samples; empty: none.
+    [[nodiscard]] static std::string error_of(const fs::path& path) {
+        const auto terrain = read_terrain(path);
+        return terrain ? "" : terrain.error().message;
+    }
+    [[nodiscard]] std::string error_of_source(const std::string& source,
+                                              const std::string& attributes = beside) const {
+        return error_of(write("a.vrt", virtual_raster(source, attributes)));
+    }
+
+    test::TemporaryFolder folder_;
+    fs::path outside_ = folder_.path() / "outside.tif";
+    fs::path inside_ = folder_.path() / "inside";
+};
+
+TEST_F(References, AVirtualRasterReadsWhatIsInOrBelowItsFolder) {
+    EXPECT_EQ(error_of_source("a.tif"), "");
+    EXPECT_EQ(error_of_source("sub/a.tif"), "");
+    EXPECT_EQ(error_of_source("sub/../a.tif"), "");
+    EXPECT_EQ(error_of_source((inside_ / "sub" / "a.tif").string()), "");
+    EXPECT_EQ(error_of_source((inside_ / "a.tif").string(), ""), "");
+}
+
+TEST_F(References, AVirtualRasterReadsNothingOutsideItsFolder) {
+    fs::create_symlink(outside_, inside_ / "link.tif");
+    fs::create_directory_symlink(folder_.path(), inside_ / "up");
+    const std::string archive = "/vsizip/" + outside_.string();
+    for (const std::string& source :
+         {outside_.string(), std::string("../outside.tif"), std::string("sub/../../outside.tif"),
+          std::string("link.tif"), std::string("up/outside.tif"), archive,
+          std::string("/vsicurl/http://127.0.0.1:9/a.tif"), std::string("http://127.0.0.1:9/a.tif"),
+          std::string("/vsistdin/"), "GTIFF_DIR:1:" + outside_.string(),
+          "vrt://" + outside_.string(), std::string("&lt;VRTDataset/&gt;"),
+          std::string("MEM:::DATAPOINTER=1,PIXELS=8,LINES=8")}) {
+        for (const char* const attributes : {"", beside}) {
+            EXPECT_THAT(error_of_source(source, attributes),
+                        StartsWith((inside_ / "a.vrt").string() + ": refers to "))
+                << source;
+        }
+    }
+}
+
+TEST_F(References, ANameThatMeansAnotherFileToGdalIsRefused) {
+    // Beside the file of this very name, GDAL reads directory 1 of another.
+    fs::create_directories(inside_ / ("GTIFF_DIR:1:" + folder_.path().string().substr(1)));
+    fs::copy_file(outside_, inside_ / ("GTIFF_DIR:1:" + outside_.string().substr(1)));
+    EXPECT_THAT(error_of_source("GTIFF_DIR:1:" + outside_.string().substr(1)),
+                HasSubstr("refers to"));
+}
+
+TEST_F(References, AllNamesOfAVirtualRasterAreChecked) {
+    const std::string inner = virtual_raster("../../outside.tif", beside);
+    EXPECT_TRUE(fs::exists(write("sub/inner.vrt", inner)));
+    EXPECT_THAT(error_of_source("sub/inner.vrt"), HasSubstr("refers to ../../outside.tif"));
+
+    const std::string outside = outside_.string();
+    for (const std::string& element :
+         {"<Overview><SourceFilename>" + outside + "</SourceFilename></Overview>",
+          "<GDALWarpOptions><SourceDataset>" + outside + "</SourceDataset></GDALWarpOptions>",
+          "<RPCTransformer><DEMPath>" + outside + "</DEMPath></RPCTransformer>",
+          R"(<Metadata domain="OVERVIEWS"><MDI key="OVERVIEW_FILE">)" + outside +
+              "</MDI></Metadata>",
+          R"(<Metadata domain="GEOLOCATION"><MDI key="X_DATASET">)" + outside + "</MDI></Metadata>",
+          R"(<OpenOptions><OOI key="ROOT_PATH">)" + folder_.path().string() +
+              "</OOI></OpenOptions>"}) {
+        const fs::path path = write("b.vrt", R"(<VRTDataset rasterXSize="8" rasterYSize="8">)" +
+                                                 element + "</VRTDataset>");
+        EXPECT_THAT(error_of(path), HasSubstr("refers to " + folder_.path().string())) << element;
+    }
+}
+
+TEST_F(References, RawBytesAndProgramsOfAVirtualRasterAreRefused) {
+    const fs::path raw =
+        write("raw.vrt", R"(<VRTDataset rasterXSize="8" rasterYSize="8">)"
+                         R"(<VRTRasterBand dataType="Byte" band="1" subClass="VRTRawRasterBand">)"
+                         R"(<SourceFilename relativeToVRT="1">a.tif</SourceFilename>)"
+                         "<PixelOffset>2000000000</PixelOffset></VRTRasterBand></VRTDataset>");
+    EXPECT_THAT(error_of(raw), HasSubstr("raw bytes"));
+    const fs::path program =
+        write("python.vrt",
+              R"(<VRTDataset rasterXSize="8" rasterYSize="8">)"
+              R"(<VRTRasterBand dataType="Float32" band="1" subClass="VRTDerivedRasterBand">)"
+              "<PixelFunctionType>f</PixelFunctionType>"
+              "<PixelFunctionLanguage>Python</PixelFunctionLanguage><PixelFunctionCode>"
+              "def f(*a, **k): open('" +
+                  (folder_.path() / "ran").string() +
+                  "', 'w')</PixelFunctionCode><SimpleSource>"
+                  R"(<SourceFilename relativeToVRT="1">a.tif</SourceFilename></SimpleSource>)"
+                  "</VRTRasterBand></VRTDataset>");
+    EXPECT_NE(error_of(program), "");
+    EXPECT_FALSE(fs::exists(folder_.path() / "ran"));
+}
+
+TEST_F(References, SidecarFilesLeadNowhereElse) {
+    for (const char* const extension : {".ovr", ".msk", ".aux.xml"}) {
+        const fs::path sidecar = inside_ / (std::string("a.tif") + extension);
+        fs::create_symlink(outside_, sidecar);
+        EXPECT_THAT(error_of(inside_ / "a.tif"), HasSubstr("refers to")) << extension;
+        fs::remove(sidecar);
+    }
+    const fs::path overview = write("a.tif.ovr", virtual_raster("../outside.tif", beside));
+    const GdalMessages messages;
+    const auto raster = open_raster(inside_ / "a.tif", messages);
+    EXPECT_TRUE(!raster || (*raster)->GetRasterBand(1)->GetOverviewCount() == 0);
+    fs::remove(overview);
+    static_cast<void>(write(
+        "a.tif.aux.xml", R"(<PAMDataset><Metadata domain="OVERVIEWS"><MDI key="OVERVIEW_FILE">)" +
+                             outside_.string() + "</MDI></Metadata></PAMDataset>"));
+    EXPECT_THAT(error_of(inside_ / "a.tif"), HasSubstr("refers to " + outside_.string()));
+}
+
+TEST_F(References, AMemberOfAnArchiveStaysInTheArchive) {
+    const fs::path path = inside_ / "a.zip";
+    ASSERT_TRUE(test::add_to_zip(path, "a.vrt", virtual_raster("in.tif", beside)));
+    ASSERT_TRUE(test::add_to_zip(path, "b.vrt", virtual_raster(outside_.string(), beside)));
+    ASSERT_TRUE(test::add_to_zip(path, "c.vrt", virtual_raster("../../outside.tif", beside)));
+    ASSERT_TRUE(test::add_to_zip(path, "in.tif", test::read_bytes(outside_)));
+    EXPECT_EQ(error_of(path), "");
+    for (const char* const name : {"/b.vrt", "/c.vrt"}) {
+        const std::string member = "/vsizip/{" + path.string() + "}" + name;
+        EXPECT_THAT(error_of(member), StartsWith(member + ": refers to"));
+    }
+}
+
+TEST_F(References, ALinkThatTheUserNamesIsTheFileItself) {
+    const fs::path path = write("a.vrt", virtual_raster("a.tif", beside));
+    const fs::path link = folder_.path() / "link.vrt";
+    fs::create_symlink(path, link);
+    EXPECT_EQ(error_of(link), "");
+    fs::create_symlink(inside_ / "a.tif", folder_.path() / "link.tif");
+    EXPECT_EQ(error_of(folder_.path() / "link.tif"), "");
+}
+
+TEST_F(References, AllowExternalLiftsThis) {
+    allow_external(true);
+    EXPECT_EQ(error_of_source("../outside.tif"), "");
+    allow_external(false);
+    EXPECT_THAT(error_of_source("../outside.tif"), HasSubstr("--allow-external"));
+}
+
+TEST_F(References, OtherVirtualFileSystemsAreRefused) {
+    for (const std::string name : {"/vsizip/a.zip", "/vsigzip/a.gz", "/vsitar/a.tar/b.tif",
+                                   "/vsicurl/http://host/a", "/vsis3/b/a", "a.tif", "a/vsi.tif"}) {
+        EXPECT_TRUE(check_typed_name(name)) << name;
+    }
+    for (const std::string name : {"/vsistdin/", "/vsisubfile/8,a.tif", "/vsizip//vsistdin/",
+                                   "/vsimem/a.tif", "/vsicrypt/a", "<VRTDataset>/a.tif"}) {
+        EXPECT_FALSE(check_typed_name(name)) << name;
+        EXPECT_THAT(error_of(name), StartsWith(name + ": ")) << name;
+    }
+}
+
+TEST_F(References, AFileThatNamesServersIsNoRaster) {
+    const std::string text = "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://127.0.0.1:9/${z}"
+                             "</ServerUrl></Service><DataWindow><SizeX>8</SizeX><SizeY>8</SizeY>"
+                             "</DataWindow></GDAL_WMS>";
+    EXPECT_THAT(error_of(write("a.xml", text)), HasSubstr("cannot be opened"));
+    EXPECT_NE(error_of_source("a.xml"), "");
+}
+
+} // namespace
+} // namespace reljef::io
