@@ -3,6 +3,7 @@
 
 #include "tests/app/command_line.h"
 #include "tests/support/release_only.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
 namespace reljef {
@@ -62,6 +63,22 @@ TEST(InfoCommand, the_gallery_names_its_models_and_their_tiles) {
     const auto text = test::reljef({"info", "gallery", "--textures", "rock"});
     ASSERT_EQ(text.exit_code, 0) << text.err;
     EXPECT_NE(text.out.find("torus, with the detail texture rock"), std::string::npos);
+}
+
+TEST(InfoCommand, AVirtualRasterReadsNothingOutsideItsFolderUnlessAllowed) {
+    const test::TemporaryFolder folder;
+    folder.write("dem.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 30\n1 2\n3 4\n");
+    const std::string path =
+        folder
+            .write("sub/a.vrt", R"(<VRTDataset rasterXSize="2" rasterYSize="2"><VRTRasterBand )"
+                                R"(dataType="Float32" band="1"><SimpleSource><SourceFilename )"
+                                R"(relativeToVRT="1">../dem.asc</SourceFilename></SimpleSource>)"
+                                "</VRTRasterBand></VRTDataset>")
+            .string();
+    test::expect_refusal(test::reljef({"info", path}), 1, {path, "../dem.asc", "--allow-external"});
+    test::expect_refusal(test::reljef({"height", path, "--at", "1,1"}), 1, {"--allow-external"});
+    const auto allowed = test::reljef({"info", path, "--allow-external"});
+    EXPECT_EQ(allowed.exit_code, 0) << allowed.err;
 }
 
 } // namespace

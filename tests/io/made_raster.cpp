@@ -116,6 +116,15 @@ bool write(const MadeRaster& raster, const std::filesystem::path& path) {
     return copy != nullptr;
 }
 
+bool write(const SparseTiff& tiff, const std::filesystem::path& path) {
+    std::vector<std::string> texts = tiff.options;
+    texts.insert(texts.end(), {"SPARSE_OK=TRUE", "COMPRESS=DEFLATE"});
+    CPLStringList options = list_of(texts);
+    const Dataset made(driver("GTiff")->Create(path.c_str(), tiff.cols, tiff.rows, tiff.bands,
+                                               GDT_Byte, options.List()));
+    return made != nullptr;
+}
+
 bool add_to_zip(const std::filesystem::path& archive, const std::string& member,
                 const std::string& bytes) {
     const std::string name = "/vsizip/" + archive.string() + "/" + member;

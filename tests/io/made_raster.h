@@ -55,6 +55,15 @@ template <class Value> MadeRaster made_raster(int cols, int rows, const Value& v
 /// Writes it; false where GDAL cannot.
 bool write(const MadeRaster& raster, const std::filesystem::path& path);
 
+struct SparseTiff {
+    int cols = 0;
+    int rows = 0;
+    int bands = 1;
+    std::vector<std::string> options; ///< of GDAL, beside the sparse blocks
+};
+/// Writes a TIFF of bytes without any stored block.
+bool write(const SparseTiff& tiff, const std::filesystem::path& path);
+
 /// Adds a member to a .zip, which is made if it does not exist.
 bool add_to_zip(const std::filesystem::path& archive, const std::string& member,
                 const std::string& bytes);

@@ -16,7 +16,6 @@
 namespace reljef::io {
 namespace {
 
-constexpr std::size_t max_block_bytes = std::size_t{1} << 28;
 // A picture a day for 27 years. GDAL keeps about a kilobyte for each band.
 constexpr int max_bands = 10'000;
 constexpr const char* external_option = "RELJEF_ALLOW_EXTERNAL";
@@ -131,8 +130,9 @@ Result<void> check_sizes(GDALDataset& dataset, const std::string& name) {
 Result<void> check_opened(GDALDataset& dataset, const std::string& name) {
     auto good = check_named_files(dataset);
     good = good ? check_sizes(dataset, name) : good;
-    const bool is_virtual = EQUAL(dataset.GetDriver()->GetDescription(), "VRT");
-    return good && !is_virtual ? check_parts(dataset) : good;
+    // Of the formats, it alone lists parts of any name.
+    const bool has_parts = EQUAL(dataset.GetDriver()->GetDescription(), "HFA");
+    return good && has_parts ? check_parts(dataset) : good;
 }
 
 /// Opens what the formats open, checked; stops GDAL from trying its other drivers.
@@ -144,6 +144,7 @@ GDALDataset* open_in_front(GDALOpenInfo* info) {
     OpenRequest request;
     request.formats = names.List();
     request.options = info->papszOpenOptions;
+    request.siblings = info->AreSiblingFilesLoaded() ? info->GetSiblingFiles() : nullptr;
     request.flags = static_cast<unsigned>(info->nOpenFlags);
     auto dataset = open_checked(info->pszFilename, request);
     if (!dataset) {

@@ -10,6 +10,9 @@
 
 namespace reljef::io {
 
+/// The most that GDAL may hold at once to read any sample of a file: 256 MB.
+inline constexpr std::size_t max_block_bytes = std::size_t{1} << 28;
+
 /// The formats that reljef reads, and a driver in front of them: every file that GDAL opens, as a
 /// source of a virtual raster, an overview, a mask or a web tile, too, is checked as by
 /// open_checked. Call once.
@@ -32,7 +35,7 @@ struct OpenRequest {
     unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
 };
 /// Opens a file unless its references (references.h) or its sizes are refused: over 10,000 bands,
-/// or over 256 MB that GDAL holds at once to read any sample of it, its overviews or its masks.
+/// or blocks of over max_block_bytes in it, its overviews or its masks.
 /// Null if GDAL cannot open it.
 Result<Dataset> open_checked(const std::string& name, const OpenRequest& request);
 

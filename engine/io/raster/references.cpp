@@ -74,6 +74,10 @@ public:
 
     [[nodiscard]] const fs::path& base() const { return base_; }
 
+    [[nodiscard]] fs::path resolved(const std::string& text, bool is_relative_to_file) const {
+        return is_relative_to_file ? base_ / text : fs::path(text);
+    }
+
     /// Whether a name in the file, as GDAL resolves it, stays inside.
     [[nodiscard]] bool has(const std::string& text, bool is_relative_to_file) {
         const bool is_absolute = text.starts_with('/');
@@ -130,6 +134,10 @@ bool is_virtual_raster(const std::string& name) {
     return head.find("<VRTDataset") != std::string::npos;
 }
 
+bool is_relative(const CPLXMLNode* node) {
+    return std::atoi(CPLGetXMLValue(node, "relativeToVRT", "0")) != 0;
+}
+
 /// Walks the text of a virtual raster. GDAL's parser limits its depth to 1024.
 class NameCheck {
 public:
@@ -165,14 +173,51 @@ private:
         const bool is_name = std::any_of(names.begin(), names.end(), equals(node->pszValue)) ||
                              std::any_of(keys.begin(), keys.end(), equals(key));
         const std::string text = is_name ? CPLGetXMLValue(node, "", "") : "";
-        const bool is_relative = std::atoi(CPLGetXMLValue(node, "relativeToVRT", "0")) != 0;
-        return !is_name || scope_.has(text, is_relative) ? Result<void>()
-                                                         : outside(name_, text, scope_);
+        return !is_name || scope_.has(text, is_relative(node)) ? Result<void>()
+                                                               : outside(name_, text, scope_);
     }
 
     const std::string& name_;
     Scope scope_;
 };
+
+/// GDAL warps block by block, and holds all samples of the source that a block may need at once:
+/// about the block's share of the source.
+Result<void> check_warp(const std::string& name, const CPLXMLNode* text) {
+    const CPLXMLNode* const root = CPLSearchXMLNode(text, "VRTDataset");
+    const CPLXMLNode* const source = CPLSearchXMLNode(root, "SourceDataset");
+    if (source == nullptr) {
+        return {};
+    }
+    CPLStringList options; // the level of the source's overviews
+    const CPLXMLNode* const list = CPLSearchXMLNode(root, "OpenOptions");
+    for (const CPLXMLNode* node = list != nullptr ? list->psChild : nullptr; node != nullptr;
+         node = node->psNext) {
+        options.SetNameValue(CPLGetXMLValue(node, "key", ""), CPLGetXMLValue(node, "", ""));
+    }
+    const Dataset dataset(GDALDataset::Open(
+        Scope(name).resolved(CPLGetXMLValue(source, "", ""), is_relative(source)).c_str(),
+        GDAL_OF_RASTER, nullptr, options.List()));
+    if (dataset == nullptr || dataset->GetRasterCount() == 0) {
+        return {}; // nothing will be read
+    }
+    const auto number = [root](const char* key, const char* otherwise) {
+        return std::max(1.0, CPLAtof(CPLGetXMLValue(root, key, otherwise)));
+    };
+    const double share = std::min(1.0, number("BlockXSize", "512") / number("rasterXSize", "1")) *
+                         std::min(1.0, number("BlockYSize", "128") / number("rasterYSize", "1"));
+    const double samples =
+        share * dataset->GetRasterXSize() * dataset->GetRasterYSize() * dataset->GetRasterCount();
+    const double bytes =
+        samples * GDALGetDataTypeSizeBytes(dataset->GetRasterBand(1)->GetRasterDataType());
+    if (bytes > static_cast<double>(max_block_bytes)) {
+        return Error{fmt::format("{}: reprojects {} of its source at once, at most {} were "
+                                 "expected",
+                                 name, size_text(bytes),
+                                 size_text(static_cast<double>(max_block_bytes)))};
+    }
+    return {};
+}
 
 Result<void> check_virtual_raster(const std::string& name) {
     VSIStatBufL status{};
@@ -182,7 +227,8 @@ Result<void> check_virtual_raster(const std::string& name) {
                                  name, status.st_size, max_virtual_raster_bytes)};
     }
     const CPLXMLTreeCloser text(CPLParseXMLFile(name.c_str()));
-    return NameCheck(name).check(text.get());
+    auto good = NameCheck(name).check(text.get());
+    return good ? check_warp(name, text.get()) : good;
 }
 
 Result<void> check_sidecar_links(const std::string& name) {

@@ -18,7 +18,8 @@ namespace reljef::io {
 Result<void> check_typed_name(const std::string& name);
 
 /// To call before GDAL opens `name`. Fails if it is a virtual raster that names anything outside
-/// its folder, or describes raw bytes, or if a sidecar file is a link that leads outside.
+/// its folder, describes raw bytes, or reprojects over max_block_bytes at once, or if a sidecar
+/// file is a link that leads outside.
 Result<void> check_references(const std::string& name);
 
 /// To call when `dataset` is open, before anything else of it is read. Fails if its metadata names

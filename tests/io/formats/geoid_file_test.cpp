@@ -68,5 +68,17 @@ TEST(GeoidFile, WhatIsNoGeoidIsAnErrorThatNamesTheFile) {
     EXPECT_FALSE(read_geoid(folder.write("text.gtx", "nothing")));
 }
 
+TEST(GeoidFile, ASparseFileThatClaimsFourGigabytesAsksForNoMemory) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.write(
+        "a.vrt", R"(<VRTDataset rasterXSize="32768" rasterYSize="32768"><SRS>EPSG:4326</SRS>)"
+                 "<GeoTransform>0, 0.01, 0, 90, 0, -0.005</GeoTransform>"
+                 R"(<VRTRasterBand dataType="Byte" band="1"/></VRTDataset>)");
+    const auto geoid = read_geoid(path);
+    ASSERT_FALSE(geoid);
+    EXPECT_NE(geoid.error().message.find("has 32768×32768 samples"), std::string::npos)
+        << geoid.error().message;
+}
+
 } // namespace
 } // namespace reljef::io

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/io/image/channels.h"
+#include "tests/io/made_raster.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -149,6 +151,28 @@ TEST(ImageFile, AHeaderThatClaimsMoreThanItCanHoldIsRefused) {
     ASSERT_FALSE(image);
     EXPECT_THAT(image.error().message, HasSubstr("100000×100000"));
     EXPECT_FALSE(read_image(folder.write("b.ppm", "P6\n0 0\n255\nabcdef")));
+}
+
+TEST(ImageFile, ManyChannelsAskForNoMemory) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(test::write(test::SparseTiff{1200, 1200, 1000, {"INTERLEAVE=PIXEL"}},
+                            folder.path() / "a.tif"));
+    const auto image = read_image(folder.path() / "a.tif");
+    ASSERT_FALSE(image);
+    EXPECT_THAT(image.error().message, HasSubstr("1000 channels, which take 1.4 GB"));
+    const auto channels = read_channels(folder.path() / "a.tif");
+    ASSERT_FALSE(channels);
+    EXPECT_THAT(channels.error().message, HasSubstr("1000 channels"));
+}
+
+TEST(ImageFile, ChannelsOfALargePictureAskForNoMemory) {
+    const test::TemporaryFolder folder;
+    // 12,000² pixels of RGB may be a picture, but take 1.7 GB as floats.
+    std::string bytes = "P6\n12000 12000\n255\n";
+    bytes.resize(80'000);
+    const auto channels = read_channels(folder.write("a.ppm", bytes));
+    ASSERT_FALSE(channels);
+    EXPECT_THAT(channels.error().message, HasSubstr("at most 268435456 values were expected"));
 }
 
 TEST(ImageFile, GreyAndDeepPicturesBecomeEightBits) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/raster/raster.h"
+#include "engine/io/raster/references.h"
 #include "engine/io/terrain_file.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
@@ -17,28 +18,11 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-struct SparseTiff {
-    int cols = 0;
-    int rows = 0;
-    int bands = 1;
-    std::vector<std::string> options; ///< of GDAL, beside the sparse blocks
-};
-
 class GdalDrivers : public ::testing::Test {
 protected:
-    /// A TIFF without any stored block.
-    [[nodiscard]] fs::path sparse(const std::string& name, const SparseTiff& tiff) const {
-        register_drivers();
-        CPLStringList options;
-        add_options(options, {"SPARSE_OK=TRUE", "COMPRESS=DEFLATE"});
-        for (const std::string& option : tiff.options) {
-            options.AddString(option.c_str());
-        }
-        const fs::path path = folder_.path() / name;
-        const Dataset made(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-            path.c_str(), tiff.cols, tiff.rows, tiff.bands, GDT_Byte, options.List()));
-        EXPECT_NE(made, nullptr);
-        return path;
+    [[nodiscard]] fs::path sparse(const std::string& name, const test::SparseTiff& tiff) const {
+        EXPECT_TRUE(test::write(tiff, folder_.path() / name));
+        return folder_.path() / name;
     }
     [[nodiscard]] static std::string error_of(const fs::path& path) {
         const auto terrain = read_terrain(path);
@@ -123,6 +107,22 @@ TEST_F(GdalDrivers, APictureThatIsReadWholeIsCheckedByItsSize) {
     put32(sides);
     webp.resize(68, '\0');
     EXPECT_THAT(error_of(folder_.write("a.webp", webp)), HasSubstr("read whole"));
+}
+
+TEST_F(GdalDrivers, AReprojectionThatReadsAllOfItsSourceAsksForNoMemory) {
+    static_cast<void>(sparse("a.tif", {65536, 65536, 1, {"TILED=YES"}}));
+    const auto warped = [&](int side) {
+        return folder_.write(
+            "a.vrt",
+            fmt::format(R"(<VRTDataset rasterXSize="{0}" rasterYSize="{0}" )"
+                        R"(subClass="VRTWarpedDataset"><VRTRasterBand dataType="Byte" band="1" )"
+                        R"(subClass="VRTWarpedRasterBand"/><BlockXSize>128</BlockXSize>)"
+                        R"(<BlockYSize>128</BlockYSize><GDALWarpOptions><SourceDataset )"
+                        R"(relativeToVRT="1">a.tif</SourceDataset></GDALWarpOptions></VRTDataset>)",
+                        side));
+    };
+    EXPECT_THAT(error_of(warped(128)), HasSubstr("reprojects 4.3 GB of its source at once"));
+    EXPECT_TRUE(check_references(warped(65536).string()));
 }
 
 TEST_F(GdalDrivers, FormatsThatAreNotListedAreRefused) {
