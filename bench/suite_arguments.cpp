@@ -47,6 +47,7 @@ SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm:
     return options;
 }
 
+// Without --allow-external: results can be repeated only with files that hold all of their data.
 void add_terrains_option(CLI::App& command, std::vector<std::string>& terrains,
                          const std::string& default_text, bool with_gallery) {
     command

@@ -184,13 +184,13 @@ private:
 /// GDAL warps block by block, and holds all samples of the source that a block may need at once:
 /// about the block's share of the source.
 Result<void> check_warp(const std::string& name, const CPLXMLNode* text) {
-    const CPLXMLNode* const root = CPLSearchXMLNode(text, "VRTDataset");
-    const CPLXMLNode* const source = CPLSearchXMLNode(root, "SourceDataset");
+    const CPLXMLNode* const root = CPLGetXMLNode(text, "=VRTDataset");
+    const CPLXMLNode* const source = CPLGetXMLNode(root, "GDALWarpOptions.SourceDataset");
     if (source == nullptr) {
         return {};
     }
     CPLStringList options; // the level of the source's overviews
-    const CPLXMLNode* const list = CPLSearchXMLNode(root, "OpenOptions");
+    const CPLXMLNode* const list = CPLGetXMLNode(root, "GDALWarpOptions.OpenOptions");
     for (const CPLXMLNode* node = list != nullptr ? list->psChild : nullptr; node != nullptr;
          node = node->psNext) {
         options.SetNameValue(CPLGetXMLValue(node, "key", ""), CPLGetXMLValue(node, "", ""));
