@@ -82,7 +82,10 @@ public:
 private:
     static std::size_t count(int cols, int rows) {
         check(cols >= 0 && rows >= 0, "grid of a negative size");
-        return static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows);
+        const auto samples =
+            checked_product(static_cast<std::size_t>(cols), static_cast<std::size_t>(rows));
+        check(samples && checked_product(*samples, sizeof(T)), "grid larger than any memory");
+        return *samples;
     }
     [[nodiscard]] std::size_t index(int col, int row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) +

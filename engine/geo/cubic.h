@@ -1,8 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "engine/core/check.h"
 
 namespace reljef::geo {
 
@@ -27,11 +28,9 @@ inline Cubic cubic_from(double position, int first) {
     return cubic;
 }
 
-/// From the nearest four of `points` control points.
+/// From the nearest four of `points` control points; NaN gives weights of NaN.
 inline Cubic cubic_at(double position, int points) {
-    const double last = static_cast<double>(points) - 4.0;
-    return cubic_from(position,
-                      static_cast<int>(std::clamp(std::floor(position) - 1.0, 0.0, last)));
+    return cubic_from(position, clamped_int(std::floor(position) - 1.0, 0, points - 4));
 }
 
 } // namespace reljef::geo

@@ -149,6 +149,9 @@ Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const 
         const glm::dvec3 miss = desired.at - value.at;
         const glm::dmat2 jacobian(glm::dot(value.by_col, first), glm::dot(value.by_col, second),
                                   glm::dot(value.by_row, first), glm::dot(value.by_row, second));
+        if (glm::determinant(jacobian) == 0.0) {
+            break;
+        }
         const glm::dvec2 step =
             glm::inverse(jacobian) * glm::dvec2(glm::dot(miss, first), glm::dot(miss, second));
         sample += step;

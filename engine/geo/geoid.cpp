@@ -23,21 +23,23 @@ public:
     UndulationGrid(Grid<float> undulation, glm::dvec2 first, glm::dvec2 step)
         : undulation_(std::move(undulation)), first_(first), step_(step) {
         const double turn = std::abs(360.0 / step.y);
-        around_ = undulation_.cols() >= turn - rounding ? static_cast<int>(std::lround(turn)) : 0;
+        around_ = undulation_.cols() >= turn - rounding
+                      ? clamped_int(std::round(turn), 0, undulation_.cols())
+                      : 0;
     }
 
     [[nodiscard]] double at(double latitude, double longitude) const {
         const double down = (latitude - first_.x) / step_.x;
         const double across = column_of(longitude);
-        const double last = undulation_.cols() - 1.0;
-        const bool beside = around_ == 0 && !(across >= -rounding && across <= last + rounding);
+        const double last = around_ > 0 ? std::abs(360.0 / step_.y) : undulation_.cols() - 1.0;
+        const bool beside = !(across >= -rounding && across <= last + rounding);
         if (beside || !(down >= -rounding && down <= undulation_.rows() - 1.0 + rounding)) {
             return unknown;
         }
         const Cubic rows = cubic_at(down, undulation_.rows());
-        const Cubic cols = around_ > 0
-                               ? cubic_from(across, static_cast<int>(std::floor(across)) - 1)
-                               : cubic_at(across, undulation_.cols());
+        const Cubic cols =
+            around_ > 0 ? cubic_from(across, clamped_int(std::floor(across), -1, around_) - 1)
+                        : cubic_at(across, undulation_.cols());
         return interpolated(cols, rows);
     }
 
@@ -76,6 +78,7 @@ Geoid::Geoid(std::string name, Grid<float> undulation, glm::dvec2 first, glm::dv
     : name_(std::move(name)) {
     check(undulation.cols() >= 4 && undulation.rows() >= 4, "Geoid needs 4×4 heights");
     check(step.x != 0.0 && step.y != 0.0, "Geoid needs a step");
+    check(std::isfinite(first.x + first.y + step.x + step.y), "Geoid needs a place");
     auto grid = std::make_shared<const UndulationGrid>(std::move(undulation), first, step);
     source_ = [grid](double latitude, double longitude) { return grid->at(latitude, longitude); };
 }

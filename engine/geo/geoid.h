@@ -16,7 +16,7 @@ class Geoid {
 public:
     /// `undulation(i, j)` in metres lies at latitude first.x + j·step.x, longitude
     /// first.y + i·step.y, in degrees. Four-point Lagrange interpolation, seamless for a global
-    /// grid. Preconditions: at least 4×4 heights, step not 0.
+    /// grid. Preconditions: at least 4×4 heights, `first` and `step` finite, step not 0.
     Geoid(std::string name, Grid<float> undulation, glm::dvec2 first, glm::dvec2 step);
 
     /// Reads a geoid file of GeographicLib (egm96-15.pgm, …); cubic interpolation.

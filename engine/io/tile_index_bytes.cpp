@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "engine/io/cache/fnv_hash.h"
+#include "engine/io/raster/georeferencing.h"
 #include "engine/io/tile_index.h"
 #include "engine/terrain/tree/tile_tree.h"
 
@@ -73,7 +74,8 @@ bool is_consistent(const TileIndex& index) {
     const int systems = static_cast<int>(index.crs.size());
     return std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
         return file.use != FileKind::heights ||
-               (file.crs >= 0 && file.crs < systems && std::min(file.cols, file.rows) >= 2 &&
+               (file.crs >= 0 && file.crs < systems && is_usable(file.crs_from_pixel) &&
+                std::min(file.cols, file.rows) >= 2 &&
                 std::max(file.cols, file.rows) <= terrain::max_tree_samples);
     });
 }

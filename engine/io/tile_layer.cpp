@@ -94,11 +94,12 @@ GrowingLayer layer_from(const PlacedFile& file, const IndexedFile& indexed) {
     return growing;
 }
 
-/// The number of columns if the layer spans 360 degrees; else 0.
+/// The number of columns if the layer spans 360 degrees; else 0. Two turns fit an int.
 int global_cols(const TileLayer& layer) {
     const double step = std::abs(layer.crs_from_lattice.x_col);
     const double miss = std::abs(layer.period / step - layer.cols);
-    return layer.period > 0.0 && layer.crs_from_lattice.x_row == 0.0 && miss <= same_phase
+    return layer.period > 0.0 && layer.crs_from_lattice.x_row == 0.0 && miss <= same_phase &&
+                   layer.cols < terrain::max_tree_samples / 2
                ? layer.cols
                : 0;
 }

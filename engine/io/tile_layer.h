@@ -124,7 +124,7 @@ inline geo::PixelAffine outer_affine_of(const TileGrid& grid) {
 double metres_between(glm::dvec2 a, glm::dvec2 b);
 
 /// Placed files of an index. Longitudes are continuous across the antimeridian, so that the set is
-/// as narrow as possible. Adds an error for each file without a position on Earth.
+/// as narrow as possible. Adds an error for each file without a sane position and scale on Earth.
 std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
                                     std::vector<FileError>& errors);
 

@@ -8,15 +8,22 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/io/raster/georeferencing.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::io {
 namespace {
+
+constexpr double max_turns = 2.0;  // of longitudes from the prime meridian
+constexpr double max_metres = 1e8; // from a projection's origin; eastings "60 500 000" name zone 60
+constexpr double max_ratio = 1e6;  // of spacings: a map of the Earth beside a scan of a stone
+constexpr double max_aspect = 1e4; // of samples; those in degrees reach it 0.006° from a pole
 
 /// A coordinate system of the index.
 struct IndexedCrs {
     OGRSpatialReference crs;
     std::string wkt; ///< of the first equal system
     double period = 0.0;
+    double max_coordinate = 0.0;
     std::optional<CrsTransform> to_degrees;
 };
 
@@ -30,7 +37,10 @@ std::vector<IndexedCrs> indexed_systems(const TileIndex& index) {
         const double period =
             crs.IsGeographic() != 0 ? 360.0 / glm::degrees(crs.GetAngularUnits()) : 0.0;
         const std::string first_wkt = same == systems.end() ? wkt : same->wkt;
-        systems.push_back({crs, first_wkt, period, CrsTransform::create(wkt, wgs84_degrees)});
+        const double max_coordinate =
+            period > 0.0 ? max_turns * period : max_metres / crs.GetLinearUnits();
+        systems.push_back(
+            {crs, first_wkt, period, max_coordinate, CrsTransform::create(wkt, wgs84_degrees)});
     }
     return systems;
 }
@@ -86,23 +96,87 @@ DegreeBox box_in_degrees(const PlacedFile& file, const IndexedFile& indexed,
     return box;
 }
 
-std::optional<PlacedFile> placed(int number, const IndexedFile& indexed, const IndexedCrs& crs) {
+/// The coordinate of an outermost sample that is farthest from the origin.
+double farthest_coordinate(const geo::PixelAffine& crs_from_sample, const IndexedFile& indexed) {
+    const glm::dvec2 last(indexed.cols - 1, indexed.rows - 1);
+    double farthest = 0.0;
+    for (const glm::dvec2 corner :
+         {glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0), glm::dvec2(1.0, 1.0)}) {
+        const glm::dvec2 point = crs_from_sample.crs_from_pixel(last * corner);
+        for (const double coordinate : {point.x, point.y}) {
+            farthest = std::abs(coordinate) > std::abs(farthest) ? coordinate : farthest;
+        }
+    }
+    return farthest;
+}
+
+bool fits(glm::dvec2 spacing) {
+    const auto [low, high] = std::minmax(spacing.x, spacing.y);
+    return low >= terrain::min_spacing && high <= terrain::max_spacing && high <= max_aspect * low;
+}
+
+Result<PlacedFile> placed(int number, const IndexedFile& indexed, const IndexedCrs& crs,
+                          const std::string& name) {
+    const Error nowhere{fmt::format("{}: lies where its coordinate system has no position on "
+                                    "Earth, a tile on Earth was expected",
+                                    name)};
     if (!crs.to_degrees) {
-        return std::nullopt;
+        return nowhere;
     }
     PlacedFile file;
     file.file = number;
     file.crs = crs.wkt;
     file.period = crs.period;
     file.crs_from_sample = at_sample_centres(indexed.crs_from_pixel);
+    const double farthest = farthest_coordinate(file.crs_from_sample, indexed);
+    if (!(std::abs(farthest) <= crs.max_coordinate)) {
+        return Error{fmt::format("{}: lies at coordinate {:.6g} of its coordinate system, {:.6g} "
+                                 "to {:.6g} were expected",
+                                 name, farthest, -crs.max_coordinate, crs.max_coordinate)};
+    }
     const auto points = degrees_of(file, indexed, *crs.to_degrees);
     if (!all_known(points)) {
-        return std::nullopt;
+        return nowhere;
     }
     file.box = box_in_degrees(file, indexed, std::span(points).first(outline_points));
     file.spacing = {metres_between(points[4], points[outline_points]),
                     metres_between(points[4], points[outline_points + 1])};
+    if (!fits(file.spacing)) {
+        return Error{fmt::format("{}: its samples are {:.4g} × {:.4g} m apart, {} to {} m, one at "
+                                 "most {} times the other, were expected",
+                                 name, file.spacing.x, file.spacing.y, terrain::min_spacing,
+                                 terrain::max_spacing, max_aspect)};
+    }
     return file;
+}
+
+double mean_spacing(const PlacedFile& file) {
+    return std::sqrt(file.spacing.x * file.spacing.y);
+}
+
+/// Leaves out files of another scale than most of the set; of two files, none is.
+void drop_other_scales(std::vector<PlacedFile>& files, const TileIndex& index,
+                       const std::filesystem::path& folder, std::vector<FileError>& errors) {
+    if (files.size() < 3) {
+        return;
+    }
+    std::vector<double> spacings(files.size());
+    std::transform(files.begin(), files.end(), spacings.begin(), mean_spacing);
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::nth_element(spacings.begin(), middle, spacings.end());
+    const double median = *middle;
+    const auto is_other = [&](const PlacedFile& file) {
+        const double ratio = mean_spacing(file) / median;
+        if (ratio <= max_ratio && ratio >= 1.0 / max_ratio) {
+            return false;
+        }
+        const auto path = folder / index.files[static_cast<std::size_t>(file.file)].path;
+        errors.push_back({path, fmt::format("{}: its samples are {:.4g} m apart, within a factor "
+                                            "of {} of the other tiles' {:.4g} m was expected",
+                                            path.string(), mean_spacing(file), max_ratio, median)});
+        return true;
+    };
+    files.erase(std::remove_if(files.begin(), files.end(), is_other), files.end());
 }
 
 /// The east end of the widest strip of longitudes without a tile.
@@ -165,15 +239,15 @@ std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesyste
         if (file.use != FileKind::heights) {
             continue;
         }
-        auto place = placed(static_cast<int>(i), file, systems[static_cast<std::size_t>(file.crs)]);
+        auto place = placed(static_cast<int>(i), file, systems[static_cast<std::size_t>(file.crs)],
+                            path.string());
         if (place) {
             files.push_back(std::move(*place));
         } else {
-            errors.push_back({path, fmt::format("{}: lies where its coordinate system has no "
-                                                "position on Earth, a tile on Earth was expected",
-                                                path.string())});
+            errors.push_back({path, place.error().message});
         }
     }
+    drop_other_scales(files, index, folder, errors);
     if (!files.empty()) {
         make_continuous(files, index.files);
     }

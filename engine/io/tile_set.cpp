@@ -31,7 +31,7 @@ PointBounds bounds_of_layers(std::span<const TileLayer> layers) {
 
 /// At most terrain::max_tree_samples; see grid_step.
 int count_of(double low, double high, double step) {
-    return static_cast<int>(std::floor((high - low) / step + near_sample)) + 1;
+    return clamped_int((high - low) / step + near_sample, 0, terrain::max_tree_samples - 1) + 1;
 }
 
 /// The finest step, or the smallest multiple with at most max_tree_samples along `extent`.

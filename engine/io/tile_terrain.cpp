@@ -29,7 +29,7 @@ double samples_of(const TileGrid& grid) {
 
 /// The smallest divisor of `around` in [reduction, 2·reduction]; else `reduction`.
 int dividing_reduction(int around, int reduction) {
-    for (int divisor = reduction; divisor <= 2 * reduction; ++divisor) {
+    for (int divisor = reduction; divisor - reduction <= reduction; ++divisor) {
         if (around % divisor == 0) {
             return divisor;
         }
@@ -41,8 +41,11 @@ int dividing_reduction(int around, int reduction) {
 Result<int> fitting_reduction(const TileGrid& grid, int around, const std::string& name,
                               std::size_t budget) {
     const double max_samples = static_cast<double>(budget) / bytes_per_sample;
-    int reduction = std::max(1, static_cast<int>(std::sqrt(samples_of(grid) / max_samples)));
-    while (samples_of(TileSet::reduced(grid, reduction)) > max_samples) {
+    // The smallest that makes one sample of all.
+    const int max_reduction = std::max(grid.cols, grid.rows);
+    int reduction = clamped_int(std::sqrt(samples_of(grid) / max_samples), 1, max_reduction);
+    while (reduction < max_reduction &&
+           samples_of(TileSet::reduced(grid, reduction)) > max_samples) {
         ++reduction;
     }
     reduction = dividing_reduction(around, reduction);

@@ -11,6 +11,11 @@
 namespace reljef::io {
 namespace {
 
+constexpr int max_reduction = 1'000'000;
+// Of a window, 17 bytes each, and up to 16 values of 8 bytes: 32 cells for each sample of the
+// largest grid, 512 a side, as where steps of a degree are narrow near a pole.
+constexpr double max_cells = 1 << 23;
+
 /// The samples of a grid on a layer's lattice.
 class LayerPoints {
 public:
@@ -90,20 +95,23 @@ int reduction_for(const LayerPoints& points, const TileGrid& grid) {
     const double across = glm::distance(points.at(col + (col + 1 < grid.cols ? 1 : -1), row), at);
     const double down = glm::distance(points.at(col, row + (row + 1 < grid.rows ? 1 : -1)), at);
     const double step = std::min(across, down);
-    return step >= 2.0 - near_sample ? static_cast<int>(std::min(step + near_sample, 1e6)) : 1;
+    return clamped_int(step + near_sample, 1, max_reduction);
 }
 
-/// The layer's cells that a grid needs; may be empty.
-CellWindow window_for(const LayerPoints& points, const TileGrid& grid, const TileLayer& layer) {
+/// First lattice point of the cell of a grid's first sample, modulo cells.
+int anchor_of(double first, int reduction) {
+    const double begin = first - 0.5 * (reduction - 1);
+    const double anchor = std::round(begin - reduction * std::floor(begin / reduction));
+    return clamped_int(anchor, 0, reduction); // beyond for points so far away that digits are lost
+}
+
+/// The layer's cells that a grid needs; may be empty. Cells lie within the layer, by one cell.
+CellWindow window_with(int reduction, const LayerPoints& points, const PointBounds& bounds,
+                       const TileLayer& layer) {
     CellWindow window;
-    window.reduction = reduction_for(points, grid);
-    const glm::dvec2 begin = points.at(0, 0) - 0.5 * (window.reduction - 1);
-    const glm::dvec2 anchor = begin - static_cast<double>(window.reduction) *
-                                          glm::floor(begin / static_cast<double>(window.reduction));
-    window.anchor = glm::all(glm::lessThan(glm::abs(anchor), glm::dvec2(1e9)))
-                        ? glm::ivec2(glm::round(anchor))
-                        : glm::ivec2(0);
-    const PointBounds bounds = points.bounds();
+    window.reduction = reduction;
+    const glm::dvec2 begin = points.at(0, 0);
+    window.anchor = {anchor_of(begin.x, reduction), anchor_of(begin.y, reduction)};
     const glm::dvec2 first = window.cell_from_lattice(glm::dvec2(0.0)) - 1.0;
     const glm::dvec2 last =
         window.cell_from_lattice(glm::dvec2(layer.cols - 1, layer.rows - 1)) + 1.0;
@@ -113,6 +121,18 @@ CellWindow window_for(const LayerPoints& points, const TileGrid& grid, const Til
         glm::min(glm::ceil(window.cell_from_lattice(bounds.high)), glm::ceil(last));
     if (low.x <= high.x && low.y <= high.y) {
         window.set_range(low, high);
+    }
+    return window;
+}
+
+/// As window_with; cells grow until they fit max_cells.
+CellWindow window_for(const LayerPoints& points, const TileGrid& grid, const TileLayer& layer) {
+    const PointBounds bounds = points.bounds();
+    int reduction = reduction_for(points, grid);
+    CellWindow window = window_with(reduction, points, bounds, layer);
+    while (static_cast<double>(window.cols) * window.rows > max_cells) {
+        reduction *= 2;
+        window = window_with(reduction, points, bounds, layer);
     }
     return window;
 }

@@ -1,5 +1,6 @@
 #include "engine/core/grid.h"
 
+#include <array>
 #include <climits>
 #include <numeric>
 
@@ -90,6 +91,14 @@ TEST(GridDeathTest, WindowOutsideAborts) {
 TEST(GridDeathTest, NegativeSizeAborts) {
     EXPECT_DEATH(Grid<int>(-1, 2), "grid of a negative size");
     EXPECT_DEATH(Grid<int>(2, -1), "grid of a negative size");
+}
+
+TEST(GridDeathTest, OfMoreSamplesThanAnyMemoryAborts) {
+    struct Wide {
+        std::array<char, 64> bytes;
+    };
+    EXPECT_EXIT(Grid<Wide>(INT_MAX, INT_MAX), testing::KilledBySignal(SIGABRT),
+                "grid larger than any memory");
 }
 
 } // namespace

@@ -82,5 +82,26 @@ TEST(Geoid, AFileThatIsNoneIsAnErrorInOneSentence) {
     EXPECT_FALSE(Geoid::read_pgm(folder.path() / "absent.pgm"));
 }
 
+TEST(Geoid, OfAnyPlaceGivesAHeightOfItsGridOrNone) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    std::uniform_int_distribution<int> sides(4, 40);
+    const auto any = [&](double digits) {
+        return std::copysign(std::pow(10.0, digits * unit(random)), unit(random));
+    };
+    int known = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const double digits = i % 2 == 0 ? 300.0 : 2.5;
+        const Geoid geoid("any", Grid<float>(sides(random), sides(random), 1.0F),
+                          {any(digits), any(digits)}, {any(digits), any(digits)});
+        for (int j = 0; j < 4; ++j) {
+            const double found = geoid.undulation(90.0 * unit(random), 540.0 * unit(random));
+            ASSERT_TRUE(std::isnan(found) || std::abs(found - 1.0) < 1e-9) << found;
+            known += std::isnan(found) ? 0 : 1;
+        }
+    }
+    EXPECT_GT(known, 100);
+}
+
 } // namespace
 } // namespace reljef::geo

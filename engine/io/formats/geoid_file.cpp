@@ -23,10 +23,27 @@ constexpr float max_undulation = 150.0F; // metres; the Earth has -107 to 86
 // EGM2008 at 1′ has 21,600 by 10,801 samples, which take 0.9 GB as floats.
 constexpr int max_geoid_side = 1 << 15;
 constexpr double max_geoid_samples = 1 << 28;
+constexpr double max_longitude = 720.0; // degrees; two turns either way
+constexpr double min_geoid_step = 1e-6; // degrees; 0.1 m
 
 Result<geo::Geoid> unfit(const std::string& name, const std::string& found) {
     return Error{
         fmt::format("{}: {}, a geoid's heights on a grid of degrees were expected", name, found)};
+}
+
+/// The latitudes and longitudes of a raster's outermost samples if they are not on Earth or one.
+std::optional<std::string> misplaced(const geo::PixelAffine& affine, GDALRasterBand& band) {
+    const glm::dvec2 first = affine.crs_from_pixel(glm::dvec2(0.5));
+    const glm::dvec2 last =
+        affine.crs_from_pixel(glm::dvec2(band.GetXSize(), band.GetYSize()) - 0.5);
+    constexpr double rounding = 1e-6; // degrees
+    const double latitude = std::max(std::abs(first.y), std::abs(last.y));
+    const double longitude = std::max(std::abs(first.x), std::abs(last.x));
+    const double step = std::min(std::abs(affine.x_col), std::abs(affine.y_row));
+    return latitude <= 90.0 + rounding && longitude <= max_longitude && step >= min_geoid_step
+               ? std::nullopt
+               : std::optional(fmt::format("lies between {:.6g},{:.6g} and {:.6g},{:.6g}", first.y,
+                                           first.x, last.y, last.x));
 }
 
 std::optional<Grid<float>> undulation_of(GDALRasterBand& band) {
@@ -58,6 +75,9 @@ Result<geo::Geoid> read_geoid(const fs::path& path) {
     if (!dataset) {
         return dataset.error();
     }
+    if (auto good = check_affine(**dataset, name); !good) {
+        return good.error();
+    }
     std::vector<std::string> ignored;
     const auto affine = affine_of(**dataset);
     const auto crs = horizontal_crs(**dataset, ignored);
@@ -70,6 +90,9 @@ Result<geo::Geoid> read_geoid(const fs::path& path) {
         band.GetYSize() > max_geoid_side ||
         static_cast<double>(band.GetXSize()) * band.GetYSize() > max_geoid_samples) {
         return unfit(name, fmt::format("has {}×{} samples", band.GetXSize(), band.GetYSize()));
+    }
+    if (const auto found = misplaced(*affine, band)) {
+        return unfit(name, *found);
     }
     auto undulation = undulation_of(band);
     if (!undulation) {

@@ -154,7 +154,8 @@ glm::ivec2 target_size(const SampleGrid& grid, const CommonSpace& space, glm::dv
     const double pixels = std::max(whole - used, whole * min_budget_share) / bytes_per_pixel;
     const double shrink = std::min({1.0, max_image_side / std::max(desired.x, desired.y),
                                     std::sqrt(pixels / (desired.x * desired.y))});
-    return glm::ivec2(glm::max(glm::floor(desired * shrink + 1e-6), 2.0));
+    const glm::dvec2 size = desired * shrink + 1e-6;
+    return {clamped_int(size.x, 2, max_image_side), clamped_int(size.y, 2, max_image_side)};
 }
 
 /// Units of x in the common space; 0 if it is not in degrees.

@@ -19,6 +19,7 @@ namespace reljef::io {
 namespace {
 
 constexpr double max_crs_coordinate = 1e12; // any unit
+constexpr double min_area = 1e-6;           // of a pixel over that of a rectangle with its sides
 constexpr double wgs84_radius = 6378137.0;
 constexpr double near_pole = 85.0; // degrees
 constexpr double tolerated_distortion = 0.01;
@@ -279,14 +280,23 @@ std::string vertical_datum_of(GDALDataset& dataset) {
     return is_egm96 ? "EGM96 height" : "";
 }
 
+bool is_usable(const geo::PixelAffine& affine) {
+    const std::array numbers{affine.x0, affine.x_col, affine.x_row,
+                             affine.y0, affine.y_col, affine.y_row};
+    const double area = affine.x_col * affine.y_row - affine.x_row * affine.y_col;
+    const double rectangle =
+        std::hypot(affine.x_col, affine.y_col) * std::hypot(affine.x_row, affine.y_row);
+    return std::abs(area) > min_area * rectangle &&
+           std::all_of(numbers.begin(), numbers.end(),
+                       [](double v) { return std::abs(v) <= max_crs_coordinate; });
+}
+
 Result<void> check_affine(GDALDataset& dataset, const std::string& name) {
     std::array<double, 6> t{};
     if (dataset.GetGeoTransform(t.data()) != CE_None) {
         return {};
     }
-    const bool within =
-        std::all_of(t.begin(), t.end(), [](double v) { return std::abs(v) <= max_crs_coordinate; });
-    if (within && t[1] * t[5] - t[2] * t[4] != 0.0) {
+    if (is_usable({t[0], t[1], t[2], t[3], t[4], t[5]})) {
         return {};
     }
     return Error{fmt::format("{}: its geotransform is {}, numbers of at most {} and pixels with an "

@@ -22,7 +22,10 @@ std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset);
 bool place_raster(GDALDataset& dataset, const geo::PixelAffine& affine,
                   const OGRSpatialReference* crs);
 
-/// Fails for a geotransform that is not finite or has no area.
+/// Whether an affine is finite and its pixels are no needles.
+bool is_usable(const geo::PixelAffine& affine);
+
+/// Fails for a geotransform that is not usable.
 Result<void> check_affine(GDALDataset& dataset, const std::string& name);
 
 /// The horizontal part of a raster's CRS, x east and y north; absent without a CRS. Assumes WGS 84

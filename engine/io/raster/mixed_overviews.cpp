@@ -97,12 +97,14 @@ std::vector<Suspect> suspects_in(const Grid<double>& values, const Grid<double>&
 /// The full-resolution samples behind an overview sample, and half as many around them.
 RasterOptions::Window covered_by(const Suspect& suspect, GDALRasterBand& band,
                                  GDALRasterBand& overview) {
-    const auto side = [](int at, int full, int reduced) {
-        const int step = std::max(1, (full + reduced - 1) / reduced); // rounded up
-        const int begin = static_cast<int>(static_cast<std::int64_t>(at) * full / reduced);
-        const int first = std::clamp(begin - step / 2, 0, full - 1);
-        const int end = std::clamp(begin + step + step / 2 + 1, first + 1, full);
-        return std::pair{first, std::min(end - first, max_suspect_samples)};
+    // A raster may have 2^31 - 1 columns.
+    const auto side = [](std::int64_t at, std::int64_t full, std::int64_t reduced) {
+        const std::int64_t step = std::max<std::int64_t>(1, (full + reduced - 1) / reduced);
+        const std::int64_t begin = at * full / reduced;
+        const std::int64_t first = std::clamp<std::int64_t>(begin - step / 2, 0, full - 1);
+        const std::int64_t end = std::clamp(begin + step + step / 2 + 1, first + 1, full);
+        return std::pair{static_cast<int>(first), static_cast<int>(std::min<std::int64_t>(
+                                                      end - first, max_suspect_samples))};
     };
     const auto [col, cols] = side(suspect.col, band.GetXSize(), overview.GetXSize());
     const auto [row, rows] = side(suspect.row, band.GetYSize(), overview.GetYSize());

@@ -110,8 +110,7 @@ int samples_to_divide(GDALDataset& dataset, const Window& window) {
 std::optional<int> around_on(const Level& level, int around) {
     const double samples = around / level.scale.x;
     const double whole = std::round(samples);
-    return std::abs(samples - whole) <= near_whole ? std::optional(static_cast<int>(whole))
-                                                   : std::nullopt;
+    return std::abs(samples - whole) <= near_whole ? checked_int(whole) : std::nullopt;
 }
 
 /// `plan`, or that of the coarsest overview with nearly its resolution.

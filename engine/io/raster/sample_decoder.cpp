@@ -231,7 +231,7 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
         } else if (kind_ == ValueKind::color) {
             first[i] = of_color(value, others[i], others[first.size() + i]);
         } else if (kind_ == ValueKind::palette) {
-            const auto index = static_cast<std::size_t>(std::clamp(value, 0.0, 255.0));
+            const auto index = static_cast<std::size_t>(clamped_int(value, 0, 255));
             first[i] = nodata_ == value ? void_value : bounded(scale_ * palette_[index] + offset_);
         } else {
             first[i] = metres(value);

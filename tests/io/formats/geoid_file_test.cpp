@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/io/made_raster.h"
@@ -68,6 +69,7 @@ TEST(GeoidFile, WhatIsNoGeoidIsAnErrorThatNamesTheFile) {
     EXPECT_FALSE(read_geoid(folder.write("text.gtx", "nothing")));
 }
 
+<<<<<<< HEAD
 TEST(GeoidFile, ASparseFileThatClaimsFourGigabytesAsksForNoMemory) {
     const test::TemporaryFolder folder;
     const auto path = folder.write(
@@ -78,6 +80,47 @@ TEST(GeoidFile, ASparseFileThatClaimsFourGigabytesAsksForNoMemory) {
     ASSERT_FALSE(geoid);
     EXPECT_NE(geoid.error().message.find("has 32768×32768 samples"), std::string::npos)
         << geoid.error().message;
+=======
+TEST(GeoidFile, OfANonsensePlaceOrSizeIsAnErrorThatNamesTheFile) {
+    const test::TemporaryFolder folder;
+    const test::QuietGdal quiet;
+    struct Wrong {
+        int cols, rows;
+        const char* affine;
+    };
+    for (const Wrong& wrong :
+         {Wrong{8, 8, "1e300,1,0,40,0,-1"}, Wrong{8, 8, "nan,1,0,40,0,-1"},
+          Wrong{8, 8, "0,inf,0,40,0,-1"}, Wrong{8, 8, "0,1e-300,0,40,0,-1"},
+          Wrong{8, 8, "0,0,0,40,0,0"}, Wrong{8, 8, "1e9,1,0,40,0,-1"},
+          Wrong{8, 8, "0,1e9,0,40,0,-1"}, Wrong{8, 8, "0,1,0,95,0,-1"},
+          Wrong{8, 8, "0,1,0,40,0,-30"}, Wrong{2147483647, 4, "0,1,0,40,0,-1"},
+          Wrong{2147483647, 2147483647, "0,1e-9,0,40,0,-1e-9"}, Wrong{3, 3, "0,1,0,40,0,-1"}}) {
+        const auto path = folder.write(
+            "wrong.vrt",
+            fmt::format("<VRTDataset rasterXSize=\"{}\" rasterYSize=\"{}\">"
+                        "<SRS>EPSG:4326</SRS><GeoTransform>{}</GeoTransform>"
+                        "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>",
+                        wrong.cols, wrong.rows, wrong.affine));
+        const auto geoid = read_geoid(path);
+        ASSERT_FALSE(geoid) << wrong.affine;
+        EXPECT_EQ(geoid.error().message.rfind(path.string() + ": ", 0), 0U);
+        EXPECT_NE(geoid.error().message.find("expected"), std::string::npos);
+    }
+}
+
+TEST(GeoidFile, OfGeographicLibWithANonsenseHeaderIsAnErrorThatNamesTheFile) {
+    const test::TemporaryFolder folder;
+    for (const char* header :
+         {"2147483646 2147483645\n65535\n", "99999999999999999999 181\n65535\n",
+          "-360 181\n65535\n", "0 0\n65535\n", "360 181\n7\n", "360 181\n65535\nshort",
+          "nan nan\n"}) {
+        const auto path =
+            folder.write("egm.pgm", std::string("P5\n# Offset -108\n# Scale 0.003\n") + header);
+        const auto geoid = read_geoid(path);
+        ASSERT_FALSE(geoid) << header;
+        EXPECT_NE(geoid.error().message.find("egm.pgm: cannot be read"), std::string::npos);
+    }
+>>>>>>> 10d9de8 (A tile with a nonsense place or size is left out of a folder and named; numbers from files become integers by checked functions)
 }
 
 } // namespace

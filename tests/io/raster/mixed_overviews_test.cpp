@@ -173,5 +173,20 @@ TEST_F(MixedOverviews, AFolderTellsOfVoidsThatItsFilesDoNotDeclare) {
     EXPECT_TRUE(tiles->take_new_notes().empty()) << "each is told once";
 }
 
+TEST_F(MixedOverviews, OfTwoToThe31ColumnsOverflowNothing) {
+    MadeRaster small = raster_with_holes(-32768.0);
+    small.geotransform.reset();
+    ASSERT_TRUE(test::write(small, folder_.path() / "small.tif"));
+    const auto path = folder_.write(
+        "wide.vrt",
+        "<VRTDataset rasterXSize=\"2147483647\" rasterYSize=\"2147483647\"><VRTRasterBand "
+        "dataType=\"Int16\" band=\"1\"><Overview><SourceFilename relativeToVRT=\"1\">small.tif"
+        "</SourceFilename><SourceBand>1</SourceBand></Overview></VRTRasterBand></VRTDataset>");
+    const GdalMessages messages;
+    const auto dataset = open_raster(path, messages);
+    ASSERT_TRUE(dataset) << dataset.error().message;
+    EXPECT_EQ(overviews_mix_voids(**dataset, path), false); // all its samples are 0
+}
+
 } // namespace
 } // namespace reljef::io
