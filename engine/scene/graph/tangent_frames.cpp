@@ -34,6 +34,9 @@ Gradients gradients_of(const Mesh& mesh, std::size_t first) {
     const auto [corner, p, q, coordinate, s, t] = triangle_edges(mesh, first);
     const double area = glm::length(glm::cross(p, q));
     const double determinant = s.x * t.y - t.x * s.y;
+    if (determinant == 0.0) {
+        return {};
+    }
     const glm::dvec3 along_u = (t.y * p - s.y * q) / determinant;
     const glm::dvec3 along_v = (s.x * q - t.x * p) / determinant;
     const glm::dvec2 metres(glm::length(along_u), glm::length(along_v));

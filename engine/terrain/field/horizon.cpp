@@ -73,7 +73,8 @@ SeenBox seen_from(glm::dvec3 eye, const Box& box) {
         farthest = std::max(farthest, glm::length(corner));
     }
     const double top = box.high.z - eye.z;
-    seen.slope = top > 0.0 ? top / seen.nearest : top / farthest;
+    const double distance = top > 0.0 ? seen.nearest : farthest;
+    seen.slope = distance > 0.0 ? top / distance : std::numeric_limits<double>::infinity();
     return seen;
 }
 

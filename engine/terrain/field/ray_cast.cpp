@@ -40,7 +40,8 @@ public:
         : heights_(heights), pyramid_(pyramid), ray_(ray), side_(side),
           level_(pyramid.levels() - 1) {
         for (int axis = 0; axis < 2; ++axis) {
-            inverse_[axis] = 1.0 / ray.direction[axis];
+            const double along = ray.direction[axis];
+            inverse_[axis] = along != 0.0 ? 1.0 / along : 0.0;
             if (!std::isfinite(inverse_[axis])) {
                 inverse_[axis] = 0.0;
             }
