@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fcntl.h>
@@ -139,7 +140,7 @@ bool leaks() {
     std::array<char, 4096> part{};
     ::lseek(report, 0, SEEK_SET);
     for (ssize_t count = 0; (count = ::read(report, part.data(), part.size())) > 0;) {
-        static_cast<void>(::write(STDERR_FILENO, part.data(), static_cast<std::size_t>(count)));
+        std::ignore = ::write(STDERR_FILENO, part.data(), static_cast<std::size_t>(count));
     }
     return true;
 }
@@ -175,7 +176,7 @@ bool leaks() {
 }
 
 void answer(int file, Answer what) {
-    static_cast<void>(::write(file, &what, sizeof what));
+    std::ignore = ::write(file, &what, sizeof what);
 }
 
 // Starts the program and stays until it ends.
