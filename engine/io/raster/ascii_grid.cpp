@@ -18,12 +18,15 @@ namespace {
 
 constexpr std::size_t bytes_at_a_time = std::size_t{1} << 20;
 
+bool is_nan(std::string_view word) {
+    return word == "nan" || word == "NaN" || word == "NAN";
+}
+
 /// Whether a word cannot start a number.
 bool is_name(std::string_view word) {
     const bool begins_with_letter =
         !word.empty() && ((word[0] >= 'a' && word[0] <= 'z') || (word[0] >= 'A' && word[0] <= 'Z'));
-    return begins_with_letter && word != "nan" && word != "NaN" && word != "NAN" && word != "inf" &&
-           word != "Inf";
+    return begins_with_letter && !is_nan(word) && word != "inf" && word != "Inf";
 }
 
 /// Counts the words of a text in pieces, without its header of names with one value each.
@@ -39,7 +42,14 @@ public:
             }
         }
     }
-    [[nodiscard]] std::uint64_t values() const { return values_ + (length_ > 0 ? 1 : 0); }
+    /// Ends the last word.
+    void finish() {
+        if (length_ > 0) {
+            end_word();
+        }
+    }
+    [[nodiscard]] std::uint64_t values() const { return values_; }
+    [[nodiscard]] bool has_nan() const { return has_nan_; }
 
 private:
     void end_word() {
@@ -51,6 +61,7 @@ private:
         in_header_ = in_header_ && is_name(word);
         value_follows_ = in_header_;
         values_ += in_header_ ? 0 : 1;
+        has_nan_ = has_nan_ || (!in_header_ && is_nan(word));
     }
 
     std::array<char, 8> word_start_{};
@@ -58,6 +69,7 @@ private:
     bool in_header_ = true;
     bool value_follows_ = false;
     std::uint64_t values_ = 0;
+    bool has_nan_ = false;
 };
 
 bool is_ascii_grid(GDALDataset& dataset) {
@@ -67,7 +79,7 @@ bool is_ascii_grid(GDALDataset& dataset) {
 }
 
 /// Stops at `enough` values.
-std::uint64_t count_values(const char* name, std::uint64_t enough) {
+ValueCount count_values(const char* name, std::uint64_t enough) {
     const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(name, "rb"), &VSIFCloseL);
     ValueCount count;
     std::vector<char> piece(bytes_at_a_time);
@@ -76,19 +88,21 @@ std::uint64_t count_values(const char* name, std::uint64_t enough) {
         read = VSIFReadL(piece.data(), 1, piece.size(), file.get());
         count.add({piece.data(), read});
     }
-    return count.values();
+    count.finish();
+    return count;
 }
 
-Result<void> check_is_whole(GDALDataset& dataset, const std::filesystem::path& path) {
+/// Whether some of the values are nan.
+Result<bool> check_is_whole(GDALDataset& dataset, const std::filesystem::path& path) {
     const int cols = dataset.GetRasterXSize();
     const int rows = dataset.GetRasterYSize();
     const auto expected = static_cast<std::uint64_t>(cols) * static_cast<std::uint64_t>(rows);
-    const std::uint64_t found = count_values(dataset.GetDescription(), expected);
-    if (found < expected) {
+    const ValueCount found = count_values(dataset.GetDescription(), expected);
+    if (found.values() < expected) {
         return Error{fmt::format("{}: cannot be read: {} values found, {}×{} were expected",
-                                 path.string(), found, cols, rows)};
+                                 path.string(), found.values(), cols, rows)};
     }
-    return {};
+    return found.has_nan();
 }
 
 } // namespace
@@ -100,8 +114,16 @@ Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
         return dataset.error();
     }
     if (is_ascii_grid(**dataset)) {
-        if (auto whole = check_is_whole(**dataset, path); !whole) {
-            return whole.error();
+        const auto has_nan = check_is_whole(**dataset, path);
+        if (!has_nan) {
+            return has_nan.error();
+        }
+        // GDAL guesses the type from the first values; whole numbers have no NaN.
+        const GDALDataType type = (*dataset)->GetRasterBand(1)->GetRasterDataType();
+        if (*has_nan && GDALDataTypeIsInteger(type) != 0) {
+            dataset = open_with_floats(path, messages);
+            return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), {}})
+                           : dataset.error();
         }
     }
     const auto mixed = overviews_mix_voids(**dataset, path);

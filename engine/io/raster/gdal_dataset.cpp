@@ -232,4 +232,9 @@ Result<Dataset> open_without_overviews(const fs::path& path, const GdalMessages&
     return open_with(path, messages, options.data());
 }
 
+Result<Dataset> open_with_floats(const fs::path& path, const GdalMessages& messages) {
+    constexpr std::array<const char*, 2> options{"DATATYPE=Float64", nullptr};
+    return open_with(path, messages, options.data());
+}
+
 } // namespace reljef::io

@@ -62,6 +62,8 @@ Result<Dataset> open_raster(const std::filesystem::path& path, const GdalMessage
 /// Ignores overviews.
 Result<Dataset> open_without_overviews(const std::filesystem::path& path,
                                        const GdalMessages& messages);
+/// Reads an ASCII grid of whole numbers as floating-point numbers.
+Result<Dataset> open_with_floats(const std::filesystem::path& path, const GdalMessages& messages);
 
 /// Registers formats (gdal_drivers.h) once and limits GDAL's block cache to 256 MB. Thread-safe.
 void register_drivers();

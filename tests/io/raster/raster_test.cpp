@@ -177,6 +177,16 @@ TEST_F(Raster, UndeclaredVoidsAreFoundAndTold) {
     }
 }
 
+TEST_F(Raster, NanInAnAsciiGridOfWholeNumbersIsAVoid) {
+    const auto terrain = read_terrain(folder_.write(
+        "nan.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3\n4 nan 6"));
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    EXPECT_EQ(terrain->heightfield.void_count, 1U);
+    EXPECT_EQ(terrain->heightfield.void_mask(1, 1), 1);
+    EXPECT_EQ(terrain->heightfield.heights(2, 1), 6.0F);
+    EXPECT_EQ(terrain->heightfield.range.low, 1.0);
+}
+
 TEST_F(Raster, HeightsThatNothingHasAreVoids) {
     MadeRaster raster = made_raster(20, 20, wave);
     raster.values[3] = -3.4028234663852886e38;
