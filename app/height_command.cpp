@@ -85,11 +85,16 @@ void print_answers(std::span<const std::string_view> texts,
     }
 }
 
+// The only file of a terrain fails with its own sentence.
+bool is_whole_terrain(const io::FileError& error, const cli::TerrainChoice& choice) {
+    return error.file == choice.terrain;
+}
+
 void keep_errors(std::vector<io::FileError> found, const cli::TerrainChoice& choice,
                  std::vector<io::FileError>& errors) {
     for (io::FileError& error : found) {
         if (std::find(errors.begin(), errors.end(), error) == errors.end()) {
-            if (!choice.quiet) {
+            if (!choice.quiet && !is_whole_terrain(error, choice)) {
                 cli::write_stderr(fmt::format("reljef: left out: {}\n", error.message));
             }
             errors.push_back(std::move(error));
@@ -178,7 +183,9 @@ Result<void> print_heights(const HeightChoice& choice, const cli::Interrupt& int
             return printed;
         }
     }
-    return session::report_errors(choice.terrain.terrain, errors.size());
+    return !errors.empty() && is_whole_terrain(errors.front(), choice.terrain)
+               ? Error{errors.front().message}
+               : session::report_errors(choice.terrain.terrain, errors.size());
 }
 
 } // namespace

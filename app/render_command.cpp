@@ -9,6 +9,7 @@
 #include "app/cli/lifted_frames.h"
 #include "app/cli/options.h"
 #include "app/cli/output_files.h"
+#include "app/cli/parsed_option.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/standard_input.h"
 #include "app/cli/usage_error.h"
@@ -375,9 +376,8 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
          {"--wireframe", "--context", "--technique", "--shader-dir", "--detail", "--samples"}) {
         truth->excludes(arguments->get_option(option));
     }
-    arguments->add_option("--rays", choice->rays, "with --truth: N x N rays per pixel, 1 to 16 (1)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 16))
+    cli::add_parsed(*arguments, "--rays", choice->rays, cli::number_in<int>("--rays", 1, 16),
+                    "with --truth: N x N rays per pixel, 1 to 16 (1)", "N")
         ->needs(truth);
     arguments->add_flag(
         "--stats", choice->stats,

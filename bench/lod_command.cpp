@@ -104,21 +104,19 @@ Result<void> run_lod_command(LodChoice choice, const CLI::App& command,
 }
 
 void add_lod_options(CLI::App& command, LodChoice& choice) {
-    command
-        .add_option("--poses", choice.poses,
+    cli::add_parsed(command, "--poses", choice.poses, cli::number_in<int>("--poses", 1, 1'000'000),
                     "instead of the tables: check --max-error at the pixels of N random views, "
                     "shared among the terrains, and check 0.25, 0.5, 1, 2 and 4 pixels along two "
-                    "camera paths over each terrain")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1'000'000));
+                    "camera paths over each terrain",
+                    "N");
     command.add_flag("--growth", choice.scaling,
                      "instead of the tables: the same terrain with 1024, 4096 and 16384 samples a "
                      "side, written to temporary files and viewed within --memory");
     command.add_flag("--selection", choice.selection,
                      "instead of the tables: time to select the visible ones of 10,000 tiles");
-    command.add_option("--memory", choice.memory_megabytes, "memory budget of --growth, MB (512)")
-        ->type_name("MB")
-        ->check(CLI::Range(1, 1'000'000));
+    cli::add_parsed(command, "--memory", choice.memory_megabytes,
+                    cli::number_in<int>("--memory", 1, 1'000'000),
+                    "memory budget of --growth, MB (512)", "MB");
     cli::add_parsed(command, "--max-error", choice.error,
                     cli::number_in("--max-error", view::min_error, view::max_error),
                     "error bound of --poses and --growth, pixels (1)", "PX");

@@ -99,6 +99,12 @@ const Command& Parser::parse(std::span<char*> texts) {
         }
     }
     check_verb(texts);
+    const std::string_view first_text = texts[0];
+    const bool is_alone = wants_help || first_text == "-V" || first_text == "--version";
+    if (is_alone && texts.size() > 1) {
+        throw CLI::ValidationError(
+            fmt::format("'{}' found after '{}', nothing was expected there", texts[1], first_text));
+    }
     std::vector<std::string> reversed(texts.rbegin(), texts.rend());
     if (wants_help) {
         reversed = {"--help", texts[0]};

@@ -16,6 +16,7 @@
 
 #include "app/cli/message.h"
 #include "app/cli/parser.h"
+#include "app/cli/usage_error.h"
 
 namespace reljef::cli {
 namespace {
@@ -69,7 +70,7 @@ int explain(const Program& program, const CLI::App& parser, const CLI::ParseErro
         parser.exit(error);
         return std::cout.flush() ? done : report_lost_output(program);
     }
-    return usage_error(program, error.what());
+    return usage_error(program, usage_text(error));
 }
 
 int run_command(const Program& program, const Command& command, const Interrupt& interrupt) {

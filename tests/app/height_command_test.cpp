@@ -44,6 +44,19 @@ TEST_F(HeightCommand, outside_is_an_error) {
     test::expect_refusal(test::reljef({"height", dem_, "--quiet", "--at", "50,10"}), 1, {"50,10"});
 }
 
+TEST_F(HeightCommand, of_the_only_file_cut_short_is_one_sentence) {
+    std::string rows = "ncols 300\nnrows 300\nxllcenter 10\nyllcenter 40\ncellsize 0.001\n";
+    for (int i = 0; i < 300 * 200; ++i) {
+        rows += "17 ";
+    }
+    folder_.write("cut.prj", wgs84);
+    const std::string cut = folder_.write("cut.asc", rows).string();
+    const auto result = test::reljef({"height", cut, "--at", "40.01,10.01"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.err,
+              "reljef: " + cut + ": cannot be read: 60000 values found, 300×300 were expected\n");
+}
+
 TEST_F(HeightCommand, terrain_without_a_place_is_an_error) {
     test::expect_refusal(test::reljef({"height", "natural", "--at", "50,10"}), 1, {"natural"});
 }
