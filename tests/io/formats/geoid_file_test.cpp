@@ -69,7 +69,6 @@ TEST(GeoidFile, WhatIsNoGeoidIsAnErrorThatNamesTheFile) {
     EXPECT_FALSE(read_geoid(folder.write("text.gtx", "nothing")));
 }
 
-<<<<<<< HEAD
 TEST(GeoidFile, ASparseFileThatClaimsFourGigabytesAsksForNoMemory) {
     const test::TemporaryFolder folder;
     const auto path = folder.write(
@@ -80,7 +79,8 @@ TEST(GeoidFile, ASparseFileThatClaimsFourGigabytesAsksForNoMemory) {
     ASSERT_FALSE(geoid);
     EXPECT_NE(geoid.error().message.find("has 32768×32768 samples"), std::string::npos)
         << geoid.error().message;
-=======
+}
+
 TEST(GeoidFile, OfANonsensePlaceOrSizeIsAnErrorThatNamesTheFile) {
     const test::TemporaryFolder folder;
     const test::QuietGdal quiet;
@@ -120,7 +120,6 @@ TEST(GeoidFile, OfGeographicLibWithANonsenseHeaderIsAnErrorThatNamesTheFile) {
         ASSERT_FALSE(geoid) << header;
         EXPECT_NE(geoid.error().message.find("egm.pgm: cannot be read"), std::string::npos);
     }
->>>>>>> 10d9de8 (A tile with a nonsense place or size is left out of a folder and named; numbers from files become integers by checked functions)
 }
 
 } // namespace
