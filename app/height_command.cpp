@@ -117,8 +117,9 @@ bool is_inside(glm::dvec2 place, const geo::GeodeticArea& area) {
 
 // Places outside the area have no answer.
 io::TileSet::Heights heights_within(const session::HeightSource& source,
-                                    std::span<const glm::dvec2> places) {
-    auto found = source.tiles.heights(places);
+                                    std::span<const glm::dvec2> places,
+                                    const cli::Interrupt& interrupt) {
+    auto found = source.tiles.heights(places, interrupt.token());
     for (std::size_t i = 0; source.area && i < places.size(); ++i) {
         if (!is_inside(places[i], *source.area)) {
             found.answers[i] = {};
@@ -128,8 +129,11 @@ io::TileSet::Heights heights_within(const session::HeightSource& source,
 }
 
 Result<void> print_places(const HeightChoice& choice, const session::HeightSource& source,
-                          std::vector<io::FileError>& errors) {
-    auto found = heights_within(source, choice.places);
+                          const cli::Interrupt& interrupt, std::vector<io::FileError>& errors) {
+    auto found = heights_within(source, choice.places, interrupt);
+    if (interrupt.requested()) {
+        return Error{"interrupted"};
+    }
     keep_errors(std::move(found.errors), choice.terrain, errors);
     std::string out;
     for (std::size_t i = 0; i < choice.places.size(); ++i) {
@@ -157,10 +161,10 @@ Result<void> print_points(const HeightChoice& choice, const session::HeightSourc
         if (!read) {
             return read.error();
         }
+        auto heights = heights_within(source, read->places, interrupt);
         if (interrupt.requested()) {
             return Error{"interrupted"};
         }
-        auto heights = heights_within(source, read->places);
         print_answers(read->texts, heights.answers, static_cast<unsigned>(choice.terrain.threads));
         keep_errors(std::move(heights.errors), choice.terrain, errors);
     }
@@ -175,7 +179,7 @@ Result<void> print_heights(const HeightChoice& choice, const cli::Interrupt& int
     std::vector<io::FileError> errors;
     keep_errors({source->tiles.errors().begin(), source->tiles.errors().end()}, choice.terrain,
                 errors);
-    if (auto printed = print_places(choice, *source, errors); !printed) {
+    if (auto printed = print_places(choice, *source, interrupt, errors); !printed) {
         return printed;
     }
     if (!choice.points.empty()) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <cpl_vsi.h>
+#include "engine/io/remote/remote_files.h"
 
 namespace reljef::io {
 namespace {
@@ -16,11 +16,9 @@ DatasetPool::FileState state_of(const std::filesystem::path& path) {
             std::filesystem::file_size(path, ignored)};
 }
 
-// Clears GDAL's cache of a remote file, including "not found".
 void forget(const std::filesystem::path& path) {
     if (is_remote(path)) {
-        const std::string name = path.string();
-        VSICurlPartialClearCache((name.starts_with("/vsi") ? name : "/vsicurl/" + name).c_str());
+        forget_remote_file(path.string());
     }
 }
 

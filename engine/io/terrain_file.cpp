@@ -10,6 +10,7 @@
 #include "engine/io/raster/ascii_grid.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/sample_reader.h"
+#include "engine/io/remote/read_scope.h"
 
 namespace reljef::io {
 namespace {
@@ -83,6 +84,7 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
     if (auto good = check_options(options, name); !good) {
         return good.error();
     }
+    const ReadScope scope(options.stop);
     GdalMessages messages;
     auto raster = open_whole_raster(path, messages);
     if (!raster) {

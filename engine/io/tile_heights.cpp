@@ -9,6 +9,7 @@
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/globe.h"
 #include "engine/io/raster/sample_decoder.h"
+#include "engine/io/remote/read_scope.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {
@@ -329,11 +330,13 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
     if (requested.empty()) {
         return;
     }
+    const ReadScope scope(reading.options.stop);
     const auto points = lattice_points(layer, places, requested, threads);
     const Poles poles = poles_of(layer, points, reading, result.errors);
     const std::vector<Block> blocks = blocks_of(layer, poles.wrap, points);
     std::mutex mutex;
     const auto answer_block = [&](int number) {
+        const ReadScope scope(reading.options.stop);
         std::vector<FileError> errors;
         BlockHeights heights(layer, blocks[static_cast<std::size_t>(number)], points, reach, poles);
         heights.find(reading, errors, [&](int index, HeightSample answer) {
@@ -344,18 +347,19 @@ void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach
         result.errors.insert(result.errors.end(), errors.begin(), errors.end());
     };
     parallel_for(static_cast<int>(blocks.size()), answer_block,
-                 {.threads = threads, .stop = {}, .progress = {}});
+                 {.threads = threads, .stop = reading.options.stop, .progress = {}});
 }
 
 } // namespace
 
-TileSet::Heights TileSet::heights(std::span<const glm::dvec2> places) const {
+TileSet::Heights TileSet::heights(std::span<const glm::dvec2> places,
+                                  const std::stop_token& stop) const {
     Heights result;
     result.answers.resize(places.size());
     std::atomic<std::size_t> bytes_read{0};
     for (const Reach reach : {Reach::samples, Reach::half_a_cell}) {
         for (const TileLayer& layer : state_->layers) {
-            ask_layer(layer, places, reach, state_->reading(bytes_read, {}),
+            ask_layer(layer, places, reach, state_->reading(bytes_read, stop),
                       state_->options.threads, result);
         }
     }

@@ -17,6 +17,7 @@
 #include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/sample_decoder.h"
+#include "engine/io/remote/read_scope.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {
@@ -292,6 +293,7 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
     const TileIndex old = cached ? read_cache(cache_file(folder, options), notes) : TileIndex{};
     std::vector<std::optional<Described>> all(files->size());
     const auto describe = [&](int i) {
+        const ReadScope scope(options.stop);
         IndexedFile& file = (*files)[static_cast<std::size_t>(i)];
         auto same = find_unchanged(old, file);
         const fs::path path = folder / file.path;
@@ -314,6 +316,7 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
 Result<TileIndex> index_tiles(const fs::path& path, const TileSetOptions& options,
                               std::vector<std::string>& notes) {
     register_drivers();
+    const ReadScope scope(options.stop);
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
         return index_folder(path, options, notes);

@@ -113,8 +113,9 @@ public:
         std::size_t bytes_read = 0; ///< as in TileWindow
     };
     /// Bilinear full-resolution heights at (latitude, longitude) in degrees, from the best file of
-    /// each place.
-    [[nodiscard]] Heights heights(std::span<const glm::dvec2> places) const;
+    /// each place. Incomplete after a stop request.
+    [[nodiscard]] Heights heights(std::span<const glm::dvec2> places,
+                                  const std::stop_token& stop = {}) const;
 
     struct TerrainPlan {
         TileGrid grid;     ///< whole set, or its part in the area

@@ -9,6 +9,7 @@
 #include "engine/io/raster/globe.h"
 #include "engine/io/raster/sample_reader.h"
 #include "engine/io/raster/web_tiles.h"
+#include "engine/io/remote/read_scope.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {
@@ -178,6 +179,7 @@ Result<TileSet::TerrainPlan> TileSet::plan(const TileTerrainOptions& options) co
 }
 
 Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) const {
+    const ReadScope scope(options.raster.stop);
     const auto planned = plan(options);
     if (!planned) {
         return planned.error();

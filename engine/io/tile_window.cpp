@@ -6,6 +6,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/remote/read_scope.h"
 #include "engine/io/tile_set_state.h"
 
 namespace reljef::io {
@@ -274,6 +275,7 @@ bool may_meet(const std::string& grid_crs, const TileGrid& grid, const TileLayer
 
 TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) const {
     check(grid.cols >= 1 && grid.rows >= 1, "TileSet::read of an empty grid");
+    const ReadScope scope(stop);
     Grid<double> edges(grid.cols, grid.rows, std::numeric_limits<double>::quiet_NaN());
     TileWindow result{edges, {}, 0};
     const GdalMessages ignored_messages; // projections are undefined at some places

@@ -8,6 +8,7 @@
 #include "engine/io/formats/geoid_file.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/web_tiles.h"
+#include "engine/io/remote/read_scope.h"
 #include "engine/io/terrain_file.h"
 #include "engine/io/tree_tile.h"
 #include "engine/session/stream_source.h"
@@ -342,6 +343,7 @@ Result<TerrainSource> open_terrain(const SourceOptions& choice, Log& log,
 
 Result<TerrainSource> open_terrain(io::SceneDescription description, const SourceOptions& choice,
                                    Log& log, const std::stop_token& stop) {
+    const io::ReadScope scope(stop);
     if (choice.textures && description.generator != "gallery") {
         return usage_error(
             fmt::format("--textures: {} found, but only the gallery shows tiles, not {}; "
@@ -361,6 +363,7 @@ Result<TerrainSource> open_terrain(io::SceneDescription description, const Sourc
 }
 
 Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_token& stop) {
+    const io::ReadScope scope(stop);
     const auto description = describe(choice.terrain);
     if (!description) {
         return description.error();

@@ -79,6 +79,7 @@ const std::vector<Library>& guarded_libraries() {
     static const std::vector<Library> libraries{
         {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
         {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
+        {"libcurl", {"curl/"}, {"engine/io/remote/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
         {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},

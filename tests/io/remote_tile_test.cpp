@@ -3,7 +3,7 @@
 #include <atomic>
 #include <optional>
 
-#include <cpl_vsi.h>
+#include <cpl_conv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -90,7 +90,6 @@ TEST_F(RemoteTiles, AreFaultsWhileTheServerFailsAndThereOnceItHasRecovered) {
         const std::string name = "dem" + std::to_string(number++) + ".tif"; // nothing is cached
         std::filesystem::copy_file(folder_.path() / "dem.tif", folder_.path() / name);
         const TileSet tiles = open(server_->url(name));
-        VSICurlClearCache(); // as if it had not been asked for yet
         server_->serve_by(fault);
         expect_fault(tiles, name);
         server_->serve_by("");
@@ -102,8 +101,8 @@ TEST_F(RemoteTiles, AreFaultsWhereTheServerHangs) {
     RELJEF_RELEASE_ONLY("waits for seconds");
     CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "1"); // seconds
     const TileSet tiles = open(server_->url("dem.tif"));
-    server_->serve_by("limit_rate 1;"); // byte a second
-    expect_fault(tiles, "dem.tif");     // all of it would come within days
+    server_->serve_by("location = /dem.tif { limit_rate 1; }"); // byte a second
+    expect_fault(tiles, "dem.tif");                             // all of it would come within days
     CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "10");
 }
 

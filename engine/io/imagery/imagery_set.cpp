@@ -14,6 +14,7 @@
 #include "engine/io/imagery/rgb_image.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/georeferencing.h"
+#include "engine/io/remote/read_scope.h"
 #include "engine/io/tile_layer.h"
 
 namespace reljef::io {
@@ -213,12 +214,14 @@ struct ImagerySet::State {
 
 Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names,
                                     const std::string& crs, const ImagerySetOptions& options) {
+    const ReadScope scope(options.stop);
     std::vector<std::string> errors;
     const ImageFiles files = image_files(names, errors, options.stop);
     auto state = std::make_shared<State>(crs, files.white, options);
     std::vector<std::optional<ImageInfo>> found(files.paths.size());
     const auto inspect = [&](int i) {
         const auto index = static_cast<std::size_t>(i);
+        const ReadScope thread_scope(options.stop);
         const GdalMessages messages;
         const auto rgb = open_rgb(files.paths[index], files.white, crs, messages);
         found[index] = rgb ? image_info(files.paths[index], **rgb) : std::nullopt;
@@ -260,6 +263,7 @@ double ImagerySet::finest_pixel() const {
 
 ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
                                const std::stop_token& stop) const {
+    const ReadScope scope(stop);
     check(grid.cols >= 1 && grid.rows >= 1, "ImagerySet::read of an empty grid");
     ImageryWindow window{
         Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), state_->complete, false, {}};

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -18,7 +19,10 @@
 #include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/references.h"
+#include "engine/io/raster/web_tile_raster.h"
 #include "engine/io/raster/web_tiles.h"
+#include "engine/io/remote/read_scope.h"
+#include "engine/io/remote/remote_files.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -55,9 +59,6 @@ std::string raster_in_zip(const fs::path& path) {
 }
 
 Result<std::string> name_for_gdal(const fs::path& path) {
-    if (is_web_tiles(path)) {
-        return web_tiles_description(path);
-    }
     if (is_remote(path)) {
         const std::string name = path.string();
         return name.starts_with("/vsi") ? name : "/vsicurl/" + name;
@@ -100,12 +101,25 @@ void set_default(const char* option, const char* value) {
     }
 }
 
+/// The format of a readable file on a server that may not be opened there.
+std::optional<std::string> other_format(const std::string& name) {
+    constexpr std::array<const char*, 1> no_siblings{nullptr};
+    CPLStringList formats = format_names();
+    GDALDriverH driver =
+        GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, formats.List(), no_siblings.data());
+    const bool allowed = driver == nullptr ||
+                         CSLFindString(drivers_of_single_files(), GDALGetDescription(driver)) >= 0;
+    return allowed ? std::nullopt : std::optional<std::string>(GDALGetDriverLongName(driver));
+}
+
 Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
                           const char* const* options) {
     register_drivers();
+    if (is_web_tiles(path)) {
+        return open_web_tiles(path);
+    }
     const bool remote = is_remote(path);
-    const bool web_tiles = is_web_tiles(path);
-    auto good = web_tiles ? Result<void>() : check_typed_name(path.string());
+    auto good = check_typed_name(path.string());
     good = good && !remote ? check_file(path) : good;
     if (!good) {
         return good.error();
@@ -115,17 +129,24 @@ Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
         return name.error();
     }
     CPLStringList formats = format_names();
-    if (web_tiles) {
-        formats = CPLStringList();
-        formats.AddString("WMS");
-    }
     // Remote files: no requests for sidecar files.
     constexpr std::array<const char*, 1> no_siblings{nullptr};
     OpenRequest request;
     request.formats = formats.List();
     request.options = options;
     request.siblings = remote ? no_siblings.data() : nullptr;
+    if (is_on_server(*name)) {
+        if (auto format = other_format(*name)) {
+            return Error{fmt::format("{}: is in the format {}, which may name other files, one "
+                                     "whole raster in one file was expected of a server",
+                                     path.string(), *format)};
+        }
+        request.formats = drivers_of_single_files();
+    }
     auto dataset = open_checked(*name, request);
+    if (ReadScope::stop_requested() && (!dataset || *dataset == nullptr)) {
+        return Error{fmt::format("{}: reading was stopped", path.string())};
+    }
     if (!dataset) {
         std::string message = dataset.error().message;
         if (message.starts_with(*name)) {
@@ -162,6 +183,8 @@ void register_drivers() {
         // GDAL must be the last one.
         static_cast<void>(OIIO::ImageInput::create("a.tif"));
         register_formats();
+        register_web_tiles();
+        install_remote_files();
         // Virtual rasters run no programs.
         set_default("GDAL_VRT_ENABLE_PYTHON", "NO");
         // Avoids listing a large folder for each file.
@@ -190,14 +213,19 @@ GdalMessages::~GdalMessages() {
     CPLPopErrorHandler();
 }
 
-void GdalMessages::handle(CPLErr kind, CPLErrorNum /*number*/, const char* text) {
+void GdalMessages::handle(CPLErr kind, CPLErrorNum number, const char* text) {
     auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
     if (kind != CE_Warning && kind != CE_Failure && kind != CE_Fatal) {
         return;
     }
     std::string message = one_line(text);
     if (kind != CE_Warning) {
-        self->last_error_ = message;
+        // Later errors follow from one of a server.
+        const bool of_server = number == CPLE_HttpResponse;
+        if (of_server || !self->is_of_server_) {
+            self->last_error_ = message;
+            self->is_of_server_ = of_server;
+        }
         ++self->errors_;
         self->has_lost_blocks_ =
             self->has_lost_blocks_ || message.find("_TIFFPartialReadStrip") != std::string::npos;
@@ -209,7 +237,8 @@ void GdalMessages::handle(CPLErr kind, CPLErrorNum /*number*/, const char* text)
 }
 
 std::string GdalMessages::reason() const {
-    return last_error_.empty() ? "" : fmt::format(" (GDAL: {})", last_error_);
+    return last_error_.empty() ? ""
+                               : fmt::format(" ({}{})", is_of_server_ ? "" : "GDAL: ", last_error_);
 }
 
 std::string size_text(double bytes) {

@@ -24,6 +24,7 @@ public:
     GdalMessages& operator=(const GdalMessages&) = delete;
 
     /// The last error as " (GDAL: …)", at most 200 characters in one line; empty without errors.
+    /// A server's failure wins, as " (…)".
     [[nodiscard]] std::string reason() const;
     /// Number of errors. GDAL may report success after an error.
     [[nodiscard]] std::size_t errors() const { return errors_; }
@@ -39,6 +40,7 @@ private:
     std::vector<std::string> all_;
     std::string last_error_;
     std::size_t errors_ = 0;
+    bool is_of_server_ = false; ///< the last error
     bool has_lost_blocks_ = false;
 };
 

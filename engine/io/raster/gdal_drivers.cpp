@@ -184,7 +184,6 @@ void register_formats() {
         format.register_driver();
     }
     GDALRegister_MEM(); // rasters in memory
-    GDALRegister_WMS(); // web tiles
     RegisterOGRGPX();   // tracks
     RegisterOGRLIBKML();
     RegisterOGRKML();

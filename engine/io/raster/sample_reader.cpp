@@ -8,6 +8,7 @@
 
 #include "engine/io/raster/globe.h"
 #include "engine/io/raster/sample_decoder.h"
+#include "engine/io/remote/read_scope.h"
 
 namespace reljef::io {
 namespace {
@@ -86,9 +87,12 @@ public:
 private:
     bool read_band(GDALRasterBand& band, const Tile& tile, void* into, GDALDataType type) const {
         const int k = plan_.reduction;
+        GDALRasterIOExtraArg extra;
+        INIT_RASTERIO_EXTRA_ARG(extra);
+        extra.pfnProgress = &continues_reading;
         return band.RasterIO(GF_Read, plan_.col + tile.col * k, plan_.row + tile.row * k,
                              tile.cols * k, tile.rows * k, into, tile.cols * taps_,
-                             tile.rows * taps_, type, 0, 0, nullptr) == CE_None;
+                             tile.rows * taps_, type, 0, 0, &extra) == CE_None;
     }
 
     Source source_;
@@ -142,11 +146,13 @@ Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time
     TileContentReader reader(source_of(dataset, plan, decoder.bands()), plan);
     const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), at_a_time);
     const std::size_t errors = messages.errors();
+    const ReadScope scope(options.stop);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const bool read = reader.read(tiles[i]);
         if (options.stop.stop_requested()) {
             return Error{fmt::format("{}: reading was stopped", name)};
         }
-        if (!reader.read(tiles[i]) || messages.errors() > errors || messages.has_lost_blocks()) {
+        if (!read || messages.errors() > errors || messages.has_lost_blocks()) {
             return reading_failed(name, tiles[i], plan, messages);
         }
         if (!decoder.fits(reader.first(), reader.others())) {

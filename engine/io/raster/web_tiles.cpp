@@ -7,8 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include <cpl_conv.h>
-#include <cpl_string.h>
 #include <fmt/format.h>
 
 namespace reljef::io {
@@ -20,8 +18,6 @@ constexpr std::string_view terrarium_name = "terrarium+";
 constexpr std::string_view terrain_rgb_name = "terrain-rgb+";
 constexpr int usual_levels = 15; // public tile sets
 constexpr int max_levels = 22;   // 2^30 samples per side
-// Half the side of the web mercator square, metres.
-constexpr double half_side = std::numbers::pi * 6378137.0;
 
 std::string address_of(const fs::path& path) {
     const std::string name = path.string();
@@ -99,24 +95,17 @@ FolderLevel finest_level(const fs::path& folder) {
     return found;
 }
 
-/// Replaces a part of a text; absent if it lacks the part.
-std::optional<std::string> with(std::string text, std::string_view part, std::string_view by) {
-    const auto at = text.find(part);
-    if (at == std::string::npos) {
-        return std::nullopt;
+/// Replaces the last `part` of a text.
+void replace_last(std::string& text, std::string_view part, int number) {
+    const auto at = text.rfind(part);
+    if (at != std::string::npos) {
+        text.replace(at, part.size(), std::to_string(number));
     }
-    return text.replace(at, part.size(), by);
 }
 
-/// The URL in GDAL's form (${x}, ${y}, ${z}), and the finest level.
-struct TileSource {
-    std::string url;
-    int level = usual_levels;
-};
-
-Result<TileSource> source_of_address(const std::string& address) {
-    TileSource source;
-    std::string text = address;
+Result<WebTileSource> source_of_address(const std::string& address) {
+    WebTileSource source{address, usual_levels, true};
+    std::string& text = source.pattern;
     const auto at = text.find("{z:");
     if (at != std::string::npos) {
         const auto end = text.find('}', at);
@@ -124,19 +113,32 @@ Result<TileSource> source_of_address(const std::string& address) {
         source.level = level && *level <= max_levels ? *level : -1;
         text.erase(at + 2, end - at - 2);
     }
-    auto url = with(text, "{z}", "${z}");
-    url = url ? with(*url, "{x}", "${x}") : url;
-    url = url ? with(*url, "{y}", "${y}") : url;
-    if (!url || source.level < 0) {
+    const auto lacks = [&](const char* part) { return text.find(part) == std::string::npos; };
+    if (source.level < 0 || lacks("{z}") || lacks("{x}") || lacks("{y}")) {
         return Error{fmt::format("{}: found as the address of tiles, one with {{z}} (or {{z:15}}, "
                                  "at most {{z:{}}}), {{x}} and {{y}} was expected",
                                  address, max_levels)};
     }
-    source.url = std::move(*url);
     return source;
 }
 
-Result<TileSource> source_of(const fs::path& path) {
+/// Latitude in degrees at `y` of `count` tiles from the north.
+double latitude_at(double y, double count) {
+    return std::atan(std::sinh(std::numbers::pi * (1.0 - 2.0 * y / count))) * 180.0 /
+           std::numbers::pi;
+}
+
+} // namespace
+
+std::string WebTileSource::name(glm::ivec2 tile, int at_level) const {
+    std::string name = pattern;
+    replace_last(name, "{y}", tile.y);
+    replace_last(name, "{x}", tile.x);
+    replace_last(name, "{z}", at_level);
+    return name;
+}
+
+Result<WebTileSource> web_tile_source(const fs::path& path) {
     const std::string address = address_of(path);
     if (is_address(address)) {
         return source_of_address(address);
@@ -151,24 +153,8 @@ Result<TileSource> source_of(const fs::path& path) {
         return Error{
             fmt::format("{}: holds no tiles, a folder of them as z/x/y.png was expected", address)};
     }
-    return TileSource{"file://" + fs::absolute(address).string() + "/${z}/${x}/${y}.png",
-                      finest.level};
+    return WebTileSource{fs::absolute(address).string() + "/{z}/{x}/{y}.png", finest.level, false};
 }
-
-std::string escaped(const std::string& text) {
-    char* made = CPLEscapeString(text.c_str(), -1, CPLES_XML);
-    std::string result = made;
-    CPLFree(made);
-    return result;
-}
-
-/// Latitude in degrees at `y` of `count` tiles from the north.
-double latitude_at(double y, double count) {
-    return std::atan(std::sinh(std::numbers::pi * (1.0 - 2.0 * y / count))) * 180.0 /
-           std::numbers::pi;
-}
-
-} // namespace
 
 double encoded_height(HeightEncoding encoding, double red, double green, double blue) {
     if (red == 0.0 && green == 0.0 && blue == 0.0) {
@@ -208,22 +194,6 @@ HeightEncoding height_encoding_of(std::string_view name) {
     return name.starts_with(terrarium_name)     ? HeightEncoding::terrarium
            : name.starts_with(terrain_rgb_name) ? HeightEncoding::terrain_rgb
                                                 : HeightEncoding::none;
-}
-
-Result<std::string> web_tiles_description(const fs::path& path) {
-    const auto source = source_of(path);
-    if (!source) {
-        return source.error();
-    }
-    return fmt::format(
-        "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>{0}</ServerUrl></Service><DataWindow>"
-        "<UpperLeftX>-{1:.17g}</UpperLeftX><UpperLeftY>{1:.17g}</UpperLeftY>"
-        "<LowerRightX>{1:.17g}</LowerRightX><LowerRightY>-{1:.17g}</LowerRightY>"
-        "<TileLevel>{2}</TileLevel><TileCountX>1</TileCountX><TileCountY>1</TileCountY>"
-        "<YOrigin>top</YOrigin></DataWindow><Projection>EPSG:3857</Projection>"
-        "<BlockSizeX>256</BlockSizeX><BlockSizeY>256</BlockSizeY><BandsCount>3</BandsCount>"
-        "<Timeout>60</Timeout><ZeroBlockHttpCodes>204,404</ZeroBlockHttpCodes></GDAL_WMS>",
-        escaped(source->url), half_side, source->level);
 }
 
 std::optional<geo::GeodeticArea> web_tiles_area(const fs::path& path) {

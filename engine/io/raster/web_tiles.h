@@ -46,10 +46,17 @@ inline bool is_web_tiles(const std::filesystem::path& path) {
     return height_encoding_of(path.string()) != HeightEncoding::none;
 }
 
-/// Description for GDAL's WMS driver (service TMS): a global raster with each level as an overview,
-/// black without a tile. The finest level is that of `{z:12}`, else 15, or the highest one in a
-/// folder. Fails for a folder without tiles or an address without {z}, {x} and {y}.
-Result<std::string> web_tiles_description(const std::filesystem::path& path);
+/// Where the tiles are.
+struct WebTileSource {
+    std::string pattern; ///< a path or an address with {z}, {x} and {y}
+    int level = 0;       ///< the finest: that of `{z:12}`, else 15, or the highest one in a folder
+    bool on_server = false;
+
+    [[nodiscard]] std::string name(glm::ivec2 tile, int at_level) const;
+};
+
+/// Fails for a folder without tiles or an address without {z}, {x} and {y}.
+Result<WebTileSource> web_tile_source(const std::filesystem::path& path);
 
 /// The area of a folder's finest level, between the outermost pixel centres; absent for addresses.
 std::optional<geo::GeodeticArea> web_tiles_area(const std::filesystem::path& path);

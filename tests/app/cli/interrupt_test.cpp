@@ -1,10 +1,13 @@
+#include <chrono>
 #include <csignal>
 
 #include <gtest/gtest.h>
 
 #include "tests/app/command_line.h"
+#include "tests/support/nginx.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
 
 namespace reljef {
 namespace {
@@ -57,6 +60,34 @@ TEST(CtrlC, EndsWhileOnePictureIsDrawn) {
         EXPECT_EQ(result.exit_code, 1) << signal;
         EXPECT_EQ(result.err, "reljef: interrupted\n") << signal;
         EXPECT_EQ(folder.names(), std::vector<std::string>{"dem.asc"}) << signal;
+    }
+}
+
+// A server that is fast enough for every deadline, but takes minutes.
+TEST(CtrlC, EndsAReadFromASlowServer) {
+    RELJEF_NEED_NGINX();
+    RELJEF_NEED_DATA("natural/srtm3/N45E006.hgt");
+    const test::Nginx server(test::data_path("natural/srtm3"),
+                             "limit_rate_after 16k; limit_rate 2500;");
+    const test::TemporaryFolder folder;
+    for (const std::vector<std::string>& verb :
+         {std::vector<std::string>{"info"},
+          {"render", "--context", "osmesa", "-o", (folder.path() / "a.png").string()},
+          {"height", "--at", "45.5,6.5"}}) {
+        std::vector<std::string> arguments = verb;
+        arguments.insert(arguments.begin() + 1, {server.url("N45E006.hgt"), "--quiet"});
+        const std::size_t sent = server.bytes_sent();
+        std::chrono::steady_clock::time_point interrupted;
+        test::ProgramOptions options;
+        options.interruption = {SIGINT, [&](int /*process*/) { // the file's beginning is there
+                                    interrupted = std::chrono::steady_clock::now();
+                                    return server.bytes_sent() >= sent + 16384;
+                                }};
+        const auto result = test::run_program(RELJEF_BINARY, arguments, options);
+        EXPECT_LT(std::chrono::steady_clock::now() - interrupted, std::chrono::seconds(10));
+        EXPECT_EQ(result.exit_code, 1) << verb.front();
+        EXPECT_EQ(result.err, "reljef: interrupted\n") << verb.front();
+        EXPECT_TRUE(folder.names().empty()) << verb.front();
     }
 }
 

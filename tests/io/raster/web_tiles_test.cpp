@@ -140,6 +140,35 @@ TEST_P(TilePyramids, OneThatAServerFailsToGiveTakesNoOtherWithIt) {
     expect_heights(*tiles);
 }
 
+TEST_P(TilePyramids, OneThatIsMovedToThisMachineIsNotRead) {
+    RELJEF_NEED_NGINX();
+    test::Nginx server(folder_.path());
+    const std::string tile = server.url("6/33/22.png");
+    server.serve_by("location /6/34/22.png { return 302 " + tile + "; }");
+    const auto tiles = TileSet::open(GetParam() + server.url("{z:6}/{x}/{y}.png"));
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    const auto found = tiles->heights(std::vector{place_of_pixel(34 * 256 + 9, 22 * 256 + 9, 6)});
+    EXPECT_EQ(found.answers.front().kind, HeightSample::Kind::in_void);
+    ASSERT_EQ(found.errors.size(), 1U);
+    EXPECT_THAT(found.errors.front().message, HasSubstr("its tile 6/34/22 cannot be read"));
+}
+
+TEST_P(TilePyramids, OneWithAPaletteIsTheHeightsOfItsColours) {
+    const double height = height_at_pixel(33 * pixels_a_side, 22 * pixels_a_side);
+    test::MadeRaster level =
+        test::made_raster(pixels_a_side, pixels_a_side, [](int, int) { return 1; });
+    const auto part = [&](int band) { return static_cast<short>(channel(height, band)); };
+    level.palette = {{0, 0, 0, 255}, {part(0), part(1), part(2), 255}};
+    level.type = GDT_Byte;
+    level.format = "PNG";
+    ASSERT_TRUE(test::write(level, folder_.path() / "6/33/22.png"));
+    const auto tiles = TileSet::open(name());
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    const auto found = tiles->heights(std::vector{place_of_pixel(33 * 256 + 9, 22 * 256 + 9, 6)});
+    EXPECT_TRUE(found.errors.empty());
+    EXPECT_EQ(found.answers.front().height, height);
+}
+
 TEST_P(TilePyramids, OfAFolderAreATerrainWhereTheyLie) {
     const auto area = web_tiles_area(name());
     ASSERT_TRUE(area);
