@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <future>
 #include <regex>
 
 #include <fmt/format.h>
@@ -17,16 +18,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Encodes, writes and syncs a numbered picture while the next one is drawn.
 class PictureSink : public FrameSink {
 public:
     explicit PictureSink(fs::path name) : name_(std::move(name)) {}
     Result<void> write(const Image& picture, int index) override {
-        const auto file = is_numbered(name_) ? numbered(name_, index) : name_;
-        return file ? io::write_image(*file, picture) : file.error();
+        if (!is_numbered(name_)) {
+            return io::write_image(name_, picture);
+        }
+        auto file = numbered(name_, index);
+        auto before = file ? finish() : file.error();
+        if (before) {
+            written_ = std::async(std::launch::async, [file = *std::move(file), picture] {
+                return io::write_image(file, picture);
+            });
+        }
+        return before;
     }
+    Result<void> finish() override { return written_.valid() ? written_.get() : Result<void>(); }
 
 private:
     fs::path name_;
+    std::future<Result<void>> written_; // of the last picture
 };
 
 class StandardOutputSink : public FrameSink {

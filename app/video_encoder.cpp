@@ -24,7 +24,9 @@ std::vector<std::string> arguments_for(const std::filesystem::path& file, glm::i
             "-video_size", fmt::format("{}x{}", size.x, size.y), "-framerate",
             fmt::format("{}", frames_per_second), "-i", "-",
             // Most players need even sides and 4:2:0.
-            "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,format=yuv420p", file.string()};
+            "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,format=yuv420p",
+            // Never an option, a protocol ("pipe:") or another program's syntax.
+            "file:" + file.string()};
 }
 
 Result<pid_t> start(const std::vector<std::string>& arguments, int input, int messages) {

@@ -1,4 +1,5 @@
 #include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -15,14 +16,20 @@ struct FlightChoice {
     OutputChoice outputs; // only `json` is used
 };
 
-Result<void> run_flight_command(const FlightChoice& choice, const cli::Interrupt& interrupt) {
+// `terrain` is as given: standard input has another name while it is read.
+Result<void> run_flight_command(const FlightChoice& choice, const std::string& terrain,
+                                const cli::Interrupt& interrupt) {
     const std::vector<cli::NamedFile> inputs{{"TERRAIN", choice.options.terrain.terrain},
                                              {"--path", choice.options.view.path}};
     if (auto good = check_outputs(choice.outputs, inputs); !good) {
         return good;
     }
-    const auto results = run_flight(choice.options, interrupt.token());
-    return results ? report(*results, choice.outputs.json) : results.error();
+    auto results = run_flight(choice.options, interrupt.token());
+    if (!results) {
+        return results.error();
+    }
+    results->options.terrain.terrain = terrain;
+    return report(*results, choice.outputs.json);
 }
 
 } // namespace
@@ -51,9 +58,10 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench flight srtm/ --path track.gpx --frames 6000 --memory 64 --json "
         "flight.json");
     return {arguments, [choice, &interrupt] {
+                const std::string terrain = choice->options.terrain.terrain;
                 return cli::with_standard_input(
                     choice->options.terrain.terrain, interrupt.token(),
-                    [&] { return run_flight_command(*choice, interrupt); });
+                    [&] { return run_flight_command(*choice, terrain, interrupt); });
             }};
 }
 

@@ -8,11 +8,15 @@
 namespace reljef::cli {
 namespace {
 
+// Without those that are ignored at the start, as SIGHUP is by nohup.
 sigset_t stop_signals() {
     sigset_t signals;
     sigemptyset(&signals);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        sigaddset(&signals, signal);
+        struct sigaction action {};
+        if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {
+            sigaddset(&signals, signal);
+        }
     }
     return signals;
 }

@@ -5,8 +5,10 @@
 
 namespace reljef::cli {
 
-/// Turns SIGINT (Ctrl-C), SIGTERM and SIGHUP into a stop request. A second signal, at least half a
-/// second later, ends the program at once without cleanup. Construct it before other threads start.
+/// Turns SIGINT (Ctrl-C), SIGTERM and SIGHUP into a stop request. Signals that are ignored at the
+/// start, as by nohup, remain ignored. A second signal, at least half a second later, ends the
+/// program at once without cleanup; the next run removes its temporary files. Construct it before
+/// other threads start.
 class Interrupt {
 public:
     Interrupt();

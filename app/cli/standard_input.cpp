@@ -1,9 +1,12 @@
 #include "app/cli/standard_input.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <cstdlib>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include <unistd.h>
 
 #include "app/cli/usage_error.h"
+#include "engine/core/atomic_file.h"
 
 namespace reljef::cli {
 namespace {
@@ -19,32 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int poll_ms = 100; // how late Ctrl-C may be noticed
-
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::error_code code;
-        path_ = (fs::temp_directory_path(code) / "reljef-XXXXXX").string();
-        is_made_ = !code && mkdtemp(path_.data()) != nullptr;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        const int reason = errno; // why standard output was lost
-        std::error_code ignored;
-        if (is_made_) {
-            fs::remove_all(path_, ignored);
-        }
-        errno = reason;
-    }
-
-    [[nodiscard]] bool is_made() const { return is_made_; }
-    [[nodiscard]] fs::path path() const { return path_; }
-
-private:
-    std::string path_;
-    bool is_made_ = false;
-};
 
 // The bytes that are there; none at the end.
 Result<std::size_t> read_some(std::vector<char>& buffer, const std::stop_token& stop) {
@@ -82,6 +60,22 @@ Result<void> copy_standard_input(const fs::path& path, const std::stop_token& st
     }
 }
 
+// Why the bytes of a file in one of GDAL's formats are no raster without the file's name, or empty.
+std::string_view needed_name(const fs::path& path) {
+    std::array<char, 4> start{};
+    std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+    const std::string_view magic(start.data(), start.size());
+    if (magic == "PK\3\4" || magic.starts_with("\x1f\x8b")) {
+        return "a .zip or .gz file found, which is read by its name";
+    }
+    constexpr std::array<std::uintmax_t, 3> sample_counts{1201 * 1201, 3601 * 1801, 3601 * 3601};
+    std::error_code ignored;
+    const bool may_be_hgt = std::any_of(
+        sample_counts.begin(), sample_counts.end(),
+        [bytes = fs::file_size(path, ignored)](auto count) { return bytes == 2 * count; });
+    return may_be_hgt ? "an .hgt file found, whose name tells its place" : "";
+}
+
 } // namespace
 
 Result<void> with_standard_input(std::string& terrain, const std::stop_token& stop,
@@ -93,13 +87,13 @@ Result<void> with_standard_input(std::string& terrain, const std::stop_token& st
         fail_usage("TERRAIN: - found, and standard input is a terminal; a pipe or a file was "
                    "expected");
     }
-    const TemporaryFolder folder;
-    if (!folder.is_made()) {
+    const auto folder = ScratchFolder::create();
+    if (!folder) {
         return Error{
             "standard input: no folder for temporary files found (TMPDIR), one that can be "
             "written was expected"};
     }
-    const fs::path path = folder.path() / "standard input";
+    const fs::path path = folder->path() / "standard input";
     if (auto copied = copy_standard_input(path, stop); !copied) {
         return copied;
     }
@@ -113,6 +107,10 @@ Result<void> with_standard_input(std::string& terrain, const std::stop_token& st
     for (auto at = error.message.find(path.string()); at != std::string::npos;
          at = error.message.find(path.string())) {
         error.message.replace(at, path.string().size(), "standard input");
+    }
+    const std::string_view reason = needed_name(path);
+    if (!reason.empty() && error.message.starts_with("standard input: ")) {
+        error.message = fmt::format("standard input: {}; give it as a file, not as -", reason);
     }
     return error;
 }

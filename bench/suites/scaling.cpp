@@ -90,7 +90,7 @@ public:
             return folder.error();
         }
         for (const int side : sides) {
-            const fs::path path = **folder / fmt::format("ground-{}.tif", side);
+            const fs::path path = folder->path() / fmt::format("ground-{}.tif", side);
             if (auto done = run_side(path, side); !done) {
                 return done;
             }

@@ -1,7 +1,5 @@
 #include "bench/suites/scaling_terrain.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -121,7 +119,7 @@ Result<void> write_scaling_terrain(const fs::path& path, int side, const SuiteOp
     return io::write_heights(path, raster, fill, {threads, stop, line.callback()});
 }
 
-Result<std::shared_ptr<const fs::path>> make_scaling_folder(const fs::path& parent, int max_side) {
+Result<ScratchFolder> make_scaling_folder(const fs::path& parent, int max_side) {
     std::error_code code;
     const fs::path folder = parent.empty() ? fs::temp_directory_path(code) : parent;
     const double needed = bytes_a_sample * max_side * max_side;
@@ -130,16 +128,7 @@ Result<std::shared_ptr<const fs::path>> make_scaling_folder(const fs::path& pare
         return Error{fmt::format("{}: {:.1f} GB free, {:.1f} GB were expected for a raster",
                                  folder.string(), 1e-9 * available, 1e-9 * needed)};
     }
-    const fs::path path = folder / fmt::format("reljef-scaling-{}", getpid());
-    if (!fs::create_directory(path, code)) {
-        return Error{fmt::format("{}: cannot be created: {}", path.string(),
-                                 code ? code.message() : "it exists already")};
-    }
-    return std::shared_ptr<const fs::path>(new fs::path(path), [](const fs::path* made) {
-        std::error_code ignored;
-        fs::remove_all(*made, ignored);
-        delete made;
-    });
+    return ScratchFolder::create(parent);
 }
 
 } // namespace reljef::bench

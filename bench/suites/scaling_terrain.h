@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <stop_token>
 
 #include <glm/vec2.hpp>
 
 #include "bench/runner/suite_options.h"
+#include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
 
 namespace reljef::bench {
@@ -19,9 +19,8 @@ double scaling_height(glm::ivec2 sample, int side);
 Result<void> write_scaling_terrain(const std::filesystem::path& path, int side,
                                    const SuiteOptions& suite, const std::stop_token& stop);
 
-/// Creates a folder in `parent` (empty: the system's temporary folder). The last copy of the result
-/// removes it. Fails if a raster of `max_side` samples a side does not fit.
-Result<std::shared_ptr<const std::filesystem::path>>
-make_scaling_folder(const std::filesystem::path& parent, int max_side);
+/// A folder in `parent` (empty: the system's temporary folder). Fails if a raster of `max_side`
+/// samples a side does not fit.
+Result<ScratchFolder> make_scaling_folder(const std::filesystem::path& parent, int max_side);
 
 } // namespace reljef::bench

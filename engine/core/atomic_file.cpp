@@ -1,53 +1,187 @@
 #include "engine/core/atomic_file.h"
 
+#include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <memory>
+#include <set>
 #include <system_error>
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace reljef {
 namespace fs = std::filesystem;
+namespace {
+
+// Temporary files and folders are named ".reljef-", 16 random digits, ".part" and an extension.
+constexpr std::string_view name_start = ".reljef-";
+constexpr std::string_view name_end = ".part";
+constexpr std::size_t name_digits = 16;
+
+constexpr int max_links = 40; // as in Linux
+
+bool is_temporary_name(std::string_view name) {
+    return name.starts_with(name_start) &&
+           name.substr(std::min(name.size(), name_start.size() + name_digits))
+               .starts_with(name_end);
+}
+
+// Whether the path still names the open file.
+bool is_at(const Descriptor& file, const fs::path& path) {
+    struct stat opened {};
+    struct stat found {};
+    return ::fstat(file.number(), &opened) == 0 && ::lstat(path.c_str(), &found) == 0 &&
+           opened.st_dev == found.st_dev && opened.st_ino == found.st_ino;
+}
+
+// Owners hold shared locks as long as they live, so an exclusive lock shows that the owner ended.
+// False only if another process holds a lock: some file systems have no locks.
+bool lock_shared(const Descriptor& file) {
+    return ::flock(file.number(), LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+void remove_if_stale(const fs::path& folder, int folder_descriptor, const char* name) {
+    const Descriptor found(
+        ::openat(folder_descriptor, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status {};
+    if (found && ::fstat(found.number(), &status) == 0 && status.st_uid == ::geteuid() &&
+        (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+        ::flock(found.number(), LOCK_EX | LOCK_NB) == 0) {
+        std::error_code ignored;
+        fs::remove_all(folder / name, ignored);
+    }
+}
+
+// Removes what killed processes of this user left in the folder.
+void remove_stale(const fs::path& folder) {
+    const std::unique_ptr<DIR, int (*)(DIR*)> listing(::opendir(folder.c_str()), ::closedir);
+    for (const dirent* entry = nullptr;
+         listing != nullptr && (entry = ::readdir(listing.get())) != nullptr;) {
+        if (is_temporary_name(entry->d_name)) {
+            remove_if_stale(folder, ::dirfd(listing.get()), entry->d_name);
+        }
+    }
+}
+
+struct Temporary {
+    fs::path path;
+    Descriptor descriptor; // locked; none: errno says why
+};
+
+// `make(path)` makes a new file or folder and returns its descriptor.
+template <class Make>
+Temporary make_temporary(const fs::path& folder, std::string_view extension, const Make& make) {
+    constexpr int attempts = 8; // another process may remove one before it is locked
+    remove_stale(folder);
+    Temporary made;
+    for (int i = 0; i < attempts; ++i) {
+        std::uint64_t random = 0;
+        if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) {
+            return {};
+        }
+        made.path = folder / fmt::format("{}{:016x}{}{}", name_start, random, name_end, extension);
+        made.descriptor = Descriptor(make(made.path.c_str()));
+        if (!made.descriptor ||
+            (lock_shared(made.descriptor) && is_at(made.descriptor, made.path))) {
+            return made;
+        }
+        std::error_code ignored;
+        fs::remove(made.path, ignored);
+    }
+    errno = EBUSY;
+    return {};
+}
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+// The file that a chain of links names, also if there is none yet.
+Result<fs::path> without_links(const fs::path& target) {
+    fs::path place = target;
+    std::error_code code;
+    for (int i = 0; i < max_links && fs::is_symlink(fs::symlink_status(place, code)); ++i) {
+        place = folder_of(place) / fs::read_symlink(place, code);
+    }
+    // In folders that all may write to, Linux refuses links of other users.
+    const fs::file_status status = fs::status(target, code);
+    if (status.type() == fs::file_type::none) {
+        return Error{fmt::format("{}: cannot be written: {}", target.string(), code.message())};
+    }
+    if (fs::exists(status) && !fs::is_regular_file(status)) { // never replaces /dev/null
+        return Error{fmt::format("{}: cannot be written: it is a {}, a file was expected",
+                                 target.string(), fs::is_directory(status) ? "folder" : "device")};
+    }
+    return place;
+}
+
+// A file system that cannot sync a folder is no reason to fail: the file is in its place already.
+void sync_folder(const fs::path& folder) {
+    if (const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+        opened) {
+        static_cast<void>(::fsync(opened.number()));
+    }
+}
+
+} // namespace
+
+Descriptor::~Descriptor() {
+    if (number_ >= 0) {
+        ::close(number_);
+    }
+}
 
 Result<AtomicFile> AtomicFile::create(fs::path target) {
-    static std::atomic<unsigned> counter{0};
-    if (target.filename().empty()) {
-        return Error{
-            fmt::format("{}: cannot be written: a file name was expected", target.string())};
+    AtomicFile file;
+    file.target_ = std::move(target);
+    if (file.target_.filename().empty()) {
+        return file.error("a file name was expected");
     }
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    const fs::path folder = folder_of(file.target_);
     std::error_code code;
     if (!fs::is_directory(folder, code)) {
-        return Error{fmt::format("{}: cannot be written: there is no folder {}", target.string(),
-                                 folder.string())};
+        return file.error(fmt::format("there is no folder {}", folder.string()));
     }
-    if (fs::exists(target, code) &&
-        !fs::is_regular_file(target, code)) { // never replaces /dev/null
-        return Error{fmt::format("{}: cannot be written: it is a {}, a file was expected",
-                                 target.string(),
-                                 fs::is_directory(target, code) ? "folder" : "device")};
+    auto place = without_links(file.target_);
+    if (!place) {
+        return place.error();
     }
-    fs::path temporary = folder / fmt::format(".{}.{}.{}.part{}", target.stem().string(),
-                                              ::getpid(), counter++, target.extension().string());
-    if (!std::ofstream(temporary, std::ios::binary)) {
-        return Error{
-            fmt::format("{}: cannot be written: {}", target.string(), std::strerror(errno))};
+    file.place_ = std::move(*place);
+    auto [path, descriptor] = make_temporary(
+        folder_of(file.place_), file.target_.extension().string(), [](const char* name) {
+            constexpr mode_t all_by_umask = 0666;
+            return ::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, all_by_umask);
+        });
+    if (!descriptor) {
+        return file.error(std::strerror(errno));
     }
-    return AtomicFile(std::move(target), std::move(temporary));
+    file.temporary_ = std::move(path);
+    file.file_ = std::move(descriptor);
+    return file;
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
-      replaced_(std::exchange(other.replaced_, {})) {}
+    : target_(std::move(other.target_)), place_(std::move(other.place_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      replaced_(std::exchange(other.replaced_, {})), file_(std::move(other.file_)),
+      old_(std::move(other.old_)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile other) noexcept {
     target_.swap(other.target_);
+    place_.swap(other.place_);
     temporary_.swap(other.temporary_);
     replaced_.swap(other.replaced_);
+    std::swap(file_, other.file_);
+    std::swap(old_, other.old_);
     return *this;
 }
 
@@ -60,76 +194,114 @@ AtomicFile::~AtomicFile() {
     }
 }
 
-Result<void> AtomicFile::commit() {
-    std::error_code code;
-    fs::rename(temporary_, target_, code);
-    if (code) {
-        return Error{fmt::format("{}: cannot be written: {}", target_.string(), code.message())};
+Error AtomicFile::error(std::string_view why) const {
+    return {fmt::format("{}: cannot be written: {}", target_.string(), why)};
+}
+
+Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file_.number(), bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) {
+            return error(std::strerror(errno));
+        }
+        bytes = bytes.subspan(count > 0 ? static_cast<std::size_t>(count) : 0);
+    }
+    return {};
+}
+
+Result<void> AtomicFile::sync() {
+    const bool is_done = ::fsync(file_.number()) == 0 || errno == EINVAL; // EINVAL: unsupported
+    return is_done ? Result<void>() : error(std::strerror(errno));
+}
+
+Result<void> AtomicFile::rename() {
+    if (!is_at(file_, temporary_)) {
+        return error("its temporary file was replaced or removed");
+    }
+    if (::rename(temporary_.c_str(), place_.c_str()) != 0) {
+        return error(std::strerror(errno));
     }
     temporary_.clear();
     return {};
 }
 
+Result<void> AtomicFile::commit() {
+    if (auto synced = sync(); !synced) {
+        return synced;
+    }
+    auto renamed = rename();
+    if (renamed) {
+        sync_folder(folder_of(place_));
+    }
+    return renamed;
+}
+
 // The backup is a hard link, or a copy if the file system has no hard links.
-Result<void> AtomicFile::commit_revertibly() {
+Result<void> AtomicFile::rename_revertibly() {
     std::error_code code;
-    if (fs::exists(target_, code)) {
+    if (fs::exists(place_, code)) {
         fs::path aside = temporary_;
         aside += ".replaced";
-        fs::create_hard_link(target_, aside, code);
-        if (code && !fs::copy_file(target_, aside, code)) {
+        fs::create_hard_link(place_, aside, code);
+        if (code && !fs::copy_file(place_, aside, code)) {
             return Error{
                 fmt::format("{}: cannot be replaced: {}", target_.string(), code.message())};
         }
+        old_ = Descriptor(::open(aside.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+        lock_shared(old_);
         replaced_ = std::move(aside);
     }
-    return commit();
+    return rename();
 }
 
 void AtomicFile::revert() noexcept {
     std::error_code ignored;
     if (replaced_.empty()) {
-        fs::remove(target_, ignored);
+        fs::remove(place_, ignored);
     } else {
-        fs::rename(replaced_, target_, ignored);
+        fs::rename(replaced_, place_, ignored);
         replaced_.clear();
     }
 }
 
 Result<void> commit_all(std::span<AtomicFile> files) {
+    for (AtomicFile& file : files) {
+        if (auto synced = file.sync(); !synced) {
+            return synced;
+        }
+    }
+    std::set<fs::path> folders;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (auto done = files[i].commit_revertibly(); !done) {
+        if (auto done = files[i].rename_revertibly(); !done) {
             while (i > 0) {
                 files[--i].revert();
             }
             return done;
         }
+        folders.insert(folder_of(files[i].place_));
+    }
+    for (const fs::path& folder : folders) {
+        sync_folder(folder);
     }
     return {};
-}
-
-Result<void> write_text_file(const fs::path& path, std::string_view text) {
-    return write_file(path, std::as_bytes(std::span(text)));
 }
 
 Result<AtomicFile> prepare_file(const fs::path& path, std::span<const std::byte> bytes) {
     auto file = AtomicFile::create(path);
     if (!file) {
-        return file.error();
+        return file;
     }
-    std::ofstream stream(file->temporary(), std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(bytes.data()),
-                 static_cast<std::streamsize>(bytes.size()));
-    stream.close();
-    if (!stream) {
-        return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno))};
-    }
-    return file;
+    auto written = file->write(bytes);
+    return written ? std::move(file) : written.error();
 }
 
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
     auto file = prepare_file(path, bytes);
     return file ? file->commit() : file.error();
+}
+
+Result<void> write_text_file(const fs::path& path, std::string_view text) {
+    return write_file(path, std::as_bytes(std::span(text)));
 }
 
 Result<std::string> read_text_file(const fs::path& path, std::size_t limit) {
@@ -154,6 +326,39 @@ Result<std::string> read_text_file(const fs::path& path, std::size_t limit) {
         }
     }
     return text;
+}
+
+Result<ScratchFolder> ScratchFolder::create(fs::path parent) {
+    std::error_code code;
+    if (parent.empty()) {
+        parent = fs::temp_directory_path(code);
+    }
+    if (code) {
+        return Error{fmt::format("no folder for temporary files: {}", code.message())};
+    }
+    auto [path, descriptor] = make_temporary(parent, "", [](const char* name) {
+        constexpr mode_t owner_only = 0700;
+        return ::mkdir(name, owner_only) == 0
+                   ? ::open(name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)
+                   : -1;
+    });
+    if (!descriptor) {
+        return Error{fmt::format("{}: no folder can be made in it: {}", parent.string(),
+                                 std::strerror(errno))};
+    }
+    ScratchFolder folder;
+    folder.path_ = std::move(path);
+    folder.folder_ = std::move(descriptor);
+    return folder;
+}
+
+ScratchFolder::~ScratchFolder() {
+    const int reason = errno;
+    std::error_code ignored;
+    if (folder_) {
+        fs::remove_all(path_, ignored);
+    }
+    errno = reason;
 }
 
 } // namespace reljef

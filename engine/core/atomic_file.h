@@ -5,15 +5,38 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/core/result.h"
 
 namespace reljef {
 
+/// A file descriptor that closes itself; false if there is none.
+class Descriptor {
+public:
+    Descriptor() = default;
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    Descriptor(const Descriptor&) = delete;
+    ~Descriptor();
+
+    explicit operator bool() const { return number_ >= 0; }
+    [[nodiscard]] int number() const { return number_; }
+
+private:
+    int number_ = -1;
+};
+
 /// An output file that appears whole or not at all: write to `temporary()`, then `commit()`. The
-/// destructor removes a file that is not committed.
+/// destructor removes a file that is not committed. If the process is killed, the next AtomicFile
+/// in the folder removes it: a file lock tells whose process has ended.
 class AtomicFile {
 public:
+    /// A target that is a symbolic link stays one: the file that it names is replaced or created.
     /// Fails with one sentence when the folder of `target` does not exist or cannot be written.
     static Result<AtomicFile> create(std::filesystem::path target);
 
@@ -22,24 +45,35 @@ public:
     AtomicFile(const AtomicFile&) = delete;
     ~AtomicFile();
 
-    /// Beside the target, with the target's extension.
+    /// An empty file beside the target, with the target's extension and a name that nobody can
+    /// guess. Writers may truncate it, but not replace it.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
     [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
-    /// Renames the temporary file to the target.
+    /// Appends to the temporary file.
+    Result<void> write(std::span<const std::byte> bytes);
+
+    /// Renames the temporary file to the target. After a power failure the target is old or new.
     Result<void> commit();
-    /// commit() that keeps a copy of the old target until the destructor.
-    Result<void> commit_revertibly();
-    /// Restores the old target. Precondition: commit_revertibly() succeeded.
-    void revert() noexcept;
 
 private:
-    AtomicFile(std::filesystem::path target, std::filesystem::path temporary)
-        : target_(std::move(target)), temporary_(std::move(temporary)) {}
+    friend Result<void> commit_all(std::span<AtomicFile> files);
 
-    std::filesystem::path target_;
-    std::filesystem::path temporary_;
-    std::filesystem::path replaced_; // copy of the old target; empty: none
+    AtomicFile() = default;
+    [[nodiscard]] Error error(std::string_view why) const;
+    Result<void> sync();
+    Result<void> rename();
+    // Keeps a copy of the old target until the destructor.
+    Result<void> rename_revertibly();
+    // Restores the old target. Precondition: rename_revertibly() succeeded.
+    void revert() noexcept;
+
+    std::filesystem::path target_;    // as given
+    std::filesystem::path place_;     // the target without links
+    std::filesystem::path temporary_; // empty: committed
+    std::filesystem::path replaced_;  // copy of the old target; empty: none
+    Descriptor file_;                 // of the temporary file, locked
+    Descriptor old_;                  // of `replaced_`, locked
 };
 
 /// Commits all files or none. At any time a reader sees each file either old or new.
@@ -55,5 +89,25 @@ Result<void> write_text_file(const std::filesystem::path& path, std::string_view
 /// The content of a file of at most `limit` bytes.
 Result<std::string> read_text_file(const std::filesystem::path& path,
                                    std::size_t limit = std::size_t{1} << 24);
+
+/// An empty folder for this user only, with a name that nobody can guess. The destructor removes it
+/// and its content, and keeps errno. If the process is killed, the next one in `parent` removes it.
+class ScratchFolder {
+public:
+    /// In `parent`; if that is empty, in the system's folder for temporary files ($TMPDIR or /tmp).
+    static Result<ScratchFolder> create(std::filesystem::path parent = {});
+
+    ScratchFolder(ScratchFolder&& other) noexcept = default;
+    ScratchFolder(const ScratchFolder&) = delete;
+    ~ScratchFolder();
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    ScratchFolder() = default;
+
+    std::filesystem::path path_;
+    Descriptor folder_; // locked; none: moved from
+};
 
 } // namespace reljef

@@ -55,5 +55,37 @@ TEST(FrameSink, video_of_odd_size_appears) {
     EXPECT_GT(std::filesystem::file_size(folder.path() / "flight.mp4"), 100U);
 }
 
+// Names that ffmpeg would take for an option, a protocol or a list of files.
+TEST(FrameSink, NoVideoNameIsAnOptionOrAProtocolOfFfmpeg) {
+    const test::TemporaryFolder folder;
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    std::string error;
+    for (const std::filesystem::path name : {"-x/y.mp4", "pipe:/y.mp4", "concat:a|b/-y.mp4"}) {
+        std::filesystem::create_directories(name.parent_path());
+        auto sink = make_frame_sink(name, {.size = {32, 24}, .frames = 1});
+        auto written = sink ? (*sink)->write(Image(32, 24), 0) : sink.error();
+        const auto done = written ? (*sink)->finish() : written;
+        error += done ? "" : done.error().message + "\n";
+        EXPECT_EQ(std::filesystem::exists(name), static_cast<bool>(done)) << name;
+    }
+    std::filesystem::current_path(before);
+    if (error.find("ffmpeg was not found") != std::string::npos) {
+        GTEST_SKIP() << error;
+    }
+    EXPECT_EQ(error, "");
+}
+
+// The last of many frames, too: each is written while the next one is drawn.
+TEST(FrameSink, APictureOfASequenceThatCannotBeWrittenIsTold) {
+    const test::TemporaryFolder folder;
+    auto sink = make_frame_sink(folder.path() / "%d.png", {.size = {4, 3}, .frames = 2});
+    ASSERT_TRUE(sink) << sink.error().message;
+    std::filesystem::create_directory(folder.path() / "1.png");
+    EXPECT_TRUE((*sink)->write(Image(4, 3), 0));
+    EXPECT_TRUE((*sink)->write(Image(4, 3), 1));
+    EXPECT_FALSE((*sink)->finish());
+}
+
 } // namespace
 } // namespace reljef::app

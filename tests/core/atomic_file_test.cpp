@@ -1,17 +1,44 @@
 #include "engine/core/atomic_file.h"
 
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
+#include <set>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
 
+// What is synced and renamed, in this order. The names replace those of the C library.
+static std::vector<std::string>* observed = nullptr;
+
+extern "C" int fsync(int file) {
+    struct stat status {};
+    if (observed != nullptr && ::fstat(file, &status) == 0) {
+        observed->emplace_back(S_ISDIR(status.st_mode) ? "sync folder" : "sync file");
+    }
+    return static_cast<int>(::syscall(SYS_fsync, file));
+}
+
+extern "C" int rename(const char* from, const char* to) noexcept {
+    if (observed != nullptr) {
+        observed->emplace_back("rename");
+    }
+    return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
+
 namespace reljef {
 namespace {
+
+namespace fs = std::filesystem;
 
 using test::read_bytes;
 using test::TemporaryFolder;
@@ -162,6 +189,183 @@ TEST(AtomicFileDeathTest, FullDiskLeavesNothingBehind) {
     };
     EXPECT_EXIT(write_too_much(), testing::ExitedWithCode(0), "");
     EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+constexpr const char* stale_name = ".reljef-0123456789abcdef.part.png";
+
+TEST(AtomicFile, PowerFailureFindsTheOldOrTheNewFile) {
+    const TemporaryFolder folder;
+    std::vector<std::string> events;
+    observed = &events;
+    const auto written = write_text_file(folder.path() / "a.txt", "new");
+    observed = nullptr;
+    ASSERT_TRUE(written);
+    EXPECT_THAT(events, ElementsAre("sync file", "rename", "sync folder"));
+}
+
+TEST(CommitAll, SyncsAllFilesBeforeTheFirstIsRenamed) {
+    const TemporaryFolder folder;
+    std::vector<AtomicFile> files;
+    for (const char* const name : {"a.txt", "b.txt"}) {
+        auto file = AtomicFile::create(folder.path() / name);
+        ASSERT_TRUE(file);
+        files.push_back(std::move(*file));
+    }
+    std::vector<std::string> events;
+    observed = &events;
+    const auto committed = commit_all(files);
+    observed = nullptr;
+    ASSERT_TRUE(committed);
+    EXPECT_THAT(events, ElementsAre("sync file", "sync file", "rename", "rename", "sync folder"));
+}
+
+TEST(AtomicFile, TemporaryNamesCannotBeGuessed) {
+    const TemporaryFolder folder;
+    std::set<std::string> names;
+    std::set<std::string> starts; // counters and times share their first digits
+    for (int i = 0; i < 64; ++i) {
+        const auto file = AtomicFile::create(folder.path() / "a.txt");
+        ASSERT_TRUE(file);
+        const std::string name = file->temporary().filename().string();
+        names.insert(name);
+        starts.insert(name.substr(std::string(".reljef-").size(), 4));
+    }
+    EXPECT_EQ(names.size(), 64U);
+    EXPECT_GT(starts.size(), 50U) << "64 of 65536: a collision of two is likely in 3 of 100 runs";
+}
+
+TEST(AtomicFile, ALinkInPlaceOfTheTemporaryIsNeitherWrittenThroughNorCommitted) {
+    const TemporaryFolder folder;
+    const fs::path victim = folder.write("victim", "untouched");
+    auto file = AtomicFile::create(folder.path() / "a.txt");
+    ASSERT_TRUE(file);
+    fs::remove(file->temporary());
+    fs::create_symlink(victim, file->temporary());
+    EXPECT_TRUE(file->write(std::as_bytes(std::span(std::string_view("new")))));
+    EXPECT_FALSE(file->commit());
+    EXPECT_EQ(read_bytes(victim), "untouched");
+    EXPECT_FALSE(fs::exists(folder.path() / "a.txt"));
+}
+
+TEST(AtomicFile, ALinkStaysAndItsTargetIsReplaced) {
+    const TemporaryFolder folder;
+    folder.write("below/a.txt", "old");
+    fs::create_symlink("below/a.txt", folder.path() / "link.txt");
+    fs::create_symlink(folder.path() / "link.txt", folder.path() / "below/second.txt");
+    for (const char* const name : {"link.txt", "below/second.txt"}) {
+        ASSERT_TRUE(write_text_file(folder.path() / name, name));
+        EXPECT_TRUE(fs::is_symlink(folder.path() / name));
+        EXPECT_EQ(read_bytes(folder.path() / "below/a.txt"), name);
+    }
+}
+
+TEST(AtomicFile, ADanglingLinkMakesItsTarget) {
+    const TemporaryFolder folder;
+    folder.write("below/other", "");
+    fs::create_symlink("below/a.txt", folder.path() / "link.txt");
+    ASSERT_TRUE(write_text_file(folder.path() / "link.txt", "new"));
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "link.txt"));
+    EXPECT_EQ(read_bytes(folder.path() / "below/a.txt"), "new");
+    fs::create_symlink("nowhere/a.txt", folder.path() / "lost.txt");
+    const auto lost = write_text_file(folder.path() / "lost.txt", "new");
+    ASSERT_FALSE(lost);
+    EXPECT_THAT(lost.error().message, HasSubstr("lost.txt: cannot be written: No such file"));
+}
+
+TEST(AtomicFile, ACircleOfLinksAndALinkToADeviceAreRefused) {
+    const TemporaryFolder folder;
+    fs::create_symlink("b.txt", folder.path() / "a.txt");
+    fs::create_symlink("a.txt", folder.path() / "b.txt");
+    const auto circle = AtomicFile::create(folder.path() / "a.txt");
+    ASSERT_FALSE(circle);
+    EXPECT_THAT(circle.error().message, HasSubstr("a.txt: cannot be written: Too many levels"));
+    fs::create_symlink("/dev/null", folder.path() / "null");
+    EXPECT_FALSE(AtomicFile::create(folder.path() / "null"));
+}
+
+TEST(AtomicFile, TheUmaskDecidesWhoReadsTheFile) {
+    const TemporaryFolder folder;
+    const mode_t before = ::umask(0027);
+    const auto written = write_text_file(folder.path() / "a.txt", "x");
+    ::umask(before);
+    ASSERT_TRUE(written);
+    EXPECT_EQ(fs::status(folder.path() / "a.txt").permissions(), fs::perms(0640));
+}
+
+// Of a process that is killed while it writes.
+TEST(AtomicFileDeathTest, WhatAKilledProcessLeftIsRemovedByTheNext) {
+    const TemporaryFolder folder;
+    const auto die = [&] {
+        const auto file = AtomicFile::create(folder.path() / "a.txt");
+        const auto scratch = ScratchFolder::create(folder.path());
+        std::ofstream(scratch->path() / "inside") << "x";
+        ::kill(::getpid(), SIGKILL);
+    };
+    EXPECT_EXIT(die(), testing::KilledBySignal(SIGKILL), "");
+    EXPECT_EQ(folder.names().size(), 2U);
+    const auto next = AtomicFile::create(folder.path() / "b.txt");
+    ASSERT_TRUE(next);
+    EXPECT_THAT(folder.names(), ElementsAre(next->temporary().filename().string()));
+}
+
+TEST(AtomicFile, WhatALivingProcessWritesIsNotStale) {
+    const TemporaryFolder folder;
+    const auto first = AtomicFile::create(folder.path() / "a.txt");
+    const auto scratch = ScratchFolder::create(folder.path());
+    const auto second = AtomicFile::create(folder.path() / "a.txt");
+    ASSERT_TRUE(first && scratch && second);
+    EXPECT_EQ(folder.names().size(), 3U);
+}
+
+TEST(AtomicFile, OnlyItsOwnNamesAreStale) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> kept{".reljef-0123456789abcdef", ".reljef-notes.part.txt",
+                                        "reljef-0123456789abcdef.part", ".reljef-.part"};
+    for (const std::string& name : kept) {
+        folder.write(name, "mine");
+    }
+    folder.write(stale_name, "stale");
+    EXPECT_TRUE(AtomicFile::create(folder.path() / "a.txt"));
+    EXPECT_THAT(folder.names(), testing::UnorderedElementsAreArray(kept));
+}
+
+TEST(AtomicFile, AStaleNameThatIsALinkAPipeOrForeignStays) {
+    if (::geteuid() != 0) {
+        GTEST_SKIP() << "only root can give files away";
+    }
+    const TemporaryFolder folder;
+    const fs::path victim = folder.write("victim/a", "untouched").parent_path();
+    const fs::path stale = folder.path() / stale_name;
+    const auto expect_kept = [&] {
+        EXPECT_TRUE(AtomicFile::create(folder.path() / "a.txt"));
+        EXPECT_TRUE(fs::exists(fs::symlink_status(stale)));
+        fs::remove(stale);
+    };
+    fs::create_symlink(victim, stale);
+    expect_kept();
+    ASSERT_EQ(::mkfifo(stale.c_str(), 0600), 0);
+    expect_kept();
+    folder.write(stale_name, "foreign");
+    ASSERT_EQ(::chown(stale.c_str(), 12345, 12345), 0);
+    expect_kept();
+    EXPECT_EQ(read_bytes(victim / "a"), "untouched");
+}
+
+TEST(ScratchFolder, IsForThisUserOnlyAndGoesWithItsContent) {
+    const TemporaryFolder folder;
+    {
+        const auto scratch = ScratchFolder::create(folder.path());
+        ASSERT_TRUE(scratch);
+        EXPECT_EQ(fs::status(scratch->path()).permissions(), fs::perms(0700));
+        fs::create_directory(scratch->path() / "below");
+        std::ofstream(scratch->path() / "below" / "a") << "x";
+        errno = ENOSPC;
+    }
+    EXPECT_EQ(errno, ENOSPC);
+    EXPECT_THAT(folder.names(), IsEmpty());
+    const auto nowhere = ScratchFolder::create(folder.path() / "none");
+    ASSERT_FALSE(nowhere);
+    EXPECT_THAT(nowhere.error().message, HasSubstr("no folder can be made in it: No such file"));
 }
 
 TEST(TextFile, BytesSurviveTheRoundTrip) {

@@ -159,6 +159,9 @@ bool leaks() {
 
 [[noreturn]] void run(Request request) {
     ::setpgid(0, 0);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) { // the tests may run in the background
+        std::signal(signal, SIG_DFL);
+    }
     const int input = ::open(request.input.c_str(), O_RDONLY);
     if (input < 0 || ::dup2(input, STDIN_FILENO) < 0 ||
         ::dup2(request.files[0], STDOUT_FILENO) < 0 ||

@@ -1,6 +1,7 @@
 #include "tests/support/test_program.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 
 #include <fcntl.h>
@@ -26,7 +27,13 @@ pid_t spawn(std::vector<std::string> arguments, const ProgramOptions& options, c
     }
     posix_spawnattr_t attributes;
     ::posix_spawnattr_init(&attributes);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+    sigset_t signals; // not ignored even where the tests run in the background
+    ::sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        ::sigaddset(&signals, signal);
+    }
+    ::posix_spawnattr_setsigdefault(&attributes, &signals);
     std::vector<std::string> environment = environment_with(options.environment);
     pid_t process = -1;
     const int failure =

@@ -1,5 +1,6 @@
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -89,6 +90,27 @@ TEST(CtrlC, EndsAReadFromASlowServer) {
         EXPECT_EQ(result.err, "reljef: interrupted\n") << verb.front();
         EXPECT_TRUE(folder.names().empty()) << verb.front();
     }
+}
+
+// As nohup starts it.
+TEST(CtrlC, ASignalThatIsIgnoredAtTheStartStaysIgnored) {
+    const test::TemporaryFolder folder;
+    const std::string picture = (folder.path() / "a.png").string();
+    test::ProgramOptions options;
+    bool was_sent = false;
+    options.interruption = {SIGHUP, [&](int process) {
+                                was_sent = test::processor_seconds(process, "llvmpipe") > 0.02;
+                                return was_sent;
+                            }};
+    const auto result = test::run_program("/bin/sh",
+                                          {"-c", "trap '' HUP; exec '" RELJEF_BINARY
+                                                 "' render natural --size 1024x768 --context "
+                                                 "osmesa --quiet -o '" +
+                                                     picture + "'"},
+                                          options);
+    EXPECT_TRUE(was_sent);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(picture));
 }
 
 } // namespace

@@ -58,6 +58,29 @@ TEST_F(StandardInput, ThatIsNoRasterIsOneSentence) {
     }
 }
 
+TEST_F(StandardInput, ThatNeedsAFileNameSaysSo) {
+    const std::string zip("PK\3\4\0\0\0\0", 8);
+    const std::string hgt(std::size_t{2} * 1201 * 1201, '\1');
+    for (const auto& [bytes, name] : {std::pair(zip, ".zip"), std::pair(hgt, ".hgt")}) {
+        const auto file = folder_.write("bytes", bytes).string();
+        const auto result = in_shell(reljef_ + "info - < '" + file + "'", folder_);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_THAT(result.err, HasSubstr("reljef: standard input: "));
+        EXPECT_THAT(result.err, HasSubstr(name));
+        EXPECT_THAT(result.err, HasSubstr("give it as a file, not as -"));
+    }
+}
+
+// The second signal ends a run without cleanup; SIGKILL does it, too.
+TEST_F(StandardInput, WhatAKilledRunLeftIsRemovedByTheNext) {
+    const auto killed = in_shell(
+        "(cat '" + dem_ + "'; sleep 1) | timeout -s KILL 0.5 " + reljef_ + "info -", folder_);
+    EXPECT_FALSE(std::filesystem::is_empty(folder_.path() / "temporary")) << killed.err;
+    const auto next = in_shell(reljef_ + "info - < '" + dem_ + "'", folder_);
+    EXPECT_EQ(next.exit_code, 0) << next.err;
+    // TearDown() finds nothing left.
+}
+
 TEST_F(StandardInput, CannotBeTheTerrainAndThePlaces) {
     test::expect_refusal(test::reljef({"height", "-", "--points", "-"}), 2, {"--points: - found"});
 }

@@ -61,6 +61,21 @@ TEST(Flight, counts_what_it_read_took_and_waited_for) {
     EXPECT_EQ(report.at("memory").at("allowed"), 1 << 20);
 }
 
+TEST(Flight, FromStandardInputNamesNoTemporaryFile) {
+    const test::TemporaryFolder folder;
+    test::ProgramOptions options;
+    options.input = folder.write("dem.asc", test::small_dem);
+    const auto json = folder.path() / "flight.json";
+    const auto result =
+        test::run_program(RELJEF_BENCH_BINARY,
+                          {"flight", "-", "--path", "orbit", "--frames", "1", "--size", "16x12",
+                           "--context", "osmesa", "--quiet", "--json", json.string()},
+                          options);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(test::read_bytes(json)).at("terrain"), "-");
+    EXPECT_THAT(result.out, testing::Not(testing::HasSubstr(".reljef-")));
+}
+
 TEST(Flight, that_is_stopped_says_so) {
     const test::TemporaryFolder folder;
     std::stop_source stop;

@@ -1,9 +1,12 @@
 #include "bench/suites/scaling.h"
 
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/suites/scaling_terrain.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {
@@ -93,6 +96,14 @@ TEST_F(Scaling, StoppedItLeavesNothing) {
     EXPECT_EQ(results.rows.size(), 1U);
     EXPECT_EQ(figure_table(results).summary, "");
     EXPECT_TRUE(folder_.names().empty());
+}
+
+TEST_F(Scaling, ItsFolderCannotBeGuessedOrReadByOthers) {
+    const auto made = make_scaling_folder(folder_.path(), 64);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(std::filesystem::status(made->path()).permissions(),
+              std::filesystem::perms::owner_all);
+    EXPECT_EQ(made->path().filename().string().find(std::to_string(::getpid())), std::string::npos);
 }
 
 TEST_F(Scaling, AFolderThatIsNotThereIsTold) {
