@@ -15,7 +15,11 @@ namespace {
 constexpr const char* status_help =
     "Exit status: 0 success; 1 failure, or ended by Ctrl-C (SIGINT, SIGTERM or SIGHUP); 2 unknown "
     "or\nconflicting options: nothing was written. A second signal, half a second later, ends the "
-    "program at once\nwith the status 128 plus its number.";
+    "program at once\nwith the status 128 plus its number; the next run removes its temporary "
+    "files. "
+    "Signals that are ignored\nat the start, as by nohup, stay ignored.\n"
+    "Output files appear whole or not at all. A symbolic link stays: the file that it names is "
+    "replaced or created.";
 
 // Rejects empty values, which CLI11 accepts or misreads.
 void check_texts(std::span<char*> texts) {

@@ -41,11 +41,6 @@ std::optional<RasterPlace> place_of_raster(GDALDataset& dataset, const std::stri
     return RasterPlace{{dataset.GetRasterXSize(), dataset.GetRasterYSize()}, *affine, wkt_of(*crs)};
 }
 
-bool is_same_crs(const std::string& a, const std::string& b) {
-    const OGRSpatialReference other = crs_from_text(b);
-    return a == b || crs_from_text(a).IsSame(&other) != 0;
-}
-
 bool is_same(const RasterPlace& now, const RasterPlace& before) {
     const auto miss = [&](glm::dvec2 pixel) {
         const glm::dvec2 moved =

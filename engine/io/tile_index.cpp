@@ -5,14 +5,16 @@
 #include <map>
 #include <span>
 #include <system_error>
+#include <tuple>
 #include <unordered_map>
 
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
-#include "engine/core/atomic_file.h"
 #include "engine/core/parallel_for.h"
+#include "engine/io/cache/cache_file.h"
 #include "engine/io/cache/fnv_hash.h"
+#include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/georeferencing.h"
@@ -246,27 +248,31 @@ fs::path cache_file(const fs::path& folder, const TileSetOptions& options) {
     return options.cache_folder / fmt::format("tiles-{:016x}.index", fnv_hash(whole));
 }
 
+std::string indexed_anew(const std::string& why) {
+    return why + ": the tiles are indexed anew";
+}
+
 TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) {
+    const auto bytes = read_cache_file(file, max_index_bytes);
+    if (!bytes) {
+        notes.push_back(indexed_anew(bytes.error().message));
         return {};
     }
-    const auto bytes = read_text_file(file, max_index_bytes);
-    auto index = bytes ? index_from_bytes(*bytes) : Result<TileIndex>(bytes.error());
-    if (index) {
-        return std::move(*index);
+    if (!*bytes) {
+        return {};
     }
-    notes.push_back(bytes ? fmt::format("{} {}: the tiles are indexed anew", file.string(),
-                                        index.error().message)
-                          : index.error().message + ": the tiles are indexed anew");
-    return {};
+    auto index = index_from_bytes(**bytes);
+    if (!index) {
+        notes.push_back(indexed_anew(file.string() + " " + index.error().message));
+        return {};
+    }
+    return std::move(*index);
 }
 
 /// A failure only costs time on the next start.
 void write_cache(const fs::path& file, const TileIndex& index) {
-    std::error_code ignored;
-    fs::create_directories(file.parent_path(), ignored);
-    static_cast<void>(write_text_file(file, bytes_of(index)));
+    const std::string bytes = bytes_of(index);
+    static_cast<void>(write_cache_file(file, std::as_bytes(std::span(bytes))));
 }
 
 /// The entry of an unchanged file; absent for others.
@@ -283,6 +289,40 @@ std::optional<Described> find_unchanged(const TileIndex& index, const IndexedFil
     return Described{*found, placed ? index.crs[static_cast<std::size_t>(found->crs)] : ""};
 }
 
+/// Whether two entries agree on what tiles are placed and read by.
+bool is_same_tile(const Described& a, const Described& b) {
+    const auto key = [](const IndexedFile& file) {
+        return std::tie(file.use, file.cols, file.rows, file.crs_from_pixel, file.declares_voids);
+    };
+    const bool is_placed = a.file.use == FileKind::heights;
+    return key(a.file) == key(b.file) && a.file.error.empty() == b.file.error.empty() &&
+           (!is_placed || is_same_crs(a.wkt, b.wkt));
+}
+
+/// Opens a few of the files whose entries are known, spread over all. Whether the entries are
+/// right; files that cannot be opened tell nothing.
+bool are_right(const std::vector<std::optional<Described>>& known, const fs::path& folder) {
+    constexpr std::size_t opened_files = 4;
+    std::vector<const Described*> all;
+    for (const auto& described : known) {
+        if (described) {
+            all.push_back(&*described);
+        }
+    }
+    const std::size_t count = std::min(opened_files, all.size());
+    const GdalMessages ignored_messages;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Described& old = *all[i * all.size() / count];
+        IndexedFile file;
+        file.path = old.file.path;
+        const auto found = describe_if_raster(folder / old.file.path, std::move(file));
+        if (found && found->file.opened && !is_same_tile(*found, old)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& options,
                                std::vector<std::string>& notes) {
     auto files = list_files(folder, options.stop);
@@ -292,13 +332,21 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
     const bool cached = !options.cache_folder.empty();
     const TileIndex old = cached ? read_cache(cache_file(folder, options), notes) : TileIndex{};
     std::vector<std::optional<Described>> all(files->size());
+    std::transform(files->begin(), files->end(), all.begin(),
+                   [&](const IndexedFile& file) { return find_unchanged(old, file); });
+    if (!are_right(all, folder)) {
+        notes.push_back(
+            indexed_anew(cache_file(folder, options).string() + " holds nonsense of the files"));
+        std::fill(all.begin(), all.end(), std::nullopt);
+    }
     const auto describe = [&](int i) {
         const ReadScope scope(options.stop);
         IndexedFile& file = (*files)[static_cast<std::size_t>(i)];
-        auto same = find_unchanged(old, file);
-        const fs::path path = folder / file.path;
-        all[static_cast<std::size_t>(i)] =
-            same ? std::move(same) : describe_if_raster(path, std::move(file));
+        auto& described = all[static_cast<std::size_t>(i)];
+        if (!described) {
+            const fs::path path = folder / file.path;
+            described = describe_if_raster(path, std::move(file));
+        }
     };
     if (!parallel_for(static_cast<int>(files->size()), describe,
                       {.threads = options.threads, .stop = options.stop, .progress = {}})) {

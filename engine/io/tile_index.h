@@ -41,14 +41,15 @@ struct TileIndex {
     friend bool operator==(const TileIndex&, const TileIndex&) = default;
 };
 
-/// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files. Adds
-/// a note on an unusable cache. Fails if the folder cannot be read.
+/// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files, if it
+/// is right for the few of them that are opened. Adds a note on an unusable cache. Fails if the
+/// folder cannot be read.
 Result<TileIndex> index_tiles(const std::filesystem::path& path, const TileSetOptions& options,
                               std::vector<std::string>& notes);
 
 /// Serializes an index with a version and a checksum.
 std::string bytes_of(const TileIndex& index);
-/// Fails for another version and for damaged bytes.
+/// Fails for another version, damaged bytes, and values out of their range.
 Result<TileIndex> index_from_bytes(std::string_view bytes);
 
 } // namespace reljef::io

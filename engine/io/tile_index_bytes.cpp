@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "engine/io/cache/fnv_hash.h"
 #include "engine/io/raster/georeferencing.h"
@@ -44,10 +45,21 @@ public:
         get(size);
         text = std::string(take(size));
     }
+    // A bool or an enumerator of any other value would be undefined behaviour.
+    void get(bool& flag) { flag = limited(1) == 1; }
+    void get(FileKind& kind) {
+        kind = static_cast<FileKind>(limited(static_cast<std::uint8_t>(FileKind::error)));
+    }
     [[nodiscard]] bool good() const { return good_; }
     [[nodiscard]] bool at_end() const { return good_ && rest_.empty(); }
 
 private:
+    std::uint8_t limited(std::uint8_t max) {
+        std::uint8_t value = 0;
+        get(value);
+        good_ = good_ && value <= max;
+        return good_ ? value : std::uint8_t{0};
+    }
     std::string_view take(std::size_t count) {
         if (!good_ || rest_.size() < count) {
             good_ = false;
@@ -70,14 +82,25 @@ template <class File, class Visit> void visit_fields(File& file, const Visit& vi
               file.type, file.vertical_datum, file.declares_voids);
 }
 
+bool is_tile(const IndexedFile& file, std::size_t systems) {
+    return file.opened && file.error.empty() && file.crs >= 0 &&
+           static_cast<std::size_t>(file.crs) < systems && std::min(file.cols, file.rows) >= 2 &&
+           std::max(file.cols, file.rows) <= terrain::max_tree_samples &&
+           is_usable(file.crs_from_pixel);
+}
+
 bool is_consistent(const TileIndex& index) {
-    const int systems = static_cast<int>(index.crs.size());
-    return std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
-        return file.use != FileKind::heights ||
-               (file.crs >= 0 && file.crs < systems && is_usable(file.crs_from_pixel) &&
-                std::min(file.cols, file.rows) >= 2 &&
-                std::max(file.cols, file.rows) <= terrain::max_tree_samples);
-    });
+    const std::set<std::string_view> systems(index.crs.begin(), index.crs.end());
+    const auto is_out_of_order = [](const IndexedFile& a, const IndexedFile& b) {
+        return a.path >= b.path;
+    };
+    return systems.size() == index.crs.size() && !systems.contains("") &&
+           std::adjacent_find(index.files.begin(), index.files.end(), is_out_of_order) ==
+               index.files.end() &&
+           std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
+               return !file.path.empty() && std::min(file.cols, file.rows) >= 0 &&
+                      (file.use != FileKind::heights || is_tile(file, index.crs.size()));
+           });
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -182,10 +183,11 @@ constexpr float rounding = 1.0F - 0x1p-20F;
 
 class ConeFinder {
 public:
+    // `slopes` begin at the cell `slopes_begin`.
     ConeFinder(const std::vector<Grid<Relief>>& levels, const std::vector<Grid<float>>& slopes,
-               ConeKind kind)
+               ConeKind kind, glm::ivec2 slopes_begin = {0, 0})
         : levels_(levels), cells_(levels.front()), slope_bounds_(slopes),
-          relaxed_(kind == ConeKind::relaxed) {}
+          relaxed_(kind == ConeKind::relaxed), slopes_begin_(slopes_begin) {}
 
     float ratio(glm::ivec2 cell) {
         cell_ = cell;
@@ -204,7 +206,8 @@ private:
     };
 
     [[nodiscard]] float slope_within(int cells) const {
-        return slope_bounds_[static_cast<std::size_t>(cells)](cell_.x, cell_.y);
+        const glm::ivec2 at = cell_ - slopes_begin_;
+        return slope_bounds_[static_cast<std::size_t>(cells)](at.x, at.y);
     }
 
     [[nodiscard]] const Relief* neighbour(int east, int south) const {
@@ -321,11 +324,39 @@ private:
     const Grid<Relief>& cells_;
     const std::vector<Grid<float>>& slope_bounds_;
     bool relaxed_;
+    glm::ivec2 slopes_begin_;
     glm::ivec2 cell_{0};
     float ratio_ = 0.0F;
     glm::ivec2 limit_{-1};
     std::vector<Block> stack_;
 };
+
+// The ratio of one cell: the slope bounds need its surroundings only.
+float ratio_of_cell(const std::vector<Grid<Relief>>& levels, ConeKind kind, glm::ivec2 cell) {
+    const Grid<Relief>& cells = levels.front();
+    const glm::ivec2 begin = glm::max(cell - near_cells, glm::ivec2(0));
+    const glm::ivec2 end = glm::min(cell + near_cells + 1, glm::ivec2(cells.cols(), cells.rows()));
+    Grid<Relief> around(end.x - begin.x, end.y - begin.y);
+    for (int row = begin.y; row < end.y; ++row) {
+        std::copy_n(cells.row(row).begin() + begin.x, around.cols(),
+                    around.row(row - begin.y).begin());
+    }
+    return ConeFinder(levels, slope_bounds(around, kind, {}), kind, begin).ratio(cell);
+}
+
+// The order of the tests changes a ratio by a few roundings.
+constexpr float max_difference = 0x1p-20F; // relative
+
+bool is_about(float a, float b) {
+    return std::abs(a - b) <= max_difference * std::max(a, b);
+}
+
+// A cell of the i-th part of the unit square: the R2 sequence (Roberts 2018) is spread evenly.
+glm::ivec2 spread_cell(int i, glm::ivec2 cells) {
+    const glm::dvec2 place = glm::fract(
+        0.5 + static_cast<double>(i) * glm::dvec2(0.7548776662466927, 0.5698402909980532));
+    return glm::min(glm::ivec2(place * glm::dvec2(cells)), cells - 1);
+}
 
 } // namespace
 
@@ -357,6 +388,30 @@ std::optional<ConeMaps> cone_maps(GridView<const float> heights, const ParallelO
     begin = 0.5;
     auto relaxed = plain ? cone_map(heights, ConeKind::relaxed, half) : std::nullopt;
     return relaxed ? std::optional(ConeMaps{std::move(*plain), std::move(*relaxed)}) : std::nullopt;
+}
+
+bool are_cones_of(const ConeMaps& cones, GridView<const float> heights) {
+    constexpr int checked_cells = 256;
+    const auto in_range = [](const Grid<float>& ratios) {
+        return std::all_of(ratios.samples().begin(), ratios.samples().end(), [](float ratio) {
+            return ratio > 0.0F && ratio <= max_cone_ratio; // not NaN
+        });
+    };
+    if (!in_range(cones.plain) || !in_range(cones.relaxed)) {
+        return false;
+    }
+    const std::vector<Grid<Relief>> levels = relief_pyramid(heights);
+    for (int i = 0; i < checked_cells; ++i) {
+        const glm::ivec2 cell = spread_cell(i, {cones.plain.cols(), cones.plain.rows()});
+        const auto is_right = [&](const Grid<float>& ratios, ConeKind kind) {
+            return is_about(ratios(cell.x, cell.y), ratio_of_cell(levels, kind, cell));
+        };
+        if (!is_right(cones.plain, ConeKind::plain) ||
+            !is_right(cones.relaxed, ConeKind::relaxed)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 Grid<float> cones_at_samples(const Grid<float>& cells) {

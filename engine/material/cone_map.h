@@ -51,4 +51,9 @@ struct ConeMaps {
 std::optional<ConeMaps> cone_maps(GridView<const float> heights,
                                   const ParallelOptions& parallel = {});
 
+/// Whether all ratios are in range, and those of some cells, spread over the map, are what
+/// cone_maps() finds, up to rounding: what was read from a file may be nonsense. Precondition: the
+/// maps have one cell fewer than the heights along each side.
+bool are_cones_of(const ConeMaps& cones, GridView<const float> heights);
+
 } // namespace reljef::material

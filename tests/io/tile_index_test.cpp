@@ -1,9 +1,16 @@
 #include "engine/io/tile_index.h"
 
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/io/cache/fnv_hash.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/plain_permissions.h"
 #include "tests/support/temporary_folder.h"
@@ -109,6 +116,96 @@ TEST_F(TileIndices, ReadAGridOfManyFilesAgainWhereOneOfThemChanges) {
     folder_.write("grid/prj.adf", "Projection UTM");
     const TileIndex after = index();
     EXPECT_NE(before.files.back().sidecar_hash, after.files.back().sidecar_hash);
+}
+
+// A checksum is right for whatever was written.
+TEST_F(TileIndices, NonsenseBehindAValidChecksumIsFound) {
+    raster("a.tif", true);
+    raster("b.tif", true);
+    const TileIndex good = index();
+    ASSERT_TRUE(index_from_bytes(bytes_of(good)));
+    const std::vector<std::function<void(TileIndex&)>> changes{
+        [](TileIndex& bad) { bad.files[0].use = static_cast<FileKind>(3); },
+        [](TileIndex& bad) { bad.files[0].crs = 1; },
+        [](TileIndex& bad) { bad.files[0].crs = -1; },
+        [](TileIndex& bad) { bad.files[0].cols = 1; },
+        [](TileIndex& bad) { bad.files[0].rows = std::numeric_limits<int>::max(); },
+        [](TileIndex& bad) {
+            bad.files[0].use = FileKind::picture;
+            bad.files[0].rows = -1;
+        },
+        [](TileIndex& bad) { bad.files[0].crs_from_pixel.x0 = NAN; },
+        [](TileIndex& bad) { bad.files[0].crs_from_pixel.x_col = 0.0; },
+        [](TileIndex& bad) { bad.files[0].opened = false; },
+        [](TileIndex& bad) { bad.files[0].error = "unusable"; },
+        [](TileIndex& bad) { bad.files[1].path = bad.files[0].path; },
+        [](TileIndex& bad) { std::swap(bad.files[0], bad.files[1]); },
+        [](TileIndex& bad) { bad.files[0].path = ""; },
+        [](TileIndex& bad) { bad.crs.push_back(bad.crs[0]); },
+        [](TileIndex& bad) { bad.crs.clear(); },
+    };
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        TileIndex bad = good;
+        changes[i](bad);
+        EXPECT_FALSE(index_from_bytes(bytes_of(bad))) << "change " << i;
+    }
+}
+
+// A bool that is neither 0 nor 1 would be undefined behaviour.
+TEST_F(TileIndices, ABoolIsNoOtherByte) {
+    raster("a.tif", true);
+    TileIndex good = index();
+    good.files[0].declares_voids = true;
+    std::string bytes = bytes_of(good);
+    ASSERT_EQ(bytes.back(), 1);
+    bytes.back() = 2;
+    constexpr std::size_t head = 20; // magic
+    const std::uint64_t checksum = fnv_hash(std::string_view(bytes).substr(head + 8));
+    std::memcpy(bytes.data() + head, &checksum, sizeof(checksum));
+    EXPECT_FALSE(index_from_bytes(bytes));
+    bytes.back() = 0;
+    const std::uint64_t other = fnv_hash(std::string_view(bytes).substr(head + 8));
+    std::memcpy(bytes.data() + head, &other, sizeof(other));
+    EXPECT_TRUE(index_from_bytes(bytes));
+}
+
+TEST_F(TileIndices, PlacesThatAreNotThoseOfTheFilesAreFound) {
+    raster("a.tif", true);
+    raster("b.tif", true);
+    TileIndex moved = index();
+    const double x0 = moved.files[1].crs_from_pixel.x0;
+    moved.files[1].crs_from_pixel.x0 += 10.0;
+    const std::filesystem::path kept = *std::filesystem::directory_iterator(cache_.path());
+    ASSERT_TRUE(write_text_file(kept, bytes_of(moved)));
+    std::vector<std::string> notes;
+    const auto found = index_tiles(folder_.path(), options_, notes);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->files[1].crs_from_pixel.x0, x0);
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_THAT(notes[0], HasSubstr("holds nonsense of the files: the tiles are indexed anew"));
+    EXPECT_EQ(index(), *found) << "the cache is right again";
+}
+
+TEST_F(TileIndices, ACacheThatIsAPipeALinkOrForeignCostsOnlySpeed) {
+    raster("a.tif", true);
+    const TileIndex good = index();
+    const std::filesystem::path kept = *std::filesystem::directory_iterator(cache_.path());
+    const auto expect_note = [&](const std::string& why) {
+        std::vector<std::string> notes;
+        const auto found = index_tiles(folder_.path(), options_, notes);
+        ASSERT_TRUE(found);
+        EXPECT_EQ(found->files[0].crs_from_pixel, good.files[0].crs_from_pixel);
+        ASSERT_EQ(notes.size(), 1U);
+        EXPECT_THAT(notes[0], HasSubstr(why));
+    };
+    std::filesystem::remove(kept);
+    ASSERT_EQ(::mkfifo(kept.c_str(), 0600), 0);
+    expect_note("no regular file found");
+    std::filesystem::remove(kept);
+    std::filesystem::create_symlink("/dev/zero", kept);
+    expect_note("a link found");
+    std::filesystem::permissions(cache_.path(), std::filesystem::perms::all);
+    expect_note("other users can write to it");
 }
 
 TEST_F(TileIndices, KeepNoFaultOfOpening) {

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/core/atomic_file.h"
 #include "engine/core/stopwatch.h"
+#include "engine/io/cache/cache_file.h"
 #include "engine/io/cache/fnv_hash.h"
 
 namespace reljef::io {
@@ -104,39 +104,42 @@ CacheHeader header_of(const CacheKey& key, std::span<const float> numbers) {
     return header;
 }
 
+constexpr std::string_view computed_again = "; they are computed again";
+
 Error unusable(const fs::path& path, const CacheKind& kind, std::string_view found) {
-    return Error{fmt::format("{}: {} found, {} (version {}) were expected; they are computed again",
-                             path.string(), found, kind.name, kind.version)};
+    return Error{fmt::format("{}: {} found, {} (version {}) were expected{}", path.string(), found,
+                             kind.name, kind.version, computed_again)};
 }
 
-// Reads and verifies `count` floats.
-Result<std::vector<float>> read_numbers(const fs::path& path, const CacheKey& key,
-                                        std::size_t count) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) { // a device may never end
-        return unusable(path, key.kind, "no file");
-    }
+// Reads and verifies `count` floats; absent if there is no file.
+Result<std::optional<std::vector<float>>> read_numbers(const fs::path& path, const CacheKey& key,
+                                                       std::size_t count) {
+    using Numbers = std::optional<std::vector<float>>;
     const std::size_t expected_bytes = sizeof(CacheHeader) + count * sizeof(float);
-    const auto bytes = read_text_file(path, expected_bytes + 1);
-    if (!bytes) {
-        return bytes.error();
+    const auto file = read_cache_file(path, expected_bytes);
+    if (!file) {
+        return Error{fmt::format("{}{}", file.error().message, computed_again)};
+    }
+    if (!*file) {
+        return Numbers();
+    }
+    const std::string& bytes = **file;
+    if (bytes.size() != expected_bytes) {
+        return unusable(path, key.kind, fmt::format("a length of {} bytes", bytes.size()));
     }
     std::vector<float> numbers(count);
     const auto content = std::as_writable_bytes(std::span(numbers));
-    if (bytes->size() != expected_bytes) {
-        return unusable(path, key.kind, fmt::format("a length of {} bytes", bytes->size()));
-    }
     CacheHeader header;
-    std::memcpy(&header, bytes->data(), sizeof(header));
+    std::memcpy(&header, bytes.data(), sizeof(header));
     if (header.version != key.kind.version) {
         return unusable(path, key.kind, fmt::format("version {}", header.version));
     }
-    std::memcpy(content.data(), bytes->data() + sizeof(header), content.size());
+    std::memcpy(content.data(), bytes.data() + sizeof(header), content.size());
     const CacheHeader expected = header_of(key, numbers);
     if (std::memcmp(&header, &expected, sizeof(header)) != 0) {
         return unusable(path, key.kind, "a wrong checksum");
     }
-    return numbers;
+    return Numbers(std::move(numbers));
 }
 
 Result<void> write_numbers(const fs::path& path, const CacheKey& key,
@@ -146,28 +149,30 @@ Result<void> write_numbers(const fs::path& path, const CacheKey& key,
     const auto content = std::as_bytes(numbers);
     std::vector<std::byte> bytes(start.begin(), start.end());
     bytes.insert(bytes.end(), content.begin(), content.end());
-    std::error_code ignored; // write_file reports it
-    fs::create_directories(path.parent_path(), ignored);
-    return write_file(path, bytes);
+    return write_cache_file(path, bytes);
 }
 
 // `restore(numbers)` and `compute()` return null if stopped; `numbers_of` is the inverse of
-// `restore`. `make_key` is called only if there is a folder.
-template <class T, class MakeKey, class Restore, class Compute, class NumbersOf>
+// `restore`, and `is_valid` finds nonsense. `make_key` is called only if there is a folder.
+template <class T, class MakeKey, class Restore, class IsValid, class Compute, class NumbersOf>
 std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
                                 const MakeKey& make_key, const Restore& restore,
-                                const Compute& compute, const NumbersOf& numbers_of) {
+                                const IsValid& is_valid, const Compute& compute,
+                                const NumbersOf& numbers_of) {
     Cached<T> result;
     const CacheKey key = options.folder ? make_key() : CacheKey();
     const fs::path path = options.folder ? key.file_in(*options.folder) : fs::path();
-    std::error_code ignored;
-    if (options.folder && fs::exists(path, ignored)) {
+    if (options.folder) {
         const auto numbers = read_numbers(path, key, count);
-        if (numbers) {
-            result.value = restore(*numbers);
-            return result.value ? std::optional(result) : std::nullopt;
+        if (numbers && *numbers) {
+            result.value = restore(**numbers);
+            if (!result.value || is_valid(*result.value)) {
+                return result.value ? std::optional(result) : std::nullopt;
+            }
+            result.note = unusable(path, key.kind, "nonsense").message;
+        } else if (!numbers) {
+            result.note = numbers.error().message;
         }
-        result.note = numbers.error().message;
     }
     const Stopwatch watch;
     result.value = compute();
@@ -227,7 +232,9 @@ std::optional<Cached<material::ConeMaps>> cached_cones(GridView<const float> uni
         return numbers;
     };
     return cached<ConeMaps>(
-        options, 2 * count, [&] { return cone_key(unit_heights); }, restore, compute, numbers_of);
+        options, 2 * count, [&] { return cone_key(unit_heights); }, restore,
+        [&](const ConeMaps& cones) { return material::are_cones_of(cones, unit_heights); }, compute,
+        numbers_of);
 }
 
 std::optional<Cached<terrain::Bisection>> cached_bisection(const terrain::Heightfield& heightfield,
@@ -249,7 +256,8 @@ std::optional<Cached<terrain::Bisection>> cached_bisection(const terrain::Height
     const std::size_t count =
         Bisection::bounds_count({heightfield.heights.cols(), heightfield.heights.rows()});
     return cached<Bisection>(
-        options, count, [&] { return bisection_key(heightfield, placement); }, restore, compute,
+        options, count, [&] { return bisection_key(heightfield, placement); }, restore,
+        [&](const Bisection& bisection) { return bisection.is_valid(options.parallel); }, compute,
         [](const Bisection& bisection) { return bisection.bounds(); });
 }
 

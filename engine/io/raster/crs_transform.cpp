@@ -27,6 +27,11 @@ std::string wkt_of(const OGRSpatialReference& crs, const char* format) {
     return wkt;
 }
 
+bool is_same_crs(const std::string& a, const std::string& b) {
+    const OGRSpatialReference other = crs_from_text(b);
+    return a == b || crs_from_text(a).IsSame(&other) != 0;
+}
+
 std::optional<CrsTransform> CrsTransform::create(const OGRSpatialReference& from,
                                                  const OGRSpatialReference& to,
                                                  const std::optional<DegreeBox>& area) {

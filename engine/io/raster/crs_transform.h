@@ -22,6 +22,8 @@ inline const std::string wgs84_degrees = "EPSG:4326";
 /// Parses WKT or "EPSG:…"; axes x east, y north.
 OGRSpatialReference crs_from_text(const std::string& text);
 std::string wkt_of(const OGRSpatialReference& crs, const char* format = "FORMAT=WKT2_2019");
+/// Whether two texts name one system: GDAL writes some systems in two ways.
+bool is_same_crs(const std::string& a, const std::string& b);
 
 /// PROJ's transform between two coordinate systems. One thread at a time.
 class CrsTransform {

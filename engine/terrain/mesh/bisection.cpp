@@ -1,6 +1,7 @@
 #include "engine/terrain/mesh/bisection.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -51,6 +52,11 @@ void for_runs(int count, int at_once, const ParallelOptions& parallel, const Bod
     parallel_for((count + at_once - 1) / at_once,
                  [&](int index) { body(index * at_once, std::min(count, (index + 1) * at_once)); },
                  {parallel.threads, parallel.stop, {}});
+}
+
+// Own errors take most of the time, so that of one split in 64 is checked.
+bool is_checked(glm::uvec2 place) {
+    return (2654435761U * (place.x + 40503U * place.y)) >> 26U == 0; // Knuth's hash
 }
 
 // Rows of samples per work item.
@@ -132,10 +138,34 @@ Halving halving_at(glm::ivec2 place, int size, bool on_side) {
 // Computes the errors and spheres of one level of splits from their children.
 class Bisection::LevelBuilder {
 public:
-    LevelBuilder(Bisection& bisection, int size, bool on_side)
+    LevelBuilder(const Bisection& bisection, int size, bool on_side)
         : bisection_(bisection), size_(size), on_side_(on_side) {}
 
-    void build(const ParallelOptions& parallel) {
+    void build(Bisection& result, const ParallelOptions& parallel) const {
+        for_each_split(parallel, [&](glm::ivec2 place) {
+            StoredSplit split = enclosing_children(place);
+            split.error = std::max(split.error, own_error(place));
+            result.stored(place, size_, on_side_) = split;
+        });
+    }
+
+    // Errors and spheres enclose those of the children, and one own error of many is right.
+    [[nodiscard]] bool is_valid(const ParallelOptions& parallel) const {
+        std::atomic<bool> valid = true;
+        for_each_split(parallel, [&](glm::ivec2 place) {
+            const StoredSplit& found = bisection_.stored(place, size_, on_side_);
+            const StoredSplit least = enclosing_children(place);
+            const float own = is_checked(glm::uvec2(place)) ? own_error(place) : found.error;
+            if (found.error != std::max(least.error, own) || found.radius != least.radius) {
+                valid = false; // also for NaN
+            }
+        });
+        return valid;
+    }
+
+private:
+    template <class Visit>
+    void for_each_split(const ParallelOptions& parallel, const Visit& visit) const {
         const int half = size_ / 2;
         const int first_row = on_side_ ? 0 : half;
         const int step = on_side_ ? half : size_;
@@ -143,39 +173,34 @@ public:
         const int count = rows > first_row ? (rows - 1 - first_row) / step + 1 : 0;
         for_runs(count, std::max(samples_at_once / step, 1), parallel, [&](int first, int last) {
             for (int i = first; i < last; ++i) {
-                build_row(first_row + i * step);
+                const int row = first_row + i * step;
+                const bool begins_at_corner = on_side_ && row % size_ != 0;
+                for (int col = begins_at_corner ? 0 : half; col < bisection_.heights_.cols();
+                     col += size_) {
+                    visit(glm::ivec2(col, row));
+                }
             }
         });
     }
 
-private:
-    void build_row(int row) {
-        const bool begins_at_corner = on_side_ && row % size_ != 0;
-        for (int col = begins_at_corner ? 0 : size_ / 2; col < bisection_.heights_.cols();
-             col += size_) {
-            build_split({col, row});
-        }
-    }
-
-    void build_split(glm::ivec2 place) {
-        double error = own_error(place);
+    [[nodiscard]] StoredSplit enclosing_children(glm::ivec2 place) const {
+        double error = 0.0;
         double radius = 0.0;
         const glm::dvec3 center = bisection_.position(place.x, place.y);
         for_each_child(place, [&](const Split& child) {
             error = std::max(error, child.error);
             radius = std::max(radius, glm::distance(center, child.center) + child.radius);
         });
-        bisection_.stored(place, size_, on_side_) = {rounded_up(error),
-                                                     rounded_up(radius * sphere_growth),
-                                                     bisection_.heights_(place.x, place.y)};
+        return {rounded_up(error), rounded_up(radius * sphere_growth),
+                bisection_.heights_(place.x, place.y)};
     }
 
-    double own_error(glm::ivec2 place) const {
+    [[nodiscard]] float own_error(glm::ivec2 place) const {
         double error = 0.0;
         for (const SampleTriangle& triangle : halved_at(place, size_, on_side_)) {
             error = std::max(error, error_of(triangle));
         }
-        return error;
+        return rounded_up(error);
     }
 
     double error_of(const SampleTriangle& triangle) const {
@@ -212,7 +237,7 @@ private:
         }
     }
 
-    Bisection& bisection_;
+    const Bisection& bisection_;
     int size_; // samples
     bool on_side_;
 };
@@ -244,14 +269,24 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
     : Bisection(heightfield, placement, parallel, CellsOnly{}) {
     double done = 0.0;
     for (int size = 2; size <= tile_cells; size *= 2) {
-        LevelBuilder(*this, size, true).build(parallel);
+        LevelBuilder(*this, size, true).build(*this, parallel);
         if (size < tile_cells) {
-            LevelBuilder(*this, size, false).build(parallel);
+            LevelBuilder(*this, size, false).build(*this, parallel);
         }
         if (parallel.progress) {
             parallel.progress(++done / (levels - 1.0)); // all take about the same time
         }
     }
+}
+
+bool Bisection::is_valid(const ParallelOptions& parallel) const {
+    for (int size = 2; size <= tile_cells; size *= 2) {
+        if (!LevelBuilder(*this, size, true).is_valid(parallel) ||
+            (size < tile_cells && !LevelBuilder(*this, size, false).is_valid(parallel))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
@@ -442,8 +477,7 @@ std::vector<float> Bisection::bounds() const {
     std::vector<float> bounds;
     bounds.reserve(bounds_count({heights_.cols(), heights_.rows()}));
     for_each_stored(*this, [&](const StoredSplit& split, glm::ivec2) {
-        bounds.push_back(split.error);
-        bounds.push_back(split.radius);
+        bounds.insert(bounds.end(), {split.error, split.radius});
     });
     return bounds;
 }

@@ -1,10 +1,15 @@
 #include "engine/io/cache/disk_cache.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include "tests/io/cache/resealed.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/terrain/made_bisection.h"
@@ -107,6 +112,36 @@ TEST_F(BisectionCache, AFlippedBitAnywhereIsFound) {
     }
 }
 
+// Errors and radii alternate.
+TEST_F(BisectionCache, NonsenseBehindAValidChecksumIsFound) {
+    const std::vector<std::function<void(std::span<float>)>> changes{
+        [](std::span<float> numbers) { std::fill(numbers.begin(), numbers.end(), 0.0F); },
+        [](std::span<float> numbers) { numbers[0] = std::nanf(""); },
+        [](std::span<float> numbers) { numbers[1] = std::nanf(""); },
+        [](std::span<float> numbers) { numbers[100] = -1.0F; },
+        [](std::span<float> numbers) { numbers[101] = HUGE_VALF; },
+        [](std::span<float> numbers) { numbers[301] *= 0.5F; },
+        [](std::span<float> numbers) { numbers.back() += 1.0F; },
+        [](std::span<float> numbers) { std::reverse(numbers.begin(), numbers.end()); },
+        [](std::span<float> numbers) { // nested and in range, but of no heights
+            for (std::size_t i = 0; i < numbers.size(); i += 2) {
+                numbers[i] += 1.0F;
+            }
+        },
+    };
+    for (const auto& change : changes) {
+        expect_rebuilt_from(test::resealed(good_, change), "nonsense found");
+    }
+}
+
+TEST_F(BisectionCache, APipeInPlaceOfTheFileDoesNotBlock) {
+    std::filesystem::remove(file());
+    ASSERT_EQ(::mkfifo(file().c_str(), 0600), 0);
+    const Cached<terrain::Bisection> made = cached();
+    EXPECT_THAT(made.note, HasSubstr("no regular file found"));
+    expect_same_splits(*made.value, terrain_.bisection);
+}
+
 TEST_F(BisectionCache, ThatOfOtherHeightsOrPlacesIsNotTaken) {
     const auto name = file();
     const auto placed_otherwise =
@@ -126,7 +161,7 @@ TEST_F(BisectionCache, WithoutAPlaceToKeepItItIsMade) {
     static_cast<void>(folder_.write("taken", "a file"));
     CacheOptions in_a_file = options();
     in_a_file.folder = folder_.path() / "taken";
-    EXPECT_THAT(cached(in_a_file).value().note, HasSubstr("cannot be written"));
+    EXPECT_THAT(cached(in_a_file).value().note, HasSubstr("taken: cannot be used"));
 }
 
 TEST_F(BisectionCache, WithoutRoomItIsMadeAndNothingIsLeft) {

@@ -1,10 +1,14 @@
 #include "engine/io/cache/disk_cache.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/io/cache/resealed.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/terrain/made_heightfield.h"
 
@@ -88,6 +92,38 @@ TEST_F(ConeCache, AFlippedBitAnywhereIsFound) {
     }
 }
 
+// Plain cones, then relaxed ones.
+TEST_F(ConeCache, NonsenseBehindAValidChecksumIsFound) {
+    const std::vector<std::function<void(std::span<float>)>> changes{
+        [](std::span<float> numbers) { numbers[0] = 0.0F; },
+        [](std::span<float> numbers) { numbers[7] = -1.0F; },
+        [](std::span<float> numbers) { numbers[7] = std::nanf(""); },
+        [](std::span<float> numbers) { numbers.back() = 1.001F * material::max_cone_ratio; },
+        [](std::span<float> numbers) { std::fill(numbers.begin(), numbers.end(), 1.0F); },
+        [](std::span<float> numbers) { std::reverse(numbers.begin(), numbers.end()); },
+        [](std::span<float> numbers) {
+            for (float& ratio : numbers) {
+                ratio *= 0.9999F;
+            }
+        },
+    };
+    for (const auto& change : changes) {
+        expect_rebuilt_from(test::resealed(good_, change), "nonsense found");
+    }
+}
+
+// The check must not reject what was made, whatever the roundings.
+TEST_F(ConeCache, RightConesAreNeverNonsense) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        const Grid<float> rough = test::random_heights(70, 45, 0.0F, 1.0F, seed);
+        EXPECT_TRUE(material::are_cones_of(*material::cone_maps(rough.view()), rough.view()));
+    }
+    for (const glm::ivec2 size : {glm::ivec2(2, 2), glm::ivec2(2, 40), glm::ivec2(300, 3)}) {
+        const Grid<float> flat(size.x, size.y, 0.5F);
+        EXPECT_TRUE(material::are_cones_of(*material::cone_maps(flat.view()), flat.view()));
+    }
+}
+
 TEST_F(ConeCache, TheConesOfOtherHeightsAreNotTaken) {
     const std::string others = good_;
     heights_(5, 5) += 0.25F;
@@ -104,7 +140,7 @@ TEST_F(ConeCache, WithoutAPlaceToKeepThemTheyAreMade) {
                      {.folder = folder_.path() / "taken", .min_seconds = 0.0, .parallel = {}})
             .value();
     EXPECT_EQ(in_a_file.value->plain, made_->plain);
-    EXPECT_THAT(in_a_file.note, HasSubstr("cannot be written"));
+    EXPECT_THAT(in_a_file.note, HasSubstr("taken: cannot be used"));
 }
 
 TEST_F(ConeCache, WhatIsMadeAtOnceIsNotKept) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/core/result.h"
+
+namespace reljef::io {
+
+/// The content of a cache file; absent if there is none. Never blocks and follows no link in the
+/// folder. Fails, with one sentence, for a file or folder that another user owns or can write to,
+/// for what is no regular file, and for over `max_bytes` bytes.
+Result<std::optional<std::string>> read_cache_file(const std::filesystem::path& path,
+                                                   std::size_t max_bytes);
+
+/// Writes a file that only this user can read. Makes the folder, for this user only, on demand.
+/// Fails as read_cache_file, and if the file cannot be written; then nothing of it is left.
+Result<void> write_cache_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+} // namespace reljef::io
