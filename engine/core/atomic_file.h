@@ -33,7 +33,7 @@ private:
 
 /// An output file that appears whole or not at all: write to `temporary()`, then `commit()`. The
 /// destructor removes a file that is not committed. If the process is killed, the next AtomicFile
-/// in the folder removes it: a file lock tells whose process has ended.
+/// in the folder removes it: a file lock shows which processes live.
 class AtomicFile {
 public:
     /// A target that is a symbolic link stays one: the file that it names is replaced or created.

@@ -126,7 +126,7 @@ TEST_F(TileIndices, NonsenseBehindAValidChecksumIsFound) {
     ASSERT_TRUE(index_from_bytes(bytes_of(good)));
     const std::vector<std::function<void(TileIndex&)>> changes{
         [](TileIndex& bad) { bad.files[0].use = static_cast<FileKind>(3); },
-        [](TileIndex& bad) { bad.files[0].crs = 1; },
+        [](TileIndex& bad) { bad.files[0].crs = static_cast<int>(bad.crs.size()); },
         [](TileIndex& bad) { bad.files[0].crs = -1; },
         [](TileIndex& bad) { bad.files[0].cols = 1; },
         [](TileIndex& bad) { bad.files[0].rows = std::numeric_limits<int>::max(); },

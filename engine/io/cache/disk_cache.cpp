@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <span>
@@ -153,7 +154,8 @@ Result<void> write_numbers(const fs::path& path, const CacheKey& key,
 }
 
 // `restore(numbers)` and `compute()` return null if stopped; `numbers_of` is the inverse of
-// `restore`, and `is_valid` finds nonsense. `make_key` is called only if there is a folder.
+// `restore`, and `is_valid(numbers, value)` finds nonsense. `make_key` is called only if there is a
+// folder.
 template <class T, class MakeKey, class Restore, class IsValid, class Compute, class NumbersOf>
 std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
                                 const MakeKey& make_key, const Restore& restore,
@@ -166,7 +168,7 @@ std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
         const auto numbers = read_numbers(path, key, count);
         if (numbers && *numbers) {
             result.value = restore(**numbers);
-            if (!result.value || is_valid(*result.value)) {
+            if (!result.value || is_valid(**numbers, *result.value)) {
                 return result.value ? std::optional(result) : std::nullopt;
             }
             result.note = unusable(path, key.kind, "nonsense").message;
@@ -184,6 +186,16 @@ std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
         result.note = written ? result.note : written.error().message;
     }
     return result;
+}
+
+// Errors and radii alternate; an infinite error forces a split.
+bool are_in_range(std::span<const float> bounds) {
+    bool in_range = true;
+    for (std::size_t i = 0; i < bounds.size(); i += 2) {
+        in_range =
+            in_range && bounds[i] >= 0.0F && bounds[i + 1] >= 0.0F && std::isfinite(bounds[i + 1]);
+    }
+    return in_range;
 }
 
 } // namespace
@@ -233,8 +245,10 @@ std::optional<Cached<material::ConeMaps>> cached_cones(GridView<const float> uni
     };
     return cached<ConeMaps>(
         options, 2 * count, [&] { return cone_key(unit_heights); }, restore,
-        [&](const ConeMaps& cones) { return material::are_cones_of(cones, unit_heights); }, compute,
-        numbers_of);
+        [&](const std::vector<float>&, const ConeMaps& cones) {
+            return material::are_cones_of(cones, unit_heights);
+        },
+        compute, numbers_of);
 }
 
 std::optional<Cached<terrain::Bisection>> cached_bisection(const terrain::Heightfield& heightfield,
@@ -257,8 +271,10 @@ std::optional<Cached<terrain::Bisection>> cached_bisection(const terrain::Height
         Bisection::bounds_count({heightfield.heights.cols(), heightfield.heights.rows()});
     return cached<Bisection>(
         options, count, [&] { return bisection_key(heightfield, placement); }, restore,
-        [&](const Bisection& bisection) { return bisection.is_valid(options.parallel); }, compute,
-        [](const Bisection& bisection) { return bisection.bounds(); });
+        [&](const std::vector<float>& bounds, const Bisection& bisection) {
+            return are_in_range(bounds) && bisection.is_valid(options.parallel);
+        },
+        compute, [](const Bisection& bisection) { return bisection.bounds(); });
 }
 
 } // namespace reljef::io

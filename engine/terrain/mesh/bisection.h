@@ -59,8 +59,8 @@ public:
     Bisection(const Heightfield& heightfield, const Placement& placement,
               std::span<const float> bounds, const ParallelOptions& parallel = {});
 
-    /// Whether the bounds are finite or a forced split, nested, and right where some are computed
-    /// anew: what was read from a file may be nonsense. Meaningless after a stop request.
+    /// Whether a sample of the bounds is nested and right: what was read from a file may be
+    /// nonsense. Meaningless after a stop request.
     [[nodiscard]] bool is_valid(const ParallelOptions& parallel = {}) const;
 
     /// Last sample, steps.
