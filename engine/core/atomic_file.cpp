@@ -156,16 +156,16 @@ Result<AtomicFile> AtomicFile::create(fs::path target) {
         return place.error();
     }
     file.place_ = std::move(*place);
-    auto [path, descriptor] = make_temporary(
+    Temporary made = make_temporary(
         folder_of(file.place_), file.target_.extension().string(), [](const char* name) {
             constexpr mode_t all_by_umask = 0666;
             return ::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, all_by_umask);
         });
-    if (!descriptor) {
+    if (!made.descriptor) {
         return file.error(std::strerror(errno));
     }
-    file.temporary_ = std::move(path);
-    file.file_ = std::move(descriptor);
+    file.temporary_ = std::move(made.path);
+    file.file_ = std::move(made.descriptor);
     return file;
 }
 
@@ -336,19 +336,19 @@ Result<ScratchFolder> ScratchFolder::create(fs::path parent) {
     if (code) {
         return Error{fmt::format("no folder for temporary files: {}", code.message())};
     }
-    auto [path, descriptor] = make_temporary(parent, "", [](const char* name) {
+    Temporary made = make_temporary(parent, "", [](const char* name) {
         constexpr mode_t owner_only = 0700;
         return ::mkdir(name, owner_only) == 0
                    ? ::open(name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)
                    : -1;
     });
-    if (!descriptor) {
+    if (!made.descriptor) {
         return Error{fmt::format("{}: no folder can be made in it: {}", parent.string(),
                                  std::strerror(errno))};
     }
     ScratchFolder folder;
-    folder.path_ = std::move(path);
-    folder.folder_ = std::move(descriptor);
+    folder.path_ = std::move(made.path);
+    folder.folder_ = std::move(made.descriptor);
     return folder;
 }
 

@@ -153,6 +153,23 @@ Result<void> write_numbers(const fs::path& path, const CacheKey& key,
     return write_cache_file(path, bytes);
 }
 
+// The value of a file; absent if there is none, null if stopped.
+template <class T, class Restore, class IsValid>
+Result<std::optional<std::shared_ptr<const T>>>
+read_value(const fs::path& path, const CacheKey& key, std::size_t count, const Restore& restore,
+           const IsValid& is_valid) {
+    using Value = std::optional<std::shared_ptr<const T>>;
+    const auto numbers = read_numbers(path, key, count);
+    if (!numbers) {
+        return numbers.error();
+    }
+    Value value = *numbers ? Value(restore(**numbers)) : std::nullopt;
+    if (value && *value && !is_valid(**numbers, **value)) {
+        return unusable(path, key.kind, "nonsense");
+    }
+    return value;
+}
+
 // `restore(numbers)` and `compute()` return null if stopped; `numbers_of` is the inverse of
 // `restore`, and `is_valid(numbers, value)` finds nonsense. `make_key` is called only if there is a
 // folder.
@@ -163,18 +180,14 @@ std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
                                 const NumbersOf& numbers_of) {
     Cached<T> result;
     const CacheKey key = options.folder ? make_key() : CacheKey();
-    const fs::path path = options.folder ? key.file_in(*options.folder) : fs::path();
+    const fs::path path = key.file_in(options.folder.value_or(fs::path()));
     if (options.folder) {
-        const auto numbers = read_numbers(path, key, count);
-        if (numbers && *numbers) {
-            result.value = restore(**numbers);
-            if (!result.value || is_valid(**numbers, *result.value)) {
-                return result.value ? std::optional(result) : std::nullopt;
-            }
-            result.note = unusable(path, key.kind, "nonsense").message;
-        } else if (!numbers) {
-            result.note = numbers.error().message;
+        auto found = read_value<T>(path, key, count, restore, is_valid);
+        if (found && *found) {
+            result.value = std::move(**found);
+            return result.value ? std::optional(result) : std::nullopt;
         }
+        result.note = found ? "" : found.error().message;
     }
     const Stopwatch watch;
     result.value = compute();
