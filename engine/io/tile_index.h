@@ -41,8 +41,8 @@ struct TileIndex {
     friend bool operator==(const TileIndex&, const TileIndex&) = default;
 };
 
-/// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files, if it
-/// is right for the few of them that are opened. Adds a note on an unusable cache. Fails if the
+/// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files, if
+/// it is right for the few of them that are opened. Adds a note on an unusable cache. Fails if the
 /// folder cannot be read.
 Result<TileIndex> index_tiles(const std::filesystem::path& path, const TileSetOptions& options,
                               std::vector<std::string>& notes);
