@@ -175,7 +175,7 @@ Result<void> stress_streamed_bound(StressRun& run) {
         if (run.stopped()) {
             return {};
         }
-        const auto ground = write(run, **folder);
+        const auto ground = write(run, folder->path());
         if (!ground) {
             return run.stopped() ? Result<void>() : ground.error();
         }

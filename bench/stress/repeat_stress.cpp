@@ -15,6 +15,7 @@
 #include "bench/runner/benchmark_scene.h"
 #include "bench/stress/made_surfaces.h"
 #include "bench/stress/stress_stage.h"
+#include "engine/core/atomic_file.h"
 #include "engine/scene/motion/poses.h"
 
 namespace reljef::bench {
@@ -90,24 +91,6 @@ Result<std::string> frames_by_threads(StressOptions options, int threads) {
     return lines;
 }
 
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() { close(); }
-
-    [[nodiscard]] int get() const { return number_; }
-    void close() {
-        if (number_ >= 0) {
-            ::close(std::exchange(number_, -1));
-        }
-    }
-
-private:
-    int number_;
-};
-
 // All that a process writes until it ends; ends early when stopped.
 std::string read_all(int descriptor, const std::stop_token& stop) {
     std::string text;
@@ -138,14 +121,14 @@ Result<std::string> frames_of_process(const StressRun& run, int threads) {
     if (process == 0) {
         const auto frames = frames_by_threads(run.options(), threads);
         const std::string text = frames ? *frames : "failed " + frames.error().message;
-        const ssize_t written = ::write(writing.get(), text.data(), text.size());
+        const ssize_t written = ::write(writing.number(), text.data(), text.size());
         ::_exit(written == static_cast<ssize_t>(text.size()) ? 0 : 1);
     }
     if (process < 0) {
         return Error{fmt::format("no process for {} threads: {}", threads, std::strerror(errno))};
     }
-    writing.close();
-    std::string text = read_all(reading.get(), run.stop());
+    writing = Descriptor(); // so that the end of the process ends reading
+    std::string text = read_all(reading.number(), run.stop());
     ::kill(process, SIGKILL);
     ::waitpid(process, nullptr, 0);
     if (text.empty() || text.starts_with("failed ")) {

@@ -8,7 +8,6 @@
 #include "bench/stress/made_surfaces.h"
 #include "bench/stress/stress_stage.h"
 #include "bench/stress/view_check.h"
-#include "bench/suites/scaling_terrain.h"
 #include "engine/core/atomic_file.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/session/scene_setup.h"
@@ -174,7 +173,7 @@ Result<void> stress_odd_heights(StressRun& run) {
 }
 
 Result<void> stress_odd_files(StressRun& run) {
-    const auto folder = make_scaling_folder({}, 1);
+    const auto folder = ScratchFolder::create();
     if (!folder) {
         return folder.error();
     }
@@ -184,7 +183,7 @@ Result<void> stress_odd_files(StressRun& run) {
         }
         std::string name = file.name;
         std::replace(name.begin(), name.end(), ' ', '-');
-        const fs::path path = **folder / (name + ".asc");
+        const fs::path path = folder->path() / (name + ".asc");
         if (auto written = write_text_file(path, file.text); !written) {
             return written;
         }
