@@ -57,7 +57,8 @@ test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string
         "titled() { until_true has_title \"$1\"; }\n"
         "pressed() { xdotool key --window $window $1; }\n"
         "ended() { ! kill -0 $viewer 2>/dev/null; }\n"
-        "'" RELJEF_BINARY "' view natural --technique texture --size 320x240 & viewer=$!\n"
+        "env --default-signal=INT '" RELJEF_BINARY
+        "' view natural --technique texture --size 320x240 & viewer=$!\n"
         "find_window() { window=$(xdotool search --all --onlyvisible --pid $viewer --name '^reljef "
         "- "
         "natural' "

@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(
     Arguments, BenchMisused,
     testing::Values(Misuse{{}, {"suite", "tables"}}, //
                     Misuse{{"levels"}, {"levels", "tables", "pareto", "compare"}},
-                    Misuse{{"stress", "--quick"}, {"stress", "tables"}},
+                    Misuse{{"strain", "--quick"}, {"strain", "tables"}},
                     Misuse{{"tables", "--technique", "magic"}, {"magic", "texture"}},
                     Misuse{{"tables", "--technique", "polygons:lods=0"}, {"lods=0"}},
                     Misuse{{"tables", "--technique", "displacement"},

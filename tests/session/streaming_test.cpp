@@ -1,6 +1,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <future>
@@ -190,22 +191,30 @@ TEST_F(Streaming, a_file_that_is_replaced_by_one_of_another_size_is_shown_and_to
 }
 
 TEST_F(Streaming, whether_a_replaced_file_can_be_shown_is_told_and_in_the_exit_status) {
-    RELJEF_RELEASE_ONLY("two pictures of whole cells");
-    ASSERT_EQ(test::reljef({"info", path("tiles")}, options_).exit_code, 0); // indexes them
-    const auto file = folder_.path() / "tiles/N44E006.hgt";
-    const auto time = std::filesystem::last_write_time(file);
-    const auto size = std::filesystem::file_size(file);
-    const auto render_with = [&](std::string text) { // of the size and the time that it knows
-        text.resize(size, ' ');
-        folder_.write("tiles/N44E006.hgt", text);
-        std::filesystem::last_write_time(file, time);
-        return render("b.png", {});
+    RELJEF_RELEASE_ONLY("two flights over whole cells");
+    folder_.write("south.geojson", R"({"type": "LineString", "coordinates": )"
+                                   "[[6.5, 45.9, 3000], [6.5, 44.3, 3000]]}");
+    const auto fly_while_replaced = [&](const std::string& text) { // after the first picture
+        write_cell("N44E006.hgt", 6, 44);
+        const test::TemporaryFolder pictures;
+        test::ProgramOptions options = options_;
+        options.interruption = {SIGCONT, [&](int /*process*/) {
+                                    if (pictures.names().size() < 2) {
+                                        return false;
+                                    }
+                                    folder_.write("tiles/N44E006.hgt", text);
+                                    return true;
+                                }};
+        return test::reljef({"render", path("tiles"), "-o", (pictures.path() / "%02d.png").string(),
+                             "--size", "160x120", "--context", "osmesa", "--memory", "32", "--path",
+                             path("south.geojson"), "--frames", "6"},
+                            options);
     };
     const std::string told = "N44E006.hgt: was replaced while it was open, by 61×61 samples";
-    const auto shown = render_with(coarse_cell(6.0, 44.0));
+    const auto shown = fly_while_replaced(coarse_cell(6.0, 44.0));
     EXPECT_EQ(shown.exit_code, 0) << shown.err;
     EXPECT_THAT(shown.err, HasSubstr(told + ": they are read at the places of the 1201×1201"));
-    const auto elsewhere = render_with(coarse_cell(60.0, 44.0));
+    const auto elsewhere = fly_while_replaced(coarse_cell(60.0, 44.0));
     EXPECT_EQ(elsewhere.exit_code, 1) << elsewhere.err;
     EXPECT_THAT(elsewhere.err, HasSubstr(told + " that are no heights over all the ground"));
 }
