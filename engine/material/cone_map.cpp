@@ -181,6 +181,11 @@ float max_slope_in(const Relief& cell, Quadrant quadrant, const Fan& fan) {
 // Covers the rounding error of a float sum of a few products.
 constexpr float rounding = 1.0F - 0x1p-20F;
 
+// The ratio of a cone over ground with this largest slope.
+float ratio_of(float slope) {
+    return slope > 0.0F ? 1.0F / slope : std::numeric_limits<float>::infinity();
+}
+
 class ConeFinder {
 public:
     // `slopes` begin at the cell `slopes_begin`.
@@ -191,7 +196,7 @@ public:
 
     float ratio(glm::ivec2 cell) {
         cell_ = cell;
-        ratio_ = std::min(max_cone_ratio, relaxed_ ? near_relaxed_ratio() : 1.0F / slope_within(1));
+        ratio_ = std::min(max_cone_ratio, relaxed_ ? near_relaxed_ratio() : ratio_of(slope_within(1)));
         if (limit_.x >= 0) {
             test_cell(limit_); // the same cell often limits the next one
         }
@@ -238,7 +243,7 @@ private:
                 }
             }
         }
-        return 1.0F / std::min(slope, slope_within(1));
+        return ratio_of(std::min(slope, slope_within(1)));
     }
 
     // Between two points of a patch, falling at the end: half the steepest slope; and, because only
@@ -312,7 +317,7 @@ private:
         }
         const float gap = glm::length(glm::vec2(glm::max(away - 1, glm::ivec2(0))));
         const float rise = cells_(at.x, at.y).height.high - cells_(cell_.x, cell_.y).height.low;
-        const float by_slope = cells <= near_cells ? 1.0F / slope_within(cells) : 0.0F;
+        const float by_slope = cells <= near_cells ? ratio_of(slope_within(cells)) : 0.0F;
         const float found = std::max(gap / rise, by_slope);
         if (found < ratio_) {
             ratio_ = found;

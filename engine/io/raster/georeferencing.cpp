@@ -110,6 +110,9 @@ glm::dvec2 checked_spacing(glm::dvec2 in_crs, const std::optional<Steps>& ground
         return in_crs;
     }
     const glm::dvec2 true_spacing(glm::length(ground->col), glm::length(ground->row));
+    if (!(std::min(true_spacing.x, true_spacing.y) > 0.0)) {
+        return true_spacing; // an error of the caller's
+    }
     const glm::dvec2 ratio = in_crs / true_spacing;
     if (std::abs(ratio.x - 1.0) <= tolerated_distortion &&
         std::abs(ratio.y - 1.0) <= tolerated_distortion) {
