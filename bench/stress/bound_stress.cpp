@@ -6,10 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "bench/runner/benchmark_scene.h"
 #include "bench/stress/stress_run.h"
 #include "bench/suites/error_bound.h"
 #include "bench/suites/scaling_terrain.h"
 #include "bench/suites/streamed_errors.h"
+#include "engine/core/check.h"
 #include "engine/io/formats/raster_writer.h"
 #include "engine/session/frame_maker.h"
 #include "engine/session/scene_setup.h"
@@ -89,10 +91,11 @@ Result<StreamedGround> write_blocky(const StressRun& run, const fs::path& folder
     return done ? Result<StreamedGround>(std::move(ground)) : done.error();
 }
 
-Result<session::TerrainScene> open_streamed(const StressRun& run, const fs::path& path) {
+Result<session::TerrainScene> open_streamed(const StressRun& run, const fs::path& path,
+                                            int megabytes) {
     session::SourceOptions source;
     source.terrain = path.string();
-    source.memory_megabytes = streamed_megabytes;
+    source.memory_megabytes = megabytes;
     source.placement = terrain::PlacementKind::plane;
     source.streamed = true;
     session::SceneOptions view;
@@ -102,16 +105,44 @@ Result<session::TerrainScene> open_streamed(const StressRun& run, const fs::path
     return session::open_scene(source, view, silent, run.stop());
 }
 
-Result<void> add_streamed_rows(StressRun& run, const StreamedGround& ground) {
-    auto scene = open_streamed(run, ground.path);
+Result<session::DeviceFrames> make_frames(const StressRun& run, session::Log& log) {
     auto device = session::Device::create({.context = run.options().suite.context,
                                            .size = run.size(),
                                            .threads = run.options().suite.threads});
-    if (!scene || !device) {
-        return scene ? device.error() : scene.error();
-    }
+    return device ? Result<session::DeviceFrames>(session::DeviceFrames(std::move(*device), log))
+                  : device.error();
+}
+
+// Pictures of a terrain that is streamed anew: overview and low.
+Result<std::vector<Image>> streamed_pictures(const StressRun& run, const fs::path& path,
+                                             int megabytes) {
+    auto scene = open_streamed(run, path, megabytes);
     session::Log silent;
-    session::DeviceFrames frames(std::move(*device), silent);
+    auto frames = make_frames(run, silent);
+    if (!scene || !frames) {
+        return scene ? frames.error() : scene.error();
+    }
+    check(scene->terrain->get<scene::TerrainNode>()->stream != nullptr, "a terrain in memory");
+    std::vector<Image> pictures;
+    for (const scene::Pose pose : {scene::Pose::overview, scene::Pose::low}) {
+        set_pose(*scene, pose);
+        frames->wait_for_tiles(scene->scene, run.stop());
+        auto picture = frames->draw(scene->scene, run.parallel());
+        if (!picture) {
+            return picture.error();
+        }
+        pictures.push_back(std::move(*picture));
+    }
+    return pictures;
+}
+
+Result<void> add_streamed_rows(StressRun& run, const StreamedGround& ground) {
+    auto scene = open_streamed(run, ground.path, streamed_megabytes);
+    session::Log silent;
+    auto frames = make_frames(run, silent);
+    if (!scene || !frames) {
+        return scene ? frames.error() : scene.error();
+    }
     const auto& terrain = *scene->terrain->get<scene::TerrainNode>();
     std::mt19937 random(run.options().seed);
     std::size_t over = 0;
@@ -119,8 +150,8 @@ Result<void> add_streamed_rows(StressRun& run, const StreamedGround& ground) {
     for (int i = 0; i < run.cases(2, 20) && !run.stopped(); ++i) {
         const scene::Camera camera = view_near_the_ground(random, *terrain.surface);
         *scene->camera->get<scene::Camera>() = camera;
-        frames.wait_for_tiles(scene->scene, run.stop());
-        const auto hits = frames.draw_hits(scene->scene, run.parallel());
+        frames->wait_for_tiles(scene->scene, run.stop());
+        const auto hits = frames->draw_hits(scene->scene, run.parallel());
         if (!hits) {
             return hits.error();
         }
@@ -164,6 +195,33 @@ Result<void> stress_error_bound(StressRun& run) {
         add_rows(run, row);
     }
     return results.end.failed ? Result<void>(*results.end.stopped) : Result<void>();
+}
+
+Result<void> stress_streamed_repeats(StressRun& run) {
+    constexpr int side = 1024;    // samples
+    constexpr int megabytes = 16; // of 40 for all samples
+    const auto folder = make_scaling_folder({}, side);
+    if (!folder) {
+        return folder.error();
+    }
+    const fs::path path = folder->path() / "waves.tif";
+    if (auto written = write_scaling_terrain(path, side, run.options().suite, run.stop());
+        !written) {
+        return written;
+    }
+    const auto first = streamed_pictures(run, path, megabytes);
+    const auto second = streamed_pictures(run, path, megabytes);
+    if (!first || !second) {
+        return first ? second.error() : first.error();
+    }
+    run.add({.stress = "repeat",
+             .terrain = "waves, streamed",
+             .technique = to_string(bounded(stressed_bound)),
+             .figure = "pictures with other bits when streamed again",
+             .value = static_cast<double>((*first)[0] != (*second)[0]) +
+                      static_cast<double>((*first)[1] != (*second)[1]),
+             .limit = 0.0});
+    return {};
 }
 
 Result<void> stress_streamed_bound(StressRun& run) {

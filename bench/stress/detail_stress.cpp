@@ -51,6 +51,40 @@ Result<void> check_detail(StressRun& run, const SceneChoice& choice) {
     return {};
 }
 
+// Pixels of a square with bricks of any height that are not finite.
+Result<void> check_detail_scale(StressRun& run, double scale) {
+    const auto square = detail_square("brick", static_cast<unsigned>(run.options().suite.threads));
+    if (!square) {
+        return square.error();
+    }
+    scene::Scene scene;
+    scene::Material material;
+    material.detail = {.set = square->set,
+                       .repeats = glm::vec2(static_cast<float>(square->repeats)),
+                       .scale = static_cast<float>(scale)};
+    scene::Node& node =
+        scene.add_mesh(scene::plane_mesh(glm::vec2(static_cast<float>(square->side))), material);
+    scene.add_light(square->light);
+    scene.add_camera({.eye = {0.0, -square->side, 0.4 * square->side}});
+    Worst worst;
+    for (const scene::TechniqueInfo& info : techniques_of({.terrain = {}, .detail = "brick"})) {
+        node.get<scene::MeshNode>()->material.technique = scene::make_technique(info.id);
+        const auto hits = run.renderer().draw_hits(scene);
+        if (!hits) {
+            return hits.error();
+        }
+        worst.add(static_cast<double>(count_not_finite(*hits)), info.name);
+    }
+    run.add({.stress = "detail texture",
+             .terrain = fmt::format("brick, scale {:g}", scale),
+             .figure = "pixels not finite",
+             .value = worst.value(),
+             .limit = 0.0,
+             .at = worst.at()});
+    run.renderer().forget_scene();
+    return {};
+}
+
 } // namespace
 
 Result<void> stress_details(StressRun& run) {
@@ -58,6 +92,11 @@ Result<void> stress_details(StressRun& run) {
     scenes.resize(static_cast<std::size_t>(run.cases(1, static_cast<int>(scenes.size()))));
     for (const SceneChoice& choice : scenes) {
         if (auto done = check_detail(run, choice); !done) {
+            return done;
+        }
+    }
+    for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+        if (auto done = check_detail_scale(run, scale); !done || run.stopped()) {
             return done;
         }
     }

@@ -99,6 +99,9 @@ Result<void> stress_geodesy(StressRun& run) {
     add("length of a geodesic, m off", distance_error, max_geodesic_error, "GeodTest");
     add("end of a geodesic, m off", end_error, max_geodesic_error, "GeodTest");
     add("local frame, m off", local_frame_error(), max_position_error, "EPSG 7-2");
+    // GeographicLib's manual of GeoConvert.
+    add("MGRS of a known place, wrong",
+        geo::mgrs_text({33.3, 44.4, 0.0}) == "38SMB4414084706" ? 0.0 : 1.0, 0.0, "33.3N 44.4E");
     add("there and back to geocentric, m off",
         round_trip_error(run.cases(20'000, 1'000'000), run.options().seed), max_position_error,
         "any position, poles, antimeridian");

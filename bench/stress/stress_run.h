@@ -83,6 +83,7 @@ Result<void> stress_details(StressRun& run);
 Result<void> stress_tangent_frames(StressRun& run);
 Result<void> stress_error_bound(StressRun& run);
 Result<void> stress_streamed_bound(StressRun& run);
+Result<void> stress_streamed_repeats(StressRun& run);
 Result<void> stress_paths(StressRun& run);
 Result<void> stress_thread_counts(StressRun& run);
 Result<void> stress_repeats(StressRun& run);

@@ -32,6 +32,7 @@ constexpr std::array stresses{
     Stress{"contexts", stress_contexts, Where::own_device},
     Stress{"error-bound", stress_error_bound, Where::own_device},
     Stress{"streamed-bound", stress_streamed_bound, Where::full_only},
+    Stress{"streamed-repeat", stress_streamed_repeats, Where::own_device},
     Stress{"tangent-frames", stress_tangent_frames, Where::own_device},
     Stress{"camera-path", stress_paths, Where::own_device},
     Stress{"geodesy", stress_geodesy, Where::own_device},

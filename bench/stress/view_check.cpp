@@ -53,7 +53,8 @@ public:
 
     void add_to(StressRun& run) {
         if (!refusal_.empty()) {
-            add(run, "refused", 1.0, std::nullopt, refusal_);
+            add(run, "refused", 1.0, check_.may_refuse ? std::nullopt : std::optional(0.0),
+                refusal_);
             return;
         }
         add(run, "pixels not finite", not_finite_.value(), 0.0, not_finite_.at());

@@ -58,6 +58,7 @@ std::vector<StressView> hard_views(const StressStage& stage) {
         {"inside the ground", scene::camera_from_angles(inside, 30.0, 0.0)},
         {"under all ground", scene::camera_from_angles({at, bounds.low.z - size.x}, 30.0, 60.0)},
         {"on the ground", scene::camera_from_angles({at, z}, 30.0, 0.0)},
+        {"on a vertex", scene::camera_from_angles({0.0, 0.0, ground(0.0, 0.0)}, 30.0, -20.0)},
         {"straight up", scene::camera_from_angles(inside, 0.0, 90.0)},
         {"straight down", scene::camera_from_angles(above, 0.0, -90.0)},
         {"level", scene::camera_from_angles({at, bounds.high.z}, 30.0, 0.0)}};

@@ -96,7 +96,7 @@ const std::map<std::string_view, Names>& named_rooms() {
          {"app/cli", "bench/report", "bench/runner", "bench/suites", "engine/core", "engine/geo",
           "engine/io/formats", "engine/scene/graph", "engine/scene/motion",
           "engine/scene/technique", "engine/session", "engine/terrain/field", "engine/truth",
-          "terrains"}},
+          "engine/view", "terrains"}},
         {"bench/baselines",
          {"app/cli", "bench/baselines/irrlicht", "bench/report", "bench/runner", "engine/core",
           "engine/render/residency", "engine/scene/graph", "engine/scene/motion",

@@ -24,13 +24,21 @@ TEST(StressCommand, QuickFindsNoFigureOverItsLimit) {
     EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
     const auto report = nlohmann::json::parse(test::read_bytes(file));
     EXPECT_EQ(report.at("over"), 0);
+    std::set<std::string> stresses;
     std::set<std::string> techniques;
     for (const auto& row : report.at("rows")) {
+        stresses.insert(row.at("stress").get<std::string>());
         if (row.at("stress") == "standard pose") {
             techniques.insert(row.at("technique").get<std::string>());
         }
     }
     EXPECT_EQ(techniques.size(), stressed_techniques({}).size());
+    EXPECT_EQ(stresses,
+              (std::set<std::string>{
+                  "camera path", "contexts", "creeping camera", "depth order", "detail texture",
+                  "error bound, near ground", "error bound, random", "eye near the ground",
+                  "geodesy", "grazing view", "hard camera", "moved scene", "odd file",
+                  "odd heights", "repeat", "scale", "standard pose", "tangent frames"}));
 }
 
 // Skips over the higher half of each block of cells, so that rays pass peaks.
