@@ -6,6 +6,7 @@
 
 #include "app/cli/options.h"
 #include "app/cli/parsed_option.h"
+#include "app/cli/usage_error.h"
 #include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/page/page.h"
@@ -72,6 +73,13 @@ Result<void> run_stress_command(const StressChoice& choice, const CLI::App& comm
     const auto inputs = terrain_files(choice.options.terrains);
     if (auto good = check_outputs(choice.outputs, inputs); !good) {
         return good;
+    }
+    for (const scene::Technique& technique : choice.options.techniques) {
+        if (!scene::draws_terrain(technique.id())) {
+            cli::fail_usage(fmt::format("--technique: {} found, a technique that draws terrains "
+                                        "was expected",
+                                        scene::technique_info(technique.id()).name));
+        }
     }
     StressOptions options = choice.options;
     options.suite = with_quick_size(options.suite, command, stress_quick_size);

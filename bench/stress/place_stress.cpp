@@ -199,44 +199,54 @@ Result<void> add_vertex_errors(StressRun& run, const std::vector<Base>& bases) {
     return {};
 }
 
+struct MovedPictures {
+    Worst same_bits; // % of pixels
+    Worst similar;   // % of pixels
+};
+
+Result<MovedPictures> compare_moved(StressRun& run, StressStage& stage,
+                                    const std::vector<Base>& bases) {
+    MovedPictures moved;
+    Image first;
+    for (const Base& base : bases) {
+        stage.place(base.world_from_local);
+        stage.look(standing_camera(stage, {10.3, -50.7}, 20.0, 0.3));
+        auto picture = stage.picture(run.renderer());
+        if (!picture) {
+            return picture.error();
+        }
+        first = first.empty() ? *picture : first;
+        (base.is_whole_tiles ? moved.same_bits : moved.similar)
+            .add(percent_of_changed(first, *picture, base.is_whole_tiles ? 0 : 1), base.name);
+    }
+    return moved;
+}
+
 Result<void> add_moved_pictures(StressRun& run, const std::vector<Base>& bases) {
     auto stage = StressStage::create(made_hills(glm::ivec2(129), 1.0, 9.0));
     if (!stage) {
         return stage.error();
     }
     for (const scene::Technique& technique : stressed_techniques(run.options())) {
-        if (!stage->set_technique(technique)) {
+        if (run.stopped() || !stage->set_technique(technique)) {
             continue;
         }
-        Worst same_bits;
-        Worst similar;
-        Image first;
-        for (const Base& base : bases) {
-            if (run.stopped()) {
-                return {};
-            }
-            stage->place(base.world_from_local);
-            stage->look(standing_camera(*stage, {10.3, -50.7}, 20.0, 0.3));
-            auto picture = stage->picture(run.renderer());
-            if (!picture) {
-                return picture.error();
-            }
-            first = first.empty() ? *picture : first;
-            (base.is_whole_tiles ? same_bits : similar)
-                .add(percent_of_changed(first, *picture, base.is_whole_tiles ? 0 : 1), base.name);
+        const auto moved = compare_moved(run, *stage, bases);
+        if (!moved) {
+            return moved.error();
         }
         StressRow row{.stress = "moved scene",
                       .terrain = "hills",
                       .technique = to_string(technique),
                       .figure = "% of pixels changed by whole tiles",
-                      .value = same_bits.value(),
+                      .value = moved->same_bits.value(),
                       .limit = 0.0,
-                      .at = same_bits.at()};
+                      .at = moved->same_bits.at()};
         run.add(row);
         row.figure = "% of pixels changed by more than 1/255";
-        row.value = similar.value();
+        row.value = moved->similar.value();
         row.limit = 0.01;
-        row.at = similar.at();
+        row.at = moved->similar.at();
         run.add(row);
     }
     return {};
@@ -308,6 +318,7 @@ Result<void> stress_creeping_camera(StressRun& run) {
 
 Result<void> stress_depth_order(StressRun& run) {
     constexpr int pairs = 13;
+    constexpr int middle = 6;      // of these
     constexpr double apart = 2e-7; // of the depth
     constexpr double width = 0.05; // of a pair, metres at a depth of a metre
     scene::Scene scene;
@@ -315,7 +326,7 @@ Result<void> stress_depth_order(StressRun& run) {
     std::vector<glm::dvec3> middles;
     for (int i = 0; i < pairs; ++i) {
         const double depth = std::pow(10.0, 6.0 * i / (pairs - 1));
-        const double aside = (i - pairs / 2) * 2.0 * width * depth;
+        const double aside = (i - middle) * 2.0 * width * depth;
         middles.emplace_back(aside, 0.0, -depth);
         for (const bool is_nearer : {i % 2 == 0, i % 2 != 0}) { // each is drawn first in half
             scene::Material material;
@@ -333,8 +344,8 @@ Result<void> stress_depth_order(StressRun& run) {
     const auto farther =
         std::count_if(pixels.begin(), pixels.end(), [](Rgba8 color) { return color.r > color.g; });
     double unseen = 0.0; // pairs whose nearer plane does not show in their middle
-    for (const glm::dvec3 middle : middles) {
-        const auto at = glm::ivec2(scene::project(scene.camera(), run.size(), middle).pixel);
+    for (const glm::dvec3 place : middles) {
+        const auto at = glm::ivec2(scene::project(scene.camera(), run.size(), place).pixel);
         const Rgba8 color = picture(at.x, at.y);
         unseen += color.g > color.r && color.g > color.b ? 0.0 : 1.0;
     }

@@ -1,6 +1,7 @@
 // The same picture again: twice, with other pictures between, with other numbers of threads, and
 // after a thousand other contexts.
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -45,12 +46,15 @@ Result<Frame> draw_frame(session::SceneRenderer& renderer, StressStage& stage, s
     return Frame{std::move(*picture), std::move(*hits)};
 }
 
+std::array<std::uint32_t, 4> bits_of(const Hit& hit) {
+    return std::bit_cast<std::array<std::uint32_t, 4>>(hit);
+}
+
 double count_differences(const Frame& a, const Frame& b) {
     double count = 0.0;
     for (std::size_t i = 0; i < a.hits.size(); ++i) {
-        const bool is_same =
-            a.picture.samples()[i] == b.picture.samples()[i] &&
-            std::memcmp(&a.hits.samples()[i], &b.hits.samples()[i], sizeof(Hit)) == 0;
+        const bool is_same = a.picture.samples()[i] == b.picture.samples()[i] &&
+                             bits_of(a.hits.samples()[i]) == bits_of(b.hits.samples()[i]);
         count += is_same ? 0.0 : 1.0;
     }
     return count;
@@ -138,6 +142,26 @@ Result<std::string> frames_of_process(const StressRun& run, int threads) {
     return text;
 }
 
+// Pixels that differ when a frame is drawn again, at once and after another one.
+Result<double> differences_of_repeats(StressRun& run, StressStage& stage) {
+    using scene::Pose;
+    const auto first = draw_frame(run.renderer(), stage, Pose::overview);
+    if (!first) {
+        return first.error();
+    }
+    double differences = 0.0;
+    for (const Pose pose : {Pose::overview, Pose::low, Pose::overview}) {
+        const auto frame = draw_frame(run.renderer(), stage, pose);
+        if (!frame) {
+            return frame.error();
+        }
+        if (pose == Pose::overview) {
+            differences = std::max(differences, count_differences(*first, *frame));
+        }
+    }
+    return differences;
+}
+
 } // namespace
 
 Result<void> stress_thread_counts(StressRun& run) {
@@ -171,31 +195,18 @@ Result<void> stress_repeats(StressRun& run) {
         return stage.error();
     }
     for (const scene::Technique& technique : stressed_techniques(run.options())) {
-        if (!stage->set_technique(technique)) {
+        if (run.stopped() || !stage->set_technique(technique)) {
             continue;
         }
-        std::optional<Frame> first;
-        double differences = 0.0;
-        for (const scene::Pose pose : {scene::Pose::overview, scene::Pose::overview,
-                                       scene::Pose::low, scene::Pose::overview}) {
-            auto frame = draw_frame(run.renderer(), *stage, pose);
-            if (run.stopped()) {
-                return {};
-            }
-            if (!frame) {
-                return frame.error();
-            }
-            if (!first) {
-                first = std::move(*frame);
-            } else if (pose == scene::Pose::overview) {
-                differences = std::max(differences, count_differences(*first, *frame));
-            }
+        const auto differences = differences_of_repeats(run, *stage);
+        if (!differences) {
+            return differences.error();
         }
         run.add({.stress = "repeat",
                  .terrain = "hills",
                  .technique = to_string(technique),
                  .figure = "pixels with other bits in the same frame",
-                 .value = differences,
+                 .value = *differences,
                  .limit = 0.0});
     }
     run.renderer().forget_scene();

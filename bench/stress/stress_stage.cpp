@@ -101,38 +101,59 @@ bool enters_above(const scene::TerrainSurface& surface, const Ray& ray, double m
     return entry.z > surface.height_at(entry.x, entry.y).value_or(column.high.z) + metres;
 }
 
+// Ground around pixels, to the exact rays within a tolerance.
+class GroundAround {
+public:
+    GroundAround(const StressStage& stage, const HitBuffer& truth,
+                 const SilhouetteTolerance& tolerance)
+        : surface_(stage.surface()), view_(stage.surface_view()), truth_(truth),
+          size_(truth.cols(), truth.rows()), tolerance_(tolerance),
+          local_from_world_(glm::inverse(view_.world_from_local)) {}
+
+    [[nodiscard]] bool surrounds(glm::ivec2 pixel) const {
+        for (int i = 0; i < 9; ++i) {
+            if (!is_ground(pixel, {i % 3 - 1, i / 3 - 1})) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    [[nodiscard]] bool is_ground(glm::ivec2 pixel, glm::ivec2 step) const {
+        const glm::ivec2 next = pixel + step;
+        if (tolerance_.pixels == 1.0 && tolerance_.metres == 0.0 &&
+            next == glm::clamp(next, {}, size_ - 1)) {
+            return truth::shows_terrain(truth_(next.x, next.y));
+        }
+        const Ray world = scene::view_ray(
+            view_.camera, size_, glm::dvec2(pixel) + 0.5 + tolerance_.pixels * glm::dvec2(step));
+        const Ray ray{glm::dvec3(local_from_world_ * glm::dvec4(world.origin, 1.0)),
+                      glm::dvec3(local_from_world_ * glm::dvec4(world.direction, 0.0))};
+        const glm::dvec3 raised(0.0, 0.0, tolerance_.metres); // as if the surface were lower
+        return surface_.pick({ray.origin + raised, ray.direction}).has_value() &&
+               (tolerance_.metres == 0.0 || enters_above(surface_, ray, tolerance_.metres));
+    }
+
+    const scene::TerrainSurface& surface_;
+    truth::SurfaceView view_;
+    const HitBuffer& truth_;
+    glm::ivec2 size_;
+    SilhouetteTolerance tolerance_;
+    glm::dmat4 local_from_world_;
+};
+
 } // namespace
 
 std::size_t count_sky_over_ground(const StressStage& stage, const HitBuffer& shown,
                                   const HitBuffer& truth, const SilhouetteTolerance& tolerance) {
-    const truth::SurfaceView view = stage.surface_view();
-    const glm::dmat4 local_from_world = glm::inverse(view.world_from_local);
-    const glm::ivec2 size(shown.cols(), shown.rows());
-    const glm::dvec3 raised(0.0, 0.0, tolerance.metres); // as if the surface were lower
-    const auto shows_ground = [&](glm::dvec2 place) {
-        const Ray world = scene::view_ray(view.camera, size, place);
-        const Ray ray{glm::dvec3(local_from_world * glm::dvec4(world.origin, 1.0)),
-                      glm::dvec3(local_from_world * glm::dvec4(world.direction, 0.0))};
-        return stage.surface().pick({ray.origin + raised, ray.direction}).has_value() &&
-               (tolerance.metres == 0.0 || enters_above(stage.surface(), ray, tolerance.metres));
-    };
-    const bool is_in_truth = tolerance.pixels == 1.0 && tolerance.metres == 0.0;
+    const GroundAround ground(stage, truth, tolerance);
     std::size_t count = 0;
-    for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < size.x; ++x) {
-            if (truth::shows_terrain(shown(x, y)) || !truth::shows_terrain(truth(x, y))) {
-                continue;
-            }
-            bool is_surrounded = true;
-            for (int i = 0; i < 9 && is_surrounded; ++i) {
-                const glm::ivec2 step(i % 3 - 1, i / 3 - 1);
-                const glm::ivec2 next = glm::ivec2(x, y) + step;
-                const bool is_known = is_in_truth && next == glm::clamp(next, {}, size - 1);
-                is_surrounded = is_known ? truth::shows_terrain(truth(next.x, next.y))
-                                         : shows_ground(glm::dvec2(x, y) + 0.5 +
-                                                        tolerance.pixels * glm::dvec2(step));
-            }
-            count += is_surrounded ? 1 : 0;
+    for (int y = 0; y < shown.rows(); ++y) {
+        for (int x = 0; x < shown.cols(); ++x) {
+            const bool is_missed =
+                !truth::shows_terrain(shown(x, y)) && truth::shows_terrain(truth(x, y));
+            count += is_missed && ground.surrounds({x, y}) ? 1U : 0U;
         }
     }
     return count;

@@ -89,35 +89,47 @@ private:
     Worst wrong_;
 };
 
-} // namespace
-
-Result<void> check_views(StressRun& run, const ViewCheck& check, std::string_view terrain,
-                         StressStage& stage, const std::vector<StressView>& views) {
+Result<std::vector<HitBuffer>> true_hits(StressRun& run, StressStage& stage,
+                                         const std::vector<StressView>& views) {
     std::vector<HitBuffer> truths;
     for (const StressView& view : views) {
         stage.look(view.camera);
         auto truth = stage.true_hits(run.size(), run.parallel());
-        if (run.stopped()) {
-            return {};
-        }
         if (!truth) {
             return truth.error();
         }
         truths.push_back(std::move(*truth));
+    }
+    return truths;
+}
+
+Result<void> add_views(StressRun& run, StressStage& stage, const std::vector<StressView>& views,
+                       const std::vector<HitBuffer>& truths, TechniqueRows& rows) {
+    for (std::size_t i = 0; i < views.size() && !run.stopped(); ++i) {
+        stage.look(views[i].camera);
+        if (auto done = rows.add_view(run, stage, views[i], truths[i]); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> check_views(StressRun& run, const ViewCheck& check, std::string_view terrain,
+                         StressStage& stage, const std::vector<StressView>& views) {
+    const auto truths = true_hits(run, stage, views);
+    if (!truths) {
+        return truths.error();
     }
     for (const scene::Technique& technique : stressed_techniques(run.options())) {
         if (!stage.set_technique(technique)) {
             continue;
         }
         TechniqueRows rows(check, terrain, stage, technique);
-        for (std::size_t i = 0; i < views.size(); ++i) {
-            if (run.stopped()) {
-                return {};
-            }
-            stage.look(views[i].camera);
-            if (auto done = rows.add_view(run, stage, views[i], truths[i]); !done) {
-                return done;
-            }
+        auto done = add_views(run, stage, views, *truths, rows);
+        if (!done || run.stopped()) {
+            return done;
         }
         rows.add_to(run);
     }

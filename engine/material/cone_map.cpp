@@ -196,7 +196,8 @@ public:
 
     float ratio(glm::ivec2 cell) {
         cell_ = cell;
-        ratio_ = std::min(max_cone_ratio, relaxed_ ? near_relaxed_ratio() : ratio_of(slope_within(1)));
+        ratio_ =
+            std::min(max_cone_ratio, relaxed_ ? near_relaxed_ratio() : ratio_of(slope_within(1)));
         if (limit_.x >= 0) {
             test_cell(limit_); // the same cell often limits the next one
         }

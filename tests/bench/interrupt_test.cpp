@@ -17,7 +17,7 @@ TEST(BenchCtrlC, keeps_the_rows_it_has_and_leaves_no_part_files) {
     const auto file = folder.path() / "t.json";
     test::ProgramOptions options;
     options.interruption = {SIGINT, [](int process) { // after some of a million rounds
-                                return test::processor_seconds(process) > 5.0;
+                                return test::processor_seconds(process) > 2.5;
                             }};
     const auto result =
         test::run_program(RELJEF_BENCH_BINARY,

@@ -74,15 +74,14 @@ TEST_F(UndeclaredVoids, are_drawn_as_declared_ones_by_all_that_draws_terrain) {
                                                      {"--technique", "relief"},
                                                      {"--max-error", "2"},
                                                      {"--truth"}};
-    for (const char* of : {"", "/dem.asc"}) {
-        for (const char* memory : {"512", "1"}) {
-            for (std::vector<std::string> way : ways) {
-                way.insert(way.end(), {"--memory", memory});
-                const Image declared = drawn(std::string("declared") + of, way);
-                ASSERT_EQ(declared.cols(), 160);
-                EXPECT_EQ(drawn(std::string("undeclared") + of, way), declared)
-                    << of << memory << way[0] << way[1];
-            }
+    // Of a folder and of a file, in memory and streamed.
+    for (const auto& [of, memory] : {std::pair("", "512"), {"/dem.asc", "1"}}) {
+        for (std::vector<std::string> way : ways) {
+            way.insert(way.end(), {"--memory", memory});
+            const Image declared = drawn(std::string("declared") + of, way);
+            ASSERT_EQ(declared.cols(), 160);
+            EXPECT_EQ(drawn(std::string("undeclared") + of, way), declared)
+                << of << memory << way[0] << way[1];
         }
     }
 }

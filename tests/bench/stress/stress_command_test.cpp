@@ -82,5 +82,11 @@ TEST(StressCommand, AnUnknownStressIsNamed) {
     EXPECT_THAT(result.err, HasSubstr("poles"));
 }
 
+TEST(StressCommand, ATechniqueThatDrawsNoTerrainIsNamed) {
+    const auto result = test::reljef_bench({"stress", "--technique", "lattice"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("lattice found, a technique that draws terrains was"));
+}
+
 } // namespace
 } // namespace reljef::bench
