@@ -249,7 +249,7 @@ fs::path cache_file(const fs::path& folder, const TileSetOptions& options) {
 }
 
 std::string indexed_anew(const std::string& why) {
-    return why + ": the tiles are indexed anew";
+    return why + ": the source files are indexed anew";
 }
 
 TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
@@ -289,8 +289,8 @@ std::optional<Described> find_unchanged(const TileIndex& index, const IndexedFil
     return Described{*found, placed ? index.crs[static_cast<std::size_t>(found->crs)] : ""};
 }
 
-/// Whether two entries agree on what tiles are placed and read by.
-bool is_same_tile(const Described& a, const Described& b) {
+/// Whether two entries agree on what places a source file and decodes it.
+bool is_same_file(const Described& a, const Described& b) {
     const auto key = [](const IndexedFile& file) {
         return std::tie(file.use, file.cols, file.rows, file.crs_from_pixel, file.declares_voids);
     };
@@ -316,7 +316,7 @@ bool are_right(const std::vector<std::optional<Described>>& known, const fs::pat
         IndexedFile file;
         file.path = old.file.path;
         const auto found = describe_if_raster(folder / old.file.path, std::move(file));
-        if (found && found->file.opened && !is_same_tile(*found, old)) {
+        if (found && found->file.opened && !is_same_file(*found, old)) {
             return false;
         }
     }

@@ -82,7 +82,7 @@ template <class File, class Visit> void visit_fields(File& file, const Visit& vi
               file.type, file.vertical_datum, file.declares_voids);
 }
 
-bool is_tile(const IndexedFile& file, std::size_t systems) {
+bool is_usable_file(const IndexedFile& file, std::size_t systems) {
     return file.opened && file.error.empty() && file.crs >= 0 &&
            static_cast<std::size_t>(file.crs) < systems && std::min(file.cols, file.rows) >= 2 &&
            std::max(file.cols, file.rows) <= terrain::max_tree_samples &&
@@ -99,7 +99,7 @@ bool is_consistent(const TileIndex& index) {
                index.files.end() &&
            std::all_of(index.files.begin(), index.files.end(), [&](const IndexedFile& file) {
                return !file.path.empty() && std::min(file.cols, file.rows) >= 0 &&
-                      (file.use != FileKind::heights || is_tile(file, index.crs.size()));
+                      (file.use != FileKind::heights || is_usable_file(file, index.crs.size()));
            });
 }
 

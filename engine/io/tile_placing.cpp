@@ -172,14 +172,14 @@ void drop_other_scales(std::vector<PlacedFile>& files, const TileIndex& index,
         }
         const auto path = folder / index.files[static_cast<std::size_t>(file.file)].path;
         errors.push_back({path, fmt::format("{}: its samples are {:.4g} m apart, within a factor "
-                                            "of {} of the other tiles' {:.4g} m was expected",
+                                            "of {} of the other files' {:.4g} m was expected",
                                             path.string(), mean_spacing(file), max_ratio, median)});
         return true;
     };
     files.erase(std::remove_if(files.begin(), files.end(), is_other), files.end());
 }
 
-/// The east end of the widest strip of longitudes without a tile.
+/// The east end of the widest strip of longitudes without a source file.
 double west_of_all(std::span<const PlacedFile> files) {
     std::vector<glm::dvec2> spans; // west in [-180, 180), east
     for (const PlacedFile& file : files) {

@@ -182,7 +182,8 @@ TEST_F(TileIndices, PlacesThatAreNotThoseOfTheFilesAreFound) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->files[1].crs_from_pixel.x0, x0);
     ASSERT_EQ(notes.size(), 1U);
-    EXPECT_THAT(notes[0], HasSubstr("holds nonsense of the files: the tiles are indexed anew"));
+    EXPECT_THAT(notes[0],
+                HasSubstr("holds nonsense of the files: the source files are indexed anew"));
     EXPECT_EQ(index(), *found) << "the cache is right again";
 }
 

@@ -41,7 +41,7 @@ struct Nonsense {
     int cols = 8;
 };
 
-const std::array nonsense_tiles{
+const std::array nonsense_files{
     Nonsense{"origin 1e300", metres_crs, "1e300,10,0,5000000,0,-10", "geotransform"},
     Nonsense{"origin NaN", metres_crs, "nan,10,0,5000000,0,-10", "geotransform"},
     Nonsense{"spacing NaN", metres_crs, "500000,nan,0,5000000,0,nan", "geotransform"},
@@ -66,10 +66,10 @@ const std::array nonsense_tiles{
              2147483647},
 };
 
-class NonsenseTile : public ::testing::Test {
+class NonsenseFile : public ::testing::Test {
 protected:
     /// Two neighbours, 10 m apart.
-    void write_good_tiles() const {
+    void write_good_files() const {
         for (const int i : {0, 1}) {
             auto raster = test::made_raster(
                 8, 8, [&](int col, int row) { return 100 + 8 * i + col + 20 * row; });
@@ -91,19 +91,19 @@ protected:
     const test::QuietGdal quiet_;
 };
 
-TEST_F(NonsenseTile, IsLeftOutAndNamedOnceWhileTheRestIsDrawn) {
-    write_good_tiles();
+TEST_F(NonsenseFile, IsLeftOutAndNamedOnceWhileTheRestIsDrawn) {
+    write_good_files();
     const terrain::Terrain good = drawn();
     EXPECT_TRUE(good.errors.empty());
     EXPECT_EQ(good.heightfield.heights.cols(), 16);
-    for (const Nonsense& tile : nonsense_tiles) {
-        SCOPED_TRACE(tile.what);
-        folder_.write("wrong.vrt", empty_vrt(tile.cols, 8, tile.crs, tile.affine));
+    for (const Nonsense& file : nonsense_files) {
+        SCOPED_TRACE(file.what);
+        folder_.write("wrong.vrt", empty_vrt(file.cols, 8, file.crs, file.affine));
         const terrain::Terrain terrain = drawn();
         EXPECT_EQ(terrain.heightfield.heights, good.heightfield.heights);
         ASSERT_EQ(terrain.errors.size(), 1U) << test::joined(terrain.errors);
         EXPECT_THAT(terrain.errors[0], HasSubstr("wrong.vrt: "));
-        EXPECT_THAT(terrain.errors[0], HasSubstr(tile.reason));
+        EXPECT_THAT(terrain.errors[0], HasSubstr(file.reason));
         EXPECT_THAT(terrain.errors[0], HasSubstr("expected"));
         const std::string told = test::joined(terrain.notes);
         EXPECT_EQ(told.find("wrong.vrt"), std::string::npos) << told;
@@ -187,8 +187,8 @@ TEST(AnyGeoreference, IsLeftOutOrGivesSaneLayers) {
     EXPECT_GT(placed_files, 200U); // the numbers are not all nonsense
 }
 
-TEST_F(NonsenseTile, OfAnyPlaceAndSizeIsReadWithoutHarm) {
-    write_good_tiles();
+TEST_F(NonsenseFile, OfAnyPlaceAndSizeIsReadWithoutHarm) {
+    write_good_files();
     AnyNumber any(1);
     for (int i = 0; i < 60; ++i) {
         const IndexedFile file = any_file(any, i);
