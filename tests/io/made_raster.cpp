@@ -41,6 +41,12 @@ void describe(GDALDataset& dataset, const MadeRaster& raster) {
     }
 }
 
+void add_metadata(GDALDataset& dataset, const MadeRaster& raster) {
+    for (const auto& [domain, key, value] : raster.metadata) {
+        dataset.SetMetadataItem(key.c_str(), value.c_str(), domain.c_str());
+    }
+}
+
 void describe(GDALRasterBand& band, const MadeRaster& raster) {
     if (raster.nodata) {
         band.SetNoDataValue(*raster.nodata);
@@ -64,6 +70,7 @@ void describe(GDALRasterBand& band, const MadeRaster& raster) {
 
 bool fill(GDALDataset& dataset, const MadeRaster& raster) {
     describe(dataset, raster);
+    add_metadata(dataset, raster);
     const std::size_t samples =
         static_cast<std::size_t>(raster.cols) * static_cast<std::size_t>(raster.rows);
     for (int i = 0; i < raster.bands; ++i) {

@@ -28,6 +28,7 @@ struct MadeRaster {
     std::vector<std::string> options; ///< of creation, "TILED=YES"
     std::vector<int> overviews;
     std::vector<GDALColorEntry> palette;
+    std::vector<std::array<std::string, 3>> metadata; ///< domain, key, value
 };
 
 /// One note a line.

@@ -48,10 +48,8 @@ std::optional<std::string> misplaced(const geo::PixelAffine& affine, GDALRasterB
 
 std::optional<Grid<float>> undulation_of(GDALRasterBand& band) {
     Grid<float> heights(band.GetXSize(), band.GetYSize());
-    const CPLErr read =
-        band.RasterIO(GF_Read, 0, 0, heights.cols(), heights.rows(), heights.samples().data(),
-                      heights.cols(), heights.rows(), GDT_Float32, 0, 0, nullptr);
-    if (read != CE_None) {
+    const glm::ivec2 size(heights.cols(), heights.rows());
+    if (!read_window(band, {{}, size, heights.samples().data(), size, GDT_Float32})) {
         return std::nullopt;
     }
     int has_void = 0;

@@ -67,9 +67,7 @@ bool has_last_block(GDALDataset& image) {
 double highest_in(GDALRasterBand& band, const PixelWindow& window) {
     std::vector<double> values(static_cast<std::size_t>(window.size.x) *
                                static_cast<std::size_t>(window.size.y));
-    if (band.RasterIO(GF_Read, window.first.x, window.first.y, window.size.x, window.size.y,
-                      values.data(), window.size.x, window.size.y, GDT_Float64, 0, 0,
-                      nullptr) != CE_None) {
+    if (!read_window(band, {window.first, window.size, values.data(), window.size})) {
         return 0.0;
     }
     int declares = 0;

@@ -107,14 +107,15 @@ std::optional<std::string> other_format(const std::string& name) {
     CPLStringList formats = format_names();
     GDALDriverH driver =
         GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, formats.List(), no_siblings.data());
-    const bool allowed = driver == nullptr ||
-                         CSLFindString(drivers_of_single_files(), GDALGetDescription(driver)) >= 0;
+    const bool allowed =
+        driver == nullptr || single_file_formats().FindString(GDALGetDescription(driver)) >= 0;
     return allowed ? std::nullopt : std::optional<std::string>(GDALGetDriverLongName(driver));
 }
 
 Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
                           const char* const* options) {
     register_drivers();
+    const ReadDeadline deadline;
     if (is_web_tiles(path)) {
         return open_web_tiles(path);
     }
@@ -141,7 +142,8 @@ Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
                                      "whole raster in one file was expected of a server",
                                      path.string(), *format)};
         }
-        request.formats = drivers_of_single_files();
+        formats = single_file_formats();
+        request.formats = formats.List();
     }
     auto dataset = open_checked(*name, request);
     if (ReadScope::stop_requested() && (!dataset || *dataset == nullptr)) {
@@ -250,6 +252,16 @@ void add_options(CPLStringList& list, std::initializer_list<std::string> words) 
     for (const std::string& word : words) {
         list.AddString(word.c_str());
     }
+}
+
+bool read_window(GDALRasterBand& band, const BandWindow& window) {
+    const ReadDeadline deadline;
+    GDALRasterIOExtraArg extra;
+    INIT_RASTERIO_EXTRA_ARG(extra);
+    extra.pfnProgress = &continues_reading;
+    return band.RasterIO(GF_Read, window.first.x, window.first.y, window.size.x, window.size.y,
+                         window.into, window.into_size.x, window.into_size.y, window.type, 0, 0,
+                         &extra) == CE_None;
 }
 
 Result<Dataset> open_raster(const fs::path& path, const GdalMessages& messages) {

@@ -10,6 +10,7 @@
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <gdal_priv.h>
+#include <glm/vec2.hpp>
 
 #include "engine/core/result.h"
 
@@ -57,6 +58,17 @@ void add_options(CPLStringList& list, std::initializer_list<std::string> options
 
 /// Whether GDAL reads the path from a server ("https://…") or a virtual file system ("/vsi…").
 bool is_remote(const std::filesystem::path& path);
+
+/// A part of a band, and the buffer for its samples, row after row.
+struct BandWindow {
+    glm::ivec2 first{0};
+    glm::ivec2 size{0};
+    void* into = nullptr;
+    glm::ivec2 into_size{0};
+    GDALDataType type = GDT_Float64;
+};
+/// Ends at a stop (ReadScope). From a server, one deadline is for the whole window (ReadDeadline).
+bool read_window(GDALRasterBand& band, const BandWindow& window);
 
 /// Opens a raster read-only; the first one of a .zip. Fails without bands, and as open_checked
 /// (gdal_drivers.h).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,45 +19,49 @@ namespace {
 
 // A picture a day for 27 years. GDAL keeps about a kilobyte for each band.
 constexpr int max_bands = 10'000;
-constexpr const char* external_option = "RELJEF_ALLOW_EXTERNAL";
+constexpr int max_depth = 2; // an overview's mask, a mask's overview
 constexpr const char* front_driver = "reljef";
+
+/// Whether files in the format may consist of several files, or name others.
+enum FileCount { several_files, single_file };
 
 struct Format {
     const char* name;
     void (*register_driver)();
+    FileCount files = several_files;
 };
 
 // In GDAL's order: the last ones take files that others know better. None of them follows names to
 // files that references.h does not check; netCDF-4 and HDF5 do.
 constexpr std::array formats{Format{"VRT", &GDALRegister_VRT},
-                             Format{"GTiff", &GDALRegister_GTiff},
+                             Format{"GTiff", &GDALRegister_GTiff, single_file},
                              Format{"HFA", &GDALRegister_HFA},
                              Format{"AIG", &GDALRegister_AIGrid},
-                             Format{"AAIGrid", &GDALRegister_AAIGrid},
-                             Format{"GRASSASCIIGrid", &GDALRegister_GRASSASCIIGrid},
-                             Format{"ISG", &GDALRegister_ISG},
-                             Format{"DTED", &GDALRegister_DTED},
-                             Format{"PNG", &GDALRegister_PNG},
-                             Format{"JPEG", &GDALRegister_JPEG},
-                             Format{"GIF", &GDALRegister_GIF},
-                             Format{"BMP", &GDALRegister_BMP},
-                             Format{"SRTMHGT", &GDALRegister_SRTMHGT},
+                             Format{"AAIGrid", &GDALRegister_AAIGrid, single_file},
+                             Format{"GRASSASCIIGrid", &GDALRegister_GRASSASCIIGrid, single_file},
+                             Format{"ISG", &GDALRegister_ISG, single_file},
+                             Format{"DTED", &GDALRegister_DTED, single_file},
+                             Format{"PNG", &GDALRegister_PNG, single_file},
+                             Format{"JPEG", &GDALRegister_JPEG, single_file},
+                             Format{"GIF", &GDALRegister_GIF, single_file},
+                             Format{"BMP", &GDALRegister_BMP, single_file},
+                             Format{"SRTMHGT", &GDALRegister_SRTMHGT, single_file},
                              Format{"Leveller", &GDALRegister_Leveller},
-                             Format{"Terragen", &GDALRegister_Terragen},
-                             Format{"JP2OpenJPEG", &GDALRegister_JP2OpenJPEG},
+                             Format{"Terragen", &GDALRegister_Terragen, single_file},
+                             Format{"JP2OpenJPEG", &GDALRegister_JP2OpenJPEG, single_file},
                              Format{"RST", &GDALRegister_IDRISI},
-                             Format{"GSAG", &GDALRegister_GSAG},
-                             Format{"GSBG", &GDALRegister_GSBG},
-                             Format{"GS7BG", &GDALRegister_GS7BG},
-                             Format{"WEBP", &GDALRegister_WEBP},
+                             Format{"GSAG", &GDALRegister_GSAG, single_file},
+                             Format{"GSBG", &GDALRegister_GSBG, single_file},
+                             Format{"GS7BG", &GDALRegister_GS7BG, single_file},
+                             Format{"WEBP", &GDALRegister_WEBP, single_file},
                              Format{"PNM", &GDALRegister_PNM},
-                             Format{"BT", &GDALRegister_BT},
-                             Format{"GTX", &GDALRegister_GTX},
+                             Format{"BT", &GDALRegister_BT, single_file},
+                             Format{"GTX", &GDALRegister_GTX, single_file},
                              Format{"BYN", &GDALRegister_BYN},
-                             Format{"USGSDEM", &GDALRegister_USGSDEM},
+                             Format{"USGSDEM", &GDALRegister_USGSDEM, single_file},
                              Format{"SAGA", &GDALRegister_SAGA},
-                             Format{"XYZ", &GDALRegister_XYZ},
-                             Format{"HF2", &GDALRegister_HF2},
+                             Format{"XYZ", &GDALRegister_XYZ, single_file},
+                             Format{"HF2", &GDALRegister_HF2, single_file},
                              Format{"ZMap", &GDALRegister_ZMap},
                              Format{"NGSGEOID", &GDALRegister_NGSGEOID},
                              Format{"SIGDEM", &GDALRegister_SIGDEM},
@@ -67,6 +72,41 @@ constexpr std::array formats{Format{"VRT", &GDALRegister_VRT},
 bool is_format(std::string_view name) {
     return std::any_of(formats.begin(), formats.end(),
                        [&](const Format& format) { return format.name == name; });
+}
+
+std::atomic<bool>& external_allowed() {
+    static std::atomic<bool> allowed{false};
+    return allowed;
+}
+
+/// The name of the file on a server that this thread is opening; null: none.
+thread_local const std::string* server_file = nullptr;
+
+class ServerFileScope {
+public:
+    explicit ServerFileScope(const std::string& name) {
+        server_file = is_on_server(name) ? &name : outer_;
+    }
+    ~ServerFileScope() { server_file = outer_; }
+    ServerFileScope(const ServerFileScope&) = delete;
+    ServerFileScope& operator=(const ServerFileScope&) = delete;
+
+private:
+    const std::string* outer_ = server_file;
+};
+
+std::string_view format_of(GDALDataset& dataset) {
+    return dataset.GetDriver() != nullptr ? dataset.GetDriver()->GetDescription() : "";
+}
+
+/// Bands of which a block holds samples. Masks and overviews may be datasets of their own.
+int bands_of_block(GDALRasterBand& band) {
+    GDALDataset* const dataset = band.GetDataset();
+    if (dataset == nullptr) {
+        return 1;
+    }
+    const char* const order = dataset->GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
+    return order != nullptr && EQUAL(order, "PIXEL") ? dataset->GetRasterCount() : 1;
 }
 
 /// GDAL always reads whole blocks; `bands`: those that a block holds.
@@ -85,33 +125,32 @@ Result<void> check_block(GDALRasterBand& band, int bands, const std::string& nam
                              size_text(bytes), size_text(static_cast<double>(max_block_bytes)))};
 }
 
-/// Of a band, its mask and its overviews. The mask is a band of its own.
-Result<void> check_band(GDALRasterBand& band, int bands, const std::string& name) {
-    auto good = check_block(band, bands, name);
+/// Of a band, its overviews and its mask, and of their overviews and masks. Those of virtual
+/// rasters are other files, which are checked when they are opened.
+// NOLINTNEXTLINE(misc-no-recursion): max_depth
+Result<void> check_band(GDALRasterBand& band, const std::string& name, int depth = 0) {
+    auto good = check_block(band, bands_of_block(band), name);
+    GDALDataset* const dataset = band.GetDataset();
+    if (depth == max_depth || (dataset != nullptr && format_of(*dataset) == "VRT")) {
+        return good;
+    }
     for (int i = 0; good && i < band.GetOverviewCount(); ++i) {
         GDALRasterBand* const overview = band.GetOverview(i);
-        good = overview != nullptr ? check_block(*overview, bands, name) : good;
+        good = overview != nullptr ? check_band(*overview, name, depth + 1) : good;
     }
     GDALRasterBand* const mask = good ? band.GetMaskBand() : nullptr;
-    return mask != nullptr ? check_block(*mask, 1, name) : good;
+    return mask != nullptr ? check_band(*mask, name, depth + 1) : good;
 }
 
-/// Overviews and masks of virtual rasters are other files, which are checked when they are opened.
 Result<void> check_sizes(GDALDataset& dataset, const std::string& name) {
     const int bands = dataset.GetRasterCount();
     if (bands > max_bands) {
         return Error{
             fmt::format("{}: has {} bands, at most {} were expected", name, bands, max_bands)};
     }
-    const std::string_view format =
-        dataset.GetDriver() != nullptr ? dataset.GetDriver()->GetDescription() : "";
-    const char* const order = dataset.GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
-    const int bands_of_block = order != nullptr && EQUAL(order, "PIXEL") ? bands : 1;
+    const std::string_view format = format_of(dataset);
     for (int i = 1; i <= bands; ++i) {
-        GDALRasterBand& band = *dataset.GetRasterBand(i);
-        auto good = format == "VRT" ? check_block(band, bands_of_block, name)
-                                    : check_band(band, bands_of_block, name);
-        if (!good) {
+        if (auto good = check_band(*dataset.GetRasterBand(i), name); !good) {
             return good;
         }
     }
@@ -138,6 +177,11 @@ Result<void> check_opened(GDALDataset& dataset, const std::string& name) {
 /// Opens what the formats open, checked; stops GDAL from trying its other drivers.
 GDALDataset* open_in_front(GDALOpenInfo* info) {
     if ((info->nOpenFlags & GDAL_OF_RASTER) == 0 || info->eAccess == GA_Update) {
+        return nullptr;
+    }
+    if (server_file != nullptr && !std::string_view(info->pszFilename).starts_with(*server_file)) {
+        CPLError(CE_Failure, CPLE_AppDefined, "%s refers to %s, one file was expected of a server",
+                 server_file->c_str(), info->pszFilename);
         return nullptr;
     }
     const CPLStringList names = format_names();
@@ -202,24 +246,35 @@ CPLStringList format_names() {
     return names;
 }
 
+CPLStringList single_file_formats() {
+    CPLStringList names;
+    for (const Format& format : formats) {
+        if (format.files == single_file) {
+            names.AddString(format.name);
+        }
+    }
+    return names;
+}
+
 bool has_format(const std::string& name) {
     const CPLStringList names = format_names();
     return GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, names.List(), nullptr) != nullptr;
 }
 
 bool allows_external() {
-    return CPLTestBool(CPLGetConfigOption(external_option, "NO"));
+    return external_allowed();
 }
 
 void allow_external(bool allowed) {
     register_drivers();
-    CPLSetConfigOption(external_option, allowed ? "YES" : nullptr);
+    external_allowed() = allowed;
     if (allowed) {
         GDALAllRegister();
     }
 }
 
 Result<Dataset> open_checked(const std::string& name, const OpenRequest& request) {
+    const ServerFileScope scope(name);
     if (auto good = check_references(name); !good) {
         return good.error();
     }

@@ -22,10 +22,15 @@ void register_formats();
 /// allow_external(true): all that GDAL has registered.
 CPLStringList format_names();
 
+/// Those of the formats that hold all of their data in one file: only these are opened on a
+/// server. Others name more files, which could be local, or addresses.
+CPLStringList single_file_formats();
+
 /// Whether one of the formats recognizes the file.
 bool has_format(const std::string& name);
 
-/// Whether files may refer to files outside their folder (references.h).
+/// Whether files may refer to files outside their folder (references.h). Only allow_external sets
+/// it, never the environment.
 bool allows_external();
 
 struct OpenRequest {

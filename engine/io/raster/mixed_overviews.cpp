@@ -48,9 +48,9 @@ GDALRasterBand* small_overview(GDALRasterBand& band, double max_samples) {
 /// Stored values of a window; empty if unreadable.
 Grid<double> stored_values(GDALRasterBand& band, const RasterOptions::Window& part) {
     Grid<double> values(part.cols, part.rows);
+    const glm::ivec2 size(part.cols, part.rows);
     const bool read =
-        band.RasterIO(GF_Read, part.col, part.row, part.cols, part.rows, values.samples().data(),
-                      part.cols, part.rows, GDT_Float64, 0, 0, nullptr) == CE_None;
+        read_window(band, {{part.col, part.row}, size, values.samples().data(), size});
     return read ? std::move(values) : Grid<double>();
 }
 

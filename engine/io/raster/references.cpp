@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -24,10 +25,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> archive_systems{"/vsizip", "/vsigzip", "/vsitar"};
-constexpr std::array<std::string_view, 4> server_systems{"/vsicurl", "/vsis3", "/vsigs", "/vsiaz"};
+constexpr std::array<std::string_view, 1> server_systems{"/vsicurl"};
+// GDAL's own readers, which have no deadline and no rule for redirects.
+constexpr std::array<std::string_view, 3> cloud_systems{"/vsis3", "/vsigs", "/vsiaz"};
 
-// 60,000 sources of about a kilobyte; GDAL's tree of the text takes about ten times as much memory.
-constexpr vsi_l_offset max_virtual_raster_bytes = vsi_l_offset{1} << 26U;
+// 30,000 sources of half a kilobyte; GDAL's tree of the text takes ten times as much: 160 MB.
+constexpr vsi_l_offset max_virtual_raster_bytes = vsi_l_offset{1} << 24U;
 constexpr std::size_t identified_bytes = 1024; // GDAL looks for "<VRTDataset" in these
 
 template <class List> bool is_in(const List& names, std::string_view name) {
@@ -48,13 +51,6 @@ std::vector<std::string> systems_in(const std::string& name) {
 
 bool is_virtual(const std::string& name) {
     return name.starts_with("/vsi");
-}
-
-bool is_on_server(const std::string& name) {
-    const auto systems = systems_in(name);
-    return is_virtual(name) &&
-           std::any_of(systems.begin(), systems.end(),
-                       [](const std::string& system) { return is_in(server_systems, system); });
 }
 
 /// What a file may refer to: everything in or below these folders.
@@ -126,6 +122,35 @@ Error outside(const std::string& name, const std::string& text, const Scope& sco
                         name, text, scope.base().string())};
 }
 
+/// Whether GDAL takes the text for well-known text, a PROJ string without the path of a file, or
+/// AUTHORITY:code. It takes other text for an address or the name of a file, which it reads.
+bool is_plain_crs(const std::string& text) {
+    constexpr std::array<std::string_view, 6> authorities{
+        "EPSG:", "EPSGA:", "ESRI:", "OGC:", "IGNF:", "urn:ogc:def:"};
+    constexpr std::array<std::string_view, 5> names{"", "WGS84", "WGS72", "NAD83", "NAD27"};
+    const std::string crs = CPLString(text).Trim();
+    const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    const auto word_end = std::find_if_not(crs.begin(), crs.end(), is_word);
+    const auto bracket =
+        std::find_if(word_end, crs.end(), [](unsigned char c) { return std::isspace(c) == 0; });
+    if (word_end != crs.begin() && bracket != crs.end() && (*bracket == '[' || *bracket == '(')) {
+        return true;
+    }
+    const bool begins_well =
+        crs.starts_with('+') || is_in(names, crs) ||
+        std::any_of(authorities.begin(), authorities.end(), [&](std::string_view authority) {
+            return EQUALN(crs.c_str(), authority.data(), authority.size());
+        });
+    return begins_well && crs.find('/') == std::string::npos;
+}
+
+Error unknown_crs(const std::string& name, const std::string& text) {
+    return {
+        fmt::format("{}: has the coordinate system '{}', well-known text, a PROJ string without "
+                    "files or AUTHORITY:code was expected (--allow-external lifts this)",
+                    name, text.substr(0, 100))};
+}
+
 bool is_virtual_raster(const std::string& name) {
     const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(name.c_str(), "rb"),
                                                                 &VSIFCloseL);
@@ -145,7 +170,8 @@ public:
 
     Result<void> check(const CPLXMLNode* first) { // NOLINT(misc-no-recursion)
         for (const CPLXMLNode* node = first; node != nullptr; node = node->psNext) {
-            auto good = node->eType == CXT_Element ? check_element(node) : Result<void>();
+            const bool has_name = node->eType == CXT_Element || node->eType == CXT_Attribute;
+            auto good = has_name ? check_node(node) : Result<void>();
             good = good ? check(node->psChild) : good;
             if (!good) {
                 return good;
@@ -155,17 +181,19 @@ public:
     }
 
 private:
-    Result<void> check_element(const CPLXMLNode* node) {
+    Result<void> check_node(const CPLXMLNode* node) {
         constexpr std::array names{"SourceFilename", "SourceDataset", "DEMPath"};
         constexpr std::array keys{"X_DATASET", "Y_DATASET", "OVERVIEW_FILE"};
         const char* const key = CPLGetXMLValue(node, "key", "");
         const auto equals = [](const char* word) {
             return [word](const char* other) { return EQUAL(word, other); };
         };
-        if (EQUAL(CPLGetXMLValue(node, "subClass", ""), "VRTRawRasterBand")) {
-            return Error{fmt::format("{}: describes raw bytes of a file, a file in a raster format "
-                                     "was expected (--allow-external lifts this)",
-                                     name_)};
+        if (auto good = check_class(CPLGetXMLValue(node, "subClass", "")); !good) {
+            return good;
+        }
+        if (is_crs(node->pszValue) || is_crs(key) || is_crs(CPLGetXMLValue(node, "name", ""))) {
+            const std::string crs = CPLGetXMLValue(node, "", "");
+            return is_plain_crs(crs) ? Result<void>() : unknown_crs(name_, crs);
         }
         if (EQUAL(key, "ROOT_PATH")) { // of the names in another virtual raster
             return outside(name_, CPLGetXMLValue(node, "", ""), scope_);
@@ -177,42 +205,60 @@ private:
                                                                : outside(name_, text, scope_);
     }
 
+    Result<void> check_class(const char* band_class) const {
+        if (EQUAL(band_class, "VRTRawRasterBand")) {
+            return Error{fmt::format("{}: describes raw bytes of a file, a file in a raster format "
+                                     "was expected (--allow-external lifts this)",
+                                     name_)};
+        }
+        if (EQUAL(band_class, "VRTDerivedRasterBand")) { // holds the samples of all sources at once
+            return Error{fmt::format("{}: has a band that is computed from others, a band of a "
+                                     "file was expected (--allow-external lifts this)",
+                                     name_)};
+        }
+        return {};
+    }
+    /// Whether an element, an attribute or an option describes a coordinate system or operation.
+    static bool is_crs(std::string_view word) {
+        return word.ends_with("SRS") || word.ends_with("srs") || word == "Projection" ||
+               word == "GCPProjection" || word == "COORDINATE_OPERATION";
+    }
+
     const std::string& name_;
     Scope scope_;
 };
 
-/// GDAL warps block by block, and holds all samples of the source that a block may need at once:
-/// about the block's share of the source.
-Result<void> check_warp(const std::string& name, const CPLXMLNode* text) {
-    const CPLXMLNode* const root = CPLGetXMLNode(text, "=VRTDataset");
-    const CPLXMLNode* const source = CPLGetXMLNode(root, "GDALWarpOptions.SourceDataset");
+struct WarpedSource {
+    std::string name; ///< empty: none
+    int sample_bytes = 0;
+};
+
+WarpedSource warped_source(const std::string& name, const CPLXMLNode* text) {
+    const CPLXMLNode* const options = CPLGetXMLNode(text, "=VRTDataset.GDALWarpOptions");
+    const CPLXMLNode* const source = CPLGetXMLNode(options, "SourceDataset");
     if (source == nullptr) {
         return {};
     }
-    CPLStringList options; // the level of the source's overviews
-    const CPLXMLNode* const list = CPLGetXMLNode(root, "GDALWarpOptions.OpenOptions");
-    for (const CPLXMLNode* node = list != nullptr ? list->psChild : nullptr; node != nullptr;
-         node = node->psNext) {
-        options.SetNameValue(CPLGetXMLValue(node, "key", ""), CPLGetXMLValue(node, "", ""));
-    }
-    const Dataset dataset(GDALDataset::Open(
-        Scope(name).resolved(CPLGetXMLValue(source, "", ""), is_relative(source)).c_str(),
-        GDAL_OF_RASTER, nullptr, options.List()));
+    const char* const type = CPLGetXMLValue(options, "WorkingDataType", "Byte");
+    return {Scope(name).resolved(CPLGetXMLValue(source, "", ""), is_relative(source)).string(),
+            GDALGetDataTypeSizeBytes(GDALGetDataTypeByName(type))};
+}
+
+/// GDAL holds all samples of the source that a block needs at once. A file may place all of them
+/// in one block.
+Result<void> check_warp(const std::string& name, const WarpedSource& source) {
+    const Dataset dataset(
+        source.name.empty() ? nullptr : GDALDataset::Open(source.name.c_str(), GDAL_OF_RASTER));
     if (dataset == nullptr || dataset->GetRasterCount() == 0) {
         return {}; // nothing will be read
     }
-    const auto number = [root](const char* key, const char* otherwise) {
-        return std::max(1.0, CPLAtof(CPLGetXMLValue(root, key, otherwise)));
-    };
-    const double share = std::min(1.0, number("BlockXSize", "512") / number("rasterXSize", "1")) *
-                         std::min(1.0, number("BlockYSize", "128") / number("rasterYSize", "1"));
-    const double samples =
-        share * dataset->GetRasterXSize() * dataset->GetRasterYSize() * dataset->GetRasterCount();
-    const double bytes =
-        samples * GDALGetDataTypeSizeBytes(dataset->GetRasterBand(1)->GetRasterDataType());
+    const int stored = GDALGetDataTypeSizeBytes(dataset->GetRasterBand(1)->GetRasterDataType());
+    const double bytes = static_cast<double>(dataset->GetRasterXSize()) *
+                         dataset->GetRasterYSize() * dataset->GetRasterCount() *
+                         std::max(stored, source.sample_bytes);
     if (bytes > static_cast<double>(max_block_bytes)) {
-        return Error{fmt::format("{}: reprojects {} of its source at once, at most {} were "
-                                 "expected",
+        return Error{fmt::format("{}: reprojects a source of {}, which may be read at once, at "
+                                 "most {} were expected (--allow-external lifts this)",
                                  name, size_text(bytes),
                                  size_text(static_cast<double>(max_block_bytes)))};
     }
@@ -226,19 +272,53 @@ Result<void> check_virtual_raster(const std::string& name) {
         return Error{fmt::format("{}: is a virtual raster of {} bytes, at most {} were expected",
                                  name, status.st_size, max_virtual_raster_bytes)};
     }
-    const CPLXMLTreeCloser text(CPLParseXMLFile(name.c_str()));
-    auto good = NameCheck(name).check(text.get());
-    return good ? check_warp(name, text.get()) : good;
+    WarpedSource source;
+    { // frees the text before a source is opened
+        const CPLXMLTreeCloser text(CPLParseXMLFile(name.c_str()));
+        if (auto good = NameCheck(name).check(text.get()); !good) {
+            return good;
+        }
+        source = warped_source(name, text.get());
+    }
+    return check_warp(name, source);
 }
 
-Result<void> check_sidecar_links(const std::string& name) {
-    for (const char* const extension : {".ovr", ".msk", ".aux.xml"}) {
-        const std::string sidecar = name + extension;
+/// The files beside a raster that formats may read with it.
+std::vector<fs::path> sidecars(const fs::path& path) {
+    std::vector<fs::path> all;
+    for (const std::string extension :
+         {".ovr", ".msk", ".aux.xml", ".aux", ".hdr", ".prj", ".tfw", ".wld",  ".rrd",  ".rdc",
+          ".ref", ".smp", ".clr",     ".stx", ".sta", ".tab", ".ige", ".sgrd", ".mgrd", ".jgw",
+          ".pgw", ".bpw", ".blw",     ".j2w", ".gfw", ".imd", ".rpb", ".xml"}) {
+        for (const std::string& cased : {extension, std::string(CPLString(extension).toupper())}) {
+            all.emplace_back(path.string() + cased);
+            all.emplace_back(fs::path(path).replace_extension(cased));
+        }
+    }
+    return all;
+}
+
+Result<void> check_sidecars(const std::string& name) {
+    Scope scope(name);
+    for (const fs::path& sidecar : sidecars(name)) {
         std::error_code ignored;
-        if (fs::is_symlink(sidecar, ignored)) {
-            Scope scope(name);
-            if (!scope.has(fs::absolute(sidecar, ignored).string(), false)) {
-                return outside(name, fs::read_symlink(sidecar, ignored).string(), scope);
+        if (fs::is_symlink(sidecar, ignored) &&
+            !scope.has(fs::absolute(sidecar, ignored).string(), false)) {
+            return outside(name, fs::read_symlink(sidecar, ignored).string(), scope);
+        }
+    }
+    return {};
+}
+
+/// An Idrisi raster names the file of its coordinate system.
+Result<void> check_idrisi(const std::string& name) {
+    for (const char* const extension : {"rdc", "RDC"}) {
+        const CPLStringList lines(
+            CSLLoad2(CPLResetExtension(name.c_str(), extension), -1, -1, nullptr));
+        for (int i = 0; i < lines.size(); ++i) {
+            if (STARTS_WITH_CI(lines[i], "ref. system") &&
+                std::strpbrk(lines[i], "/\\") != nullptr) {
+                return unknown_crs(name, lines[i]);
             }
         }
     }
@@ -247,16 +327,30 @@ Result<void> check_sidecar_links(const std::string& name) {
 
 } // namespace
 
+bool is_on_server(const std::string& name) {
+    const auto systems = systems_in(name);
+    return is_virtual(name) &&
+           std::any_of(systems.begin(), systems.end(), [](const std::string& system) {
+               return is_in(server_systems, system) || is_in(cloud_systems, system);
+           });
+}
+
 Result<void> check_typed_name(const std::string& name) {
     const auto systems = systems_in(name);
     const auto unknown =
         std::find_if(systems.begin(), systems.end(), [](const std::string& system) {
-            return !is_in(archive_systems, system) && !is_in(server_systems, system);
+            return !is_in(archive_systems, system) && !is_in(server_systems, system) &&
+                   !(allows_external() && is_in(cloud_systems, system));
         });
     if (is_virtual(name) && unknown != systems.end()) {
-        return Error{fmt::format("{}: uses {}, one of {}, {} was expected", name, *unknown,
-                                 fmt::join(archive_systems, ", "),
-                                 fmt::join(server_systems, ", "))};
+        return Error{
+            fmt::format("{}: uses {}, one of {}, {} was expected{}", name, *unknown,
+                        fmt::join(archive_systems, ", "), fmt::join(server_systems, ", "),
+                        is_in(cloud_systems, *unknown) ? " (--allow-external lifts this)" : "")};
+    }
+    // GDAL's own reader takes "/vsicurl?url=".
+    if (is_virtual(name) && name.find("/vsicurl?") != std::string::npos) {
+        return Error{fmt::format("{}: uses /vsicurl?, /vsicurl/ was expected", name)};
     }
     if (name.find('<') != std::string::npos) {
         return Error{fmt::format("{}: its name holds '<', one without was expected", name)};
@@ -269,7 +363,12 @@ Result<void> check_references(const std::string& name) {
         return {};
     }
     if (!is_virtual(name)) {
-        if (auto good = check_sidecar_links(name); !good) {
+        if (auto good = check_sidecars(name); !good) {
+            return good;
+        }
+    }
+    if (EQUAL(CPLGetExtension(name.c_str()), "rst")) {
+        if (auto good = check_idrisi(name); !good) {
             return good;
         }
     }
@@ -278,7 +377,7 @@ Result<void> check_references(const std::string& name) {
 
 Result<void> check_named_files(GDALDataset& dataset) {
     const std::string name = dataset.GetDescription();
-    if (allows_external() || is_on_server(name)) {
+    if (allows_external()) {
         return {};
     }
     constexpr std::array<std::array<const char*, 2>, 3> items{{{"OVERVIEW_FILE", "OVERVIEWS"},
@@ -286,6 +385,11 @@ Result<void> check_named_files(GDALDataset& dataset) {
                                                                {"Y_DATASET", "GEOLOCATION"}}};
     for (const auto& [key, domain] : items) {
         const char* const text = dataset.GetMetadataItem(key, domain);
+        if (text != nullptr && is_on_server(name)) {
+            return Error{fmt::format("{}: refers to {}, one file without others was expected of a "
+                                     "server (--allow-external lifts this)",
+                                     name, text)};
+        }
         if (text != nullptr) {
             Scope scope(name);
             if (!scope.has(text, false)) {
@@ -293,12 +397,13 @@ Result<void> check_named_files(GDALDataset& dataset) {
             }
         }
     }
-    return {};
+    const char* const crs = dataset.GetMetadataItem("SRS", "GEOLOCATION");
+    return crs == nullptr || is_plain_crs(crs) ? Result<void>() : unknown_crs(name, crs);
 }
 
 Result<void> check_parts(GDALDataset& dataset) {
     const std::string name = dataset.GetDescription();
-    if (allows_external() || is_on_server(name)) {
+    if (allows_external()) {
         return {};
     }
     Scope scope(name);

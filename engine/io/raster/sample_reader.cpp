@@ -87,12 +87,11 @@ public:
 private:
     bool read_band(GDALRasterBand& band, const Tile& tile, void* into, GDALDataType type) const {
         const int k = plan_.reduction;
-        GDALRasterIOExtraArg extra;
-        INIT_RASTERIO_EXTRA_ARG(extra);
-        extra.pfnProgress = &continues_reading;
-        return band.RasterIO(GF_Read, plan_.col + tile.col * k, plan_.row + tile.row * k,
-                             tile.cols * k, tile.rows * k, into, tile.cols * taps_,
-                             tile.rows * taps_, type, 0, 0, &extra) == CE_None;
+        return read_window(band, {{plan_.col + tile.col * k, plan_.row + tile.row * k},
+                                  {tile.cols * k, tile.rows * k},
+                                  into,
+                                  {tile.cols * taps_, tile.rows * taps_},
+                                  type});
     }
 
     Source source_;

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/web_tiles.h"
 #include "engine/io/remote/remote_files.h"
 
@@ -56,11 +57,13 @@ bool decode(std::string& file, TilePixels& pixels) {
     const std::string name = fmt::format("/vsimem/web_tile_{}", static_cast<const void*>(&file));
     auto* bytes = reinterpret_cast<GByte*>(file.data());
     VSIFCloseL(VSIFileFromMemBuffer(name.c_str(), bytes, file.size(), FALSE));
-    constexpr std::array<const char*, 5> drivers{"PNG", "JPEG", "WEBP", "GTiff", nullptr};
+    constexpr std::array<const char*, 4> formats{"PNG", "JPEG", "WEBP", nullptr};
     constexpr std::array<const char*, 1> no_siblings{nullptr};
-    Dataset picture(GDALDataset::Open(name.c_str(),
-                                      GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                      drivers.data(), nullptr, no_siblings.data()));
+    OpenRequest request;
+    request.formats = formats.data();
+    request.siblings = no_siblings.data();
+    auto opened = open_checked(name, request);
+    Dataset picture = opened ? std::move(*opened) : nullptr;
     bool good = picture != nullptr && picture->GetRasterXSize() == web_tiles_side &&
                 picture->GetRasterYSize() == web_tiles_side;
     if (good) {

@@ -1,7 +1,6 @@
 #include "engine/io/remote/chunk_cache.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace reljef::io {
 namespace {
@@ -32,23 +31,27 @@ ChunkCache::Chunk ChunkCache::find(const std::string& url, const FileVersion& ve
     return entry->second.chunk;
 }
 
-bool ChunkCache::add(const std::string& url, const FileVersion& version, std::uint64_t first,
-                     const std::string& bytes) {
+std::optional<std::vector<ChunkCache::Chunk>> ChunkCache::add(const std::string& url,
+                                                              const FileVersion& version,
+                                                              std::uint64_t first,
+                                                              const std::string& bytes) {
     const std::lock_guard lock(mutex_);
     File& file = files_[url];
     if (file.version.value_or(version) != version) {
-        return false;
+        return std::nullopt;
     }
     file.version = version;
+    std::vector<Chunk> added;
     for (std::size_t at = 0; at < bytes.size(); at += chunk_bytes) {
         const auto [entry, is_new] = file.chunks.try_emplace(first + at / chunk_bytes);
         count_ += is_new ? 1 : 0;
-        entry->second = {std::make_shared<const std::string>(bytes, at, chunk_bytes), ++uses_};
+        added.push_back(std::make_shared<const std::string>(bytes, at, chunk_bytes));
+        entry->second = {added.back(), ++uses_};
     }
     if (count_ > max_chunks) {
         evict();
     }
-    return true;
+    return added;
 }
 
 // Keeps the half that was used last.

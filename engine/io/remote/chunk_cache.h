@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/io/remote/http_client.h"
 
@@ -22,9 +23,9 @@ public:
     [[nodiscard]] std::optional<FileVersion> version(const std::string& url) const;
     /// Null if it is not there in this version.
     Chunk find(const std::string& url, const FileVersion& version, std::uint64_t index);
-    /// Stores chunks from `first`. False if the file has another version than before.
-    bool add(const std::string& url, const FileVersion& version, std::uint64_t first,
-             const std::string& bytes);
+    /// Stores and returns chunks from `first`. Absent if the file has another version than before.
+    std::optional<std::vector<Chunk>> add(const std::string& url, const FileVersion& version,
+                                          std::uint64_t first, const std::string& bytes);
 
     /// The error of a read in the last five seconds. Readers that try again at once, as GDAL does,
     /// need not wait again.

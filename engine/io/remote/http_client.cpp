@@ -22,6 +22,9 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr long max_connections = 8; // of one read
 constexpr std::chrono::milliseconds stop_latency{50};
+// That take the time of one request each. The samples of a read have at most 16 MB, which come
+// within these 300 s at half a megabit a second.
+constexpr double max_requests = 5.0;
 
 double seconds_option(const char* name, double usual) {
     return CPLAtof(CPLGetConfigOption(name, std::to_string(usual).c_str()));
@@ -147,6 +150,12 @@ private:
         if (seconds > max_seconds) {
             return Error{fmt::format("{} bytes came in {:.0f} s, all were expected within {:.0f} s",
                                      received, seconds, max_seconds)};
+        }
+        if (ReadDeadline::seconds() > max_requests * max_seconds) {
+            return Error{
+                fmt::format("opening or reading a part took {:.0f} s in all, at most {:.0f} "
+                            "s were expected",
+                            ReadDeadline::seconds(), max_requests * max_seconds)};
         }
         return {};
     }

@@ -47,10 +47,11 @@ public:
     /// Reads the parts at the same time. Retries requests that an overloaded server refuses (HTTP
     /// 429, 5xx), after pauses of a second (GDAL_HTTP_RETRY_DELAY).
     ///
-    /// One deadline is for all of a read, with its redirects and retries: it fails if it takes
-    /// longer than 60 s (GDAL_HTTP_TIMEOUT), or longer than 10 s plus a second for each 2 kB that
-    /// came (ReadLimits). A part also fails if it brings under 100 bytes a second for 10 s
-    /// (GDAL_HTTP_LOW_SPEED_LIMIT and _TIME). It ends within 0.1 s of a stop (ReadScope).
+    /// A read fails, with its redirects and retries, if it takes longer than 60 s
+    /// (GDAL_HTTP_TIMEOUT), or longer than 10 s plus a second for each 2 kB that came (ReadLimits).
+    /// A part also fails if it brings under 100 bytes a second for 10 s (GDAL_HTTP_LOW_SPEED_LIMIT
+    /// and _TIME). It ends within 0.1 s of a stop (ReadScope). All reads for one open or one window
+    /// of samples (ReadDeadline) fail after five times 60 s.
     ///
     /// The address may name any host by http:// or https://. Redirects are followed, at most five,
     /// to https:// addresses of public hosts, without the user's credentials and proxy.

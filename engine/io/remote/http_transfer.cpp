@@ -235,7 +235,7 @@ Result<HttpTransfer::Next> HttpTransfer::check_answer(long status) {
 Result<HttpTransfer::Next> HttpTransfer::follow_redirect() {
     const char* to = nullptr;
     curl_easy_getinfo(easy_.get(), CURLINFO_REDIRECT_URL, &to);
-    // Without a URL that libcurl understands, the server's own word.
+    // If libcurl does not understand the URL: the header as the server sent it.
     const std::string place = to != nullptr ? to : header("location");
     if (!place.starts_with("https://")) {
         return Error{fmt::format(

@@ -1,11 +1,16 @@
 #include "engine/io/remote/read_scope.h"
 
+#include <chrono>
+#include <optional>
 #include <utility>
 
 namespace reljef::io {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 thread_local const ReadScope* innermost_scope = nullptr;
+thread_local std::optional<Clock::time_point> read_begin;
 
 } // namespace
 
@@ -24,6 +29,20 @@ bool ReadScope::stop_requested() {
         }
     }
     return false;
+}
+
+ReadDeadline::ReadDeadline() : is_outermost_(!read_begin) {
+    read_begin = read_begin.value_or(Clock::now());
+}
+
+ReadDeadline::~ReadDeadline() {
+    if (is_outermost_) {
+        read_begin.reset();
+    }
+}
+
+double ReadDeadline::seconds() {
+    return read_begin ? std::chrono::duration<double>(Clock::now() - *read_begin).count() : 0.0;
 }
 
 int continues_reading(double /*fraction*/, const char* /*message*/, void* /*data*/) {

@@ -21,6 +21,22 @@ private:
     const ReadScope* outer_;
 };
 
+/// One deadline for all requests that this thread makes for one open or one read of a window. Of
+/// nested ones, the outermost counts.
+class ReadDeadline {
+public:
+    ReadDeadline();
+    ~ReadDeadline();
+    ReadDeadline(const ReadDeadline&) = delete;
+    ReadDeadline& operator=(const ReadDeadline&) = delete;
+
+    /// Since the outermost began; 0 without one.
+    static double seconds();
+
+private:
+    bool is_outermost_;
+};
+
 /// GDALProgressFunc: false after a stop request.
 int continues_reading(double fraction, const char* message, void* data);
 

@@ -165,15 +165,14 @@ private:
         if (!parts) {
             return parts.error();
         }
-        const std::string& bytes = parts->front().bytes;
-        if (!cache_.add(url, version, first, bytes)) {
+        const auto added = cache_.add(url, version, first, parts->front().bytes);
+        if (!added) {
             return changed(url);
         }
         for (std::uint64_t i = first; i < std::min(first + count, begin + chunks.size()); ++i) {
             ChunkCache::Chunk& chunk = chunks[i - begin];
             if (chunk == nullptr) {
-                chunk = std::make_shared<const std::string>(bytes, (i - first) * chunk_bytes,
-                                                            chunk_bytes);
+                chunk = (*added)[i - first];
             }
         }
         return {};
@@ -356,14 +355,6 @@ void install_remote_files() {
     VSIFileManager::InstallHandler(std::string(prefix), new RemoteFiles);
 }
 
-bool is_on_server(const std::string& name) {
-    constexpr std::array<std::string_view, 10> marks{
-        "://",      "/vsicurl", "/vsis3",    "/vsigs",   "/vsiaz",
-        "/vsiadls", "/vsioss",  "/vsiswift", "/vsihdfs", "/vsiwebhdfs"};
-    return std::any_of(marks.begin(), marks.end(),
-                       [&](std::string_view mark) { return name.find(mark) != std::string::npos; });
-}
-
 void forget_remote_file(const std::string& name) {
     if (RemoteFiles* files = installed_files()) {
         files->reader().forget(url_of(name));
@@ -382,15 +373,6 @@ Result<std::optional<std::string>> read_remote_file(const std::string& url, std:
                                  whole->version.bytes, max_bytes)};
     }
     return whole->found ? std::optional(std::move(whole->bytes)) : std::nullopt;
-}
-
-const char* const* drivers_of_single_files() {
-    static constexpr std::array<const char*, 25> drivers{
-        "GTiff", "COG",      "PNG",  "JPEG",           "JP2OpenJPEG", "WEBP", "GIF",
-        "BMP",   "SRTMHGT",  "DTED", "USGSDEM",        "AAIGrid",     "GSAG", "GSBG",
-        "GS7BG", "Terragen", "HF2",  "GRASSASCIIGrid", "NTv2",        "GTX",  "XYZ",
-        "ISG",   "BT",       "HFA",  nullptr};
-    return drivers.data();
 }
 
 } // namespace reljef::io

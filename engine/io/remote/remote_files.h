@@ -15,18 +15,10 @@ namespace reljef::io {
 /// Replaces GDAL's reader of "/vsicurl/". Call it once, after GDAL's drivers are registered.
 void install_remote_files();
 
-/// Whether GDAL reads a name from a server: an address, or a path that contains a network file
-/// system.
-bool is_on_server(const std::string& name);
-
 /// Clears what is cached of a file, including a failure. `name`: an address, "/vsicurl/" or not.
 void forget_remote_file(const std::string& name);
 
 /// Reads a whole file in one request; absent if the server has none. The error does not name it.
 Result<std::optional<std::string>> read_remote_file(const std::string& url, std::size_t max_bytes);
-
-/// Formats that hold all of their data in one file: the drivers that may open a file on a server.
-/// Others name more files, which could be local, or addresses. Ends with a null pointer.
-const char* const* drivers_of_single_files();
 
 } // namespace reljef::io

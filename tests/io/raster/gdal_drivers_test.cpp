@@ -1,6 +1,9 @@
 #include "engine/io/raster/gdal_drivers.h"
 
+#include <array>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,6 +11,7 @@
 
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/references.h"
+#include "engine/io/remote/read_scope.h"
 #include "engine/io/terrain_file.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
@@ -85,9 +89,70 @@ TEST_F(GdalDrivers, OverviewsAndMasksInHugeBlocksAreNotRead) {
         const GdalMessages messages;
         const auto raster = open_raster(folder_.path() / "b.tif", messages);
         ASSERT_TRUE(raster) << raster.error().message;
-        EXPECT_EQ((*raster)->GetRasterBand(1)->GetOverviewCount(), 0);
+        GDALRasterBand& band = *(*raster)->GetRasterBand(1);
+        EXPECT_EQ(band.GetOverviewCount(), 0);
+        EXPECT_EQ(band.GetMaskFlags(), GMF_ALL_VALID);
         EXPECT_GT(messages.errors(), 0U);
         fs::remove(side);
+    }
+}
+
+/// Sets a number in a directory of a TIFF with little-endian 32-bit offsets.
+void set_tag(std::string& tiff, int directory, unsigned tag, unsigned value) {
+    const auto number = [&](std::size_t at, std::size_t bytes) {
+        std::size_t sum = 0;
+        for (std::size_t i = bytes; i-- > 0;) {
+            sum = sum * 256 + static_cast<unsigned char>(tiff.at(at + i));
+        }
+        return sum;
+    };
+    std::size_t at = number(4, 4);
+    for (int i = 0; i < directory; ++i) {
+        at = number(at + 2 + 12 * number(at, 2), 4);
+    }
+    ASSERT_NE(at, 0U);
+    for (std::size_t entry = at + 2; entry < at + 2 + 12 * number(at, 2); entry += 12) {
+        if (number(entry, 2) == tag) {
+            tiff.at(entry + 8) = static_cast<char>(value % 256);
+            tiff.at(entry + 9) = static_cast<char>(value / 256);
+            return;
+        }
+    }
+    FAIL() << "no tag " << tag;
+}
+
+TEST_F(GdalDrivers, InternalOverviewsAndMasksInHugeBlocksAreNotRead) {
+    constexpr unsigned tile_width = 322;
+    constexpr unsigned tile_length = 323;
+    constexpr unsigned samples_per_pixel = 277;
+    const fs::path path = folder_.path() / "c.tif";
+    const test::QuietGdal quiet;
+    const CPLConfigOptionSetter internal("GDAL_TIFF_INTERNAL_MASK", "YES", false);
+    auto ground = test::made_raster(512, 512, [](int col, int) { return col % 200; });
+    ground.type = GDT_Byte;
+    ground.options = {"TILED=YES"};
+    ASSERT_TRUE(test::write(ground, path));
+    {
+        const Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_UPDATE));
+        ASSERT_NE(dataset, nullptr);
+        ASSERT_EQ(dataset->CreateMaskBand(GMF_PER_DATASET), CE_None);
+        std::array factors{2};
+        ASSERT_EQ(
+            dataset->BuildOverviews("NEAREST", 1, factors.data(), 0, nullptr, nullptr, nullptr),
+            CE_None);
+    }
+    EXPECT_THAT(error_of(path), testing::Not(HasSubstr("blocks of")));
+    const std::string whole = test::read_bytes(path);
+    const auto error_with = [&](int directory, std::array<unsigned, 3> values) {
+        std::string tiff = whole;
+        set_tag(tiff, directory, tile_width, values[0]);
+        set_tag(tiff, directory, tile_length, values[1]);
+        set_tag(tiff, directory, samples_per_pixel, values[2]);
+        return error_of(folder_.write("d.tif", tiff));
+    };
+    for (int directory = 0; directory < 4; ++directory) { // the raster, its mask, their overviews
+        EXPECT_THAT(error_with(directory, {20000, 20000, 1}), HasSubstr("blocks of 20000×20000"))
+            << directory;
     }
 }
 
@@ -111,18 +176,42 @@ TEST_F(GdalDrivers, APictureThatIsReadWholeIsCheckedByItsSize) {
 
 TEST_F(GdalDrivers, AReprojectionThatReadsAllOfItsSourceAsksForNoMemory) {
     static_cast<void>(sparse("a.tif", {65536, 65536, 1, {"TILED=YES"}}));
-    const auto warped = [&](int side) {
+    static_cast<void>(sparse("b.tif", {10000, 10000, 1, {"TILED=YES"}}));
+    const auto warped = [&](const char* source, const char* type) {
         return folder_.write(
             "a.vrt",
-            fmt::format(R"(<VRTDataset rasterXSize="{0}" rasterYSize="{0}" )"
+            fmt::format(R"(<VRTDataset rasterXSize="65536" rasterYSize="65536" )"
                         R"(subClass="VRTWarpedDataset"><VRTRasterBand dataType="Byte" band="1" )"
                         R"(subClass="VRTWarpedRasterBand"/><BlockXSize>128</BlockXSize>)"
-                        R"(<BlockYSize>128</BlockYSize><GDALWarpOptions><SourceDataset )"
-                        R"(relativeToVRT="1">a.tif</SourceDataset></GDALWarpOptions></VRTDataset>)",
-                        side));
+                        R"(<BlockYSize>128</BlockYSize><GDALWarpOptions><WorkingDataType>{}<)"
+                        R"(/WorkingDataType><SourceDataset relativeToVRT="1">{}</SourceDataset>)"
+                        "</GDALWarpOptions></VRTDataset>",
+                        type, source));
     };
-    EXPECT_THAT(error_of(warped(128)), HasSubstr("reprojects 4.3 GB of its source at once"));
-    EXPECT_TRUE(check_references(warped(65536).string()));
+    // Blocks need small shares of the source, but the transformation may place all in one.
+    EXPECT_THAT(error_of(warped("a.tif", "Byte")), HasSubstr("reprojects a source of 4.3 GB"));
+    EXPECT_THAT(error_of(warped("b.tif", "Float64")), HasSubstr("reprojects a source of 800.0 MB"));
+    EXPECT_TRUE(check_references(warped("b.tif", "Byte").string()));
+}
+
+TEST_F(GdalDrivers, FormatsThatMayNameOtherFilesAreNotOpenedOnServers) {
+    for (const char* const format : {"VRT", "HFA", "RST", "EHdr", "ENVI", "AIG", "SAGA"}) {
+        EXPECT_EQ(single_file_formats().FindString(format), -1) << format;
+    }
+    EXPECT_GE(single_file_formats().FindString("GTiff"), 0);
+}
+
+TEST_F(GdalDrivers, EveryReadOfAWindowEndsAtAStop) {
+    const GdalMessages messages;
+    auto raster = open_raster(sparse("a.tif", {64, 64, 1, {}}), messages);
+    ASSERT_TRUE(raster) << raster.error().message;
+    std::vector<double> values(std::size_t{64} * 64);
+    const BandWindow window{{}, glm::ivec2(64), values.data(), glm::ivec2(64)};
+    EXPECT_TRUE(read_window(*(*raster)->GetRasterBand(1), window));
+    std::stop_source stop;
+    stop.request_stop();
+    const ReadScope scope(stop.get_token());
+    EXPECT_FALSE(read_window(*(*raster)->GetRasterBand(1), window));
 }
 
 TEST_F(GdalDrivers, FormatsThatAreNotListedAreRefused) {

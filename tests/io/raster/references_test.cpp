@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -140,10 +141,12 @@ TEST_F(References, RawBytesAndProgramsOfAVirtualRasterAreRefused) {
 }
 
 TEST_F(References, SidecarFilesLeadNowhereElse) {
-    for (const char* const extension : {".ovr", ".msk", ".aux.xml"}) {
-        const fs::path sidecar = inside_ / (std::string("a.tif") + extension);
+    for (const char* const file :
+         {"a.tif.ovr", "a.tif.msk", "a.tif.aux.xml", "a.hdr", "a.prj", "a.PRJ", "a.tfw", "a.rrd",
+          "a.rdc", "a.aux", "a.wld", "a.xml", "a.ovr"}) {
+        const fs::path sidecar = inside_ / file;
         fs::create_symlink(outside_, sidecar);
-        EXPECT_THAT(error_of(inside_ / "a.tif"), HasSubstr("refers to")) << extension;
+        EXPECT_THAT(error_of(inside_ / "a.tif"), HasSubstr("refers to")) << file;
         fs::remove(sidecar);
     }
     const fs::path overview = write("a.tif.ovr", virtual_raster("../outside.tif", beside));
@@ -188,7 +191,7 @@ TEST_F(References, AllowExternalLiftsThis) {
 
 TEST_F(References, OtherVirtualFileSystemsAreRefused) {
     for (const std::string name : {"/vsizip/a.zip", "/vsigzip/a.gz", "/vsitar/a.tar/b.tif",
-                                   "/vsicurl/http://host/a", "/vsis3/b/a", "a.tif", "a/vsi.tif"}) {
+                                   "/vsicurl/http://host/a", "a.tif", "a/vsi.tif"}) {
         EXPECT_TRUE(check_typed_name(name)) << name;
     }
     for (const std::string name : {"/vsistdin/", "/vsisubfile/8,a.tif", "/vsizip//vsistdin/",
@@ -196,6 +199,89 @@ TEST_F(References, OtherVirtualFileSystemsAreRefused) {
         EXPECT_FALSE(check_typed_name(name)) << name;
         EXPECT_THAT(error_of(name), StartsWith(name + ": ")) << name;
     }
+}
+
+TEST_F(References, ReadersWithoutDeadlinesAndRulesForRedirectsAreRefused) {
+    for (const std::string name : {"/vsis3/b/a.tif", "/vsigs/b/a.tif", "/vsiaz/b/a.tif"}) {
+        EXPECT_THAT(error_of(name), HasSubstr("--allow-external lifts this"));
+        allow_external(true);
+        EXPECT_TRUE(check_typed_name(name)) << name;
+        allow_external(false);
+    }
+    for (const std::string name :
+         {"/vsicurl?url=http://127.0.0.1:9/a.tif", "/vsizip/{/vsicurl?url=http://127.0.0.1:9/a}/b",
+          "/vsicurl_streaming/http://127.0.0.1:9/a.tif"}) {
+        EXPECT_THAT(error_of(name), HasSubstr(": uses /vsicurl")) << name;
+    }
+}
+
+TEST_F(References, CoordinateSystemsOfAVirtualRasterNameNoFileAndNoServer) {
+    const auto with = [&](const std::string& element) {
+        return error_of(write("a.vrt", R"(<VRTDataset rasterXSize="8" rasterYSize="8">)" + element +
+                                           "</VRTDataset>"));
+    };
+    for (const std::string& crs :
+         {std::string("http://127.0.0.1:9/crs"), std::string("HTTPS://127.0.0.1:9/crs"),
+          std::string(" ftp://127.0.0.1:9/crs"), std::string("/vsicurl/http://127.0.0.1:9/crs"),
+          outside_.string(), std::string("../outside.prj"), std::string("outside.prj"),
+          std::string("ESRI::/etc/hostname"), std::string("+proj=longlat +nadgrids=/etc/hostname"),
+          std::string("+init=/etc/hostname:1")}) {
+        for (const std::string& element :
+             {"<SRS>" + crs + "</SRS>", R"(<GCPList Projection=")" + crs + R"("/>)",
+              "<RPCTransformer><DEMSRS>" + crs + "</DEMSRS></RPCTransformer>",
+              "<GDALWarpOptions><Transformer><ReprojectionTransformer><SourceSRS>" + crs +
+                  "</SourceSRS></ReprojectionTransformer></Transformer></GDALWarpOptions>",
+              R"(<Metadata domain="GEOLOCATION"><MDI key="SRS">)" + crs + "</MDI></Metadata>",
+              R"(<Option key="COORDINATE_OPERATION">)" + crs + "</Option>"}) {
+            EXPECT_THAT(with(element), HasSubstr("has the coordinate system")) << element;
+        }
+    }
+    for (const std::string crs :
+         {"", "EPSG:32631", "epsg:4326+5773", "WGS84", "urn:ogc:def:crs:EPSG::4326",
+          "+proj=utm +zone=31", "LOCAL_CS[&quot;a/b&quot;]", "\n PROJCRS [&quot;a&quot;]"}) {
+        EXPECT_THAT(with("<SRS>" + crs + "</SRS>"), testing::Not(HasSubstr("coordinate system")))
+            << crs;
+    }
+}
+
+TEST_F(References, CoordinateSystemsOfSidecarFilesNameNoFile) {
+    auto raster = test::made_raster(8, 8, [](int col, int) { return col; });
+    raster.format = "RST";
+    const fs::path path = inside_ / "i.rst";
+    if (test::write(raster, path)) {
+        EXPECT_EQ(error_of(path), "");
+        std::string text = test::read_bytes(inside_ / "i.rdc");
+        const auto at = text.find("ref. system");
+        ASSERT_NE(at, std::string::npos);
+        text.replace(at, text.find('\n', at) - at, "ref. system : ../outside");
+        static_cast<void>(write("i.rdc", text));
+        EXPECT_THAT(error_of(path), HasSubstr("has the coordinate system"));
+    }
+    static_cast<void>(write("a.tif.aux.xml",
+                            R"(<PAMDataset><Metadata domain="GEOLOCATION"><MDI key="SRS">)"
+                            "/etc/hostname</MDI></Metadata></PAMDataset>"));
+    EXPECT_THAT(error_of(inside_ / "a.tif"), HasSubstr("has the coordinate system"));
+}
+
+TEST_F(References, ABandComputedFromManySourcesAsksForNoMemory) {
+    const fs::path path =
+        write("sum.vrt", R"(<VRTDataset rasterXSize="8" rasterYSize="8"><VRTRasterBand )"
+                         R"(dataType="Float64" band="1" subClass="VRTDerivedRasterBand">)"
+                         "<PixelFunctionType>sum</PixelFunctionType><SimpleSource>"
+                         R"(<SourceFilename relativeToVRT="1">a.tif</SourceFilename>)"
+                         "</SimpleSource></VRTRasterBand></VRTDataset>");
+    EXPECT_THAT(error_of(path), HasSubstr("computed from others"));
+}
+
+TEST_F(References, TheTextOfAVirtualRasterAsksForLittleMemory) {
+    const fs::path path = write("long.vrt", "<VRTDataset");
+    fs::resize_file(path, 17'000'000); // sparse
+    EXPECT_THAT(error_of(path), HasSubstr("bytes, at most 16777216 were expected"));
+}
+
+TEST_F(References, TheEnvironmentLiftsNothing) {
+    const CPLConfigOptionSetter option("RELJEF_ALLOW_EXTERNAL", "YES", false);
+    EXPECT_THAT(error_of_source("../outside.tif"), HasSubstr("--allow-external"));
 }
 
 TEST_F(References, AFileThatNamesServersIsNoRaster) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/io/raster/gdal_dataset.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/nginx.h"
 #include "tests/support/temporary_folder.h"
@@ -271,6 +272,22 @@ TEST(RealTilePyramid, ATerrariumTileIsWhereItsNumbersSay) {
         tiles->heights(std::vector{place_of_pixel(385 * 256 + 10, 803 * 256 + 20, 11)});
     EXPECT_EQ(found.answers.front().height,
               134 * 256 + 77 + 179 / 256.0 - 32768); // gdallocationinfo
+}
+
+TEST(WebTilesOfStrangers, InHugeBlocksAskForNoMemory) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path() / "0" / "0" / "0.png";
+    std::filesystem::create_directories(path.parent_path());
+    ASSERT_TRUE(test::write(
+        test::SparseTiff{256, 256, 3, {"TILED=YES", "BLOCKXSIZE=20000", "BLOCKYSIZE=20000"}},
+        path));
+    const GdalMessages messages;
+    const auto tiles = open_raster("terrarium+" + folder.path().string(), messages);
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    std::vector<double> values(1);
+    EXPECT_FALSE(read_window(*(*tiles)->GetRasterBand(1),
+                             {{}, glm::ivec2(1), values.data(), glm::ivec2(1)}));
+    EXPECT_THAT(messages.reason(), HasSubstr("is no picture of 256×256 pixels"));
 }
 
 } // namespace

@@ -124,6 +124,38 @@ TEST_F(RemoteFile, ThatIsVirtualNamesNoLocalFileAndNoOtherHost) {
     expect_refusal("wms.xml", "cannot be opened as a raster");
 }
 
+TEST_F(RemoteFile, ThatNamesItsOverviewsAndPlacesLeadsToNoOtherFile) {
+    auto raster = test::made_raster(side, side, [](int col, int) { return col; });
+    for (const auto& [domain, key] :
+         {std::pair{"OVERVIEWS", "OVERVIEW_FILE"}, std::pair{"GEOLOCATION", "X_DATASET"},
+          std::pair{"GEOLOCATION", "Y_DATASET"}}) {
+        for (const std::string& file :
+             {(folder_.path() / "dem.tif").string(), "/vsicurl/" + server_->url("dem.tif")}) {
+            raster.metadata = {{domain, key, file}};
+            ASSERT_TRUE(test::write(raster, folder_.path() / "a.tif"));
+            forget_remote_file(server_->url("a.tif"));
+            expect_refusal("a.tif", "refers to " + file);
+        }
+    }
+}
+
+TEST_F(RemoteFile, ThatIsSlowForManyRequestsIsGivenUpAtOneDeadline) {
+    HttpClient client;
+    const auto read = [&] {
+        return client.read(server_->url("dem.tif"), std::array{ByteRange{0, 16384}});
+    };
+    {
+        const CPLConfigOptionSetter limit("GDAL_HTTP_TIMEOUT", "0.2", false);
+        const ReadDeadline open;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // as by many requests
+        const ReadDeadline inner;
+        const auto late = read();
+        ASSERT_FALSE(late);
+        EXPECT_THAT(late.error().message, HasSubstr("in all, at most 1 s were expected"));
+    }
+    EXPECT_TRUE(read());
+}
+
 TEST_F(RemoteFile, ThatChangesWhileItIsOpenIsAnError) {
     const GdalMessages messages;
     auto opened = open_raster(server_->url("dem.tif"), messages);
