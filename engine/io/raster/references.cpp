@@ -95,9 +95,12 @@ private:
                    root.end();
         });
     }
-    /// Follows links. Sources of a large raster share few folders.
+    /// Follows links. Sources of a large raster share few folders. A pipe would block its reader.
     bool is_file_below(const fs::path& path) {
         std::error_code code;
+        if (fs::is_other(path, code)) {
+            return false;
+        }
         if (path.filename() == ".." || path.filename() == "." || fs::is_symlink(path, code)) {
             const fs::path target = fs::weakly_canonical(path, code);
             return !code && is_below(target);
@@ -122,6 +125,20 @@ Error outside(const std::string& name, const std::string& text, const Scope& sco
                         name, text, scope.base().string())};
 }
 
+/// Whether a coordinate system names a grid by the path of a file, which PROJ opens.
+bool names_grid(const std::string& crs) {
+    for (const std::string_view key : {"grids=", "PROJ4_GRIDS\",\""}) {
+        for (auto at = crs.find(key); at != std::string::npos; at = crs.find(key, at + 1)) {
+            const auto begin = at + key.size();
+            const std::string grids = crs.substr(begin, crs.find_first_of(" \"", begin) - begin);
+            if (grids.find_first_of("/\\~") != std::string::npos) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// Whether GDAL takes the text for well-known text, a PROJ string without the path of a file, or
 /// AUTHORITY:code. It takes other text for an address or the name of a file, which it reads.
 bool is_plain_crs(const std::string& text) {
@@ -129,6 +146,9 @@ bool is_plain_crs(const std::string& text) {
         "EPSG:", "EPSGA:", "ESRI:", "OGC:", "IGNF:", "urn:ogc:def:"};
     constexpr std::array<std::string_view, 5> names{"", "WGS84", "WGS72", "NAD83", "NAD27"};
     const std::string crs = CPLString(text).Trim();
+    if (names_grid(crs)) {
+        return false;
+    }
     const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
     const auto word_end = std::find_if_not(crs.begin(), crs.end(), is_word);
     const auto bracket =
@@ -137,7 +157,7 @@ bool is_plain_crs(const std::string& text) {
         return true;
     }
     const bool begins_well =
-        crs.starts_with('+') || is_in(names, crs) ||
+        (crs.starts_with('+') && crs.find("+init") == std::string::npos) || is_in(names, crs) ||
         std::any_of(authorities.begin(), authorities.end(), [&](std::string_view authority) {
             return EQUALN(crs.c_str(), authority.data(), authority.size());
         });
@@ -184,6 +204,8 @@ private:
     Result<void> check_node(const CPLXMLNode* node) {
         constexpr std::array names{"SourceFilename", "SourceDataset", "DEMPath"};
         constexpr std::array keys{"X_DATASET", "Y_DATASET", "OVERVIEW_FILE"};
+        // They read the whole window of their source at once, whatever its size.
+        constexpr std::array whole_windows{"AveragedSource", "KernelFilteredSource"};
         const char* const key = CPLGetXMLValue(node, "key", "");
         const auto equals = [](const char* word) {
             return [word](const char* other) { return EQUAL(word, other); };
@@ -197,6 +219,12 @@ private:
         }
         if (EQUAL(key, "ROOT_PATH")) { // of the names in another virtual raster
             return outside(name_, CPLGetXMLValue(node, "", ""), scope_);
+        }
+        if (std::any_of(whole_windows.begin(), whole_windows.end(), equals(node->pszValue))) {
+            return Error{
+                fmt::format("{}: has an {}, a SimpleSource or a ComplexSource was expected "
+                            "(--allow-external lifts this)",
+                            name_, node->pszValue)};
         }
         const bool is_name = std::any_of(names.begin(), names.end(), equals(node->pszValue)) ||
                              std::any_of(keys.begin(), keys.end(), equals(key));
@@ -302,6 +330,10 @@ Result<void> check_sidecars(const std::string& name) {
     Scope scope(name);
     for (const fs::path& sidecar : sidecars(name)) {
         std::error_code ignored;
+        if (fs::is_other(sidecar, ignored)) { // a pipe would block its reader
+            return Error{fmt::format("{}: is no regular file, one was expected beside {}",
+                                     sidecar.string(), name)};
+        }
         if (fs::is_symlink(sidecar, ignored) &&
             !scope.has(fs::absolute(sidecar, ignored).string(), false)) {
             return outside(name, fs::read_symlink(sidecar, ignored).string(), scope);
@@ -405,6 +437,9 @@ Result<void> check_parts(GDALDataset& dataset) {
     const std::string name = dataset.GetDescription();
     if (allows_external()) {
         return {};
+    }
+    if (const std::string crs = dataset.GetProjectionRef(); names_grid(crs)) {
+        return unknown_crs(name, crs);
     }
     Scope scope(name);
     const CPLStringList files(dataset.GetFileList());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/raster.h"
@@ -290,6 +291,46 @@ TEST_F(References, AFileThatNamesServersIsNoRaster) {
                              "</DataWindow></GDAL_WMS>";
     EXPECT_THAT(error_of(write("a.xml", text)), HasSubstr("cannot be opened"));
     EXPECT_NE(error_of_source("a.xml"), "");
+}
+
+TEST_F(References, AVirtualRasterNamesNoFileInAnAttribute) {
+    const auto path =
+        write("a.vrt", fmt::format(R"(<VRTDataset rasterXSize="8" rasterYSize="8">)"
+                                   R"(<VRTRasterBand dataType="Float32" band="1">)"
+                                   R"(<SimpleSource SourceFilename="{}"/></VRTRasterBand>)"
+                                   "</VRTDataset>",
+                                   outside_.string()));
+    EXPECT_THAT(error_of(path), HasSubstr("refers to " + outside_.string()));
+}
+
+TEST_F(References, ASourceThatIsReadWholeIsRefused) {
+    for (const char* source : {"AveragedSource", "KernelFilteredSource"}) {
+        const auto path =
+            write("a.vrt", fmt::format(R"(<VRTDataset rasterXSize="8" rasterYSize="8">)"
+                                       R"(<VRTRasterBand dataType="Float32" band="1"><{0}>)"
+                                       R"(<SourceFilename relativeToVRT="1">a.tif</SourceFilename>)"
+                                       "</{0}></VRTRasterBand></VRTDataset>",
+                                       source));
+        EXPECT_THAT(error_of(path), HasSubstr(std::string("has an ") + source));
+    }
+}
+
+TEST_F(References, ACoordinateSystemOpensNoGridByItsPath) {
+    const auto path = write(
+        "a.vrt", R"(<VRTDataset rasterXSize="8" rasterYSize="8"><SRS>+proj=utm +zone=33 )"
+                 R"(+ellps=bessel +nadgrids=/etc/passwd +units=m</SRS><GeoTransform>)"
+                 R"(5e5,10,0,5e6,0,-10</GeoTransform><VRTRasterBand dataType="Float32" band="1">)"
+                 R"(<SimpleSource><SourceFilename relativeToVRT="1">a.tif</SourceFilename>)"
+                 "</SimpleSource></VRTRasterBand></VRTDataset>");
+    EXPECT_THAT(error_of(path), HasSubstr("has the coordinate system"));
+}
+
+TEST_F(References, APipeBesideOrBehindARasterBlocksNothing) {
+    const fs::path pipe = inside_ / "a.tif.ovr";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(error_of(inside_ / "a.tif"), HasSubstr("a.tif.ovr: is no regular file"));
+    fs::rename(pipe, inside_ / "pipe.tif");
+    EXPECT_THAT(error_of_source("pipe.tif"), HasSubstr("refers to pipe.tif"));
 }
 
 } // namespace
