@@ -308,7 +308,8 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
     command.add_flag("--allow-external", choice.allow_external,
                      "read files in any format of GDAL, and follow what they refer to. By default, "
                      "a file is in a common format of elevation or pictures, and a virtual raster "
-                     "(VRT) refers only to files in or below its folder");
+                     "(VRT) refers only to files in or below its folder. /vsis3, /vsigs and /vsiaz "
+                     "need this option, too: GDAL reads them without deadlines");
     command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 

@@ -99,14 +99,16 @@ std::string_view format_of(GDALDataset& dataset) {
     return dataset.GetDriver() != nullptr ? dataset.GetDriver()->GetDescription() : "";
 }
 
-/// Bands of which a block holds samples. Masks and overviews may be datasets of their own.
-int bands_of_block(GDALRasterBand& band) {
+/// Bands of which a block holds samples. Masks and overviews may be datasets of their own, which
+/// may not tell their order: then all of their bands count.
+int bands_of_block(GDALRasterBand& band, bool is_other_dataset) {
     GDALDataset* const dataset = band.GetDataset();
     if (dataset == nullptr) {
         return 1;
     }
     const char* const order = dataset->GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
-    return order != nullptr && EQUAL(order, "PIXEL") ? dataset->GetRasterCount() : 1;
+    const bool is_interleaved = order != nullptr ? EQUAL(order, "PIXEL") : is_other_dataset;
+    return is_interleaved ? dataset->GetRasterCount() : 1;
 }
 
 /// GDAL always reads whole blocks; `bands`: those that a block holds.
@@ -129,7 +131,7 @@ Result<void> check_block(GDALRasterBand& band, int bands, const std::string& nam
 /// rasters are other files, which are checked when they are opened.
 // NOLINTNEXTLINE(misc-no-recursion): max_depth
 Result<void> check_band(GDALRasterBand& band, const std::string& name, int depth = 0) {
-    auto good = check_block(band, bands_of_block(band), name);
+    auto good = check_block(band, bands_of_block(band, depth > 0), name);
     GDALDataset* const dataset = band.GetDataset();
     if (depth == max_depth || (dataset != nullptr && format_of(*dataset) == "VRT")) {
         return good;

@@ -121,39 +121,47 @@ void set_tag(std::string& tiff, int directory, unsigned tag, unsigned value) {
     FAIL() << "no tag " << tag;
 }
 
+/// The bytes of a TIFF of 512 by 512 samples with a mask, band by band in tiles.
+std::string masked_tiff(const fs::path& path, int bands, bool has_overviews) {
+    const test::QuietGdal quiet;
+    const CPLConfigOptionSetter internal("GDAL_TIFF_INTERNAL_MASK", "YES", false);
+    test::MadeRaster raster = test::made_raster(512, 512 * bands, [](int col, int) { return col; });
+    raster.rows = 512;
+    raster.bands = bands;
+    raster.options = {"TILED=YES", "INTERLEAVE=BAND"};
+    EXPECT_TRUE(test::write(raster, path));
+    const Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_UPDATE));
+    EXPECT_EQ(dataset->CreateMaskBand(GMF_PER_DATASET), CE_None);
+    std::array factors{2};
+    if (has_overviews) {
+        EXPECT_EQ(
+            dataset->BuildOverviews("NEAREST", 1, factors.data(), 0, nullptr, nullptr, nullptr),
+            CE_None);
+    }
+    dataset->FlushCache(true);
+    return test::read_bytes(path);
+}
+
 TEST_F(GdalDrivers, InternalOverviewsAndMasksInHugeBlocksAreNotRead) {
     constexpr unsigned tile_width = 322;
     constexpr unsigned tile_length = 323;
     constexpr unsigned samples_per_pixel = 277;
-    const fs::path path = folder_.path() / "c.tif";
-    const test::QuietGdal quiet;
-    const CPLConfigOptionSetter internal("GDAL_TIFF_INTERNAL_MASK", "YES", false);
-    auto ground = test::made_raster(512, 512, [](int col, int) { return col % 200; });
-    ground.type = GDT_Byte;
-    ground.options = {"TILED=YES"};
-    ASSERT_TRUE(test::write(ground, path));
-    {
-        const Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_UPDATE));
-        ASSERT_NE(dataset, nullptr);
-        ASSERT_EQ(dataset->CreateMaskBand(GMF_PER_DATASET), CE_None);
-        std::array factors{2};
-        ASSERT_EQ(
-            dataset->BuildOverviews("NEAREST", 1, factors.data(), 0, nullptr, nullptr, nullptr),
-            CE_None);
-    }
-    EXPECT_THAT(error_of(path), testing::Not(HasSubstr("blocks of")));
-    const std::string whole = test::read_bytes(path);
-    const auto error_with = [&](int directory, std::array<unsigned, 3> values) {
-        std::string tiff = whole;
-        set_tag(tiff, directory, tile_width, values[0]);
-        set_tag(tiff, directory, tile_length, values[1]);
-        set_tag(tiff, directory, samples_per_pixel, values[2]);
+    const auto error_with = [&](std::string tiff, int directory, unsigned side, unsigned bands) {
+        set_tag(tiff, directory, tile_width, side);
+        set_tag(tiff, directory, tile_length, side);
+        set_tag(tiff, directory, samples_per_pixel, bands);
         return error_of(folder_.write("d.tif", tiff));
     };
+    const std::string one = masked_tiff(folder_.path() / "a.tif", 1, true);
     for (int directory = 0; directory < 4; ++directory) { // the raster, its mask, their overviews
-        EXPECT_THAT(error_with(directory, {20000, 20000, 1}), HasSubstr("blocks of 20000×20000"))
+        EXPECT_THAT(error_with(one, directory, 256, 1), testing::Not(HasSubstr("blocks")));
+        EXPECT_THAT(error_with(one, directory, 20000, 1), HasSubstr("blocks of 20000×20000"))
             << directory;
     }
+    // The bands of the mask are interleaved, those of the raster are not.
+    const std::string five = masked_tiff(folder_.path() / "b.tif", 5, false);
+    EXPECT_THAT(error_with(five, 1, 8192, 1), testing::Not(HasSubstr("blocks")));
+    EXPECT_THAT(error_with(five, 1, 8192, 5), HasSubstr("samples of 5 bands"));
 }
 
 TEST_F(GdalDrivers, APictureThatIsReadWholeIsCheckedByItsSize) {
