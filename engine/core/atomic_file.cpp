@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -22,17 +23,34 @@ namespace reljef {
 namespace fs = std::filesystem;
 namespace {
 
-// Temporary files and folders are named ".reljef-", 16 random digits, ".part" and an extension.
+// Temporary files are named ".reljef-", 16 digits, ".part" and at most one extension; temporary
+// folders have none.
 constexpr std::string_view name_start = ".reljef-";
 constexpr std::string_view name_end = ".part";
 constexpr std::size_t name_digits = 16;
+constexpr std::size_t name_length = name_start.size() + name_digits + name_end.size();
 
 constexpr int max_links = 40; // as in Linux
 
-bool is_temporary_name(std::string_view name) {
-    return name.starts_with(name_start) &&
-           name.substr(std::min(name.size(), name_start.size() + name_digits))
-               .starts_with(name_end);
+// The last four digits follow from the 12 random ones: a name that a user made up has the right
+// ones with a chance of 1/65536.
+std::string digits_of(std::uint64_t random) {
+    constexpr std::uint64_t multiplier = 0x9E3779B97F4A7C15; // Knuth's, of 64 bits
+    const std::uint64_t first = random & ~std::uint64_t{0xffff};
+    return fmt::format("{:016x}", first | (((first | 1U) * multiplier) >> 48U));
+}
+
+bool is_temporary_name(std::string_view name, bool is_folder) {
+    if (name.size() < name_length || !name.starts_with(name_start)) {
+        return false;
+    }
+    const std::string_view digits = name.substr(name_start.size(), name_digits);
+    const std::string_view extension = name.substr(name_length);
+    std::uint64_t number = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+    return digits == digits_of(number) &&
+           name.substr(name_start.size() + name_digits).starts_with(name_end) &&
+           (extension.empty() || (!is_folder && extension.rfind('.') == 0));
 }
 
 // Whether the path still names the open file.
@@ -55,6 +73,7 @@ void remove_if_stale(const fs::path& folder, int folder_descriptor, const char* 
     struct stat status {};
     if (found && ::fstat(found.number(), &status) == 0 && status.st_uid == ::geteuid() &&
         (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+        is_temporary_name(name, S_ISDIR(status.st_mode)) &&
         ::flock(found.number(), LOCK_EX | LOCK_NB) == 0) {
         std::error_code ignored;
         fs::remove_all(folder / name, ignored);
@@ -66,7 +85,7 @@ void remove_stale(const fs::path& folder) {
     const std::unique_ptr<DIR, int (*)(DIR*)> listing(::opendir(folder.c_str()), ::closedir);
     for (const dirent* entry = nullptr;
          listing != nullptr && (entry = ::readdir(listing.get())) != nullptr;) {
-        if (is_temporary_name(entry->d_name)) {
+        if (is_temporary_name(entry->d_name, false)) {
             remove_if_stale(folder, ::dirfd(listing.get()), entry->d_name);
         }
     }
@@ -88,7 +107,8 @@ Temporary make_temporary(const fs::path& folder, std::string_view extension, con
         if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) {
             return {};
         }
-        made.path = folder / fmt::format("{}{:016x}{}{}", name_start, random, name_end, extension);
+        made.path =
+            folder / fmt::format("{}{}{}{}", name_start, digits_of(random), name_end, extension);
         made.descriptor = Descriptor(make(made.path.c_str()));
         if (!made.descriptor ||
             (lock_shared(made.descriptor) && is_at(made.descriptor, made.path))) {

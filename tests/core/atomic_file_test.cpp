@@ -191,7 +191,13 @@ TEST(AtomicFileDeathTest, FullDiskLeavesNothingBehind) {
     EXPECT_THAT(folder.names(), IsEmpty());
 }
 
-constexpr const char* stale_name = ".reljef-0123456789abcdef.part.png";
+// A name as killed processes leave it.
+std::string stale_name() {
+    const TemporaryFolder folder;
+    const auto file = AtomicFile::create(folder.path() / "a.png");
+    EXPECT_TRUE(file);
+    return file ? file->temporary().filename().string() : "";
+}
 
 TEST(AtomicFile, PowerFailureFindsTheOldOrTheNewFile) {
     const TemporaryFolder folder;
@@ -317,14 +323,31 @@ TEST(AtomicFile, WhatALivingProcessWritesIsNotStale) {
     EXPECT_EQ(folder.names().size(), 3U);
 }
 
-TEST(AtomicFile, OnlyItsOwnNamesAreStale) {
+TEST(AtomicFile, FilesAndFoldersOfAUserWithSimilarNamesAreNotStale) {
     const TemporaryFolder folder;
-    const std::vector<std::string> kept{".reljef-0123456789abcdef", ".reljef-notes.part.txt",
-                                        "reljef-0123456789abcdef.part", ".reljef-.part"};
+    const std::string ours = stale_name();
+    const std::string stem = fs::path(ours).stem().string();
+    std::string upper = ours;
+    upper[8] = 'A';
+    std::vector<std::string> kept{".reljef-0123456789abcdef",
+                                  ".reljef-0123456789abcdef.part",
+                                  ".reljef-0000000000000000.part.png",
+                                  ".reljef-ZZZZZZZZZZZZZZZZ.part",
+                                  ".reljef-holiday-pictures.part.jpg",
+                                  ".reljef-notes.part.txt",
+                                  ".reljef-.part",
+                                  ours.substr(1),
+                                  ours + ".bak",
+                                  stem + "ners.txt",
+                                  upper};
     for (const std::string& name : kept) {
         folder.write(name, "mine");
     }
-    folder.write(stale_name, "stale");
+    for (const char* const name : {".reljef-my-project-file0.part", ".reljef-folder.part"}) {
+        fs::create_directory(folder.path() / kept.emplace_back(name));
+    }
+    fs::create_directory(folder.path() / kept.emplace_back(stem + ".d"));
+    folder.write(ours, "stale");
     EXPECT_TRUE(AtomicFile::create(folder.path() / "a.txt"));
     EXPECT_THAT(folder.names(), testing::UnorderedElementsAreArray(kept));
 }
@@ -335,7 +358,8 @@ TEST(AtomicFile, AStaleNameThatIsALinkAPipeOrForeignStays) {
     }
     const TemporaryFolder folder;
     const fs::path victim = folder.write("victim/a", "untouched").parent_path();
-    const fs::path stale = folder.path() / stale_name;
+    const std::string name = stale_name();
+    const fs::path stale = folder.path() / name;
     const auto expect_kept = [&] {
         EXPECT_TRUE(AtomicFile::create(folder.path() / "a.txt"));
         EXPECT_TRUE(fs::exists(fs::symlink_status(stale)));
@@ -345,7 +369,7 @@ TEST(AtomicFile, AStaleNameThatIsALinkAPipeOrForeignStays) {
     expect_kept();
     ASSERT_EQ(::mkfifo(stale.c_str(), 0600), 0);
     expect_kept();
-    folder.write(stale_name, "foreign");
+    folder.write(name, "foreign");
     ASSERT_EQ(::chown(stale.c_str(), 12345, 12345), 0);
     expect_kept();
     EXPECT_EQ(read_bytes(victim / "a"), "untouched");
