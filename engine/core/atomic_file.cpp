@@ -96,6 +96,15 @@ struct Temporary {
     Descriptor descriptor; // locked; none: errno says why
 };
 
+// Empty if there are no random numbers; errno says why.
+fs::path random_name(const fs::path& folder, std::string_view extension) {
+    std::uint64_t random = 0;
+    if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) {
+        return {};
+    }
+    return folder / fmt::format("{}{}{}{}", name_start, digits_of(random), name_end, extension);
+}
+
 // `make(path)` makes a new file or folder and returns its descriptor.
 template <class Make>
 Temporary make_temporary(const fs::path& folder, std::string_view extension, const Make& make) {
@@ -103,12 +112,10 @@ Temporary make_temporary(const fs::path& folder, std::string_view extension, con
     remove_stale(folder);
     Temporary made;
     for (int i = 0; i < attempts; ++i) {
-        std::uint64_t random = 0;
-        if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) {
+        made.path = random_name(folder, extension);
+        if (made.path.empty()) {
             return {};
         }
-        made.path =
-            folder / fmt::format("{}{}{}{}", name_start, digits_of(random), name_end, extension);
         made.descriptor = Descriptor(make(made.path.c_str()));
         if (!made.descriptor ||
             (lock_shared(made.descriptor) && is_at(made.descriptor, made.path))) {
@@ -119,6 +126,33 @@ Temporary make_temporary(const fs::path& folder, std::string_view extension, con
     }
     errno = EBUSY;
     return {};
+}
+
+Temporary make_temporary_file(const fs::path& folder, std::string_view extension) {
+    return make_temporary(folder, extension, [](const char* name) {
+        constexpr mode_t all_by_umask = 0666;
+        return ::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, all_by_umask);
+    });
+}
+
+// A hard link that is locked before it has its name. A file that cannot be opened needs no lock:
+// only this user's processes remove what is stale, and they cannot open it either. The path is
+// empty on failure.
+Temporary link_to(const fs::path& file, const fs::path& folder) {
+    Temporary made{
+        {}, Descriptor(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC))};
+    if (made.descriptor && !lock_shared(made.descriptor)) {
+        return made;
+    }
+    const fs::path name = random_name(folder, file.extension().string());
+    if (!name.empty() && ::link(file.c_str(), name.c_str()) == 0) {
+        made.path = name;
+        if (made.descriptor && !is_at(made.descriptor, name)) { // replaced meanwhile
+            ::unlink(name.c_str());
+            made.path.clear();
+        }
+    }
+    return made;
 }
 
 fs::path folder_of(const fs::path& file) {
@@ -176,11 +210,7 @@ Result<AtomicFile> AtomicFile::create(fs::path target) {
         return place.error();
     }
     file.place_ = std::move(*place);
-    Temporary made = make_temporary(
-        folder_of(file.place_), file.target_.extension().string(), [](const char* name) {
-            constexpr mode_t all_by_umask = 0666;
-            return ::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, all_by_umask);
-        });
+    Temporary made = make_temporary_file(folder_of(file.place_), file.target_.extension().string());
     if (!made.descriptor) {
         return file.error(std::strerror(errno));
     }
@@ -256,22 +286,23 @@ Result<void> AtomicFile::commit() {
     return renamed;
 }
 
-// The backup is a hard link, or a copy if the file system has no hard links.
+// The backup is a hard link. It is a copy if the file system has no hard links, or if another
+// program has locked the file.
 Result<void> AtomicFile::rename_revertibly() {
     std::error_code code;
     if (fs::exists(place_, code)) {
-        fs::path aside = temporary_;
-        aside += ".replaced";
-        fs::create_hard_link(place_, aside, code);
-        if (code && !fs::copy_file(place_, aside, code)) {
-            return Error{
-                fmt::format("{}: cannot be replaced: {}", target_.string(), code.message())};
+        Temporary backup = link_to(place_, folder_of(place_));
+        if (backup.path.empty()) {
+            backup = make_temporary_file(folder_of(place_), place_.extension().string());
+            if (!backup.descriptor) {
+                return error(std::strerror(errno));
+            }
+            fs::copy_file(place_, backup.path, fs::copy_options::overwrite_existing, code);
         }
-        old_ = Descriptor(::open(aside.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-        lock_shared(old_);
-        replaced_ = std::move(aside);
+        replaced_ = std::move(backup.path);
+        old_ = std::move(backup.descriptor);
     }
-    return rename();
+    return code ? error(code.message()) : rename();
 }
 
 void AtomicFile::revert() noexcept {

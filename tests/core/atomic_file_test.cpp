@@ -4,11 +4,13 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <set>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -28,7 +30,13 @@ extern "C" int fsync(int file) {
     return static_cast<int>(::syscall(SYS_fsync, file));
 }
 
+// What another process would do while the files are in their places.
+static std::function<void()>* during_rename = nullptr;
+
 extern "C" int rename(const char* from, const char* to) noexcept {
+    if (during_rename != nullptr) {
+        (*during_rename)();
+    }
     if (observed != nullptr) {
         observed->emplace_back("rename");
     }
@@ -223,6 +231,51 @@ TEST(CommitAll, SyncsAllFilesBeforeTheFirstIsRenamed) {
     observed = nullptr;
     ASSERT_TRUE(committed);
     EXPECT_THAT(events, ElementsAre("sync file", "sync file", "rename", "rename", "sync folder"));
+}
+
+// Also of a file that another program has locked.
+TEST(CommitAll, OldFilesAreNoLeftoversForOthersWhileTheyAreReplaced) {
+    for (const bool is_locked : {false, true}) {
+        const TemporaryFolder folder;
+        const fs::path old = folder.write("a.txt", "old");
+        const Descriptor users_own(::open(old.c_str(), O_RDONLY | O_CLOEXEC));
+        ASSERT_EQ(::flock(users_own.number(), is_locked ? LOCK_EX : LOCK_UN), 0);
+        auto first = AtomicFile::create(old);
+        auto second = AtomicFile::create(folder.path() / "b.txt");
+        ASSERT_TRUE(first && second);
+        std::vector<AtomicFile> files;
+        files.push_back(std::move(*first));
+        files.push_back(std::move(*second));
+        std::function<void()> clean = [&] { // another lock than ours, as of another process
+            ::flock(users_own.number(), LOCK_UN);
+            EXPECT_TRUE(AtomicFile::create(folder.path() / "c.txt"));
+            std::error_code ignored;
+            fs::create_directories(folder.path() / "b.txt" / "in", ignored); // the second fails
+        };
+        during_rename = &clean;
+        const auto committed = commit_all(files);
+        during_rename = nullptr;
+        EXPECT_FALSE(committed);
+        files.clear();
+        EXPECT_EQ(read_bytes(old), "old");
+        EXPECT_THAT(folder.names(), ElementsAre("a.txt", "b.txt"));
+    }
+}
+
+TEST(AtomicFileDeathTest, TheOldFilesOfAKilledCommitAreRemovedByTheNext) {
+    const TemporaryFolder folder;
+    const fs::path old = folder.write("a.txt", "old");
+    const auto die = [&] {
+        auto file = AtomicFile::create(old);
+        std::function<void()> kill = [] { ::kill(::getpid(), SIGKILL); };
+        during_rename = &kill;
+        static_cast<void>(commit_all(std::span(&*file, 1)));
+    };
+    EXPECT_EXIT(die(), testing::KilledBySignal(SIGKILL), "");
+    EXPECT_EQ(folder.names().size(), 3U);
+    { const auto next = AtomicFile::create(folder.path() / "b.txt"); }
+    EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
+    EXPECT_EQ(read_bytes(old), "old");
 }
 
 TEST(AtomicFile, TemporaryNamesCannotBeGuessed) {
