@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "app/video_encoder.h"
+#include "engine/core/atomic_file.h"
 #include "engine/io/image/image.h"
 
 namespace reljef::app {
@@ -130,6 +131,7 @@ Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
         return named.error();
     }
     if (is_video(output)) {
+        remove_leftovers(output.parent_path());
         auto encoder = VideoEncoder::create(output, options.size, options.frames_per_second);
         return encoder ? Result<Sink>(std::make_unique<VideoEncoder>(std::move(*encoder)))
                        : encoder.error();
@@ -141,6 +143,7 @@ Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
         if (auto made = make_folder(output); !made) {
             return made.error();
         }
+        remove_leftovers(output.parent_path());
     }
     return Sink(new PictureSink(output));
 }

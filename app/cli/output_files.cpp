@@ -62,9 +62,11 @@ Result<void> check_writable(std::span<const NamedFile> outputs) {
         if (output.path.empty()) {
             continue;
         }
-        if (const auto file = AtomicFile::create(output.path); !file) {
+        const auto file = AtomicFile::create(output.path);
+        if (!file) {
             return file.error();
         }
+        remove_leftovers(file->temporary().parent_path());
     }
     return {};
 }

@@ -17,7 +17,8 @@ struct NamedFile {
 /// output, also under another name. Empty paths are ignored.
 void check_distinct(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs);
 
-/// Fails if a file cannot be created. Leaves no files behind. Empty paths are ignored.
+/// Fails if a file cannot be created. Leaves no files behind, and removes those that killed runs
+/// left in their folders. Empty paths are ignored.
 Result<void> check_writable(std::span<const NamedFile> outputs);
 
 } // namespace reljef::cli

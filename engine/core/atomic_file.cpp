@@ -80,17 +80,6 @@ void remove_if_stale(const fs::path& folder, int folder_descriptor, const char* 
     }
 }
 
-// Removes what killed processes of this user left in the folder.
-void remove_stale(const fs::path& folder) {
-    const std::unique_ptr<DIR, int (*)(DIR*)> listing(::opendir(folder.c_str()), ::closedir);
-    for (const dirent* entry = nullptr;
-         listing != nullptr && (entry = ::readdir(listing.get())) != nullptr;) {
-        if (is_temporary_name(entry->d_name, false)) {
-            remove_if_stale(folder, ::dirfd(listing.get()), entry->d_name);
-        }
-    }
-}
-
 struct Temporary {
     fs::path path;
     Descriptor descriptor; // locked; none: errno says why
@@ -109,7 +98,6 @@ fs::path random_name(const fs::path& folder, std::string_view extension) {
 template <class Make>
 Temporary make_temporary(const fs::path& folder, std::string_view extension, const Make& make) {
     constexpr int attempts = 8; // another process may remove one before it is locked
-    remove_stale(folder);
     Temporary made;
     for (int i = 0; i < attempts; ++i) {
         made.path = random_name(folder, extension);
@@ -191,6 +179,17 @@ void sync_folder(const fs::path& folder) {
 Descriptor::~Descriptor() {
     if (number_ >= 0) {
         ::close(number_);
+    }
+}
+
+void remove_leftovers(const fs::path& folder) {
+    const std::unique_ptr<DIR, int (*)(DIR*)> listing(
+        ::opendir(folder.empty() ? "." : folder.c_str()), ::closedir);
+    for (const dirent* entry = nullptr;
+         listing != nullptr && (entry = ::readdir(listing.get())) != nullptr;) {
+        if (is_temporary_name(entry->d_name, false)) {
+            remove_if_stale(folder, ::dirfd(listing.get()), entry->d_name);
+        }
     }
 }
 
@@ -387,6 +386,7 @@ Result<ScratchFolder> ScratchFolder::create(fs::path parent) {
     if (code) {
         return Error{fmt::format("no folder for temporary files: {}", code.message())};
     }
+    remove_leftovers(parent);
     Temporary made = make_temporary(parent, "", [](const char* name) {
         constexpr mode_t owner_only = 0700;
         return ::mkdir(name, owner_only) == 0

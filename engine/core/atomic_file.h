@@ -31,9 +31,13 @@ private:
     int number_ = -1;
 };
 
+/// Removes the temporary files and folders that killed processes of this user left in a folder; an
+/// empty path is the current one. Reads the whole folder: call it once for many files.
+void remove_leftovers(const std::filesystem::path& folder);
+
 /// An output file that appears whole or not at all: write to `temporary()`, then `commit()`. The
-/// destructor removes a file that is not committed. If the process is killed, the next AtomicFile
-/// in the folder removes it: a file lock shows which processes live.
+/// destructor removes a file that is not committed. If the process is killed, the next
+/// remove_leftovers() removes it: a file lock shows which processes live.
 class AtomicFile {
 public:
     /// A target that is a symbolic link stays one: the file that it names is replaced or created.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/atomic_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::app {
@@ -27,6 +28,24 @@ TEST(FrameSink, sequence_makes_its_folder_and_files) {
     EXPECT_TRUE((*sink)->write(Image(4, 3), 1));
     EXPECT_TRUE((*sink)->finish());
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "a" / "01.png"));
+}
+
+// A listing for each of N pictures would read N² names.
+TEST(FrameSink, TheFolderOfASequenceIsListedOnceForWhatKilledRunsLeft) {
+    const test::TemporaryFolder folder;
+    const auto leave = [&] {
+        const auto file = AtomicFile::create(folder.path() / "a.png");
+        return folder.write(file->temporary().filename().string() + "s", "left");
+    };
+    const auto before = leave();
+    auto sink = make_frame_sink(folder.path() / "%d.png", {.size = {4, 3}, .frames = 2});
+    ASSERT_TRUE(sink) << sink.error().message;
+    EXPECT_FALSE(std::filesystem::exists(before));
+    const auto meanwhile = leave();
+    EXPECT_TRUE((*sink)->write(Image(4, 3), 0));
+    EXPECT_TRUE((*sink)->write(Image(4, 3), 1));
+    EXPECT_TRUE((*sink)->finish());
+    EXPECT_TRUE(std::filesystem::exists(meanwhile));
 }
 
 TEST(FrameSink, video_that_is_not_finished_leaves_nothing) {

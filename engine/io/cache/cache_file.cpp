@@ -108,6 +108,7 @@ Result<void> write_cache_file(const fs::path& path, std::span<const std::byte> b
     if (const auto old = open_file(path, status); !old) {
         return old.error();
     }
+    remove_leftovers(folder); // what is kept took long to compute
     auto file = AtomicFile::create(path);
     if (!file) {
         return file.error();
