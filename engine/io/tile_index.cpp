@@ -299,9 +299,10 @@ bool is_same_file(const Described& a, const Described& b) {
            (!is_placed || is_same_crs(a.wkt, b.wkt));
 }
 
-/// Opens a few of the files whose entries are known, spread over all. Whether the entries are
-/// right; files that cannot be opened tell nothing.
-bool are_right(const std::vector<std::optional<Described>>& known, const fs::path& folder) {
+/// Opens a few of the files whose entries are known, spread over all; `seed` chooses them. Whether
+/// the entries are right; files that cannot be opened tell nothing.
+bool are_right(const std::vector<std::optional<Described>>& known, const fs::path& folder,
+               std::uint64_t seed) {
     constexpr std::size_t opened_files = 4;
     std::vector<const Described*> all;
     for (const auto& described : known) {
@@ -312,7 +313,9 @@ bool are_right(const std::vector<std::optional<Described>>& known, const fs::pat
     const std::size_t count = std::min(opened_files, all.size());
     const GdalMessages ignored_messages;
     for (std::size_t i = 0; i < count; ++i) {
-        const Described& old = *all[i * all.size() / count];
+        const std::size_t first = i * all.size() / count;
+        const std::size_t end = (i + 1) * all.size() / count;
+        const Described& old = *all[first + fnv_hash(fmt::format("{}", i), seed) % (end - first)];
         IndexedFile file;
         file.path = old.file.path;
         const auto found = describe_if_raster(folder / old.file.path, std::move(file));
@@ -334,7 +337,8 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
     std::vector<std::optional<Described>> all(files->size());
     std::transform(files->begin(), files->end(), all.begin(),
                    [&](const IndexedFile& file) { return find_unchanged(old, file); });
-    if (!are_right(all, folder)) {
+    // Chosen by the content: other files are opened once the index has changed.
+    if (!are_right(all, folder, fnv_hash(bytes_of(old)))) {
         notes.push_back(
             indexed_anew(cache_file(folder, options).string() + " holds nonsense of the files"));
         std::fill(all.begin(), all.end(), std::nullopt);

@@ -42,8 +42,8 @@ struct TileIndex {
 };
 
 /// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files, if
-/// it is right for the few of them that are opened. Adds a note on an unusable cache. Fails if the
-/// folder cannot be read.
+/// it is right for the few of them that are opened; a hash of the cache's content chooses them.
+/// Adds a note on an unusable cache. Fails if the folder cannot be read.
 Result<TileIndex> index_tiles(const std::filesystem::path& path, const TileSetOptions& options,
                               std::vector<std::string>& notes);
 

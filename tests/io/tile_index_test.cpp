@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -185,6 +186,25 @@ TEST_F(TileIndices, PlacesThatAreNotThoseOfTheFilesAreFound) {
     EXPECT_THAT(notes[0],
                 HasSubstr("holds nonsense of the files: the source files are indexed anew"));
     EXPECT_EQ(index(), *found) << "the cache is right again";
+}
+
+// Four of 16 files are opened. Nonsense of one file escapes 64 times with a chance of 1e-8.
+TEST_F(TileIndices, NonsenseOfNoFileEscapesForEver) {
+    for (int i = 0; i < 16; ++i) {
+        raster(fmt::format("{:02d}.tif", i), true);
+    }
+    const TileIndex good = index();
+    const std::filesystem::path kept = *std::filesystem::directory_iterator(cache_.path());
+    for (const std::size_t wrong : {1U, 15U}) {
+        std::vector<std::string> notes;
+        for (int i = 1; i <= 64 && notes.empty(); ++i) {
+            TileIndex moved = good;
+            moved.files[wrong].crs_from_pixel.x0 += 10.0 * i;
+            ASSERT_TRUE(write_text_file(kept, bytes_of(moved)));
+            ASSERT_TRUE(index_tiles(folder_.path(), options_, notes));
+        }
+        EXPECT_EQ(notes.size(), 1U) << wrong;
+    }
 }
 
 TEST_F(TileIndices, ACacheThatIsAPipeALinkOrForeignCostsOnlySpeed) {

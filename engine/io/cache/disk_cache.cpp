@@ -285,7 +285,9 @@ std::optional<Cached<terrain::Bisection>> cached_bisection(const terrain::Height
     return cached<Bisection>(
         options, count, [&] { return bisection_key(heightfield, placement); }, restore,
         [&](const std::vector<float>& bounds, const Bisection& bisection) {
-            return are_in_range(bounds) && bisection.is_valid(options.parallel);
+            const std::uint64_t hash = word_hash<std::uint32_t, float>(bounds);
+            return are_in_range(bounds) &&
+                   bisection.is_valid(static_cast<std::uint32_t>(hash >> 32U), options.parallel);
         },
         compute, [](const Bisection& bisection) { return bisection.bounds(); });
 }

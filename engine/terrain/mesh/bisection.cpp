@@ -56,8 +56,8 @@ void for_runs(int count, int at_once, const ParallelOptions& parallel, const Bod
 
 // A check of all splits would take half as long as their computation. These take about 5 %.
 constexpr int min_size_all_nested = 16;
-bool is_checked(glm::uvec2 place) {
-    return (2654435761U * (place.x + 40503U * place.y)) >> 26U == 0; // one in 64, by Knuth's hash
+bool is_checked(glm::uvec2 place, std::uint32_t seed) {
+    return (2654435761U * ((place.x + 40503U * place.y) ^ seed)) >> 26U == 0; // one in 64, by Knuth
 }
 
 constexpr int samples_at_once = 16; // rows of samples per work item
@@ -148,10 +148,10 @@ public:
         });
     }
 
-    [[nodiscard]] bool is_valid(const ParallelOptions& parallel) const {
+    [[nodiscard]] bool is_valid(std::uint32_t seed, const ParallelOptions& parallel) const {
         std::atomic<bool> valid = true;
         for_each_split(parallel, [&](glm::ivec2 place) {
-            const bool checks_own = is_checked(glm::uvec2(place));
+            const bool checks_own = is_checked(glm::uvec2(place), seed);
             if (checks_own || size_ >= min_size_all_nested) {
                 const StoredSplit& found = bisection_.stored(place, size_, on_side_);
                 const StoredSplit minimum = enclosing_children(place);
@@ -280,11 +280,11 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
     }
 }
 
-bool Bisection::is_valid(const ParallelOptions& parallel) const {
+bool Bisection::is_valid(std::uint32_t seed, const ParallelOptions& parallel) const {
     bool valid = true;
     for (int size = 2; size <= tile_cells && valid; size *= 2) {
-        valid = LevelBuilder(*this, size, true).is_valid(parallel) &&
-                (size == tile_cells || LevelBuilder(*this, size, false).is_valid(parallel));
+        valid = LevelBuilder(*this, size, true).is_valid(seed, parallel) &&
+                (size == tile_cells || LevelBuilder(*this, size, false).is_valid(seed, parallel));
     }
     return valid;
 }

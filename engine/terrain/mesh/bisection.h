@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -60,8 +61,9 @@ public:
               std::span<const float> bounds, const ParallelOptions& parallel = {});
 
     /// Whether a sample of the bounds is nested and right: what was read from a file may be
-    /// nonsense. Meaningless after a stop request.
-    [[nodiscard]] bool is_valid(const ParallelOptions& parallel = {}) const;
+    /// nonsense. Of the splits of less than 16 samples, `seed` chooses one in 64; a checksum of the
+    /// file makes them others for each content. Meaningless after a stop request.
+    [[nodiscard]] bool is_valid(std::uint32_t seed, const ParallelOptions& parallel = {}) const;
 
     /// Last sample, steps.
     [[nodiscard]] glm::ivec2 end() const { return end_; }

@@ -137,6 +137,21 @@ TEST_F(BisectionCache, NonsenseBehindAValidChecksumIsFound) {
     }
 }
 
+// A checksum is the seed, so that what one content hides, another shows.
+TEST_F(BisectionCache, NonsenseOfNoSplitEscapesEverySeed) {
+    const std::vector<float> good = terrain_.bisection.bounds();
+    for (const std::size_t wrong : {std::size_t{0}, good.size() / 4 * 2}) { // errors of splits
+        std::vector<float> bad = good;
+        bad[wrong] += 1.0F;
+        const terrain::Bisection bisection(terrain_.heightfield, terrain_.placement, bad);
+        int found = 0;
+        for (std::uint32_t seed = 0; seed < 512; ++seed) {
+            found += bisection.is_valid(seed) ? 0 : 1;
+        }
+        EXPECT_GT(found, 0) << wrong;
+    }
+}
+
 TEST_F(BisectionCache, APipeInPlaceOfTheFileDoesNotBlock) {
     std::filesystem::remove(file());
     ASSERT_EQ(::mkfifo(file().c_str(), 0600), 0);
