@@ -6,12 +6,13 @@
 #include <cstdio>
 #include <cstring>
 #include <future>
+#include <optional>
 #include <regex>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/video_encoder.h"
-#include "engine/core/atomic_file.h"
 #include "engine/io/image/image.h"
 
 namespace reljef::app {
@@ -19,16 +20,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Encodes, writes and syncs a numbered picture while the next one is drawn.
 class PictureSink : public FrameSink {
 public:
     explicit PictureSink(fs::path name) : name_(std::move(name)) {}
-    Result<void> write(const Image& picture, int index) override {
-        if (!is_numbered(name_)) {
-            return io::write_image(name_, picture);
+    Result<void> write(const Image& picture, int /*index*/) override {
+        auto file = io::prepare_image(name_, picture);
+        if (!file) {
+            return file.error();
         }
+        file_ = std::move(*file);
+        return {};
+    }
+    Result<void> finish(std::vector<AtomicFile>& outputs) override {
+        if (file_) {
+            outputs.push_back(*std::exchange(file_, std::nullopt));
+        }
+        return {};
+    }
+
+private:
+    fs::path name_;
+    std::optional<AtomicFile> file_;
+};
+
+// Encodes, writes and syncs a picture while the next one is drawn.
+class NumberedSink : public FrameSink {
+public:
+    explicit NumberedSink(fs::path name) : name_(std::move(name)) {}
+    Result<void> write(const Image& picture, int index) override {
         auto file = numbered(name_, index);
-        auto before = file ? finish() : file.error();
+        auto before = file ? wait() : file.error();
         if (before) {
             written_ = std::async(std::launch::async, [file = *std::move(file), picture] {
                 return io::write_image(file, picture);
@@ -36,9 +57,11 @@ public:
         }
         return before;
     }
-    Result<void> finish() override { return written_.valid() ? written_.get() : Result<void>(); }
+    Result<void> finish(std::vector<AtomicFile>& /*outputs*/) override { return wait(); }
 
 private:
+    Result<void> wait() { return written_.valid() ? written_.get() : Result<void>(); }
+
     fs::path name_;
     std::future<Result<void>> written_; // of the last picture
 };
@@ -57,6 +80,7 @@ public:
         }
         return {};
     }
+    Result<void> finish(std::vector<AtomicFile>& /*outputs*/) override { return {}; }
 };
 
 Result<void> make_folder(const fs::path& pattern) {
@@ -144,6 +168,7 @@ Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
             return made.error();
         }
         remove_leftovers(output.parent_path());
+        return Sink(new NumberedSink(output));
     }
     return Sink(new PictureSink(output));
 }

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/color.h"
 #include "engine/core/result.h"
 
@@ -14,8 +16,9 @@ class FrameSink {
 public:
     virtual ~FrameSink() = default;
     virtual Result<void> write(const Image& picture, int index) = 0;
-    /// Commits the output. Without it no unfinished file remains.
-    virtual Result<void> finish() { return {}; }
+    /// Completes the output. Adds a picture or video, which is to be committed with the other
+    /// outputs; numbered pictures are in their places. Without it no unfinished file remains.
+    virtual Result<void> finish(std::vector<AtomicFile>& outputs) = 0;
 };
 
 /// Whether the extension is .mp4, .mkv, .webm or .mov.

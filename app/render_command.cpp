@@ -55,6 +55,14 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
                   : device.error();
 }
 
+Result<void> add_output(Result<AtomicFile> prepared, std::vector<AtomicFile>& outputs) {
+    if (!prepared) {
+        return prepared.error();
+    }
+    outputs.push_back(std::move(*prepared));
+    return {};
+}
+
 // The evenly spread frames of a contact sheet.
 class SheetPictures {
 public:
@@ -66,10 +74,15 @@ public:
             pictures_.push_back(std::move(picture));
         }
     }
-    [[nodiscard]] Result<void> write(const std::filesystem::path& file) const {
-        return pictures_.empty() ? Result<void>()
-                                 : io::write_image(file, io::contact_sheet(pictures_, sheet_columns,
-                                                                           sheet_picture_width));
+    // Adds the sheet to the outputs if it is requested.
+    [[nodiscard]] Result<void> prepare(const std::filesystem::path& file,
+                                       std::vector<AtomicFile>& outputs) const {
+        if (pictures_.empty()) {
+            return {};
+        }
+        return add_output(io::prepare_image(file, io::contact_sheet(pictures_, sheet_columns,
+                                                                    sheet_picture_width)),
+                          outputs);
     }
 
 private:
@@ -89,10 +102,12 @@ session::Underground underground(const RenderChoice& choice) {
                                          : session::Underground::lifted;
 }
 
-// Returns the frames whose cameras were lifted above the ground.
+// Adds the files that are to be committed. Returns the frames whose cameras were lifted above the
+// ground.
 Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
                                       session::FrameMaker& maker,
                                       const std::optional<scene::CameraPath>& path,
+                                      std::vector<AtomicFile>& outputs,
                                       const cli::Interrupt& interrupt) {
     const int frames = choice.view.frames;
     auto sink =
@@ -125,14 +140,14 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
         sheet.add(std::move(*picture), index);
         line.update((index + 1.0) / frames);
     }
-    if (auto finished = (*sink)->finish(); !finished) {
+    if (auto finished = (*sink)->finish(outputs); !finished) {
         return finished.error();
     }
     if (choice.stats) {
         fmt::print("{}", maker.stats());
     }
-    const auto written = sheet.write(choice.contact_sheet);
-    return written ? Result<cli::LiftedFrames>(lifted) : written.error();
+    const auto prepared = sheet.prepare(choice.contact_sheet, outputs);
+    return prepared ? Result<cli::LiftedFrames>(lifted) : prepared.error();
 }
 
 void expect_standard_output(const RenderChoice& choice) {
@@ -285,25 +300,24 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
     } else {
         lift = session::stand_above_ground(scene, maker, interrupt.token(), underground(choice));
     }
-    std::optional<HitBuffer> hits; // written last, so that a failed picture leaves no hits
+    std::vector<AtomicFile> outputs;
     if (!choice.hits.empty()) {
-        auto found = find_hits(choice, scene, maker, interrupt);
-        if (!found) {
-            return found.error();
+        const auto found = find_hits(choice, scene, maker, interrupt);
+        const auto prepared =
+            found ? add_output(io::prepare_hits(choice.hits, *found), outputs) : found.error();
+        if (!prepared) {
+            return prepared;
         }
-        hits = std::move(*found);
     }
     if (!choice.output.empty()) {
-        auto drawn = draw_frames(choice, scene, maker, *path, interrupt);
+        auto drawn = draw_frames(choice, scene, maker, *path, outputs, interrupt);
         if (!drawn) {
             return drawn.error();
         }
         lifted = *drawn;
     }
-    if (hits) {
-        if (auto written = io::write_hits(choice.hits, *hits); !written) {
-            return written;
-        }
+    if (auto committed = commit_all(outputs); !committed) {
+        return committed;
     }
     return *path ? lifted.report(log, choice.view.path)
                  : report_lift(lift, choice, has_camera_of_file, log);

@@ -104,7 +104,7 @@ Result<void> VideoEncoder::write(const Image& picture, int /*index*/) {
     return {};
 }
 
-Result<void> VideoEncoder::finish() {
+Result<void> VideoEncoder::finish(std::vector<AtomicFile>& outputs) {
     ::close(std::exchange(pipe_, -1));
     int status = 0;
     ::waitpid(std::exchange(process_, -1), &status, 0);
@@ -114,7 +114,8 @@ Result<void> VideoEncoder::finish() {
     if (!ended_well || !said || !said->empty()) {
         return failed("could not encode the video");
     }
-    return file_.commit();
+    outputs.push_back(std::move(file_));
+    return {};
 }
 
 Error VideoEncoder::failed(std::string_view what) const {

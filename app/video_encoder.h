@@ -21,7 +21,7 @@ public:
 
     /// Precondition: the picture has the size given to create().
     Result<void> write(const Image& picture, int index) override;
-    Result<void> finish() override;
+    Result<void> finish(std::vector<AtomicFile>& outputs) override;
 
 private:
     VideoEncoder(AtomicFile file, MemoryFile messages, pid_t process, int pipe)

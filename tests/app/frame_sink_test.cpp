@@ -8,6 +8,12 @@
 namespace reljef::app {
 namespace {
 
+Result<void> finish(FrameSink& sink) {
+    std::vector<AtomicFile> outputs;
+    auto finished = sink.finish(outputs);
+    return finished ? commit_all(outputs) : finished;
+}
+
 TEST(Numbered, replaces_the_number) {
     EXPECT_EQ(numbered("frames/%04d.png", 7)->string(), "frames/0007.png");
     EXPECT_EQ(numbered("%d.png", 12345)->string(), "12345.png");
@@ -26,7 +32,7 @@ TEST(FrameSink, sequence_makes_its_folder_and_files) {
     ASSERT_TRUE(sink) << sink.error().message;
     EXPECT_TRUE((*sink)->write(Image(4, 3), 0));
     EXPECT_TRUE((*sink)->write(Image(4, 3), 1));
-    EXPECT_TRUE((*sink)->finish());
+    EXPECT_TRUE(finish(**sink));
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "a" / "01.png"));
 }
 
@@ -44,7 +50,7 @@ TEST(FrameSink, TheFolderOfASequenceIsListedOnceForWhatKilledRunsLeft) {
     const auto meanwhile = leave();
     EXPECT_TRUE((*sink)->write(Image(4, 3), 0));
     EXPECT_TRUE((*sink)->write(Image(4, 3), 1));
-    EXPECT_TRUE((*sink)->finish());
+    EXPECT_TRUE(finish(**sink));
     EXPECT_TRUE(std::filesystem::exists(meanwhile));
 }
 
@@ -68,7 +74,7 @@ TEST(FrameSink, video_of_odd_size_appears) {
     }
     EXPECT_TRUE((*sink)->write(Image(33, 21, Rgba8{200, 100, 50}), 0));
     EXPECT_TRUE((*sink)->write(Image(33, 21), 1));
-    const auto finished = (*sink)->finish();
+    const auto finished = finish(**sink);
     ASSERT_TRUE(finished) << finished.error().message;
     EXPECT_EQ(folder.names(), std::vector<std::string>{"flight.mp4"});
     EXPECT_GT(std::filesystem::file_size(folder.path() / "flight.mp4"), 100U);
@@ -84,7 +90,7 @@ TEST(FrameSink, NoVideoNameIsAnOptionOrAProtocolOfFfmpeg) {
         std::filesystem::create_directories(name.parent_path());
         auto sink = make_frame_sink(name, {.size = {32, 24}, .frames = 1});
         auto written = sink ? (*sink)->write(Image(32, 24), 0) : sink.error();
-        const auto done = written ? (*sink)->finish() : written;
+        const auto done = written ? finish(**sink) : written;
         error += done ? "" : done.error().message + "\n";
         EXPECT_EQ(std::filesystem::exists(name), static_cast<bool>(done)) << name;
     }
@@ -103,7 +109,7 @@ TEST(FrameSink, APictureOfASequenceThatCannotBeWrittenIsTold) {
     std::filesystem::create_directory(folder.path() / "1.png");
     EXPECT_TRUE((*sink)->write(Image(4, 3), 0));
     EXPECT_TRUE((*sink)->write(Image(4, 3), 1));
-    EXPECT_FALSE((*sink)->finish());
+    EXPECT_FALSE(finish(**sink));
 }
 
 } // namespace

@@ -285,6 +285,22 @@ TEST(RenderCommand, hits_do_not_appear_beside_a_picture_that_cannot_be_written) 
     EXPECT_TRUE(folder.names().empty());
 }
 
+// The picture fits the file size that is allowed, the hits do not.
+TEST(RenderCommand, a_picture_does_not_appear_beside_hits_that_cannot_be_written) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path().string();
+    const auto result = test::run_program(
+        "/bin/sh",
+        {"-c", "trap '' XFSZ; ulimit -f 200; '" RELJEF_BINARY
+               "' render natural --size 320x240 --context osmesa --quiet --hit '" +
+                   path + "/hits.exr' -o '" + path + "/a.jpg'"},
+        {});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("hits.exr: cannot be written: File too large"), std::string::npos)
+        << result.err;
+    EXPECT_TRUE(folder.names().empty());
+}
+
 TEST(RenderCommand, same_command_same_bits) {
     RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;

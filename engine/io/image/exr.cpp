@@ -61,21 +61,26 @@ Result<void> check_hits_name(const fs::path& path) {
                              path.string())};
 }
 
-Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
+Result<AtomicFile> prepare_hits(const fs::path& path, const HitBuffer& hits) {
     if (hits.empty()) {
         return Error{fmt::format(
             "{}: cannot be written: no hits were given, at least 1×1 was expected", path.string())};
     }
     if (auto named = check_hits_name(path); !named) {
-        return named;
+        return named.error();
     }
     auto output = OIIO::ImageOutput::create("openexr");
     if (output == nullptr) {
         return Error{
             fmt::format("{}: cannot be written: OpenImageIO has no OpenEXR", path.string())};
     }
-    return write_encoded(std::move(output), spec_of(hits), hits.samples().data(), sizeof(Hit),
-                         path);
+    return prepare_encoded(std::move(output), spec_of(hits), hits.samples().data(), sizeof(Hit),
+                           path);
+}
+
+Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
+    auto file = prepare_hits(path, hits);
+    return file ? file->commit() : file.error();
 }
 
 Result<HitBuffer> read_hits(const fs::path& path) {

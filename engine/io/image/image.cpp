@@ -129,11 +129,16 @@ Result<void> check_image_name(const fs::path& path) {
     return output_for(path) != nullptr ? Result<void>() : unknown_format(path);
 }
 
-Result<void> write_image(const fs::path& path, const Image& image) {
+Result<AtomicFile> prepare_image(const fs::path& path, const Image& image) {
     auto output = output_for(path, image);
-    return output ? write_encoded(std::move(*output), spec_of(image), image.samples().data(),
-                                  sizeof(Rgba8), path)
+    return output ? prepare_encoded(std::move(*output), spec_of(image), image.samples().data(),
+                                    sizeof(Rgba8), path)
                   : output.error();
+}
+
+Result<void> write_image(const fs::path& path, const Image& image) {
+    auto file = prepare_image(path, image);
+    return file ? file->commit() : file.error();
 }
 
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
@@ -17,6 +18,8 @@ Result<Image> read_image(const std::filesystem::path& path);
 
 /// Writes an opaque picture whole or not at all. The extension selects the format (.png, .jpg, …).
 Result<void> write_image(const std::filesystem::path& path, const Image& image);
+/// The same, ready for commit().
+Result<AtomicFile> prepare_image(const std::filesystem::path& path, const Image& image);
 
 /// Encodes like write_image() for an extension (".png", ".jpg", …).
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image);
@@ -27,6 +30,8 @@ Result<void> check_hits_name(const std::filesystem::path& path);
 
 /// Writes float32 channels col, row, height, depth to an OpenEXR file, whole or not at all.
 Result<void> write_hits(const std::filesystem::path& path, const HitBuffer& hits);
+/// The same, ready for commit().
+Result<AtomicFile> prepare_hits(const std::filesystem::path& path, const HitBuffer& hits);
 Result<HitBuffer> read_hits(const std::filesystem::path& path);
 
 /// Thumbnails in rows of `columns`, each `width` pixels wide.

@@ -66,11 +66,11 @@ Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output
     }
 }
 
-Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
-                           const void* pixels, std::size_t stride,
-                           const std::filesystem::path& path) {
+Result<AtomicFile> prepare_encoded(std::unique_ptr<OIIO::ImageOutput> output,
+                                   const OIIO::ImageSpec& spec, const void* pixels,
+                                   std::size_t stride, const std::filesystem::path& path) {
     const auto bytes = encoded(std::move(output), spec, pixels, stride);
-    return bytes ? write_file(path, *bytes)
+    return bytes ? prepare_file(path, *bytes)
                  : Error{fmt::format("{}: cannot be written: {}", path.string(),
                                      bytes.error().message)};
 }

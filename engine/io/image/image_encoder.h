@@ -7,6 +7,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
 
 namespace reljef::io {
@@ -16,9 +17,9 @@ Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output
                                        const OIIO::ImageSpec& spec, const void* pixels,
                                        std::size_t stride);
 
-/// Writes encoded() whole or not at all. On a full disk, encoders report nothing or exit.
-Result<void> write_encoded(std::unique_ptr<OIIO::ImageOutput> output, const OIIO::ImageSpec& spec,
-                           const void* pixels, std::size_t stride,
-                           const std::filesystem::path& path);
+/// A file with encoded(), ready for commit(). On a full disk, encoders report nothing or exit.
+Result<AtomicFile> prepare_encoded(std::unique_ptr<OIIO::ImageOutput> output,
+                                   const OIIO::ImageSpec& spec, const void* pixels,
+                                   std::size_t stride, const std::filesystem::path& path);
 
 } // namespace reljef::io
