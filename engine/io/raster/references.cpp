@@ -412,6 +412,9 @@ Result<void> check_named_files(GDALDataset& dataset) {
     if (allows_external()) {
         return {};
     }
+    if (const std::string crs = dataset.GetProjectionRef(); names_grid(crs)) {
+        return unknown_crs(name, crs);
+    }
     constexpr std::array<std::array<const char*, 2>, 3> items{{{"OVERVIEW_FILE", "OVERVIEWS"},
                                                                {"X_DATASET", "GEOLOCATION"},
                                                                {"Y_DATASET", "GEOLOCATION"}}};
@@ -437,9 +440,6 @@ Result<void> check_parts(GDALDataset& dataset) {
     const std::string name = dataset.GetDescription();
     if (allows_external()) {
         return {};
-    }
-    if (const std::string crs = dataset.GetProjectionRef(); names_grid(crs)) {
-        return unknown_crs(name, crs);
     }
     Scope scope(name);
     const CPLStringList files(dataset.GetFileList());
