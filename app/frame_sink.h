@@ -16,7 +16,7 @@ class FrameSink {
 public:
     virtual ~FrameSink() = default;
     virtual Result<void> write(const Image& picture, int index) = 0;
-    /// Completes the output. Adds a picture or video, which is to be committed with the other
+    /// Completes the output. Adds a picture or video that the caller commits with its other
     /// outputs; numbered pictures are in their places. Without it no unfinished file remains.
     virtual Result<void> finish(std::vector<AtomicFile>& outputs) = 0;
 };
