@@ -123,6 +123,11 @@ Result<PlacedFile> placed(int number, const IndexedFile& indexed, const IndexedC
     if (!crs.to_degrees) {
         return nowhere;
     }
+    if (crs.crs.IsGeocentric() != 0) {
+        return Error{fmt::format("{}: its coordinates count from the Earth's centre (geocentric), "
+                                 "those of a map or degrees were expected of a tile",
+                                 name)};
+    }
     PlacedFile file;
     file.file = number;
     file.crs = crs.wkt;

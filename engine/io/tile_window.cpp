@@ -48,6 +48,29 @@ public:
         return bounds;
     }
 
+    /// The sample whose lattice position is nearest to a point.
+    [[nodiscard]] glm::ivec2 nearest_to(glm::dvec2 point) const {
+        glm::ivec2 nearest(0);
+        double min_distance = std::numeric_limits<double>::infinity();
+        for (int row = 0; row < grid_.rows; ++row) {
+            for (int col = 0; col < grid_.cols; ++col) {
+                if (const double found = glm::distance(at(col, row), point); found < min_distance) {
+                    min_distance = found;
+                    nearest = {col, row};
+                }
+            }
+        }
+        return nearest;
+    }
+
+    /// Lattice steps from a sample to the next one across and down.
+    [[nodiscard]] glm::dvec2 steps_at(glm::ivec2 sample) const {
+        const auto [col, row] = std::pair(sample.x, sample.y);
+        const glm::dvec2 here = at(col, row);
+        return {glm::distance(at(col + (col + 1 < grid_.cols ? 1 : -1), row), here),
+                glm::distance(at(col, row + (row + 1 < grid_.rows ? 1 : -1)), here)};
+    }
+
     /// Lattice position of a sample; NaN if undefined.
     [[nodiscard]] glm::dvec2 at(int col, int row) const {
         if (controls_.empty()) {
@@ -88,14 +111,29 @@ private:
     Grid<glm::dvec2> controls_;
 };
 
-/// Samples of the layer per step of the grid, at least 1.
-int reduction_for(const LayerPoints& points, const TileGrid& grid) {
-    const int col = grid.cols / 2;
-    const int row = grid.rows / 2;
-    const glm::dvec2 at = points.at(col, row);
-    const double across = glm::distance(points.at(col + (col + 1 < grid.cols ? 1 : -1), row), at);
-    const double down = glm::distance(points.at(col, row + (row + 1 < grid.rows ? 1 : -1)), at);
-    const double step = std::min(across, down);
+/// Samples along the longest side of a layer's tiles.
+int longest_side(const TileLayer& layer) {
+    int longest = 0;
+    for (const LayerTile& tile : layer.tiles) {
+        longest = std::max({longest, tile.cols, tile.rows});
+    }
+    return longest;
+}
+
+/// Samples of the layer per step of the grid, at least 1: of the shorter step. Tiles smaller than a
+/// step could lie between all samples. For them it is √2 times the longer step beside them: such a
+/// cell holds a sample of the grid, however the grid is turned.
+int reduction_for(const LayerPoints& points, const TileGrid& grid, const TileLayer& layer) {
+    constexpr double max_change = 16.0; // of steps in the grid: those in degrees narrow to a pole
+    const glm::dvec2 steps = points.steps_at({grid.cols / 2, grid.rows / 2});
+    double step = std::min(steps.x, steps.y);
+    const double side = longest_side(layer);
+    if (!(side > max_change * std::max(steps.x, steps.y))) {
+        const glm::dvec2 middle(0.5 * (layer.cols - 1), 0.5 * (layer.rows - 1));
+        const glm::dvec2 beside = points.steps_at(points.nearest_to(middle));
+        const double longer = std::max(beside.x, beside.y);
+        step = side < longer ? std::sqrt(2.0) * longer : step;
+    }
     return clamped_int(step + near_sample, 1, max_reduction);
 }
 
@@ -129,7 +167,7 @@ CellWindow window_with(int reduction, const LayerPoints& points, const PointBoun
 /// As window_with; cells grow until they fit max_cells.
 CellWindow window_for(const LayerPoints& points, const TileGrid& grid, const TileLayer& layer) {
     const PointBounds bounds = points.bounds();
-    int reduction = reduction_for(points, grid);
+    int reduction = reduction_for(points, grid, layer);
     CellWindow window = window_with(reduction, points, bounds, layer);
     while (static_cast<double>(window.cols) * window.rows > max_cells) {
         reduction *= 2;

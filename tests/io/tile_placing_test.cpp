@@ -57,6 +57,7 @@ const std::array nonsense_files{
     Nonsense{"flat samples", metres_crs, "500000,1e-4,0,5000000,0,-10", "times the other"},
     Nonsense{"needles", metres_crs, "500000,10,10,5000000,10,10.0000001", "geotransform"},
     Nonsense{"far east", metres_crs, "1e9,10,0,5000000,0,-10", "at coordinate 1e+09"},
+    Nonsense{"geocentric", "EPSG:4978", "4000000,10,0,5000000,0,-10", "Earth's centre"},
     Nonsense{"off the projection", metres_crs, "9e7,10,0,5000000,0,-10", "no position on Earth"},
     Nonsense{"Mercator's far east", "EPSG:3857", "1e11,10,0,5000000,0,-10", "at coordinate 1e+11"},
     Nonsense{"longitude 1e9", degrees_crs, "1e9,0.001,0,45,0,-0.001", "at coordinate 1e+09"},

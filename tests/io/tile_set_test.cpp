@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -89,6 +90,20 @@ TEST_F(TileSets, NeighboursJoinWithoutASeamOrAStep) {
                       static_cast<float>(plane(500005.0 + 10.0 * col, 4999995.0 - 10.0 * row)));
         }
     }
+}
+
+// The steps of the whole are 5 to 14 km, each tile is 640 m wide.
+TEST_F(TileSets, ATileFarFromTheOthersDoesNotMakeAllVoid) {
+    for (const int i : {0, 1}) {
+        tile(fmt::format("{}.tif", i), "EPSG:32633", 64, 64,
+             {500000.0 + i * 640.0, 5000000.0, 10.0}, [](double, double) { return 100.0; });
+    }
+    tile("pole.tif", "EPSG:3995", 64, 64, {0.0, 0.0, 10.0}, [](double, double) { return 200.0; });
+    TileTerrainOptions options;
+    options.raster.memory_budget = 30'000'000; // 740×976 samples
+    const auto field = drawn(options).heightfield;
+    EXPECT_LT(field.void_count, field.heights.size());
+    EXPECT_EQ(field.range.high, 200.0);
 }
 
 TEST_F(TileSets, HeightsBetweenTilesAreBilinearBetweenTheirSamples) {
