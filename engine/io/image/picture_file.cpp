@@ -1,10 +1,9 @@
 #include "engine/io/image/picture_file.h"
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <string_view>
 #include <system_error>
+
+#include "engine/io/checks/picture_bytes.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -15,33 +14,6 @@ constexpr double max_pixels = 1 << 28;
 constexpr double always_allowed = 1 << 24; // pixels
 constexpr double pixels_per_byte = 2000.0; // above the densest format
 constexpr double max_bytes = 1 << 30;      // max_pixels of RGBA; decoders keep as much at once
-
-constexpr std::array<unsigned char, 8> png_signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-
-bool is_png(std::istream& stream) {
-    std::array<char, png_signature.size()> head{};
-    stream.read(head.data(), head.size());
-    return stream &&
-           std::equal(head.begin(), head.end(), png_signature.begin(),
-                      [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
-}
-
-/// Whether a PNG's chunks end with IEND (PNG specification, 5.3).
-bool has_all_chunks(std::istream& stream) {
-    constexpr std::streamoff checksum = 4;
-    std::array<char, 8> head{};
-    while (stream.read(head.data(), head.size())) {
-        if (std::string_view(head.data() + 4, 4) == "IEND") {
-            return true;
-        }
-        std::streamoff length = 0;
-        for (std::size_t i = 0; i < 4; ++i) {
-            length = length * 256 + static_cast<unsigned char>(head[i]);
-        }
-        stream.seekg(length + checksum, std::ios::cur);
-    }
-    return false;
-}
 
 } // namespace
 
@@ -57,14 +29,7 @@ Result<void> check_image_file(const fs::path& path) {
     if (fs::file_size(path, code) == 0) {
         return Error{fmt::format("{}: is empty, a picture was expected", path.string())};
     }
-    std::ifstream stream(path, std::ios::binary);
-    if (is_png(stream) && !has_all_chunks(stream)) {
-        return Error{
-            fmt::format("{}: cannot be read (it is a PNG without its end), a whole picture "
-                        "was expected",
-                        path.string())};
-    }
-    return {};
+    return check_png(path.string(), PngPart::whole);
 }
 
 Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec) {

@@ -10,7 +10,8 @@
 
 namespace reljef::io {
 
-/// Fails unless the path is a file, not empty and not a truncated PNG: libpng would print errors.
+/// Fails unless the path is a file, not empty, and no truncated or refused PNG (check_png): libpng
+/// would print errors.
 Result<void> check_image_file(const std::filesystem::path& path);
 
 /// Fails if the size in a picture's header is impossible for its file size or exceeds the limits.

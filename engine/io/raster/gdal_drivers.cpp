@@ -12,6 +12,7 @@
 #include <gdal_frmts.h>
 #include <ogrsf_frmts.h>
 
+#include "engine/io/checks/picture_bytes.h"
 #include "engine/io/raster/references.h"
 #include "engine/io/remote/read_scope.h"
 
@@ -181,7 +182,8 @@ Result<void> check_sizes(GDALDataset& dataset, const std::string& name) {
                                  name, size_text(bytes),
                                  size_text(static_cast<double>(max_block_bytes)))};
     }
-    return {};
+    return format == "TGA" ? check_tga(name, dataset.GetRasterXSize(), dataset.GetRasterYSize())
+                           : Result<void>();
 }
 
 Result<void> check_opened(GDALDataset& dataset, const std::string& name) {
@@ -304,13 +306,16 @@ Result<Dataset> open_checked(const std::string& name, const OpenRequest& request
         return Error{fmt::format("{}: reading was stopped", name)};
     }
     const ServerFileScope scope(name);
-    if (auto good = check_references(name); !good) {
+    auto good = check_references(name);
+    good = good ? check_png(name, PngPart::until_pixels) : good;
+    if (!good) {
         return good.error();
     }
     Dataset dataset(GDALDataset::Open(name.c_str(), request.flags, request.formats, request.options,
                                       request.siblings));
     if (dataset != nullptr) {
-        if (auto good = check_opened(*dataset, name); !good) {
+        good = check_opened(*dataset, name);
+        if (!good) {
             return good.error();
         }
     }

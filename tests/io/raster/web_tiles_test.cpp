@@ -207,6 +207,25 @@ TEST_P(TilePyramids, OneThatIsDamagedTakesNoOtherWithIt) {
                                 "red, green and blue was expected");
 }
 
+TEST_P(TilePyramids, OneWithManyCompressedTextsAsksForNoMemory) {
+    const std::string whole = test::read_bytes(folder_.path() / "6/34/22.png");
+    std::string text("\0\0\x1E\x48zTXt", 8); // 7752 bytes, which may be 8 MB of text
+    text.resize(12 + 7752, 'x');
+    std::string bytes = whole.substr(0, 33);
+    for (int i = 0; i < 9; ++i) {
+        bytes += text;
+    }
+    folder_.write("6/34/22.png", bytes + whole.substr(33));
+    const auto tiles = TileSet::open(name());
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    TileTerrainOptions options;
+    options.area = web_tiles_area(name());
+    const auto terrain = tiles->terrain(options);
+    ASSERT_TRUE(terrain) << terrain.error().message;
+    ASSERT_EQ(terrain->errors.size(), 1U);
+    EXPECT_THAT(terrain->errors.front(), HasSubstr("its tile 6/34/22 cannot be read"));
+}
+
 TEST_P(TilePyramids, OneInGreyIsNoHeights) {
     test::MadeRaster grey = test::made_raster(pixels_a_side, pixels_a_side,
                                               [](int col, int row) { return (col + row) % 251; });
