@@ -34,7 +34,8 @@ struct Format {
 };
 
 // In GDAL's order: the last ones take files that others know better. None of them follows names to
-// files that references.h does not check; netCDF-4 and HDF5 do.
+// files that references.h does not check; netCDF-4 and HDF5 do. GIF is missing: GDAL decodes all
+// pictures of a file when it opens the first.
 constexpr std::array formats{Format{"VRT", &GDALRegister_VRT},
                              Format{"GTiff", &GDALRegister_GTiff, single_file},
                              Format{"HFA", &GDALRegister_HFA},
@@ -45,7 +46,6 @@ constexpr std::array formats{Format{"VRT", &GDALRegister_VRT},
                              Format{"DTED", &GDALRegister_DTED, single_file},
                              Format{"PNG", &GDALRegister_PNG, single_file},
                              Format{"JPEG", &GDALRegister_JPEG, single_file},
-                             Format{"GIF", &GDALRegister_GIF, single_file},
                              Format{"BMP", &GDALRegister_BMP, single_file},
                              Format{"SRTMHGT", &GDALRegister_SRTMHGT, single_file},
                              Format{"Leveller", &GDALRegister_Leveller},
@@ -175,8 +175,7 @@ Result<void> check_sizes(GDALDataset& dataset, const std::string& name) {
     }
     const double bytes =
         static_cast<double>(dataset.GetRasterXSize()) * dataset.GetRasterYSize() * bands;
-    const bool is_read_whole = format == "WEBP" || format == "GIF";
-    if (is_read_whole && bytes > static_cast<double>(max_block_bytes)) {
+    if (format == "WEBP" && bytes > static_cast<double>(max_block_bytes)) {
         return Error{fmt::format("{}: takes {} and is in a format that is read whole, at most {} "
                                  "were expected",
                                  name, size_text(bytes),

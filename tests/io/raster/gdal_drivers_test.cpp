@@ -224,7 +224,8 @@ TEST_F(GdalDrivers, EveryReadOfAWindowEndsAtAStop) {
 
 TEST_F(GdalDrivers, FormatsThatAreNotListedAreRefused) {
     EXPECT_TRUE(has_format(sparse("a.tif", {8, 8, 1, {}}).string()));
-    for (const char* const format : {"netCDF", "HDF5", "WMS", "HTTP", "GPKG", "MRF", "STACTA"}) {
+    for (const char* const format :
+         {"netCDF", "HDF5", "WMS", "HTTP", "GPKG", "MRF", "STACTA", "GIF"}) {
         EXPECT_EQ(format_names().FindString(format), -1) << format;
     }
     auto raster = test::made_raster(8, 8, [](int col, int) { return col; });
