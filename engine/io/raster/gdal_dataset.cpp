@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -32,6 +33,7 @@ constexpr GIntBig max_cached_bytes = GIntBig{1} << 28;
 constexpr std::size_t max_messages = 10;
 constexpr std::size_t max_message_length = 200;
 constexpr int max_archive_entries = 1000;
+constexpr int max_archive_depth = 16; // of folders
 
 std::string one_line(std::string text) {
     std::replace_if(
@@ -46,13 +48,24 @@ std::string one_line(std::string text) {
     return text;
 }
 
-std::string raster_in_zip(const fs::path& path) {
+Result<std::string> raster_in_zip(const fs::path& path) {
     const std::string archive = "/vsizip/{" + path.string() + "}";
-    const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
-    for (int i = 0; i < std::min(entries.size(), max_archive_entries); ++i) {
-        std::string entry = archive + "/" + entries[i];
-        if (entry.back() != '/' && has_format(entry)) {
-            return entry;
+    const std::unique_ptr<VSIDIR, decltype(&VSICloseDir)> folder(
+        VSIOpenDir(archive.c_str(), max_archive_depth, nullptr), &VSICloseDir);
+    const VSIDIREntry* entry = nullptr;
+    for (int count = 0; folder != nullptr && (entry = VSIGetNextDirEntry(folder.get())) != nullptr;
+         ++count) {
+        if (count == max_archive_entries) {
+            return Error{fmt::format("{}: has no raster among its first {} entries, an archive "
+                                     "with one was expected",
+                                     path.string(), max_archive_entries)};
+        }
+        if (ReadScope::stop_requested()) {
+            return Error{fmt::format("{}: reading was stopped", path.string())};
+        }
+        std::string name = archive + "/" + entry->pszName;
+        if (!VSI_ISDIR(entry->nMode) && has_format(name)) {
+            return name;
         }
     }
     return path.string();

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -220,6 +222,22 @@ TEST_F(GdalDrivers, EveryReadOfAWindowEndsAtAStop) {
     stop.request_stop();
     const ReadScope scope(stop.get_token());
     EXPECT_FALSE(read_window(*(*raster)->GetRasterBand(1), window));
+}
+
+TEST_F(GdalDrivers, AnArchiveOfManyEntriesIsNotListedWhole) {
+    const fs::path archive = folder_.path() / "a.zip";
+    void* const writer = CPLCreateZip(archive.c_str(), nullptr);
+    ASSERT_NE(writer, nullptr);
+    for (int i = 0; i <= 20'000; ++i) {
+        ASSERT_EQ(CPLCreateFileInZip(writer, fmt::format("d/{}.tif", i).c_str(), nullptr), CE_None);
+        ASSERT_EQ(CPLCloseFileInZip(writer), CE_None);
+    }
+    ASSERT_EQ(CPLCloseZip(writer), CE_None);
+    EXPECT_THAT(error_of(archive), HasSubstr("has no raster among its first 1000 entries"));
+    std::stop_source stop;
+    stop.request_stop();
+    const ReadScope scope(stop.get_token());
+    EXPECT_THAT(error_of(archive), HasSubstr("reading was stopped"));
 }
 
 TEST_F(GdalDrivers, FormatsThatAreNotListedAreRefused) {
