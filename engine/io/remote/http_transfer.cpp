@@ -18,6 +18,7 @@ namespace reljef::io {
 namespace {
 
 constexpr int max_redirects = 5;
+constexpr std::size_t max_address_length = 200; // in messages, bytes
 
 struct UserOption {
     const char* name; ///< GDAL's configuration
@@ -36,6 +37,11 @@ constexpr std::array<UserOption, 7> text_options{{
 
 long number_option(const char* name, long usual) {
     return std::strtol(CPLGetConfigOption(name, std::to_string(usual).c_str()), nullptr, 10);
+}
+
+std::string shortened(const std::string& address) {
+    return address.size() <= max_address_length ? address
+                                                : address.substr(0, max_address_length) + "…";
 }
 
 /// The numbers of "bytes 0-99/1000".
@@ -189,7 +195,7 @@ Result<HttpTransfer::Next> HttpTransfer::evaluate() {
     if (redirects_ > 0 && code_ != CURLE_OK && !refused_address_.empty()) {
         return Error{fmt::format("is redirected to {} at {}, https:// addresses of public hosts "
                                  "were expected",
-                                 target_, refused_address_)};
+                                 shortened(target_), refused_address_)};
     }
     if (too_long_) {
         return Error{"the server sends more than the part that was requested, a server of parts "
@@ -198,6 +204,9 @@ Result<HttpTransfer::Next> HttpTransfer::evaluate() {
     long status = 0;
     curl_easy_getinfo(easy_.get(), CURLINFO_RESPONSE_CODE, &status);
     const bool needs_body = status < 300;
+    if (code_ == CURLE_OUT_OF_MEMORY && status != 0) { // libcurl 7.88's word for it
+        return Error{"the server's answer has a header of over 100 kB, a shorter one was expected"};
+    }
     if (code_ != CURLE_OK && needs_body) {
         return Error{curl_error_[0] != '\0' ? curl_error_.data() : curl_easy_strerror(code_)};
     }
@@ -237,13 +246,18 @@ Result<HttpTransfer::Next> HttpTransfer::follow_redirect() {
     curl_easy_getinfo(easy_.get(), CURLINFO_REDIRECT_URL, &to);
     // If libcurl does not understand the URL: the header as the server sent it.
     const std::string place = to != nullptr ? to : header("location");
+    if (place.find_first_not_of(" \t\r\n") == std::string::npos) {
+        return Error{"is redirected without an address, an https:// address of a public host was "
+                     "expected"};
+    }
     if (!place.starts_with("https://")) {
-        return Error{fmt::format(
-            "is redirected to {}, https:// addresses of public hosts were expected", place)};
+        return Error{
+            fmt::format("is redirected to {}, https:// addresses of public hosts were expected",
+                        shortened(place))};
     }
     if (++redirects_ > max_redirects) {
-        return Error{
-            fmt::format("is redirected more than {} times, at last to {}", max_redirects, place)};
+        return Error{fmt::format("is redirected more than {} times, at last to {}", max_redirects,
+                                 shortened(place))};
     }
     target_ = place;
     return Next::request;
