@@ -7,7 +7,6 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -34,6 +33,8 @@ constexpr std::size_t max_messages = 10;
 constexpr std::size_t max_message_length = 200;
 constexpr int max_archive_entries = 1000;
 constexpr int max_archive_depth = 16; // of folders
+// 100 million heights of ten characters. GDAL scans all of a text before it reads a height.
+constexpr double max_server_text_bytes = 1e9;
 
 std::string one_line(std::string text) {
     std::replace_if(
@@ -114,15 +115,41 @@ void set_default(const char* option, const char* value) {
     }
 }
 
-/// The format of a readable file on a server that may not be opened there.
-std::optional<std::string> other_format(const std::string& name) {
-    constexpr std::array<const char*, 1> no_siblings{nullptr};
+/// The length of a text on a server, before decompression in a .gz, bytes.
+double server_text_bytes(const std::string& name) {
+    const bool is_gzip = name.starts_with("/vsigzip/"); // GDAL would read all of it
+    const std::string file = is_gzip ? name.substr(std::string_view("/vsigzip/").size()) : name;
+    VSIStatBufL status{};
+    return VSIStatL(file.c_str(), &status) == 0
+               ? static_cast<double>(static_cast<vsi_l_offset>(status.st_size))
+               : 0.0;
+}
+
+/// Fails if a readable file on a server may not be opened there.
+Result<void> check_server_format(const std::string& name, const fs::path& path,
+                                 const char* const* siblings) {
+    constexpr std::array<std::string_view, 6> texts{"AAIGrid", "GRASSASCIIGrid", "GSAG",
+                                                    "ISG",     "USGSDEM",        "XYZ"};
     CPLStringList formats = format_names();
     GDALDriverH driver =
-        GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, formats.List(), no_siblings.data());
-    const bool allowed =
-        driver == nullptr || single_file_formats().FindString(GDALGetDescription(driver)) >= 0;
-    return allowed ? std::nullopt : std::optional<std::string>(GDALGetDriverLongName(driver));
+        GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, formats.List(), siblings);
+    if (driver == nullptr) {
+        return {};
+    }
+    const char* const format = GDALGetDescription(driver);
+    if (single_file_formats().FindString(format) < 0) {
+        return Error{fmt::format("{}: is in the format {}, which may name other files, one "
+                                 "whole raster in one file was expected of a server",
+                                 path.string(), GDALGetDriverLongName(driver))};
+    }
+    const bool is_text = std::find(texts.begin(), texts.end(), format) != texts.end();
+    const double bytes = is_text ? server_text_bytes(name) : 0.0;
+    if (bytes > max_server_text_bytes) {
+        return Error{fmt::format("{}: is a text of {}, at most {} were expected of a server",
+                                 path.string(), size_text(bytes),
+                                 size_text(max_server_text_bytes))};
+    }
+    return {};
 }
 
 Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
@@ -143,17 +170,16 @@ Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
         return name.error();
     }
     CPLStringList formats = format_names();
-    // Remote files: no requests for sidecar files.
-    constexpr std::array<const char*, 1> no_siblings{nullptr};
+    // No requests for sidecar files on servers. GDAL takes an empty list for none.
+    const std::array<const char*, 2> only_itself{CPLGetFilename(name->c_str()), nullptr};
     OpenRequest request;
     request.formats = formats.List();
     request.options = options;
-    request.siblings = remote ? no_siblings.data() : nullptr;
     if (is_on_server(*name)) {
-        if (auto format = other_format(*name)) {
-            return Error{fmt::format("{}: is in the format {}, which may name other files, one "
-                                     "whole raster in one file was expected of a server",
-                                     path.string(), *format)};
+        request.siblings = only_itself.data();
+        good = check_server_format(*name, path, request.siblings);
+        if (!good) {
+            return good.error();
         }
         formats = single_file_formats();
         request.formats = formats.List();

@@ -41,6 +41,17 @@ std::string url_of(std::string_view name) {
     return std::string(name.starts_with(prefix) ? name.substr(prefix.size()) : name);
 }
 
+/// Whether it would hold overviews or masks of overviews or masks. A server that has all that it is
+/// asked for would be asked for ever deeper ones.
+bool is_nested_sidecar(const std::string& url) {
+    constexpr std::size_t length = 4;
+    const auto is_sidecar = [&](std::size_t end) {
+        const std::string word = end > length ? url.substr(end - length, length) : "";
+        return EQUAL(word.c_str(), ".ovr") || EQUAL(word.c_str(), ".msk");
+    };
+    return is_sidecar(url.size()) && is_sidecar(url.size() - length);
+}
+
 /// "https://host:port".
 std::string origin_of(const std::string& url) {
     const auto host = url.find("://");
@@ -326,7 +337,9 @@ public:
 
 private:
     std::optional<FileVersion> known_version(const char* name, bool set_error) {
-        auto version = reader_.version(url_of(name));
+        const std::string url = url_of(name);
+        auto version = is_nested_sidecar(url) ? Result<std::optional<FileVersion>>(std::nullopt)
+                                              : reader_.version(url);
         if (!version) {
             report(version.error());
             errno = EIO;

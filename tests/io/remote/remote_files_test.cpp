@@ -6,6 +6,8 @@
 #include <thread>
 
 #include <cpl_conv.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -176,6 +178,39 @@ TEST_F(RemoteFile, ThatChangesWhileItIsOpenIsAnError) {
     ASSERT_TRUE(opened) << opened.error().message;
     EXPECT_EQ(read(**opened), CE_None);
     EXPECT_EQ(row[0], 5 + (side - 1) * 13 % 1000);
+}
+
+TEST_F(RemoteFile, OfAServerThatHasAllFilesIsAskedForNoSidecarFiles) {
+    server_->serve_by("rewrite ^ /dem.tif break;");
+    ASSERT_EQ(error_of("any.tif"), "opened");
+    EXPECT_LT(server_->bytes_sent(), 3U * 16384U); // the head alone
+    const std::string name = "/vsicurl/" + server_->url("any.tif");
+    VSIStatBufL status{};
+    EXPECT_EQ(VSIStatL((name + ".ovr").c_str(), &status), 0);
+    EXPECT_EQ(VSIStatL((name + ".ovr.ovr").c_str(), &status), -1);
+    EXPECT_EQ(VSIStatL((name + ".MSK.OVR").c_str(), &status), -1);
+}
+
+TEST_F(RemoteFile, ThatIsAnEndlessTextIsNotScanned) {
+    std::string text;
+    for (int i = 0; i < 1000; ++i) {
+        text += fmt::format("{} {} 1\n", i % 10, i / 10);
+    }
+    std::filesystem::resize_file(folder_.write("a.xyz", text), 2'000'000'000); // takes no space
+    expect_refusal("a.xyz", "is a text of 2.0 GB, at most 1.0 GB were expected of a server");
+    folder_.write("b.xyz", text);
+    EXPECT_EQ(error_of("b.xyz"), "opened");
+}
+
+TEST_F(RemoteFile, WithALongHeaderOrAddressIsRefusedInOneSentence) {
+    const std::string value = "set $a \"" + std::string(1000, 'a') +
+                              "\"; set $b $a$a$a$a$a$a$a$a$a$a; set $c $b$b$b$b$b$b$b$b$b$b$b$b;";
+    server_->serve_by(value + " location = /dem.tif { add_header X $c; }");
+    expect_refusal("dem.tif", "has a header of over 100 kB");
+    server_->serve_by(value + " location /moved { return 302 https://127.0.0.1:1/$b; }");
+    EXPECT_LT(error_of("moved.tif").size(), 600U);
+    server_->serve_by("set $none \"\"; location /empty { return 302 $none; }");
+    expect_refusal("empty.tif", "is redirected without an address");
 }
 
 TEST_F(RemoteFile, OfAServerThatSendsAllInsteadOfAPartIsRefused) {
