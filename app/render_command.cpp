@@ -303,7 +303,7 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
     std::vector<AtomicFile> outputs;
     if (!choice.hits.empty()) {
         const auto found = find_hits(choice, scene, maker, interrupt);
-        const auto prepared =
+        auto prepared =
             found ? add_output(io::prepare_hits(choice.hits, *found), outputs) : found.error();
         if (!prepared) {
             return prepared;

@@ -145,7 +145,8 @@ Result<void> check_file(StressRun& run, const std::string& name, const fs::path&
         return stage.error();
     }
     const auto views = pose_views(*stage, {scene::Pose::overview, scene::Pose::oblique});
-    return check_views(run, {.stress = "odd file", .can_refuse = exceeds_textures(run, *stage)},
+    return check_views(run,
+                       {.stress = "odd file", .exceeds_textures = exceeds_textures(run, *stage)},
                        name, *stage, views);
 }
 
@@ -160,7 +161,8 @@ Result<void> stress_odd_heights(StressRun& run) {
         }
         const auto views =
             pose_views(*stage, {scene::Pose::overview, scene::Pose::oblique, scene::Pose::grazing});
-        const ViewCheck check{.stress = "odd heights", .can_refuse = exceeds_textures(run, *stage)};
+        const ViewCheck check{.stress = "odd heights",
+                              .exceeds_textures = exceeds_textures(run, *stage)};
         if (auto done = check_views(run, check, name, *stage, views); !done) {
             return done;
         }

@@ -53,7 +53,7 @@ public:
 
     void add_to(StressRun& run) {
         if (!refusal_.empty()) {
-            add(run, "refused", 1.0, check_.can_refuse ? std::nullopt : std::optional(0.0),
+            add(run, "refused", 1.0, check_.exceeds_textures ? std::nullopt : std::optional(0.0),
                 refusal_);
             return;
         }

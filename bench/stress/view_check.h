@@ -16,7 +16,7 @@ struct StressView {
 struct ViewCheck {
     std::string stress;
     bool has_row_per_view = false; ///< of the share of wrong pixels; otherwise one for all views
-    bool can_refuse = false;       ///< the surface exceeds what textures hold
+    bool exceeds_textures = false; ///< the surface exceeds what textures hold
 };
 
 /// Draws the views with every technique of the run and compares them with the exact hits. Rows of

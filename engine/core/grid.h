@@ -84,8 +84,7 @@ private:
         check(cols >= 0 && rows >= 0, "grid of a negative size");
         const auto samples =
             checked_product(static_cast<std::size_t>(cols), static_cast<std::size_t>(rows));
-        check(samples && checked_product(*samples, std::size_t{sizeof(T)}),
-              "grid larger than any memory");
+        check(samples && *samples <= std::vector<T>().max_size(), "grid larger than any memory");
         return *samples;
     }
     [[nodiscard]] std::size_t index(int col, int row) const {

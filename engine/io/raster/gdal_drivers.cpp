@@ -97,21 +97,6 @@ private:
     const std::string* outer_ = server_file;
 };
 
-/// Files that are open for a file that refers to them, and so on.
-class OpenDepth {
-public:
-    OpenDepth() { ++depth_; }
-    ~OpenDepth() { --depth_; }
-    OpenDepth(const OpenDepth&) = delete;
-    OpenDepth& operator=(const OpenDepth&) = delete;
-
-    static int get() { return depth_; }
-
-private:
-    static thread_local int depth_;
-};
-thread_local int OpenDepth::depth_ = 0;
-
 std::string_view format_of(GDALDataset& dataset) {
     return dataset.GetDriver() != nullptr ? dataset.GetDriver()->GetDescription() : "";
 }
@@ -293,14 +278,6 @@ void allow_external(bool allowed) {
 }
 
 Result<Dataset> open_checked(const std::string& name, const OpenRequest& request) {
-    // A mosaic of mosaics of files with overviews takes four. The files of a chain may multiply.
-    constexpr int max_open_depth = 6;
-    const OpenDepth depth;
-    if (OpenDepth::get() > max_open_depth) {
-        return Error{fmt::format("{}: is referred to by {} files in a chain, at most {} were "
-                                 "expected",
-                                 name, OpenDepth::get() - 1, max_open_depth - 1)};
-    }
     if (ReadScope::stop_requested()) {
         return Error{fmt::format("{}: reading was stopped", name)};
     }

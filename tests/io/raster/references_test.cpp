@@ -334,23 +334,6 @@ TEST_F(References, APipeBesideOrBehindARasterBlocksNothing) {
     EXPECT_THAT(error_of_source("pipe.tif"), HasSubstr("refers to pipe.tif"));
 }
 
-// Each opens the next one twice: without a limit 2^24 times.
-TEST_F(References, AChainOfVirtualRastersEnds) {
-    for (int i = 0; i < 24; ++i) {
-        const std::string source =
-            fmt::format("<SimpleSource><SourceFilename relativeToVRT=\"1\">{{}}e{}.vrt"
-                        "</SourceFilename></SimpleSource>",
-                        i + 1);
-        static_cast<void>(
-            write(fmt::format("e{}.vrt", i), R"(<VRTDataset rasterXSize="8" rasterYSize="8">)"
-                                             R"(<VRTRasterBand dataType="Float32" band="1">)" +
-                                                 fmt::format(fmt::runtime(source), "") +
-                                                 fmt::format(fmt::runtime(source), "./") +
-                                                 "</VRTRasterBand></VRTDataset>"));
-    }
-    EXPECT_THAT(error_of(inside_ / "e0.vrt"), HasSubstr("files in a chain"));
-}
-
 TEST_F(References, AStopEndsOpeningWhatAFileRefersTo) {
     std::stop_source stop;
     stop.request_stop();
