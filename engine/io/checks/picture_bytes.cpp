@@ -24,10 +24,10 @@ File opened_file(const std::string& name) {
     return {VSIFOpenL(name.c_str(), "rb"), &VSIFCloseL};
 }
 
-template <std::size_t Size> using Bytes = std::array<unsigned char, Size>;
+template <std::size_t count> using Bytes = std::array<unsigned char, count>;
 
-template <std::size_t Size> bool read_head(const File& file, Bytes<Size>& head) {
-    return file != nullptr && VSIFReadL(head.data(), 1, Size, file.get()) == Size;
+template <std::size_t count> bool read_head(const File& file, Bytes<count>& head) {
+    return file != nullptr && VSIFReadL(head.data(), 1, count, file.get()) == count;
 }
 
 /// What libpng keeps of a chunk, bytes.

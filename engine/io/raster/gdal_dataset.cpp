@@ -152,6 +152,19 @@ Result<void> check_server_format(const std::string& name, const fs::path& path,
     return {};
 }
 
+/// The name for GDAL of a raster that may be opened.
+Result<std::string> checked_name(const fs::path& path) {
+    if (const auto good = check_typed_name(path.string()); !good) {
+        return good.error();
+    }
+    if (!is_remote(path)) {
+        if (const auto good = check_file(path); !good) {
+            return good.error();
+        }
+    }
+    return name_for_gdal(path);
+}
+
 Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
                           const char* const* options) {
     register_drivers();
@@ -159,13 +172,7 @@ Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
     if (is_web_tiles(path)) {
         return open_web_tiles(path);
     }
-    const bool remote = is_remote(path);
-    auto good = check_typed_name(path.string());
-    good = good && !remote ? check_file(path) : good;
-    if (!good) {
-        return good.error();
-    }
-    const auto name = name_for_gdal(path);
+    const auto name = checked_name(path);
     if (!name) {
         return name.error();
     }
@@ -177,8 +184,7 @@ Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
     request.options = options;
     if (is_on_server(*name)) {
         request.siblings = only_itself.data();
-        good = check_server_format(*name, path, request.siblings);
-        if (!good) {
+        if (const auto good = check_server_format(*name, path, request.siblings); !good) {
             return good.error();
         }
         formats = single_file_formats();
