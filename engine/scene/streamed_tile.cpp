@@ -60,7 +60,7 @@ glm::dvec3 normal_of(glm::dvec3 east, glm::dvec3 north, glm::dvec3 up) {
                : up;
 }
 
-void set_places(const Surround& around, const terrain::Placement& placement, StreamedTile& tile) {
+void set_places(const Surround& around, const terrain::Placement& placement, TerrainTile& tile) {
     const glm::ivec2 count = tile.cells + 1;
     for (int row = 1; row <= count.y; ++row) {
         for (int col = 1; col <= count.x; ++col) {
@@ -143,20 +143,6 @@ bool shows_something(const Image& texels) {
 }
 
 } // namespace
-
-glm::dvec2 StreamedTile::vertex_of(glm::ivec2 texel) const {
-    return glm::dvec2(texel) * glm::dvec2(cells) / glm::dvec2(albedo.cols() - 1, albedo.rows() - 1);
-}
-
-glm::vec3 StreamedTile::normal_at(glm::dvec2 vertex) const {
-    return glm::normalize(bilinear(normals, vertex, std::identity()));
-}
-
-std::size_t StreamedTile::bytes() const {
-    const std::size_t more = albedo.size() - std::min(albedo.size(), positions.size());
-    return bytes_per_vertex * positions.size() +
-           static_cast<std::size_t>(bytes_per_texel * static_cast<double>(more));
-}
 
 std::size_t bytes_of_tile(int texels_per_cell) {
     const auto samples = [](int texels) {
@@ -313,7 +299,7 @@ Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, float height) const {
     return nearest.a < 128 ? tint : rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8));
 }
 
-Image TileBuilder::vertex_colors(const StreamedTile& tile, const Grid<float>& around,
+Image TileBuilder::vertex_colors(const TerrainTile& tile, const Grid<float>& around,
                                  const Grid<std::uint8_t>& voids, bool with_overview) const {
     Image colors(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < colors.rows(); ++row) {
@@ -329,13 +315,13 @@ Image TileBuilder::vertex_colors(const StreamedTile& tile, const Grid<float>& ar
     return colors;
 }
 
-StreamedTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
-                               const TilePicture& picture) const {
+TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
+                              const TilePicture& picture) const {
     const glm::ivec2 cells = tree_.cells(tile);
     check(heights.cols() == cells.x + 3 && heights.rows() == cells.y + 3,
           "a tile's heights with one around were expected");
     const Surround around = surround_of(*this, tile, std::move(heights));
-    StreamedTile made;
+    TerrainTile made;
     made.id = tile;
     made.cells = cells;
     set_places(around, overview_->placement(), made);
@@ -362,7 +348,7 @@ namespace {
 // Metres: over larger tiles the vertical turns by more than a degree.
 constexpr double max_side_with_one_up = 100e3;
 
-glm::vec3 up_at(const TileBuilder& builder, const StreamedTile& tile, glm::ivec2 vertex) {
+glm::vec3 up_at(const TileBuilder& builder, const TerrainTile& tile, glm::ivec2 vertex) {
     const glm::dvec3 size = tile.bounds.size();
     return std::max({size.x, size.y, size.z}) <= max_side_with_one_up
                ? tile.up
@@ -371,7 +357,7 @@ glm::vec3 up_at(const TileBuilder& builder, const StreamedTile& tile, glm::ivec2
 
 } // namespace
 
-Image lit_tile(const TileBuilder& builder, const StreamedTile& tile,
+Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
                const TerrainIrradiance& irradiance) {
     const Grid<float>& overview = builder.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);

@@ -11,6 +11,7 @@
 #include "engine/core/grid.h"
 #include "engine/scene/graph/terrain_light.h"
 #include "engine/scene/graph/terrain_node.h"
+#include "engine/scene/graph/terrain_tile.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/tint.h"
 #include "engine/terrain/tree/tile_tree.h"
@@ -24,53 +25,6 @@ struct TilePicture {
     bool whole = true;     ///< false: parts were not read, the overview fills them
     bool has_more = false; ///< there are finer texels
 };
-
-/// Cells along a side of the blocks with a height range.
-inline constexpr int cells_per_block = 8;
-
-struct TileSummary {
-    terrain::TreeTile id;
-    Box bounds; ///< local metres
-    terrain::HeightRange range;
-    /// Estimated error against the next finer level, metres: the largest distance of every second
-    /// vertex from the middle between its neighbours.
-    double error = 0.0;
-    double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
-};
-
-/// A tile of a streamed terrain, ready to be drawn.
-struct StreamedTile : TileSummary {
-    glm::ivec2 cells{0};
-    glm::dvec3 origin{0.0};     ///< local metres
-    double unit = 1.0;          ///< metres: at most 2^-30 of the bounds' longest side
-    Grid<glm::ivec3> positions; ///< of the vertices, units from the origin: see place()
-    Grid<float> heights;        ///< true metres
-    Grid<glm::vec3> normals;    ///< unit, local frame
-    glm::vec3 up{0.0F, 0.0F, 1.0F};
-    Image albedo;                 ///< edge to edge, at least one texel per vertex, sRGB
-    Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; smaller at the far sides
-    bool of_overview = false;     ///< the heights are TileBuilder::overview_heights
-
-    /// A vertex in local metres, to half a unit: 4 µm for a tile of 12 km.
-    [[nodiscard]] glm::dvec3 place(glm::ivec2 vertex) const {
-        return origin + unit * glm::dvec3(positions(vertex.x, vertex.y));
-    }
-    /// The place of an albedo texel, in vertices.
-    [[nodiscard]] glm::dvec2 vertex_of(glm::ivec2 texel) const;
-    [[nodiscard]] glm::vec3 normal_at(glm::dvec2 vertex) const;
-
-    /// Memory of the drawn tile, bytes.
-    [[nodiscard]] std::size_t bytes() const;
-};
-
-// Memory of a drawn tile of full size, on the CPU and on the GPU, bytes.
-inline constexpr std::size_t bytes_of_bisection = 40; // per vertex
-inline constexpr std::size_t bytes_per_vertex =
-    2 * sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6 + bytes_of_bisection;
-inline constexpr std::size_t bytes_per_tile =
-    bytes_per_vertex * (terrain::tile_cells + 1) * (terrain::tile_cells + 1);
-/// For texels beyond one per vertex; on the GPU with mipmaps.
-inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;
 
 /// Maximum texels between two vertices: then selected tiles show no texel larger than a pixel.
 inline constexpr int max_texels_per_cell = 4;
@@ -127,15 +81,15 @@ public:
     [[nodiscard]] double overview_error(terrain::TreeTile tile) const;
     /// `heights`: metres at the vertices and one step around them. The overview fills voids (NaN).
     /// Precondition: the picture is empty or has picture_size.
-    [[nodiscard]] StreamedTile make(terrain::TreeTile tile, Grid<float> heights,
-                                    const TilePicture& picture = {}) const;
+    [[nodiscard]] TerrainTile make(terrain::TreeTile tile, Grid<float> heights,
+                                   const TilePicture& picture = {}) const;
     [[nodiscard]] Box bounds(terrain::TreeTile tile, terrain::HeightRange range) const;
     /// A vertex at another height, local metres.
     [[nodiscard]] glm::dvec3 place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const;
 
 private:
     [[nodiscard]] Rgba8 color_at(glm::dvec2 overview_sample, float height) const;
-    [[nodiscard]] Image vertex_colors(const StreamedTile& tile, const Grid<float>& around,
+    [[nodiscard]] Image vertex_colors(const TerrainTile& tile, const Grid<float>& around,
                                       const Grid<std::uint8_t>& voids, bool with_overview) const;
     [[nodiscard]] int texels_per_cell(int level) const;
     std::shared_ptr<const TerrainSurface> overview_;
@@ -148,7 +102,7 @@ private:
 };
 
 /// The lit albedo, sRGB. The light is interpolated between vertices.
-Image lit_tile(const TileBuilder& builder, const StreamedTile& tile,
+Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
                const TerrainIrradiance& irradiance);
 
 } // namespace reljef::scene

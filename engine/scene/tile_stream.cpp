@@ -63,7 +63,7 @@ TileStream::~TileStream() {
     }
 }
 
-std::shared_ptr<const StreamedTile> TileStream::find(terrain::TreeTile tile) const {
+std::shared_ptr<const TerrainTile> TileStream::find(terrain::TreeTile tile) const {
     const std::lock_guard lock(mutex_);
     const auto found = tiles_.find(tile);
     return found != tiles_.end() ? found->second.made.tile : nullptr;
@@ -272,12 +272,12 @@ void TileStream::work(const std::stop_token& stop) {
 
 TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,
                                   const Made& before) const {
-    StreamedTile made = maker_.make(tile, std::move(content.heights), content.picture);
+    TerrainTile made = maker_.make(tile, std::move(content.heights), content.picture);
     made.of_overview = content.of_overview;
     if (content.of_overview) {
         made.error = std::max(made.error, maker_.overview_error(tile));
     }
-    Made now{std::make_shared<const StreamedTile>(std::move(made)),
+    Made now{std::make_shared<const TerrainTile>(std::move(made)),
              texels_shown(content.picture.texels)};
     return before.tile == nullptr
                ? now
@@ -293,10 +293,10 @@ TileStream::Made TileStream::better_of(const Made& before, Made now, bool has_wh
         return shows_more ? now : before;
     }
     const Made& with_picture = shows_more ? now : before;
-    StreamedTile tile = heights_recovered ? *now.tile : *before.tile;
+    TerrainTile tile = heights_recovered ? *now.tile : *before.tile;
     tile.albedo = with_picture.tile->albedo;
     tile.coarse_texel = with_picture.tile->coarse_texel;
-    return {std::make_shared<const StreamedTile>(std::move(tile)), with_picture.shown};
+    return {std::make_shared<const TerrainTile>(std::move(tile)), with_picture.shown};
 }
 
 void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made made,
@@ -327,7 +327,7 @@ void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made
 
 void TileStream::keep(terrain::TreeTile tile, Made made) {
     Entry& entry = tiles_[tile];
-    const StreamedTile* before = entry.made.tile.get();
+    const TerrainTile* before = entry.made.tile.get();
     stats_.read += before == nullptr ? 1 : 0;
     stats_.bytes += made.tile->bytes() - (before != nullptr ? before->bytes() : 0);
     entry = {std::move(made), view_};

@@ -73,12 +73,12 @@ public:
     [[nodiscard]] const terrain::TileTree& tree() const { return maker_.tree(); }
 
     /// A loaded tile; null if it is not in memory.
-    [[nodiscard]] std::shared_ptr<const StreamedTile> find(terrain::TreeTile tile) const;
+    [[nodiscard]] std::shared_ptr<const TerrainTile> find(terrain::TreeTile tile) const;
     /// Summary of a loaded or evicted tile. Avoids re-reading tiles that were rejected. Empty for
     /// tiles that were evicted long ago.
     [[nodiscard]] std::optional<TileSummary> recall(terrain::TreeTile tile) const;
     struct Found {
-        std::shared_ptr<const StreamedTile> tile;
+        std::shared_ptr<const TerrainTile> tile;
         glm::dvec2 place{0.0}; ///< in vertices
     };
     /// The finest loaded tile at a sample of the overview.
@@ -119,7 +119,7 @@ public:
 private:
     using Clock = BackOff::Clock;
     struct Made {
-        std::shared_ptr<const StreamedTile> tile; // null: there were errors
+        std::shared_ptr<const TerrainTile> tile; // null: there were errors
         std::size_t shown = 0;                    // opaque texels of its picture
     };
     struct Entry {

@@ -44,7 +44,7 @@ double highest_of(GridView<const float> heights, glm::dvec2 sample) {
 
 // A grid of heights and a place on it.
 struct Around {
-    std::shared_ptr<const scene::StreamedTile> tile; // null: the whole terrain
+    std::shared_ptr<const scene::TerrainTile> tile; // null: the whole terrain
     GridView<const float> heights;
     glm::dvec2 place;
 };

@@ -19,7 +19,6 @@ Result<void> check_techniques(const DrawList& list) {
         }
     };
     check_terrains(list.tiles);
-    check_terrains(list.streamed_tiles);
     check_terrains(list.reliefs);
     for (const MeshDraw& draw : list.meshes) {
         if (checked) {

@@ -12,7 +12,6 @@
 #include "engine/core/result.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/graph/terrain_light.h"
-#include "engine/scene/streamed_tile.h"
 #include "engine/terrain/mesh/bisection_mesh.h"
 #include "engine/view/frame_stats.h"
 
@@ -34,15 +33,17 @@ using Coarseness = std::variant<terrain::ErrorView, Grid<std::uint8_t>>;
 /// One terrain tile to draw.
 struct TileDraw {
     const scene::TerrainNode* terrain = nullptr;
+    std::shared_ptr<const scene::TerrainTile> tile;
     double distance = 0.0;
     int transform = 0;                      ///< index into DrawList::transforms
-    int tile = 0;                           ///< index into the surface's tiles
     DetailLevel detail = DetailLevel::none; ///< of the detail tile over the terrain
-    bool flat = false;                      ///< the reference surface instead of the heightfield
-    bool coarse = false;                    ///< see DrawList::coarse_terrains
+    bool flat = false;                      ///< the reference surface instead of its heights
+    bool coarse = false;                    ///< with fewer triangles than its samples have
+    bool is_hidden = false; ///< behind nearer ground; the tiles around need not meet it
+    double error = 0.0;     ///< estimated error of its vertices, pixels
 };
 
-/// One terrain whose tiles need not have a vertex at every sample.
+/// A terrain in memory whose tiles need not have a vertex at every sample.
 struct CoarseTerrain {
     const scene::TerrainNode* terrain = nullptr;
     Coarseness coarseness;
@@ -53,18 +54,6 @@ struct ReliefDraw {
     const scene::TerrainNode* terrain = nullptr;
     glm::dmat4 world_from_local{1.0};
     double distance = 0.0;
-};
-
-/// One tile of a streamed terrain.
-struct StreamedDraw {
-    const scene::TerrainNode* terrain = nullptr;
-    glm::dmat4 world_from_local{1.0};
-    std::shared_ptr<const scene::StreamedTile> tile;
-    bool flat = false; ///< the reference surface instead of its heights
-    double distance = 0.0;
-    DetailLevel detail = DetailLevel::none; ///< of the detail tile over the terrain
-    double error = 0.0;                     ///< estimated error of its vertices, pixels
-    bool is_hidden = false; ///< behind nearer ground; the tiles around need not meet it
 };
 
 struct MeshDraw {
@@ -79,9 +68,8 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::vector<glm::dmat4> transforms;       ///< world from local, of the nodes with tiles
-    std::vector<TileDraw> tiles;              ///< front to back
-    std::vector<StreamedDraw> streamed_tiles; ///< front to back
+    std::vector<glm::dmat4> transforms; ///< world from local, of the nodes with tiles
+    std::vector<TileDraw> tiles;        ///< front to back
     std::vector<CoarseTerrain> coarse_terrains;
     std::vector<ReliefDraw> reliefs; ///< front to back
     std::vector<MeshDraw> meshes;

@@ -45,7 +45,7 @@ std::size_t child_of(int level, glm::ivec2 sample) {
 
 // True metres between two places on a tile's vertices: of the vertices if these are few, otherwise
 // of the blocks.
-HeightRange range_of(const scene::StreamedTile& tile, glm::dvec2 first, glm::dvec2 end) {
+HeightRange range_of(const scene::TerrainTile& tile, glm::dvec2 first, glm::dvec2 end) {
     const glm::ivec2 low(first);
     const glm::ivec2 high(end);
     constexpr int side = scene::cells_per_block;
@@ -67,7 +67,7 @@ DrawnGround::DrawnGround(const scene::TileBuilder& builder)
     : builder_(&builder), last_(builder.tree().cols() - 1, builder.tree().rows() - 1),
       branches_(1) {}
 
-void DrawnGround::add(std::shared_ptr<const scene::StreamedTile> tile) {
+void DrawnGround::add(std::shared_ptr<const scene::TerrainTile> tile) {
     const TileTree& tree = builder_->tree();
     const glm::ivec2 first = TileTree::first(tile->id);
     std::size_t at = 0;
@@ -149,7 +149,7 @@ NearerGround::NearerGround(const scene::TileBuilder& builder,
                            const std::optional<terrain::HorizonView>& view)
     : builder_(builder), view_(view), ground_(builder) {}
 
-void NearerGround::add_under_eye(std::shared_ptr<const scene::StreamedTile> tile) {
+void NearerGround::add_under_eye(std::shared_ptr<const scene::TerrainTile> tile) {
     if (view_ && tile != nullptr) {
         const double more = all_finer * tile->error;
         DrawnGround ground(builder_);

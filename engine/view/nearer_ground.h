@@ -20,7 +20,7 @@ public:
     explicit DrawnGround(const scene::TileBuilder& builder);
 
     /// Precondition: the tile overlaps no other one.
-    void add(std::shared_ptr<const scene::StreamedTile> tile);
+    void add(std::shared_ptr<const scene::TerrainTile> tile);
 
     /// As terrain::GroundRange, in local metres.
     [[nodiscard]] std::optional<terrain::HeightRange> range(glm::dvec2 low, glm::dvec2 high) const;
@@ -31,7 +31,7 @@ private:
         glm::dvec2 first{0.0};
         glm::dvec2 end{0.0};
         double step = 1.0; // samples between vertices
-        std::shared_ptr<const scene::StreamedTile> tile;
+        std::shared_ptr<const scene::TerrainTile> tile;
     };
     // A node of the tree: a part, or four children.
     struct Branch {
@@ -58,9 +58,9 @@ public:
     NearerGround(const NearerGround&) = delete;
 
     /// Adds a drawn tile. Precondition: as DrawnGround::add.
-    void add(std::shared_ptr<const scene::StreamedTile> tile) { ground_.add(std::move(tile)); }
+    void add(std::shared_ptr<const scene::TerrainTile> tile) { ground_.add(std::move(tile)); }
     /// Adds the tile under the eye if it is outside the picture; null: it is not loaded.
-    void add_under_eye(std::shared_ptr<const scene::StreamedTile> tile);
+    void add_under_eye(std::shared_ptr<const scene::TerrainTile> tile);
 
     /// As terrain::Horizon::hides. `along`: metres from the eye to the box along the ground.
     /// Precondition: all nearer tiles were added.

@@ -21,11 +21,10 @@
 namespace reljef::view {
 namespace {
 
-std::size_t triangle_count(const scene::TerrainNode& terrain, const terrain::Tile& tile,
-                           bool flat) {
+std::size_t triangle_count(const scene::TerrainNode& terrain, glm::ivec2 cells, bool flat) {
     const int quads = flat_quads(terrain.surface->placement().kind());
-    return 2U * static_cast<std::size_t>(flat ? quads : tile.cols) *
-           static_cast<std::size_t>(flat ? quads : tile.rows);
+    return 2U * static_cast<std::size_t>(flat ? quads : cells.x) *
+           static_cast<std::size_t>(flat ? quads : cells.y);
 }
 
 // Levels of an overview whose tiles are not loaded yet: it is not worth a bisection.
@@ -87,25 +86,17 @@ public:
         seen_ = nearest_first(std::move(seen_));
         list_.tiles.reserve(seen_.size());
         for (const SeenTile& seen : seen_) {
-            const ShownTerrain& shown = shown_[static_cast<std::size_t>(seen.transform)];
-            const double distance = std::sqrt(seen.distance);
-            list_.tiles.push_back({shown.terrain, distance, seen.transform, seen.tile,
-                                   detail_of(*shown.terrain, distance), shown.is_flat,
-                                   shown.is_coarse});
+            TileDraw& draw = draws_[seen.draw];
+            draw.distance = std::sqrt(seen.distance);
+            draw.detail = detail_of(*draw.terrain, draw.distance);
+            list_.tiles.push_back(std::move(draw));
         }
     }
 
 private:
     struct SeenTile {
         double distance = 0.0; // squared
-        int transform = 0;
-        int tile = 0;
-    };
-    // Has the index of its transform.
-    struct ShownTerrain {
-        const scene::TerrainNode* terrain = nullptr;
-        bool is_flat = false;
-        bool is_coarse = false;
+        std::size_t draw = 0;
     };
 
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
@@ -144,20 +135,26 @@ private:
         if (!has_streamed_tiles(terrain)) {
             return false;
         }
-        const bool flat = is_flat(terrain);
         TileSelection choice = select_tiles(terrain, list_.camera, list_.size, world_from_local,
                                             {.keeps_hidden = !options_.occlusion});
         requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
+        TileDraw draw = draw_of(terrain);
         const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
-            list_.streamed_tiles.push_back({&terrain, world_from_local, std::move(drawn.tile), flat,
-                                            drawn.distance, detail_of(terrain, drawn.distance),
-                                            drawn.error, is_hidden});
+            draw.tile = std::move(drawn.tile);
+            draw.error = drawn.error;
+            draw.is_hidden = is_hidden;
+            draw.coarse =
+                !draw.flat && !is_hidden && scene::error_bound(terrain.material.technique) > 0.0;
+            see(draw, drawn.distance * drawn.distance);
         };
         for (TileSelection::Drawn& drawn : choice.drawn) {
             add(drawn, false);
         }
         for (TileSelection::Drawn& hidden : choice.hidden) {
             add(hidden, true);
+        }
+        if (choice.has_root) {
+            list_.transforms.push_back(world_from_local);
         }
         list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
         list_.stats.skipped.tiles_occluded += choice.hidden_unread;
@@ -166,25 +163,26 @@ private:
     }
 
     void add_tiles(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        const bool flat = is_flat(terrain);
-        const auto& tiles = flat ? terrain.surface->flat_tiles() : terrain.surface->tiles();
+        const auto& tiles = terrain.surface->tiles();
         const Frustum frustum = frustum_.in_local(world_from_local);
         const std::size_t before = seen_.size();
         auto coarseness = coarseness_of(terrain, list_.camera, list_.size, world_from_local);
-        const int transform = static_cast<int>(list_.transforms.size());
+        TileDraw draw = draw_of(terrain);
+        draw.coarse = coarseness.has_value();
         const bool is_only_moved = glm::dmat3(world_from_local) == glm::dmat3(1.0);
         const glm::dvec3 eye =
             list_.camera.eye - (is_only_moved ? glm::dvec3(world_from_local[3]) : glm::dvec3(0.0));
         for (std::size_t i = 0; i < tiles.size(); ++i) {
-            if (frustum.may_see(tiles[i].bounds)) {
+            const Box& bounds = draw.flat ? terrain.surface->flat_bounds()[i] : tiles[i]->bounds;
+            if (frustum.may_see(bounds)) {
                 const glm::dvec3 away =
-                    away_from(eye, is_only_moved ? tiles[i].bounds
-                                                 : transformed(world_from_local, tiles[i].bounds));
-                seen_.push_back({glm::dot(away, away), transform, static_cast<int>(i)});
+                    away_from(eye, is_only_moved ? bounds : transformed(world_from_local, bounds));
+                draw.tile = tiles[i];
+                see(draw, glm::dot(away, away));
             } else {
                 ++list_.stats.skipped.tiles_outside_frustum;
                 list_.stats.skipped.triangles_outside_frustum +=
-                    triangle_count(terrain, tiles[i], flat);
+                    triangle_count(terrain, tiles[i]->cells, draw.flat);
             }
         }
         if (seen_.size() == before) {
@@ -192,10 +190,23 @@ private:
             return;
         }
         list_.transforms.push_back(world_from_local);
-        shown_.push_back({&terrain, flat, coarseness.has_value()});
         if (coarseness) {
             list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
         }
+    }
+
+    // A tile of the next transform.
+    TileDraw draw_of(const scene::TerrainNode& terrain) {
+        TileDraw draw;
+        draw.terrain = &terrain;
+        draw.transform = static_cast<int>(list_.transforms.size());
+        draw.flat = is_flat(terrain);
+        return draw;
+    }
+
+    void see(const TileDraw& draw, double squared_distance) {
+        seen_.push_back({squared_distance, draws_.size()});
+        draws_.push_back(draw);
     }
 
     // Counts details that are too far away to be visible.
@@ -211,7 +222,7 @@ private:
     const Frustum& frustum_;
     const SelectOptions& options_;
     std::vector<SeenTile> seen_;
-    std::vector<ShownTerrain> shown_;
+    std::vector<TileDraw> draws_;
 };
 
 // The error bound of a terrain, pixels; empty if there is none.
@@ -259,7 +270,6 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
         selector.add(seen);
     }
     selector.order_tiles();
-    list.streamed_tiles = nearest_first(std::move(list.streamed_tiles));
     list.reliefs = nearest_first(std::move(list.reliefs));
     list.stats.nodes = view.node_count();
     list.stats.skipped.invisible_nodes = view.node_count() - view.visible_count();
@@ -287,16 +297,16 @@ std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::
 void drop_occluded(DrawList& list) {
     std::map<const scene::TerrainNode*, std::optional<terrain::Horizon>> horizons;
     const auto dropped = std::erase_if(list.tiles, [&](const TileDraw& draw) {
+        if (!draw.tile->borrows) {
+            return draw.is_hidden;
+        }
         const auto [entry, is_new] = horizons.try_emplace(draw.terrain);
         if (is_new) {
             entry->second = horizon_of(list, draw);
         }
-        const auto tile = static_cast<std::size_t>(draw.tile);
-        return entry->second && entry->second->hides(draw.terrain->surface->tiles()[tile].bounds);
+        return entry->second && entry->second->hides(draw.tile->bounds);
     });
-    const auto streamed =
-        std::erase_if(list.streamed_tiles, [](const StreamedDraw& draw) { return draw.is_hidden; });
-    list.stats.skipped.tiles_occluded += static_cast<int>(dropped + streamed);
+    list.stats.skipped.tiles_occluded += static_cast<int>(dropped);
 }
 
 const FrameView& FrameSelector::select(const scene::Scene& scene, glm::ivec2 size) {

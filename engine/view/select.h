@@ -28,7 +28,7 @@ struct FrameView {
 
 struct SelectOptions {
     /// Drops tiles behind nearer ground. Without it they are requested and listed, too
-    /// (StreamedDraw::is_hidden): to measure the effect on the picture.
+    /// (TileDraw::is_hidden): to measure the effect on the picture.
     bool occlusion = true;
 };
 

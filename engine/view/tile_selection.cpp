@@ -64,7 +64,7 @@ terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) 
 
 struct KnownTile {
     scene::TileSummary summary;
-    std::shared_ptr<const scene::StreamedTile> tile; // null: evicted
+    std::shared_ptr<const scene::TerrainTile> tile; // null: evicted
 };
 
 class StreamView {
@@ -115,8 +115,7 @@ public:
         return glm::distance(eye, glm::clamp(eye, glm::dvec2(local.low), glm::dvec2(local.high)));
     }
 
-    [[nodiscard]] TileSelection::Drawn
-    drawn(std::shared_ptr<const scene::StreamedTile> tile) const {
+    [[nodiscard]] TileSelection::Drawn drawn(std::shared_ptr<const scene::TerrainTile> tile) const {
         const double distance = distance_to(*tile);
         const bool is_whole = tile->id.level == 0 || builder().has_all_samples(tile->id);
         const double error = is_whole ? 0.0 : tile->error * pixels_per_metre(distance);
@@ -178,7 +177,7 @@ public:
     TreeWalk(const TreeWalk&) = delete;
 
     /// Stops and returns false if the drawn tiles do not fit in memory.
-    [[nodiscard]] bool walk(const scene::StreamedTile& root) {
+    [[nodiscard]] bool walk(const scene::TerrainTile& root) {
         open_.push({view_.along(root.bounds), root.id, root.bounds,
                     std::numeric_limits<double>::infinity(), root.id});
         while (!open_.empty() && leaves_ <= view_.stream().max_drawn()) {
@@ -216,7 +215,7 @@ private:
         }
     }
 
-    void leave_out(std::shared_ptr<const scene::StreamedTile> tile) {
+    void leave_out(std::shared_ptr<const scene::TerrainTile> tile) {
         if (tile == nullptr) {
             ++selection_.hidden_unread;
         } else {
@@ -225,7 +224,7 @@ private:
     }
 
     void use_or_request(const Candidate& candidate,
-                        const std::shared_ptr<const scene::StreamedTile>& tile) {
+                        const std::shared_ptr<const scene::TerrainTile>& tile) {
         if (tile != nullptr) {
             used_.push_back(candidate.id);
         } else if (!candidate.is_foreseen) {
@@ -272,7 +271,7 @@ private:
         }
     }
 
-    void add_leaf(const Candidate& candidate, std::shared_ptr<const scene::StreamedTile> tile,
+    void add_leaf(const Candidate& candidate, std::shared_ptr<const scene::TerrainTile> tile,
                   bool is_hidden) {
         if (is_hidden && tile != nullptr) {
             selection_.hidden.push_back(view_.drawn(std::move(tile)));
@@ -298,7 +297,7 @@ private:
 
 // The relative error above which tiles may be refined so that all drawn tiles fit in memory.
 // Refines the largest errors first. Depends on known tiles only, loaded or not.
-double relative_error_within_memory(const StreamView& view, const scene::StreamedTile& root) {
+double relative_error_within_memory(const StreamView& view, const scene::TerrainTile& root) {
     struct Open {
         double relative_error;
         scene::TileSummary tile;
@@ -355,7 +354,7 @@ bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>&
 
 // Walks until no tile is missing. This ends: each walk but the last raises the error so that all
 // fits in memory, adds a leaf, or is the last that hides.
-TileSelection walk_until_complete(const StreamView& view, const scene::StreamedTile& root,
+TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTile& root,
                                   const TileSelectionOptions& options) {
     WalkLimits limits;
     std::optional<std::vector<terrain::TreeTile>> requested;

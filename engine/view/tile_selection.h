@@ -14,7 +14,7 @@ namespace reljef::view {
 /// The tiles of a streamed terrain in a view.
 struct TileSelection {
     struct Drawn {
-        std::shared_ptr<const scene::StreamedTile> tile;
+        std::shared_ptr<const scene::TerrainTile> tile;
         double distance = 0.0; ///< from the eye to the nearest point of its bounds, metres
         double error = 0.0;    ///< estimated error of its vertices, pixels
     };

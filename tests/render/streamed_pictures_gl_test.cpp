@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "engine/core/bilinear.h"
-#include "engine/render/residency/streamed_tiles.h"
+#include "engine/render/residency/terrain_meshes.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
@@ -243,10 +243,10 @@ TEST(StreamedVertices, StandWhereADoubleOracleHasThemSeenFromAMetre) {
     });
     node.stream = std::make_shared<scene::TileStream>(
         maker, [](TreeTile, const std::stop_token&) { return scene::TileContent{}; });
-    view::StreamedDraw draw;
+    view::TileDraw draw;
     draw.terrain = &node;
-    draw.tile = std::make_shared<const scene::StreamedTile>(maker.make(id, heights));
-    const view::GridMesh mesh = streamed_mesh(draw, {}, {});
+    draw.tile = std::make_shared<const scene::TerrainTile>(maker.make(id, heights));
+    const view::GridMesh mesh = tile_mesh(draw, {}, {});
     // Of a picture 768 pixels high, from a metre away.
     const double pixels_per_metre = 0.5 * 768.0 / std::tan(glm::radians(0.5 * 57.3));
     double worst = 0.0;

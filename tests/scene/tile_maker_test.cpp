@@ -20,7 +20,7 @@ TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
     const TileBuilder make = maker();
     const auto& placement = make.overview().placement();
     for (const TreeTile tile : {TreeTile{3, 0, 0}, {2, 1, 0}, {1, 3, 2}, {0, 7, 7}, {0, 0, 5}}) {
-        const StreamedTile made = make.make(tile, read_plane(tile, {}).heights);
+        const TerrainTile made = make.make(tile, read_plane(tile, {}).heights);
         for (int row = 0; row <= made.cells.y; row += 16) {
             for (int col = 0; col <= made.cells.x; col += 16) {
                 const glm::dvec2 sample(make.tree().sample(tile, {col, row}));
@@ -43,7 +43,7 @@ TEST(TileMakers, PlaceTilesOfEveryLevelOnTheSurfaceOfTheOverview) {
 TEST(TileMakers, FillVoidsWithTheOverview) {
     auto heights = read_plane({0, 3, 3}, {}).heights;
     heights(60, 60) = std::numeric_limits<float>::quiet_NaN();
-    const StreamedTile made = maker().make({0, 3, 3}, std::move(heights));
+    const TerrainTile made = maker().make({0, 3, 3}, std::move(heights));
     EXPECT_NEAR(made.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
     EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::no_data);
 }
@@ -56,7 +56,7 @@ TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
     EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(513));
     TilePicture picture{Image(513, 513, Rgba8{0, 0, 0, 0}), true, true};
     picture.texels(512, 0) = {1, 2, 3, 255};
-    const StreamedTile made = make.make(tile, read_plane(tile, {}).heights, picture);
+    const TerrainTile made = make.make(tile, read_plane(tile, {}).heights, picture);
     EXPECT_EQ(made.albedo(512, 0), (Rgba8{1, 2, 3, 255}));
     EXPECT_EQ(made.albedo(511, 1), make.make(tile, read_plane(tile, {}).heights).albedo(128, 0));
     EXPECT_DOUBLE_EQ(made.coarse_texel, 2.5);
@@ -153,7 +153,7 @@ TEST(TileMakers, OfAWholeGlobeMeetAcrossTheAntimeridianAndAtThePoles) {
                 static_cast<float>(globe_height({(col + 71) % 72, std::clamp(row - 1, 0, 37)}));
         }
     }
-    const StreamedTile made = make.make(all, std::move(heights));
+    const TerrainTile made = make.make(all, std::move(heights));
     for (int row = 0; row < 38; ++row) {
         const glm::dvec3 step = made.place({0, row}) - made.place({72, row});
         EXPECT_LT(glm::length(step), 0.05) << row;

@@ -243,7 +243,7 @@ protected:
     static constexpr TreeTile tile{0, 0, 0};
     static constexpr Rgba8 shown{9, 8, 7, 255};
 
-    std::shared_ptr<const StreamedTile> first_of(std::vector<Attempt> attempts) {
+    std::shared_ptr<const TerrainTile> first_of(std::vector<Attempt> attempts) {
         attempts_ = std::move(attempts);
         may_begin_ = 1;
         stream_ = std::make_unique<TileStream>(
@@ -262,14 +262,14 @@ protected:
         }
         return stream_->find(tile);
     }
-    std::shared_ptr<const StreamedTile> after_failures(int count) {
+    std::shared_ptr<const TerrainTile> after_failures(int count) {
         may_begin_ = count;
         while (stream_->stats().failed < count) {
             std::this_thread::sleep_for(1ms);
         }
         return stream_->find(tile);
     }
-    std::shared_ptr<const StreamedTile> last() {
+    std::shared_ptr<const TerrainTile> last() {
         may_begin_ = static_cast<int>(attempts_.size());
         EXPECT_TRUE(stream_->wait({}));
         EXPECT_EQ(static_cast<std::size_t>(readings_), attempts_.size());

@@ -70,16 +70,15 @@ std::size_t triangles_of(const scene::Node& node) {
 void expect_right_selection(scene::Scene& scene, const scene::Node& node, bool flat) {
     const view::DrawList list = view::select(scene, picture_size).list;
     const auto& surface = test::surface_of(node);
-    std::set<int> drawn;
+    std::set<const scene::TerrainTile*> drawn;
     std::size_t triangles = 0;
     double nearest = 0.0;
     for (const view::TileDraw& draw : list.tiles) {
         ASSERT_GE(draw.distance, nearest) << "front to back";
         nearest = draw.distance;
-        ASSERT_TRUE(drawn.insert(draw.tile).second);
+        ASSERT_TRUE(drawn.insert(draw.tile.get()).second);
         ASSERT_EQ(draw.flat, flat);
-        const auto& tile = surface.tiles()[static_cast<std::size_t>(draw.tile)];
-        triangles += 2U * static_cast<std::size_t>(tile.cols * tile.rows);
+        triangles += 2U * static_cast<std::size_t>(draw.tile->cells.x * draw.tile->cells.y);
     }
     const auto& skipped = list.stats.skipped;
     ASSERT_EQ(list.tiles.size() + static_cast<std::size_t>(skipped.tiles_outside_frustum),
@@ -89,8 +88,9 @@ void expect_right_selection(scene::Scene& scene, const scene::Node& node, bool f
         ASSERT_EQ(triangles + skipped.triangles_outside_frustum, triangles_of(node));
     }
     for (std::size_t i = 0; i < surface.tiles().size(); ++i) {
-        if (!drawn.contains(static_cast<int>(i))) {
-            ASSERT_FALSE(shows_a_sample(list.camera, node, surface.tiles()[i], flat))
+        const scene::TerrainTile& tile = *surface.tiles()[i];
+        if (!drawn.contains(&tile)) {
+            ASSERT_FALSE(shows_a_sample(list.camera, node, scene::samples_of(tile), flat))
                 << "tile " << i;
         }
     }

@@ -28,7 +28,6 @@ std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples 
 // The passes. They fail as ShaderLibrary::program and without memory.
 
 Result<void> draw_terrain_tiles(const FrameContext& frame);
-Result<void> draw_streamed_tiles(const FrameContext& frame);
 
 /// Draws the bounding box of each relief; before it the beams of techniques that have them.
 Result<void> draw_reliefs(const FrameContext& frame);

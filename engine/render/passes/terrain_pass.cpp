@@ -28,29 +28,24 @@ public:
         state_.set_culling(gl::Culling::back);
     }
 
-    Result<void> draw(const view::TileDraw& draw) {
+    // The tile with this index in the list.
+    Result<void> draw(std::size_t index) {
+        const view::TileDraw& draw = frame_.list.tiles[index];
         const view::DetailLevel detail = shown(draw.detail);
         const glm::dmat4& world_from_local = frame_.list.world_from_local(draw);
         if (!is_set_for(*draw.terrain, detail)) {
             if (auto set = set_for(*draw.terrain, detail, world_from_local); !set) {
                 return set;
             }
-            bind_maps(*draw.terrain);
-        }
-        set_place(world_from_local);
-        draw_samples(draw);
-        return {};
-    }
-
-    Result<void> draw(const view::StreamedDraw& draw) {
-        const view::DetailLevel detail = shown(draw.detail);
-        if (!is_set_for(*draw.terrain, detail)) {
-            if (auto set = set_for(*draw.terrain, detail, draw.world_from_local); !set) {
-                return set;
+            if (draw.tile->borrows) {
+                bind_shared_maps(*draw.terrain);
             }
         }
-        set_place(draw.world_from_local);
-        draw_streamed(draw);
+        if (!draw.tile->borrows) {
+            bind_own_maps(draw);
+        }
+        set_place(draw, world_from_local);
+        draw_meshes(index, draw);
         return {};
     }
 
@@ -97,7 +92,8 @@ private:
         return {ShaderKind::terrain, frame_.features | (is_warped(terrain) ? feature_warped : 0U)};
     }
 
-    void bind_maps(const scene::TerrainNode& terrain) {
+    // Of a terrain in memory.
+    void bind_shared_maps(const scene::TerrainNode& terrain) {
         if (frame_.hits) {
             return;
         }
@@ -110,49 +106,49 @@ private:
         ++state_.stats().state_changes;
     }
 
-    void set_place(const glm::dmat4& world_from_local) {
+    void bind_own_maps(const view::TileDraw& draw) {
+        if (frame_.hits) {
+            return;
+        }
+        const ResidentTileMaps& maps = frame_.residency.tile_maps().tile(draw);
+        maps.lit->bind(lit_unit());
+        program_->set(uniforms.lit_from_sample, maps.lit_from_sample);
+        if (has_ground()) {
+            bind_ground(*program_, *maps.ground);
+        }
+        ++state_.stats().state_changes;
+    }
+
+    void set_place(const view::TileDraw& draw, const glm::dmat4& world_from_local) {
         const SplitPoint eye = split_into_floats(local_eye(frame_.list.camera, world_from_local));
         program_->set(uniforms.eye, eye.rounded);
         program_->set(uniforms.eye_rest, eye.rest);
         program_->set(uniforms.world_from_local, glm::mat3(glm::dmat3(world_from_local)));
+        program_->set(uniforms.tile_sample, first_sample(draw));
     }
 
-    void draw_samples(const view::TileDraw& draw) {
-        const auto& tile = draw.terrain->surface->tiles()[static_cast<std::size_t>(draw.tile)];
+    // What the shader adds to a vertex's place: own maps begin at the tile.
+    [[nodiscard]] glm::vec2 first_sample(const view::TileDraw& draw) const {
+        if (draw.tile->borrows) {
+            return glm::vec2(terrain::TileTree::first(draw.tile->id));
+        }
+        return frame_.hits ? glm::vec2(draw.terrain->stream->maker().first(draw.tile->id))
+                           : glm::vec2(0.0F);
+    }
+
+    void draw_meshes(std::size_t index, const view::TileDraw& draw) {
         view::FrameStats& stats = state_.stats();
-        program_->set(uniforms.tile_sample, glm::vec2(tile.col, tile.row));
         const std::size_t before = stats.triangles;
-        for (const ResidentMesh& mesh : frame_.residency.tile(draw)) {
+        for (const ResidentMesh& mesh : frame_.residency.terrain_meshes().tile(index)) {
             state_.draw(mesh, gl::IndexType::uint16);
         }
         if (draw.coarse) {
+            const glm::ivec2 cells = draw.tile->cells;
             const std::size_t all =
-                2U * static_cast<std::size_t>(tile.cols) * static_cast<std::size_t>(tile.rows);
+                2U * static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y);
             stats.skipped.triangles_under_error += all - std::min(all, stats.triangles - before);
         }
         ++stats.tiles;
-    }
-
-    void draw_streamed(const view::StreamedDraw& draw) {
-        const ResidentStreamed& resident = frame_.residency.streamed().tile(draw);
-        if (frame_.hits) {
-            program_->set(uniforms.tile_sample,
-                          glm::vec2(draw.terrain->stream->maker().first(draw.tile->id)));
-        } else {
-            bind_maps(resident);
-        }
-        state_.draw(resident.mesh, gl::IndexType::uint16);
-        ++state_.stats().tiles;
-    }
-
-    void bind_maps(const ResidentStreamed& resident) {
-        resident.lit->bind(lit_unit());
-        program_->set(uniforms.tile_sample, glm::vec2(0.0F));
-        program_->set(uniforms.lit_from_sample, resident.lit_from_sample);
-        if (has_ground()) {
-            bind_ground(*program_, *resident.ground);
-        }
-        ++state_.stats().state_changes;
     }
 
     const FrameContext& frame_;
@@ -162,25 +158,16 @@ private:
     view::DetailLevel detail_ = view::DetailLevel::none;
 };
 
-template <class Draw>
-Result<void> draw_all(const FrameContext& frame, const std::vector<Draw>& draws) {
+} // namespace
+
+Result<void> draw_terrain_tiles(const FrameContext& frame) {
     TerrainPass pass(frame);
-    for (const Draw& draw : draws) {
-        if (auto drawn = pass.draw(draw); !drawn) {
+    for (std::size_t i = 0; i < frame.list.tiles.size(); ++i) {
+        if (auto drawn = pass.draw(i); !drawn) {
             return drawn;
         }
     }
     return {};
-}
-
-} // namespace
-
-Result<void> draw_terrain_tiles(const FrameContext& frame) {
-    return draw_all(frame, frame.list.tiles);
-}
-
-Result<void> draw_streamed_tiles(const FrameContext& frame) {
-    return draw_all(frame, frame.list.streamed_tiles);
 }
 
 } // namespace reljef::render

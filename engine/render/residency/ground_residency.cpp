@@ -11,10 +11,10 @@ namespace reljef::render {
 namespace {
 
 // One draw of each terrain with visible detail.
-template <class Draw> std::vector<const Draw*> first_detailed(const std::vector<Draw>& draws) {
-    std::vector<const Draw*> first;
+std::vector<const view::TileDraw*> first_detailed(const std::vector<view::TileDraw>& draws) {
+    std::vector<const view::TileDraw*> first;
     std::set<const scene::TerrainNode*> found;
-    for (const Draw& draw : draws) {
+    for (const view::TileDraw& draw : draws) {
         if (draw.detail != view::DetailLevel::none && found.insert(draw.terrain).second) {
             first.push_back(&draw);
         }
@@ -40,12 +40,13 @@ Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_fr
 Result<void> GroundResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
     tiles_.forget_unused();
     std::erase_if(grounds_, [](const auto& entry) { return entry.second.owner.expired(); });
-    for (const view::StreamedDraw* const draw : first_detailed(list.streamed_tiles)) {
+    for (const view::TileDraw* const draw : first_detailed(list.tiles)) {
         if (auto done = prepare_tile(*draw->terrain->detail, stats); !done) {
             return done;
         }
-    }
-    for (const view::TileDraw* const draw : first_detailed(list.tiles)) {
+        if (!draw->tile->borrows) {
+            continue; // it has a map of its own
+        }
         if (auto done = prepare_ground(list, *draw, stats); !done) {
             return done;
         }
@@ -61,9 +62,6 @@ Result<void> GroundResidency::prepare_tile(const scene::TerrainDetail& detail,
 Result<void> GroundResidency::prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
                                              view::FrameStats& stats) {
     const scene::TerrainNode& terrain = *draw.terrain;
-    if (auto done = prepare_tile(*terrain.detail, stats); !done) {
-        return done;
-    }
     const auto light = view::light_on(list, list.world_from_local(draw));
     const auto found = grounds_.find(&terrain);
     if (found != grounds_.end() && found->second.owner.lock() == terrain.surface &&

@@ -7,7 +7,6 @@
 
 #include <glm/matrix.hpp>
 
-#include "engine/core/parallel_for.h"
 #include "engine/gl/limits.h"
 #include "engine/render/residency/prewarp.h"
 #include "engine/render/residency/terrain_maps.h"
@@ -62,10 +61,9 @@ Result<gl::Texture2D> cone_texture(const std::shared_ptr<const material::ConeMap
 Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
                                 view::FrameStats& stats) {
     forget_unused();
-    auto done = prepare_tiles(list, stats);
-    done = done ? coarse_tiles_.prepare(list, stats) : done;
-    done = done ? streamed_tiles_.prepare(list, with_maps, stats) : done;
+    auto done = terrain_meshes_.prepare(list, stats);
     if (with_maps) {
+        done = done ? tile_maps_.prepare(list, stats) : done;
         done = done ? prepare_all_maps(list, stats) : done;
         done = done ? ground_.prepare(list, stats) : done;
     }
@@ -79,7 +77,7 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
 Result<void> Residency::add_light(const PreparedLight& prepared) {
     const LightRequest& request = prepared.request;
     if (request.stream != nullptr) {
-        streamed_tiles_.add_light(request.stream, request.light, prepared.irradiance);
+        tile_maps_.add_light(request.stream, request.light, prepared.irradiance);
         return {};
     }
     view::FrameStats ignored;
@@ -95,7 +93,6 @@ Result<void> Residency::add_light(const PreparedLight& prepared) {
 
 void Residency::forget_unused() {
     std::erase_if(surfaces_, [](const auto& entry) { return entry.second.owner.expired(); });
-    coarse_tiles_.forget_unused();
 }
 
 Residency::Surface&
@@ -103,71 +100,16 @@ Residency::surface_of(const std::shared_ptr<const scene::TerrainSurface>& surfac
     auto [entry, is_new] = surfaces_.try_emplace(surface.get());
     if (is_new) {
         entry->second.owner = surface;
-        entry->second.tiles.resize(surface->tiles().size());
-        entry->second.flat_tiles.resize(surface->flat_tiles().size());
     }
     return entry->second;
-}
-
-std::vector<const view::TileDraw*> Residency::missing_tiles(const view::DrawList& list,
-                                                            view::FrameStats& stats) {
-    std::vector<const view::TileDraw*> missing;
-    for (const view::TileDraw& draw : list.tiles) {
-        if (draw.coarse) {
-            continue;
-        }
-        Surface& surface = surface_of(draw.terrain->surface);
-        const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
-        if (slots[static_cast<std::size_t>(draw.tile)]) {
-            ++stats.skipped.uploads_unchanged;
-        } else {
-            missing.push_back(&draw);
-        }
-    }
-    return missing;
-}
-
-Result<void> Residency::prepare_tiles(const view::DrawList& list, view::FrameStats& stats) {
-    const std::vector<const view::TileDraw*> missing = missing_tiles(list, stats);
-    // In batches, which limits the memory for meshes that are not yet uploaded.
-    constexpr std::size_t batch = 32;
-    for (std::size_t first = 0; first < missing.size(); first += batch) {
-        const std::size_t count = std::min(batch, missing.size() - first);
-        std::vector<view::GridMesh> grids(count);
-        parallel_for(static_cast<int>(count), [&](int i) {
-            const view::TileDraw& draw = *missing[first + static_cast<std::size_t>(i)];
-            const scene::TerrainSurface& surface = *draw.terrain->surface;
-            const auto index = static_cast<std::size_t>(draw.tile);
-            grids[static_cast<std::size_t>(i)] =
-                draw.flat ? view::flat_mesh(surface.placement(), surface.flat_tiles()[index],
-                                            terrain::reference_height(surface.heightfield()))
-                          : view::full_mesh(surface.heightfield(), surface.placement(),
-                                            surface.tiles()[index]);
-        });
-        for (std::size_t i = 0; i < count; ++i) {
-            if (auto done = upload_tile(*missing[first + i], grids[i], stats); !done) {
-                return done;
-            }
-        }
-    }
-    return {};
-}
-
-Result<void> Residency::upload_tile(const view::TileDraw& draw, const view::GridMesh& grid,
-                                    view::FrameStats& stats) {
-    auto mesh = grids_.upload(grid, stats);
-    if (!mesh) {
-        return mesh.error();
-    }
-    Surface& resident = surface_of(draw.terrain->surface);
-    auto& slots = draw.flat ? resident.flat_tiles : resident.tiles;
-    slots[static_cast<std::size_t>(draw.tile)] = std::move(*mesh);
-    return {};
 }
 
 Result<void> Residency::prepare_all_maps(const view::DrawList& list, view::FrameStats& stats) {
     maps_.clear();
     for (const view::TileDraw& draw : list.tiles) {
+        if (!draw.tile->borrows) {
+            continue;
+        }
         if (auto done = prepare_maps(list, *draw.terrain, list.world_from_local(draw), stats);
             !done) {
             return done;
@@ -267,17 +209,6 @@ Result<void> Residency::prepare_warped(const view::DrawList& list, view::FrameSt
         warped_.emplace(&terrain, std::move(*texture));
     }
     return {};
-}
-
-std::span<const ResidentMesh> Residency::tile(const view::TileDraw& draw) const {
-    if (draw.coarse) {
-        return coarse_tiles_.tile(draw);
-    }
-    const Surface& surface = surfaces_.at(draw.terrain->surface.get());
-    const auto& slots = draw.flat ? surface.flat_tiles : surface.tiles;
-    const auto& slot = slots[static_cast<std::size_t>(draw.tile)];
-    check(slot.has_value(), "a tile that was not prepared");
-    return {&*slot, 1};
 }
 
 const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {

@@ -9,15 +9,13 @@
 
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
-#include "engine/render/residency/coarse_tiles.h"
 #include "engine/render/residency/ground_residency.h"
 #include "engine/render/residency/mesh_residency.h"
 #include "engine/render/residency/relief_maps.h"
-#include "engine/render/residency/resident_mesh.h"
-#include "engine/render/residency/streamed_tiles.h"
 #include "engine/render/residency/terrain_maps.h"
+#include "engine/render/residency/terrain_meshes.h"
+#include "engine/render/residency/tile_maps.h"
 #include "engine/view/draw_list.h"
-#include "engine/view/grid_mesh.h"
 
 namespace reljef::render {
 
@@ -47,10 +45,10 @@ public:
     Result<void> add_light(const PreparedLight& prepared);
 
     /// Precondition: prepared.
-    [[nodiscard]] std::span<const ResidentMesh> tile(const view::TileDraw& draw) const;
+    [[nodiscard]] const TerrainMeshes& terrain_meshes() const { return terrain_meshes_; }
+    [[nodiscard]] const TileMaps& tile_maps() const { return tile_maps_; }
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
     [[nodiscard]] const ResidentRelief& relief(const view::ReliefDraw& draw) const;
-    [[nodiscard]] const StreamedTiles& streamed() const { return streamed_tiles_; }
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     [[nodiscard]] const GroundResidency& ground() const { return ground_; }
     /// warped_places() for prewarp.
@@ -64,18 +62,11 @@ private:
     };
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
-        std::vector<std::optional<ResidentMesh>> tiles;
-        std::vector<std::optional<ResidentMesh>> flat_tiles;
         std::vector<LitMaps> maps; // one per light of the last frame
         std::optional<ResidentRelief> relief;
     };
     void forget_unused();
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
-    std::vector<const view::TileDraw*> missing_tiles(const view::DrawList& list,
-                                                     view::FrameStats& stats);
-    Result<void> prepare_tiles(const view::DrawList& list, view::FrameStats& stats);
-    Result<void> upload_tile(const view::TileDraw& draw, const view::GridMesh& grid,
-                             view::FrameStats& stats);
     Result<void> prepare_all_maps(const view::DrawList& list, view::FrameStats& stats);
     Result<void> prepare_maps(const view::DrawList& list, const scene::TerrainNode& terrain,
                               const glm::dmat4& world_from_local, view::FrameStats& stats);
@@ -86,13 +77,12 @@ private:
     Result<void> prepare_warped(const view::DrawList& list, view::FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
-    CoarseTiles coarse_tiles_;
-    StreamedTiles streamed_tiles_;
+    TerrainMeshes terrain_meshes_;
+    TileMaps tile_maps_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_;
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     MeshResidency meshes_;
     GroundResidency ground_;
-    GridUploader grids_;
 };
 
 } // namespace reljef::render

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/terrain/mesh/tile_layout.h"
+
 namespace reljef::scene {
 namespace {
 
@@ -34,6 +36,15 @@ std::string_view reason_against_terrain(const Technique& technique, const Terrai
                : std::string_view();
 }
 
+std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::Tile& samples) {
+    TerrainTile tile;
+    tile.id = {0, samples.col / terrain::tile_cells, samples.row / terrain::tile_cells};
+    tile.bounds = samples.bounds;
+    tile.cells = {samples.cols, samples.rows};
+    tile.borrows = true;
+    return std::make_shared<const TerrainTile>(std::move(tile));
+}
+
 bool shows_detail(TechniqueId id) {
     return id != TechniqueId::polygons && id != TechniqueId::displacement &&
            id != TechniqueId::prewarp && !searches_layers(id);
@@ -61,12 +72,15 @@ bool is_seen_from_behind(const Material& material) {
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
                                terrain::Placement placement)
     : terrain_(std::move(terrain)), placement_(std::move(placement)),
-      pyramid_(terrain_->heightfield.heights.view()),
-      tiles_(terrain::tile_layout(terrain_->heightfield, placement_)),
-      flat_tiles_(terrain::flat_tile_layout(terrain_->heightfield, placement_,
-                                            terrain::reference_height(terrain_->heightfield))) {
-    for (const terrain::Tile& tile : tiles_) {
+      pyramid_(terrain_->heightfield.heights.view()) {
+    const terrain::Heightfield& heightfield = terrain_->heightfield;
+    for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement_)) {
+        tiles_.push_back(borrowing_tile(tile));
         bounds_.add(tile.bounds);
+    }
+    const double height = terrain::reference_height(heightfield);
+    for (const terrain::Tile& tile : terrain::flat_tile_layout(heightfield, placement_, height)) {
+        flat_bounds_.push_back(tile.bounds);
     }
 }
 

@@ -8,13 +8,13 @@
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/scene/graph/surface_detail.h"
+#include "engine/scene/graph/terrain_tile.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/placement.h"
 #include "engine/terrain/field/surface_caster.h"
 #include "engine/terrain/mesh/bisection.h"
-#include "engine/terrain/mesh/tile_layout.h"
 
 namespace reljef::scene {
 
@@ -51,9 +51,12 @@ public:
     [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
     [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }
 
-    /// Tiles of the surface and of the flat reference surface, with the same indices.
-    [[nodiscard]] const std::vector<terrain::Tile>& tiles() const { return tiles_; }
-    [[nodiscard]] const std::vector<terrain::Tile>& flat_tiles() const { return flat_tiles_; }
+    /// Row after row. They borrow the samples of this surface.
+    [[nodiscard]] const std::vector<std::shared_ptr<const TerrainTile>>& tiles() const {
+        return tiles_;
+    }
+    /// Bounds of the tiles on the flat reference surface, with the same indices.
+    [[nodiscard]] const std::vector<Box>& flat_bounds() const { return flat_bounds_; }
     [[nodiscard]] const Box& bounds() const { return bounds_; }
 
     /// z of the surface at (x, y) in the local frame, exaggeration included; empty outside the
@@ -69,8 +72,8 @@ private:
     std::shared_ptr<const terrain::Terrain> terrain_;
     terrain::Placement placement_;
     terrain::MinMaxPyramid pyramid_;
-    std::vector<terrain::Tile> tiles_;
-    std::vector<terrain::Tile> flat_tiles_;
+    std::vector<std::shared_ptr<const TerrainTile>> tiles_;
+    std::vector<Box> flat_bounds_;
     Box bounds_;
 };
 

@@ -1,4 +1,4 @@
-#include "engine/render/residency/streamed_tiles.h"
+#include "engine/render/residency/terrain_meshes.h"
 
 #include <array>
 #include <atomic>
@@ -173,7 +173,7 @@ TEST(TileChoices, WhereMemoryLimitsTheChoiceIsTheSameWhateverCameBefore) {
     EXPECT_GT(flown.stream->stats().evicted, 0);
 }
 
-class StreamedTilesGlTest : public DriverGlTest {};
+class TerrainMeshesGlTest : public DriverGlTest {};
 
 int sky_pixels(const HitBuffer& hits) {
     const auto samples = hits.samples();
@@ -194,7 +194,7 @@ std::string first_sky(const HitBuffer& hits) {
     return "";
 }
 
-TEST_F(StreamedTilesGlTest, NoHoleBetweenTilesOfAnyLevels) {
+TEST_F(TerrainMeshesGlTest, NoHoleBetweenTilesOfAnyLevels) {
     StreamedWorld world;
     session::SceneRenderer made = driver();
     test::Chance chance(5);
@@ -216,7 +216,7 @@ TEST_F(StreamedTilesGlTest, NoHoleBetweenTilesOfAnyLevels) {
     }
 }
 
-TEST_F(StreamedTilesGlTest, AnErrorTakesFewerTrianglesOfTheSameTilesWithoutAHole) {
+TEST_F(TerrainMeshesGlTest, AnErrorTakesFewerTrianglesOfTheSameTilesWithoutAHole) {
     StreamedWorld world;
     auto& technique = world.terrain->get<scene::TerrainNode>()->material.technique;
     const auto all = technique;
@@ -244,7 +244,7 @@ TEST_F(StreamedTilesGlTest, AnErrorTakesFewerTrianglesOfTheSameTilesWithoutAHole
     }
 }
 
-TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
+TEST_F(TerrainMeshesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
     const auto picture = [&](std::span<const glm::dvec3> before) {
         StreamedWorld world;
         session::SceneRenderer made = driver();
@@ -263,7 +263,7 @@ TEST_F(StreamedTilesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
                                         glm::dvec3(-600.0, 300.0, 400.0)}));
 }
 
-TEST_F(StreamedTilesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
+TEST_F(TerrainMeshesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
     StreamedWorld world;
     session::SceneRenderer made = driver();
     const auto uploads_of_ground = [&] {
@@ -299,7 +299,7 @@ TreeTile tile_beside_another(const view::TileSelection& choice) {
     return {};
 }
 
-TEST_F(StreamedTilesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem) {
+TEST_F(TerrainMeshesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem) {
     const auto look = [](StreamedWorld& world) {
         world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
     };
@@ -400,7 +400,7 @@ struct WholeWorld {
     }
 };
 
-TEST_F(StreamedTilesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
+TEST_F(TerrainMeshesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
     const Image gray(2, 2, Rgba8{128, 128, 128, 255});
     StreamedWorld world(400, gray);
     world.look({10.0, -20.0, 60.0}, {15.0, -5.0, 30.0});
@@ -418,7 +418,7 @@ TEST_F(StreamedTilesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
     EXPECT_GT(pixels_off(detailed, picture(world.scene, *world.terrain, false), 8), 20000);
 }
 
-TEST_F(StreamedTilesGlTest, TextureDrawsTilesFlatAndReliefTheOverview) {
+TEST_F(TerrainMeshesGlTest, TextureDrawsTilesFlatAndReliefTheOverview) {
     StreamedWorld world;
     auto& material = world.terrain->get<scene::TerrainNode>()->material;
     session::SceneRenderer made = driver();

@@ -1,4 +1,4 @@
-#include "engine/view/streamed_cut.h"
+#include "engine/view/tile_cut.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/terrain/mesh/bisection.h"
+#include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/error_view.h"
 
 namespace reljef::view {
@@ -31,7 +32,7 @@ double share_beside(double share_of_vertices) {
 }
 
 // The plane that touches the tile: east, north and up, and the middle of the tile's corners.
-glm::dmat4 plane_of(const scene::StreamedTile& tile) {
+glm::dmat4 plane_of(const scene::TerrainTile& tile) {
     const glm::dvec3 north_west = tile.place({0, 0});
     const glm::dvec3 north_east = tile.place({tile.cells.x, 0});
     const glm::dvec3 south_west = tile.place({0, tile.cells.y});
@@ -45,7 +46,7 @@ glm::dmat4 plane_of(const scene::StreamedTile& tile) {
 }
 
 terrain::Heightfield heights_over(const glm::dmat4& local_from_plane,
-                                  const scene::StreamedTile& tile) {
+                                  const scene::TerrainTile& tile) {
     const glm::dmat4 plane_from_local = glm::inverse(local_from_plane);
     const auto at = [&](glm::ivec2 vertex) {
         return glm::dvec3(plane_from_local * glm::dvec4(tile.place(vertex), 1.0));
@@ -65,14 +66,14 @@ terrain::Heightfield heights_over(const glm::dmat4& local_from_plane,
 
 } // namespace
 
-// A streamed tile as heights over the plane that touches it, with their bisection. The error of its
+// A loaded tile as heights over the plane that touches it, with their bisection. The error of its
 // triangles includes the curvature of the Earth.
-struct StreamedShape {
-    explicit StreamedShape(const scene::StreamedTile& tile)
+struct TileShape {
+    explicit TileShape(const scene::TerrainTile& tile)
         : local_from_plane(plane_of(tile)), heightfield(heights_over(local_from_plane, tile)),
           placement(terrain::Placement::create(heightfield, terrain::PlacementKind::plane).value()),
           bisection(heightfield, placement, {.threads = 1, .stop = {}, .progress = {}}) {}
-    StreamedShape(const StreamedShape&) = delete;
+    TileShape(const TileShape&) = delete;
 
     glm::dmat4 local_from_plane{1.0};
     terrain::Heightfield heightfield;
@@ -83,20 +84,26 @@ struct StreamedShape {
 namespace {
 
 // As few triangles as the view and the splits allow.
-CutTriangles triangles_of(const StreamedShape& shape, const terrain::ErrorView& view,
-                          const Grid<std::uint8_t>& splits) {
+terrain::Triangulation triangles_of(const TileShape& shape, const terrain::ErrorView& view,
+                                    const Grid<std::uint8_t>& splits) {
     const Grid<float>& heights = shape.heightfield.heights;
     const terrain::Tile tile{0, 0, heights.cols() - 1, heights.rows() - 1, {}};
-    terrain::Triangulation found =
-        terrain::triangulate_samples(shape.bisection, tile, view, splits);
-    CutTriangles cut;
-    cut.vertices.reserve(found.vertices.size());
-    for (const glm::ivec2 place : found.vertices) {
-        const glm::ivec2 vertex = place / terrain::steps_per_sample;
-        cut.vertices.push_back(static_cast<std::uint16_t>(vertex.y * heights.cols() + vertex.x));
+    return terrain::triangulate_samples(shape.bisection, tile, view, splits);
+}
+
+std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Triangulation>& parts,
+                                                 const scene::TerrainSurface& surface,
+                                                 const terrain::Tile& tile, const CutMesh& last) {
+    VertexPlacer placer(surface.heightfield(), surface.placement(), tile);
+    for (std::size_t i = 0; i < last.parts.size(); ++i) {
+        placer.know(last.parts[i], last.vertices[i]);
     }
-    cut.indices = std::move(found.indices);
-    return cut;
+    std::vector<std::vector<GridVertex>> vertices;
+    vertices.reserve(parts.size());
+    for (const terrain::Triangulation& part : parts) {
+        vertices.push_back(placer.place(part));
+    }
+    return vertices;
 }
 
 // Finds the triangles of all tiles of a cover.
@@ -133,7 +140,7 @@ private:
         }
         for_each_tile([&](std::size_t i) {
             if (lacks_shape(tiles_[i])) {
-                tiles_[i].cut->shape = std::make_shared<StreamedShape>(*tiles_[i].draw->tile);
+                tiles_[i].cut->shape = std::make_shared<TileShape>(*tiles_[i].draw->tile);
             }
         });
     }
@@ -165,16 +172,16 @@ private:
         return required;
     }
 
-    [[nodiscard]] terrain::ErrorView view_of(const StreamedDraw& draw,
-                                             const StreamedShape& shape) const {
+    [[nodiscard]] terrain::ErrorView view_of(const TileDraw& draw, const TileShape& shape) const {
         const double error = scene::error_bound(draw.terrain->material.technique);
         const double own_error = error * share_beside(error_of_vertices(draw) / error);
-        return error_view(list_.camera, list_.size, draw.world_from_local * shape.local_from_plane,
+        return error_view(list_.camera, list_.size,
+                          list_.world_from_local(draw) * shape.local_from_plane,
                           terrain::PlacementKind::plane, std::max(own_error, min_error));
     }
 
     // On a border those of the coarser tile.
-    [[nodiscard]] double error_of_vertices(const StreamedDraw& draw) const {
+    [[nodiscard]] double error_of_vertices(const TileDraw& draw) const {
         double max_drawn_error = draw.error;
         for (const terrain::TreeTile other : cover_.touching(draw.tile->id)) {
             max_drawn_error = std::max(max_drawn_error, draws_.at(other)->error);
@@ -186,14 +193,24 @@ private:
     const terrain::DrawnTiles& cover_;
     std::span<TileToCut> tiles_;
     std::vector<terrain::ErrorView> views_;
-    std::map<terrain::TreeTile, const StreamedDraw*> draws_;
+    std::map<terrain::TreeTile, const TileDraw*> draws_;
 };
 
 } // namespace
 
-bool is_cut(const StreamedDraw& draw) {
-    return !draw.flat && !draw.is_hidden &&
-           scene::error_bound(draw.terrain->material.technique) > 0.0;
+CutMesh cut_alone(const terrain::Bisection* bisection, const Coarseness& coarseness,
+                  const scene::TerrainSurface& surface, const terrain::Tile& tile,
+                  const CutMesh& last) {
+    CutMesh cut;
+    if (const auto* view = std::get_if<terrain::ErrorView>(&coarseness)) {
+        cut.parts = terrain::triangulate(*bisection, tile, *view);
+    } else {
+        cut.parts = {terrain::triangulate_patches(std::get<Grid<std::uint8_t>>(coarseness), tile)};
+    }
+    if (cut.parts != last.parts) {
+        cut.vertices = vertices_of(cut.parts, surface, tile, last);
+    }
+    return cut;
 }
 
 void cut_together(const DrawList& list, const terrain::DrawnTiles& cover, bool is_new_cover,

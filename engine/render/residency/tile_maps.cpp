@@ -1,0 +1,134 @@
+#include "engine/render/residency/tile_maps.h"
+
+#include "engine/render/residency/uploads.h"
+
+namespace reljef::render {
+namespace {
+
+// Frames that unused maps stay.
+constexpr std::uint64_t kept_frames_of_maps = 8;
+
+// The outermost texel centres are the outermost vertices.
+glm::vec4 lit_from_samples(const scene::TileBuilder& maker, const scene::TerrainTile& tile) {
+    const glm::dvec2 texels(tile.albedo.cols(), tile.albedo.rows());
+    const glm::dvec2 samples = glm::dvec2(tile.cells) * maker.step(tile.id);
+    return {glm::vec2((texels - 1.0) / (samples * texels)), glm::vec2(0.5 / texels)};
+}
+
+// A tile's ground map with the albedo's size and the overview's shadows.
+GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
+                         const scene::TerrainIrradiance* irradiance) {
+    const Grid<float>& overview = maker.overview().heightfield().heights;
+    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
+    const glm::dvec2 first = maker.first(tile.id);
+    const double step = maker.step(tile.id);
+    GroundMap map{tile.albedo, Grid<glm::vec4>(tile.albedo.cols(), tile.albedo.rows())};
+    for (int row = 0; row < map.surface.rows(); ++row) {
+        for (int col = 0; col < map.surface.cols(); ++col) {
+            const glm::dvec2 vertex = tile.vertex_of({col, row});
+            const glm::dvec2 sample = maker.on_overview(first + step * vertex);
+            const glm::dvec2 inside = glm::clamp(sample, glm::dvec2(0.0), last);
+            const float sun = irradiance != nullptr ? irradiance->visibility(inside) : 1.0F;
+            map.surface(col, row) = glm::vec4(tile.normal_at(vertex), sun);
+        }
+    }
+    return map;
+}
+
+} // namespace
+
+TileMaps::Entry& TileMaps::entry_of(const view::TileDraw& draw) {
+    Entry& entry = entries_[key_of(draw)];
+    if (entry.owner.lock() != draw.tile) {
+        entry = {};
+        entry.owner = draw.tile;
+        entry.maps.lit_from_sample = lit_from_samples(draw.terrain->stream->maker(), *draw.tile);
+    }
+    entry.drawn = frame_;
+    return entry;
+}
+
+Result<void> TileMaps::prepare(const view::DrawList& list, view::FrameStats& stats) {
+    ++frame_;
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.tile->borrows) {
+            continue;
+        }
+        Entry& entry = entry_of(draw);
+        if (auto done = prepare_light(list, draw, entry, stats); !done) {
+            return done;
+        }
+        if (auto done = prepare_ground(draw, entry, stats); !done) {
+            return done;
+        }
+    }
+    std::erase_if(entries_, [&](const auto& entry) {
+        return entry.second.owner.expired() || entry.second.drawn + kept_frames_of_maps < frame_;
+    });
+    std::erase_if(lights_, [](const auto& entry) { return entry.second.owner.expired(); });
+    return {};
+}
+
+Result<void> TileMaps::prepare_light(const view::DrawList& list, const view::TileDraw& draw,
+                                     Entry& entry, view::FrameStats& stats) {
+    const auto light = view::light_on(list, list.world_from_local(draw));
+    if (entry.maps.lit && entry.light == light) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const Image map = light ? scene::lit_tile(draw.terrain->stream->maker(), *draw.tile,
+                                              irradiance_of(draw, *light))
+                            : draw.tile->albedo;
+    auto texture = upload_mipmapped(map, gl::Format::rgba8_srgb, stats);
+    if (!texture) {
+        return texture.error();
+    }
+    entry.maps.lit = std::move(*texture);
+    entry.maps.ground.reset();
+    entry.light = light;
+    return {};
+}
+
+Result<void> TileMaps::prepare_ground(const view::TileDraw& draw, Entry& entry,
+                                      view::FrameStats& stats) {
+    if (draw.detail == view::DetailLevel::none) {
+        entry.maps.ground.reset(); // no budget counts it: keep it only near the eye
+        return {};
+    }
+    if (entry.maps.ground) {
+        return {};
+    }
+    const scene::TerrainIrradiance* const irradiance =
+        entry.light ? &irradiance_of(draw, *entry.light) : nullptr;
+    auto ground =
+        resident_ground(ground_of_tile(draw.terrain->stream->maker(), *draw.tile, irradiance),
+                        entry.maps.lit_from_sample, stats);
+    if (!ground) {
+        return ground.error();
+    }
+    entry.maps.ground = std::move(*ground);
+    return {};
+}
+
+void TileMaps::add_light(const std::shared_ptr<scene::TileStream>& stream,
+                         const scene::TerrainLight& light,
+                         std::shared_ptr<const scene::TerrainIrradiance> irradiance) {
+    lights_[stream.get()] = {stream, light, std::move(irradiance)};
+}
+
+const scene::TerrainIrradiance& TileMaps::irradiance_of(const view::TileDraw& draw,
+                                                        const scene::TerrainLight& light) {
+    SharedLight& shared = lights_[draw.terrain->stream.get()];
+    if (shared.irradiance == nullptr || shared.light != light) {
+        shared = {draw.terrain->stream, light,
+                  std::make_shared<const scene::TerrainIrradiance>(
+                      draw.terrain->stream->maker().overview(), light)};
+    }
+    return *shared.irradiance;
+}
+
+const ResidentTileMaps& TileMaps::tile(const view::TileDraw& draw) const {
+    return entries_.at(key_of(draw)).maps;
+}
+
+} // namespace reljef::render

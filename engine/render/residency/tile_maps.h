@@ -1,0 +1,66 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <glm/vec4.hpp>
+
+#include "engine/core/result.h"
+#include "engine/gl/texture.h"
+#include "engine/render/residency/ground_residency.h"
+#include "engine/scene/tile_stream.h"
+#include "engine/view/draw_list.h"
+
+namespace reljef::render {
+
+/// The lit map of a loaded tile. Texture coordinate = samples from the tile's first · xy + zw.
+struct ResidentTileMaps {
+    std::optional<gl::Texture2D> lit;
+    glm::vec4 lit_from_sample{0.0F};
+    std::optional<ResidentGround> ground; ///< for visible surface detail
+};
+
+/// The maps of loaded tiles in GPU memory. Made on first use, and again when the sun moves. Dropped
+/// when the stream drops the tile or after some frames unused.
+class TileMaps {
+public:
+    Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
+
+    void add_light(const std::shared_ptr<scene::TileStream>& stream,
+                   const scene::TerrainLight& light,
+                   std::shared_ptr<const scene::TerrainIrradiance> irradiance);
+
+    /// Precondition: a loaded tile of the prepared list.
+    [[nodiscard]] const ResidentTileMaps& tile(const view::TileDraw& draw) const;
+
+private:
+    using Key = std::pair<const scene::TileStream*, terrain::TreeTile>;
+    struct Entry {
+        std::weak_ptr<const scene::TerrainTile> owner;
+        std::uint64_t drawn = 0; // last frame
+        std::optional<scene::TerrainLight> light;
+        ResidentTileMaps maps;
+    };
+    struct SharedLight {
+        std::weak_ptr<scene::TileStream> owner;
+        std::optional<scene::TerrainLight> light;
+        std::shared_ptr<const scene::TerrainIrradiance> irradiance;
+    };
+    static Key key_of(const view::TileDraw& draw) {
+        return {draw.terrain->stream.get(), draw.tile->id};
+    }
+    Entry& entry_of(const view::TileDraw& draw);
+    Result<void> prepare_light(const view::DrawList& list, const view::TileDraw& draw, Entry& entry,
+                               view::FrameStats& stats);
+    Result<void> prepare_ground(const view::TileDraw& draw, Entry& entry, view::FrameStats& stats);
+    const scene::TerrainIrradiance& irradiance_of(const view::TileDraw& draw,
+                                                  const scene::TerrainLight& light);
+
+    std::uint64_t frame_ = 0;
+    std::map<Key, Entry> entries_;
+    std::map<const scene::TileStream*, SharedLight> lights_;
+};
+
+} // namespace reljef::render

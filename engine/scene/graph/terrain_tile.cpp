@@ -1,0 +1,33 @@
+#include "engine/scene/graph/terrain_tile.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <glm/geometric.hpp>
+
+#include "engine/core/bilinear.h"
+#include "engine/core/check.h"
+
+namespace reljef::scene {
+
+glm::dvec2 TerrainTile::vertex_of(glm::ivec2 texel) const {
+    return glm::dvec2(texel) * glm::dvec2(cells) / glm::dvec2(albedo.cols() - 1, albedo.rows() - 1);
+}
+
+glm::vec3 TerrainTile::normal_at(glm::dvec2 vertex) const {
+    return glm::normalize(bilinear(normals, vertex, std::identity()));
+}
+
+std::size_t TerrainTile::bytes() const {
+    const std::size_t more = albedo.size() - std::min(albedo.size(), positions.size());
+    return bytes_per_vertex * positions.size() +
+           static_cast<std::size_t>(bytes_per_texel * static_cast<double>(more));
+}
+
+terrain::Tile samples_of(const TerrainTile& tile) {
+    check(tile.borrows, "a tile of a terrain in memory was expected");
+    const glm::ivec2 first = terrain::TileTree::first(tile.id);
+    return {first.x, first.y, tile.cells.x, tile.cells.y, tile.bounds};
+}
+
+} // namespace reljef::scene
