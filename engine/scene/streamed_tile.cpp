@@ -45,13 +45,6 @@ Surround surround_of(const TileBuilder& builder, terrain::TreeTile tile, Grid<fl
     return around;
 }
 
-// A power of two: half the longest side is at most 2^30 units.
-double unit_of(const Box& bounds) {
-    const glm::dvec3 size = bounds.size();
-    const double longest = std::max({size.x, size.y, size.z, 1.0});
-    return std::ldexp(1.0, std::ilogb(longest) + 1 - 31);
-}
-
 // At a pole, where there is no east, the normal is up.
 glm::dvec3 normal_of(glm::dvec3 east, glm::dvec3 north, glm::dvec3 up) {
     constexpr double min_east = 1e-6;
@@ -67,20 +60,15 @@ void set_places(const Surround& around, const terrain::Placement& placement, Ter
             tile.bounds.add(around.places(col, row));
         }
     }
-    tile.origin = tile.bounds.center();
-    tile.unit = unit_of(tile.bounds);
-    tile.positions = Grid<glm::ivec3>(count.x, count.y);
     tile.normals = Grid<glm::vec3>(count.x, count.y);
-    tile.heights = Grid<float>(count.x, count.y);
+    tile.heightfield.heights = Grid<float>(count.x, count.y);
     for (int row = 1; row <= count.y; ++row) {
         for (int col = 1; col <= count.x; ++col) {
             const glm::dvec3 east = around.places(col + 1, row) - around.places(col - 1, row);
             const glm::dvec3 north = around.places(col, row - 1) - around.places(col, row + 1);
-            tile.positions(col - 1, row - 1) =
-                glm::ivec3(glm::round((around.places(col, row) - tile.origin) / tile.unit));
             tile.normals(col - 1, row - 1) =
                 glm::vec3(normal_of(east, north, placement.up(around.places(col, row))));
-            tile.heights(col - 1, row - 1) = around.heights(col, row);
+            tile.heightfield.heights(col - 1, row - 1) = around.heights(col, row);
         }
     }
 }
@@ -155,13 +143,13 @@ std::size_t bytes_of_tile(int texels_per_cell) {
 
 TileBuilder::TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
                          int reduction, const ImageryDetail& imagery, const geo::GlobalWrap& wrap)
-    : overview_(std::move(overview)), tree_(tree), reduction_(reduction), imagery_(imagery),
+    : overview_(std::move(overview)), tree_(tree), reduction_{reduction, {}, {}}, imagery_(imagery),
       tint_(overview_->heightfield()) {
     check(reduction >= 1 && imagery.refinement >= 1,
           "an overview of a reduction of at least 1 was expected");
-    rows_ = {wrap, (tree.rows() - 1) / imagery.refinement + 1 - wrap.rows()};
+    reduction_.rows = {wrap, (tree.rows() - 1) / imagery.refinement + 1 - wrap.rows()};
     if (const auto& georeference = overview_->heightfield().georeference) {
-        overview_rows_ = georeference->geodetic.rows();
+        reduction_.overview_rows = georeference->geodetic.rows();
     }
 }
 
@@ -175,28 +163,25 @@ glm::dvec2 TileBuilder::first(terrain::TreeTile tile) const {
 
 glm::dvec2 TileBuilder::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
     glm::dvec2 at(tree_.sample(tile, vertex));
-    if (rows_.wrap().east) {
+    if (reduction_.rows.wrap().east) {
         const int step = terrain::TileTree::step(tile);
         at.x += step * (std::min(vertex.x, 0) + std::max(vertex.x - tree_.cells(tile).x, 0));
     }
     return at / static_cast<double>(imagery_.refinement);
 }
 
-glm::dvec2 TileBuilder::on_overview(glm::dvec2 sample) const {
-    sample.y = rows_.source_row(sample.y);
-    const glm::dvec2 at = (sample - 0.5 * (reduction_ - 1)) / static_cast<double>(reduction_);
-    return {at.x, overview_rows_.closed_row(at.y)};
+terrain::TileLattice TileBuilder::lattice(terrain::TreeTile tile) const {
+    const glm::ivec2 cells = tree_.cells(tile);
+    return {first(tile), sample(tile, cells), step(tile), cells};
 }
 
-glm::dvec2 TileBuilder::from_overview(glm::dvec2 sample) const {
-    sample.y = overview_rows_.source_row(sample.y);
-    const glm::dvec2 at = sample * static_cast<double>(reduction_) + 0.5 * (reduction_ - 1);
-    return {at.x, rows_.closed_row(at.y)};
+terrain::Placement TileBuilder::placement(terrain::TreeTile tile) const {
+    return overview_->placement().of_tile(reduction_, lattice(tile));
 }
 
 glm::dvec2 TileBuilder::around_overview(glm::dvec2 overview_sample) const {
     const int turn = overview_->heightfield().heights.cols() - 1;
-    if (overview_rows_.wrap().east) {
+    if (reduction_.overview_rows.wrap().east) {
         overview_sample.x -= turn * std::floor(overview_sample.x / turn);
     }
     return overview_sample;
@@ -232,7 +217,7 @@ std::size_t TileBuilder::bytes_per_tile() const {
 
 double TileBuilder::spacing(int level) const {
     const glm::dvec2 spacing = overview_->heightfield().spacing;
-    return std::max(spacing.x, spacing.y) / reduction_ * step({level, 0, 0});
+    return std::max(spacing.x, spacing.y) / reduction_.factor * step({level, 0, 0});
 }
 
 glm::dvec3 TileBuilder::place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const {
@@ -247,7 +232,7 @@ Box TileBuilder::bounds(terrain::TreeTile tile, terrain::HeightRange range) cons
 
 Grid<float> TileBuilder::overview_heights(terrain::TreeTile tile) const {
     const terrain::Heightfield& overview = overview_->heightfield();
-    const int taps = std::max(1, static_cast<int>(step(tile) / reduction_));
+    const int taps = std::max(1, static_cast<int>(step(tile) / reduction_.factor));
     const glm::ivec2 count = tree_.cells(tile) + 3;
     Grid<float> heights(count.x, count.y);
     for (int row = 0; row < count.y; ++row) {
@@ -262,7 +247,7 @@ Grid<float> TileBuilder::overview_heights(terrain::TreeTile tile) const {
 
 double TileBuilder::overview_error(terrain::TreeTile tile) const {
     const Grid<float>& heights = overview_->heightfield().heights;
-    if (step(tile) >= reduction_) {
+    if (step(tile) >= reduction_.factor) {
         return 0.0;
     }
     const glm::ivec2 last(heights.cols() - 1, heights.rows() - 1);
@@ -304,7 +289,7 @@ Image TileBuilder::vertex_colors(const TerrainTile& tile, const Grid<float>& aro
     Image colors(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < colors.rows(); ++row) {
         for (int col = 0; col < colors.cols(); ++col) {
-            const float height = tile.heights(col, row);
+            const float height = tile.heightfield.heights(col, row);
             colors(col, row) = voids(col + 1, row + 1) != 0       ? terrain::HeightTint::no_data
                                : is_sea(around, col + 1, row + 1) ? terrain::HeightTint::water
                                : with_overview
@@ -325,12 +310,14 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
     made.id = tile;
     made.cells = cells;
     set_places(around, overview_->placement(), made);
-    const auto [low, high] =
-        std::minmax_element(made.heights.samples().begin(), made.heights.samples().end());
-    made.range = {*low, *high};
-    made.blocks = blocks_of(made.heights);
-    made.error = overview_->placement().exaggeration() * error_of(made.heights);
-    made.up = glm::vec3(overview_->placement().up(made.origin));
+    const Grid<float>& placed = made.heightfield.heights;
+    made.range = terrain::height_range(placed, {});
+    made.heightfield.range = made.range;
+    made.heightfield.spacing = overview_->heightfield().spacing * (step(tile) / reduction_.factor);
+    made.placement = placement(tile);
+    made.blocks = blocks_of(placed);
+    made.error = overview_->placement().exaggeration() * error_of(placed);
+    made.up = glm::vec3(overview_->placement().up(made.bounds.center()));
     const bool with_overview = picture.texels.empty() || !picture.whole;
     made.albedo = vertex_colors(made, around.heights, around.voids, with_overview);
     made.coarse_texel = picture.has_more ? texel(tile.level) : 0.0;

@@ -62,11 +62,17 @@ public:
         return sample * static_cast<double>(imagery_.refinement);
     }
     /// The sample of the overview for a sample of the terrain, and back.
-    [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const;
-    [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;
+    [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const {
+        return reduction_.on_overview(sample);
+    }
+    [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const {
+        return reduction_.from_overview(sample);
+    }
+    [[nodiscard]] terrain::TileLattice lattice(terrain::TreeTile tile) const;
+    [[nodiscard]] terrain::Placement placement(terrain::TreeTile tile) const;
     /// Wraps a sample into the columns of an overview that goes around the Earth.
     [[nodiscard]] glm::dvec2 around_overview(glm::dvec2 overview_sample) const;
-    [[nodiscard]] const geo::WrappedRows& rows() const { return rows_; }
+    [[nodiscard]] const geo::WrappedRows& rows() const { return reduction_.rows; }
     /// Whether a tile has all samples of the terrain. Finer tiles only have finer images.
     [[nodiscard]] bool has_all_samples(terrain::TreeTile tile) const;
     [[nodiscard]] glm::ivec2 picture_size(terrain::TreeTile tile) const;
@@ -94,10 +100,8 @@ private:
     [[nodiscard]] int texels_per_cell(int level) const;
     std::shared_ptr<const TerrainSurface> overview_;
     terrain::TileTree tree_;
-    int reduction_;
+    terrain::Reduction reduction_;
     ImageryDetail imagery_;
-    geo::WrappedRows rows_;
-    geo::WrappedRows overview_rows_;
     terrain::HeightTint tint_;
 };
 

@@ -413,7 +413,8 @@ std::optional<double> height_at(const TerrainNode& terrain, double x, double y) 
         if (!found) {
             return z;
         }
-        const double height = terrain::bilinear_height(found->tile->heights.view(), found->place);
+        const double height =
+            terrain::bilinear_height(found->tile->heightfield.heights.view(), found->place);
         z = placement.world_from_sample({sample->x, sample->y, height}).z;
     }
     return z;

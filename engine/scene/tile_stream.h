@@ -120,7 +120,7 @@ private:
     using Clock = BackOff::Clock;
     struct Made {
         std::shared_ptr<const TerrainTile> tile; // null: there were errors
-        std::size_t shown = 0;                    // opaque texels of its picture
+        std::size_t shown = 0;                   // opaque texels of its picture
     };
     struct Entry {
         Made made;

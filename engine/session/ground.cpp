@@ -54,7 +54,7 @@ Around heights_around(const scene::TerrainNode& terrain, glm::dvec2 sample) {
     if (!found) {
         return {{}, terrain.surface->heightfield().heights.view(), sample};
     }
-    const auto heights = found->tile->heights.view();
+    const auto heights = found->tile->heightfield.heights.view();
     return {std::move(found->tile), heights, found->place};
 }
 

@@ -50,7 +50,7 @@ HeightRange range_of(const scene::TerrainTile& tile, glm::dvec2 first, glm::dvec
     const glm::ivec2 high(end);
     constexpr int side = scene::cells_per_block;
     return std::max(high.x - low.x, high.y - low.y) < side
-               ? range_in(tile.heights, low, high + 1)
+               ? range_in(tile.heightfield.heights, low, high + 1)
                : range_in(tile.blocks, low / side, high / side);
 }
 

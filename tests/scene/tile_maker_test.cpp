@@ -44,7 +44,7 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
     auto heights = read_plane({0, 3, 3}, {}).heights;
     heights(60, 60) = std::numeric_limits<float>::quiet_NaN();
     const TerrainTile made = maker().make({0, 3, 3}, std::move(heights));
-    EXPECT_NEAR(made.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
+    EXPECT_NEAR(made.heightfield.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
     EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::no_data);
 }
 

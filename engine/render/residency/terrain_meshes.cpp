@@ -30,7 +30,7 @@ PlacedVertex placed(const view::TileDraw& draw, glm::ivec2 vertex) {
         return {draw.terrain->stream->maker().place(tile.id, vertex, height),
                 static_cast<float>(height)};
     }
-    return {tile.place(vertex), tile.heights(vertex.x, vertex.y)};
+    return {tile.place(vertex), tile.heightfield.heights(vertex.x, vertex.y)};
 }
 
 std::set<terrain::TreeTile> tiles_of(const std::vector<terrain::EdgeMove>& moves) {
@@ -63,7 +63,7 @@ view::GridMesh loaded_mesh(const view::TileDraw& draw, const std::vector<terrain
             nearest_turn(maker, maker.sample(from.tile->id, vertex), maker.sample(tile.id, own));
         return view::grid_vertex(at.place, at.height, sample - first);
     };
-    mesh.vertices.reserve(tile.positions.size());
+    mesh.vertices.reserve(tile.normals.size());
     for (int row = 0; row <= tile.cells.y; ++row) {
         for (int col = 0; col <= tile.cells.x; ++col) {
             mesh.vertices.push_back(vertex_of(draw, {col, row}, {col, row}));

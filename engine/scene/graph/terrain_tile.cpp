@@ -19,8 +19,8 @@ glm::vec3 TerrainTile::normal_at(glm::dvec2 vertex) const {
 }
 
 std::size_t TerrainTile::bytes() const {
-    const std::size_t more = albedo.size() - std::min(albedo.size(), positions.size());
-    return bytes_per_vertex * positions.size() +
+    const std::size_t more = albedo.size() - std::min(albedo.size(), normals.size());
+    return bytes_per_vertex * normals.size() +
            static_cast<std::size_t>(bytes_per_texel * static_cast<double>(more));
 }
 

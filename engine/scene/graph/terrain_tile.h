@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -8,7 +9,9 @@
 #include "engine/core/color.h"
 #include "engine/core/geometry.h"
 #include "engine/core/grid.h"
+#include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"
+#include "engine/terrain/field/placement.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::scene {
@@ -32,19 +35,17 @@ struct TerrainTile : TileSummary {
     /// The samples are those of the terrain's surface, as are their places and colours: the members
     /// below are empty.
     bool borrows = false;
-    glm::dvec3 origin{0.0};     ///< local metres
-    double unit = 1.0;          ///< metres: at most 2^-30 of the bounds' longest side
-    Grid<glm::ivec3> positions; ///< of the vertices, units from the origin: see place()
-    Grid<float> heights;        ///< true metres
-    Grid<glm::vec3> normals;    ///< unit, local frame
+    terrain::Heightfield heightfield; ///< of the vertices
+    std::optional<terrain::Placement> placement;
+    Grid<glm::vec3> normals; ///< unit, local frame
     glm::vec3 up{0.0F, 0.0F, 1.0F};
     Image albedo;                 ///< edge to edge, at least one texel per vertex, sRGB
     Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; smaller at the far sides
     bool of_overview = false;     ///< the heights are TileBuilder::overview_heights
 
-    /// A vertex in local metres, to half a unit: 4 µm for a tile of 12 km.
+    /// A vertex in local metres.
     [[nodiscard]] glm::dvec3 place(glm::ivec2 vertex) const {
-        return origin + unit * glm::dvec3(positions(vertex.x, vertex.y));
+        return placement->world_from_sample({vertex, heightfield.heights(vertex.x, vertex.y)});
     }
     /// The place of an albedo texel, in vertices.
     [[nodiscard]] glm::dvec2 vertex_of(glm::ivec2 texel) const;
@@ -57,7 +58,7 @@ struct TerrainTile : TileSummary {
 // Memory of a drawn tile of full size, on the CPU and on the GPU, bytes.
 inline constexpr std::size_t bytes_of_bisection = 40; // per vertex
 inline constexpr std::size_t bytes_per_vertex =
-    2 * sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6 + bytes_of_bisection;
+    sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6 + bytes_of_bisection;
 inline constexpr std::size_t bytes_per_tile =
     bytes_per_vertex * (terrain::tile_cells + 1) * (terrain::tile_cells + 1);
 /// For texels beyond one per vertex; on the GPU with mipmaps.

@@ -25,7 +25,8 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
     placement.spacing_ = heightfield.spacing;
     placement.exaggeration_ = exaggeration;
     if (heightfield.georeference) {
-        placement.geodetic_ = heightfield.georeference->geodetic;
+        placement.geodetic_ =
+            std::make_shared<const geo::GeodeticMap>(heightfield.georeference->geodetic);
     }
     if (kind == PlacementKind::ellipsoid) {
         const glm::dvec2 origin = placement.geodetic_->latitude_longitude(placement.center_);
@@ -33,6 +34,13 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
         placement.frame_ =
             geo::LocalFrame({origin.x, origin.y, placement.zero_at({origin.x, origin.y})});
     }
+    return placement;
+}
+
+Placement Placement::of_tile(const Reduction& reduction, const TileLattice& tile) const {
+    check(!tile_, "the placement of an overview was expected");
+    Placement placement = *this;
+    placement.tile_ = TilePlace{reduction, tile};
     return placement;
 }
 
@@ -46,19 +54,20 @@ double Placement::zero_at(glm::dvec2 latitude_longitude) const {
 }
 
 glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
+    const glm::dvec2 place = placed(glm::dvec2(sample));
     if (!frame_) {
-        return {(sample.x - center_.x) * spacing_.x, (center_.y - sample.y) * spacing_.y,
+        return {(place.x - center_.x) * spacing_.x, (center_.y - place.y) * spacing_.y,
                 sample.z * exaggeration_};
     }
-    const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(sample));
+    const glm::dvec2 position = geodetic_->latitude_longitude(place);
     return frame_->local_from_geodetic(
         {position.x, position.y, zero_at(position) + sample.z * exaggeration_});
 }
 
 std::optional<glm::dvec3> Placement::sample_from_world(glm::dvec3 world) const {
     if (!frame_) {
-        return glm::dvec3(center_.x + world.x / spacing_.x, center_.y - world.y / spacing_.y,
-                          world.z / exaggeration_);
+        const glm::dvec2 place(center_.x + world.x / spacing_.x, center_.y - world.y / spacing_.y);
+        return glm::dvec3(from_placed(place), world.z / exaggeration_);
     }
     const geo::Geodetic position = frame_->geodetic_from_local(world);
     const Result<glm::dvec2> sample = geodetic_->sample(position.latitude, position.longitude);
@@ -66,7 +75,7 @@ std::optional<glm::dvec3> Placement::sample_from_world(glm::dvec3 world) const {
         return std::nullopt;
     }
     const double zero = zero_at({position.latitude, position.longitude});
-    return glm::dvec3(*sample, (position.height - zero) / exaggeration_);
+    return glm::dvec3(from_placed(*sample), (position.height - zero) / exaggeration_);
 }
 
 glm::dvec3 Placement::up(glm::dvec3 world) const {
@@ -108,9 +117,9 @@ std::optional<geo::Geodetic> Placement::geodetic_from_world(glm::dvec3 world) co
         return position;
     }
     const std::optional<glm::dvec3> sample = sample_from_world(world);
-    const glm::dvec2 position = geodetic_->latitude_longitude(glm::dvec2(*sample));
-    if (geodetic_->is_past_pole(glm::dvec2(*sample)) || std::isnan(position.x) ||
-        !std::isfinite(position.y)) {
+    const glm::dvec2 place = placed(glm::dvec2(*sample));
+    const glm::dvec2 position = geodetic_->latitude_longitude(place);
+    if (geodetic_->is_past_pole(place) || std::isnan(position.x) || !std::isfinite(position.y)) {
         return std::nullopt;
     }
     return geo::Geodetic{position.x, position.y, sample->z};
@@ -129,7 +138,7 @@ std::optional<glm::dvec3> Placement::world_from_geodetic(geo::Geodetic position)
     if (!sample) {
         return std::nullopt;
     }
-    return world_from_sample(glm::dvec3(*sample, position.height));
+    return world_from_sample(glm::dvec3(from_placed(*sample), position.height));
 }
 
 } // namespace reljef::terrain

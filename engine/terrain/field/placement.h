@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -8,6 +9,7 @@
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/terrain/field/heightfield.h"
+#include "engine/terrain/field/tile_lattice.h"
 
 namespace reljef::terrain {
 
@@ -19,12 +21,15 @@ enum class PlacementKind { plane, ellipsoid };
 /// Maps samples of a heightfield (col, row, height in true metres) to the scene frame (metres, x
 /// east, y north, z up). Plane: x = (col − (cols−1)/2)·dx, y = ((rows−1)/2 − row)·dy,
 /// z = height·exaggeration. Ellipsoid: the WGS 84 position with height·exaggeration above the
-/// ellipsoid, or above the georeference's geoid, in the local frame at the centre.
+/// ellipsoid, or above the georeference's geoid, in the local frame at the centre. Cheap to copy.
 class Placement {
 public:
     /// Errors: an ellipsoid without a georeference, an exaggeration out of range.
     static Result<Placement> create(const Heightfield& heightfield, PlacementKind kind,
                                     double exaggeration = 1.0);
+
+    /// Of a tile of the terrain whose overview this placement places; in the same scene frame.
+    [[nodiscard]] Placement of_tile(const Reduction& reduction, const TileLattice& tile) const;
 
     [[nodiscard]] PlacementKind kind() const {
         return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
@@ -45,16 +50,28 @@ public:
     [[nodiscard]] std::optional<glm::dvec3> world_from_geodetic(geo::Geodetic position) const;
 
 private:
+    // A tile among the samples of the placed overview.
+    struct TilePlace {
+        Reduction reduction;
+        TileLattice lattice;
+    };
     Placement() = default;
+    [[nodiscard]] glm::dvec2 placed(glm::dvec2 sample) const {
+        return tile_ ? tile_->reduction.on_overview(tile_->lattice.on_terrain(sample)) : sample;
+    }
+    [[nodiscard]] glm::dvec2 from_placed(glm::dvec2 sample) const {
+        return tile_ ? tile_->lattice.from_terrain(tile_->reduction.from_overview(sample)) : sample;
+    }
     /// Geoid height above the ellipsoid, metres; 0 without a geoid.
     [[nodiscard]] double zero_at(glm::dvec2 latitude_longitude) const;
 
     glm::dvec2 center_{0.0};  // col, row
     glm::dvec2 spacing_{1.0}; // metres
     double exaggeration_ = 1.0;
-    std::optional<geo::GeodeticMap> geodetic_;
-    std::optional<geo::LocalFrame> frame_; // ellipsoid only
-    std::optional<geo::Geoid> geoid_;      // ellipsoid only
+    std::shared_ptr<const geo::GeodeticMap> geodetic_; // null: no georeference
+    std::optional<geo::LocalFrame> frame_;             // ellipsoid only
+    std::optional<geo::Geoid> geoid_;                  // ellipsoid only
+    std::optional<TilePlace> tile_;
 };
 
 } // namespace reljef::terrain

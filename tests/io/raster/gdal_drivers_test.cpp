@@ -228,7 +228,7 @@ TEST_F(GdalDrivers, AnArchiveOfManyEntriesIsNotListedWhole) {
     const fs::path archive = folder_.path() / "a.zip";
     void* const writer = CPLCreateZip(archive.c_str(), nullptr);
     ASSERT_NE(writer, nullptr);
-    for (int i = 0; i <= 20'000; ++i) {
+    for (int i = 0; i <= 2'000; ++i) {
         ASSERT_EQ(CPLCreateFileInZip(writer, fmt::format("d/{}.tif", i).c_str(), nullptr), CE_None);
         ASSERT_EQ(CPLCloseFileInZip(writer), CE_None);
     }

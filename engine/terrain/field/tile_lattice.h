@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "engine/geo/georeference.h"
+
+namespace reljef::terrain {
+
+/// How a terrain was reduced: each sample of the overview is the middle of reduction × reduction
+/// samples of the terrain. Rows that close the terrain at the poles are not reduced.
+struct Reduction {
+    int factor = 1;
+    geo::WrappedRows rows;          ///< of the terrain
+    geo::WrappedRows overview_rows; ///< of the overview
+
+    /// The sample of the overview for a sample of the terrain, and back.
+    [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const;
+    [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const;
+};
+
+/// Where the samples of a tile lie among those of its terrain. The last cells may be shorter.
+struct TileLattice {
+    glm::dvec2 first{0.0}; ///< sample of the terrain
+    glm::dvec2 last{1.0};  ///< sample of the terrain
+    double step = 1.0;     ///< samples of the terrain
+    glm::ivec2 cells{1};
+
+    /// The sample of the terrain for a sample of the tile, and back. Extrapolates.
+    [[nodiscard]] glm::dvec2 on_terrain(glm::dvec2 sample) const;
+    [[nodiscard]] glm::dvec2 from_terrain(glm::dvec2 sample) const;
+};
+
+} // namespace reljef::terrain
