@@ -257,7 +257,10 @@ Result<HitBuffer> find_hits(const RenderChoice& choice, const session::TerrainSc
                             session::FrameMaker& maker, const cli::Interrupt& interrupt) {
     cli::ProgressLine line("finding hits", choice.terrain.quiet);
     auto hits = maker.draw_hits(scene.scene, frame_options(choice, interrupt, line.callback()));
-    return hits && interrupt.requested() ? Error{"interrupted"} : std::move(hits);
+    if (!hits || interrupt.requested()) {
+        return hits ? Error{"interrupted"} : hits.error();
+    }
+    return session::in_source_rows(std::move(*hits), scene);
 }
 
 Result<std::optional<scene::CameraPath>> path_of(const session::TerrainScene& scene,

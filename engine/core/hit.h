@@ -7,7 +7,8 @@
 namespace reljef {
 
 /// Surface point of a pixel.
-/// - Terrain: (col, row) in samples, height in true metres, depth along the view axis in scene
+/// - Terrain: (col, row) in samples of its heightfield, height in true metres, depth along the view
+/// axis in scene
 ///   metres.
 /// - Mesh with surface detail: (col, row) in texels, height in [0,1]. Other mesh: −1, −1, 0.
 /// - Sky: −1, −1, 0, infinity.

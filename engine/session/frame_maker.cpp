@@ -185,6 +185,19 @@ std::string TruthFrames::stats() const {
                        prepare_ms_, draw_ms_);
 }
 
+HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene) {
+    const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const auto& georeference = surface.heightfield().georeference;
+    if (!georeference) {
+        return hits;
+    }
+    const geo::WrappedRows& rows = georeference->geodetic.rows();
+    for (Hit& hit : hits.samples()) {
+        hit.row = hit.is_sky() ? hit.row : static_cast<float>(rows.source_row(hit.row));
+    }
+    return hits;
+}
+
 Lift fly_above_ground(TerrainScene& scene, const scene::CameraPath& path, int index, int frames,
                       FrameMaker& maker, const std::stop_token& stop, Underground underground) {
     fly_to(scene, path, index, frames);

@@ -87,6 +87,10 @@ private:
     double draw_ms_ = 0.0;
 };
 
+/// Counts rows as the source does. A pole row of a closed globe is none of its rows: between the
+/// first row and the north pole, rows are negative. Columns stay.
+HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene);
+
 enum class Underground { lifted, allowed };
 
 /// Moves the camera as fly_to, waits for its tiles and raises it as keep_above_ground (ground.h).

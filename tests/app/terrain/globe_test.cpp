@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -113,6 +114,19 @@ TEST_F(GlobeFile, streamed_colours_run_on_across_the_antimeridian) {
 TEST_F(GlobeFile, has_no_hole_in_the_exact_picture) {
     for (const char* camera : cameras) {
         EXPECT_EQ(holes(camera, {"--truth"}), 0) << camera;
+    }
+}
+
+// The row of a latitude in the file, whose first row is half a step from the pole.
+TEST_F(GlobeFile, rows_of_hits_are_those_of_the_file) {
+    for (const std::vector<std::string>& way : {std::vector<std::string>{}, {"--truth"}}) {
+        for (const double latitude : {40.0, -60.0, 89.5, -89.5}) {
+            const HitBuffer hits = hits_of(fmt::format("{},20,5000,0,-90", latitude), way);
+            ASSERT_FALSE(hits.empty());
+            const Hit& middle = hits(48, 36);
+            EXPECT_NEAR(middle.row, (89.0 - latitude) / 2.0, 0.01) << latitude;
+            EXPECT_NEAR(middle.col, (20.0 + 179.0) / 2.0, 0.1) << latitude;
+        }
     }
 }
 
