@@ -241,7 +241,9 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
     camera->excludes(eye);
     auto* pose =
         add_parsed(command, "--pose", choice.pose, parse_pose,
-                   "camera pose: overview, oblique, low, grazing or map (overview)", "NAME");
+                   "camera pose: overview, oblique, low, grazing or map (by default, all of the "
+                   "terrain is seen)",
+                   "NAME");
     pose->excludes(eye)->excludes(camera);
     command
         .add_option(

@@ -24,7 +24,6 @@ struct TerrainChoice : session::SourceOptions {
 
 struct ViewChoice : session::SceneOptions {
     std::optional<platform::ContextKind> context; ///< absent: auto
-    glm::ivec2 size{1024, 768};                   ///< pixels
     std::optional<int> samples; ///< per pixel; absent: 4 for pictures with triangles, else 1
     std::string path; ///< a built-in path ("orbit", "flyover") or a path file; empty: none
     int frames = 1;

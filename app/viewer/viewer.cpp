@@ -56,18 +56,17 @@ scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::C
 }
 
 // The start of a flight, also for a scene that begins as a map.
-scene::Camera perspective_start(const session::TerrainScene& scene) {
+scene::Camera perspective_start(const session::TerrainScene& scene, glm::ivec2 size) {
     scene::Camera camera = *scene.camera->get<scene::Camera>();
     if (camera.projection == scene::ProjectionKind::perspective) {
         return camera;
     }
-    const scene::Camera overview =
-        scene::pose_camera(scene::Pose::overview, scene.bounds,
-                           [&](double x, double y) { return scene.ground(x, y); });
+    const scene::Camera whole = scene::whole_camera(scene.bounds, camera.vertical_fov,
+                                                    static_cast<double>(size.x) / size.y);
     camera.projection = scene::ProjectionKind::perspective;
-    camera.eye = overview.eye;
-    camera.target = overview.target;
-    camera.up = overview.up;
+    camera.eye = whole.eye;
+    camera.target = whole.target;
+    camera.up = whole.up;
     return camera;
 }
 
@@ -161,7 +160,7 @@ std::string Viewer::keys() {
 
 Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
                const ViewerOptions& options)
-    : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene)),
+    : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
       techniques_(techniques_with(material().technique, scene)), switch_(scene, options.maps),
       flight_(make_flight(scene, start_, options.allow_underground)) {
     const scene::Technique technique = material().technique;

@@ -68,14 +68,15 @@ struct SceneOptions {
     std::optional<DetailChoice> detail;               ///< absent: the scene file's, else none
     std::optional<scene::Technique> detail_technique; ///< absent: the scene file's, else relief
     bool wireframe = false;
+    glm::ivec2 size{1024, 768}; ///< of the picture, pixels; the default camera fits its shape
     double vertical_fov = 57.3; ///< degrees
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;
     std::optional<glm::dvec3> eye;    ///< scene metres; together with `target`
     std::optional<glm::dvec3> target; ///< scene metres
     std::optional<GeodeticView> geodetic;
-    std::optional<scene::Pose> pose;
-    std::optional<glm::dvec2> sun; ///< azimuth, altitude, degrees; absent: the scene file's
-    bool prepares_maps = true;     ///< open_scene() makes the technique's maps (prepared_maps.h)
+    std::optional<scene::Pose> pose; ///< without any of these, the scene file's, else all is seen
+    std::optional<glm::dvec2> sun;   ///< azimuth, altitude, degrees; absent: the scene file's
+    bool prepares_maps = true;       ///< open_scene() makes the technique's maps (prepared_maps.h)
 };
 
 /// The technique with its error bound. Precondition: check().

@@ -48,6 +48,8 @@ Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
                                      {placement.up(*eye), placement.north(*eye)});
 }
 
+constexpr double map_margin = 1.02; // of Pose::map
+
 Result<scene::Camera> choose_camera(const TerrainScene& scene,
                                     const io::SceneDescription& description,
                                     const SceneOptions& view) {
@@ -62,9 +64,17 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
         camera.target = view.eye ? *view.target : *description.target;
         return camera;
     }
+    const double aspect = static_cast<double>(view.size.x) / view.size.y;
+    if (!view.pose && !is_map) {
+        return scene::whole_camera(scene.bounds, view.vertical_fov, aspect);
+    }
     const auto ground = [&](double x, double y) { return scene.ground(x, y); };
-    return scene::pose_camera(view.pose.value_or(is_map ? scene::Pose::map : scene::Pose::overview),
-                              scene.bounds, ground);
+    camera = scene::pose_camera(view.pose.value_or(scene::Pose::map), scene.bounds, ground);
+    if (!view.pose) { // also where the picture is narrower than that of the pose
+        const double width = map_margin * scene.bounds.size().x;
+        camera.view_height = std::max(camera.view_height, width / aspect);
+    }
+    return camera;
 }
 
 Result<std::vector<scene::Keyframe>>

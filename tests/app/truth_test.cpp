@@ -39,6 +39,8 @@ protected:
                                            "--size",
                                            "160x120",
                                            "--quiet",
+                                           "--pose",
+                                           "overview",
                                            "--hit",
                                            (folder_.path() / "a.exr").string()};
         arguments.insert(arguments.end(), more.begin(), more.end());

@@ -72,6 +72,15 @@ std::vector<GoldenCase> golden_cases() {
     return cases;
 }
 
+// Whether the case or its scene places the camera. The other pictures are from the pose overview.
+bool has_camera(const GoldenCase& golden) {
+    const auto is_camera = [](const std::string& option) {
+        return option == "--pose" || option == "--eye" || option == "--camera";
+    };
+    return golden.terrain == "gallery" ||
+           std::any_of(golden.options.begin(), golden.options.end(), is_camera);
+}
+
 class Golden : public testing::TestWithParam<GoldenCase> {};
 
 TEST_P(Golden, IsStillDrawn) {
@@ -90,6 +99,9 @@ TEST_P(Golden, IsStillDrawn) {
     arguments.insert(arguments.end(), golden.options.begin(), golden.options.end());
     if (golden.options != std::vector<std::string>{"--truth"}) {
         arguments.insert(arguments.end(), {"--context", test::context_name(), "--samples", "1"});
+    }
+    if (!has_camera(golden)) {
+        arguments.insert(arguments.end(), {"--pose", "overview"});
     }
     const auto run = test::reljef(arguments);
     ASSERT_EQ(run.exit_code, 0) << run.err;

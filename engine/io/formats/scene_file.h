@@ -59,7 +59,7 @@ struct SceneDescription {
     // [air]: metres to 2 % contrast; absent: by the scene's size
     std::optional<double> visibility;
 
-    // [camera]: scene metres; absent: the overview pose
+    // [camera]: scene metres; absent: all of the terrain is seen
     std::optional<glm::dvec3> eye;
     std::optional<glm::dvec3> target;
 };

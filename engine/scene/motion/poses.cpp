@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace reljef::scene {
 namespace {
@@ -18,6 +23,54 @@ Camera map_camera(const Box& bounds) {
     camera.up = {0.0, 1.0, 0.0};
     camera.view_height = 1.02 * std::max(bounds.size().y, 0.75 * bounds.size().x);
     return camera;
+}
+
+std::array<glm::dvec3, 8> corners_of(const Box& box) {
+    std::array<glm::dvec3, 8> corners{};
+    for (unsigned i = 0; i < corners.size(); ++i) {
+        corners.at(i) = {(i & 1U) != 0 ? box.high.x : box.low.x,
+                         (i & 2U) != 0 ? box.high.y : box.low.y,
+                         (i & 4U) != 0 ? box.high.z : box.low.z};
+    }
+    return corners;
+}
+
+// Where the eye lies along one axis of the picture and along the view so that two opposite sides of
+// its pyramid touch the points.
+struct Fit {
+    double across;
+    double along;
+};
+
+// `tangent`: of the angle between the view and each of the two sides.
+Fit fit_between(const std::array<glm::dvec3, 8>& points, glm::dvec3 axis, glm::dvec3 forward,
+                double tangent) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const glm::dvec3 point : points) {
+        const double narrowing = tangent * glm::dot(point, forward);
+        low = std::min(low, glm::dot(point, axis) + narrowing);
+        high = std::max(high, glm::dot(point, axis) - narrowing);
+    }
+    return {0.5 * (low + high), 0.5 * (low - high) / tangent};
+}
+
+// As fit_between, with a smaller tangent if the eye would else lie farther along the view.
+Fit fit_up_to(double along, const std::array<glm::dvec3, 8>& points, glm::dvec3 axis,
+              glm::dvec3 forward, double tangent) {
+    Fit fit = fit_between(points, axis, forward, tangent);
+    if (fit.along <= along) {
+        return fit;
+    }
+    constexpr int halvings = 60;
+    double narrow = 0.0;
+    double wide = tangent;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (narrow + wide);
+        fit = fit_between(points, axis, forward, middle);
+        (fit.along <= along ? narrow : wide) = middle;
+    }
+    return {fit.across, along};
 }
 
 } // namespace
@@ -57,6 +110,22 @@ Camera pose_camera(Pose pose, const Box& bounds,
     case Pose::map:
         return map_camera(bounds);
     }
+    return camera;
+}
+
+Camera whole_camera(const Box& bounds, double vertical_fov, double aspect) {
+    constexpr double filled = 0.9; // of the picture
+    const glm::dvec3 center = bounds.center();
+    Camera camera = camera_from_angles(center, 0.0, -35.0);
+    camera.up = {0.0, 0.0, 1.0};
+    camera.vertical_fov = vertical_fov;
+    const ViewAxes axes = view_axes(camera);
+    const auto corners = corners_of({bounds.low - center, bounds.high - center});
+    const double tangent = filled * std::tan(0.5 * glm::radians(vertical_fov));
+    const double along = fit_between(corners, axes.right, axes.forward, aspect * tangent).along;
+    const Fit fit = fit_up_to(along, corners, axes.up, axes.forward, tangent);
+    camera.eye = center + fit.across * axes.up + fit.along * axes.forward;
+    camera.target = camera.eye + glm::dot(center - camera.eye, axes.forward) * axes.forward;
     return camera;
 }
 

@@ -26,4 +26,9 @@ std::optional<Pose> pose_from_string(std::string_view text);
 Camera pose_camera(Pose pose, const Box& bounds,
                    const std::function<double(double x, double y)>& ground);
 
+/// Looks north and 35 degrees down at all of a box. The picture, `aspect` times as wide as high,
+/// has a margin of a twentieth at the two sides that the box fills, and equal margins at the
+/// others. `vertical_fov`: degrees, (0, 180).
+Camera whole_camera(const Box& bounds, double vertical_fov, double aspect);
+
 } // namespace reljef::scene

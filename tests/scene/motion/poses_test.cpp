@@ -1,5 +1,10 @@
 #include "engine/scene/motion/poses.h"
 
+#include <cmath>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 namespace reljef::scene {
@@ -61,6 +66,41 @@ TEST(Poses, FollowBoundsThatAreNotCentred) {
     for (const Pose pose : {Pose::overview, Pose::oblique, Pose::grazing, Pose::map}) {
         EXPECT_EQ(pose_camera(pose, moved, ground).eye,
                   pose_camera(pose, bounds, ground).eye + glm::dvec3(1000.0, 2000.0, 0.0));
+    }
+}
+
+// Tall, flat, long, wide, tiny and huge boxes anywhere, in pictures of any shape.
+TEST(WholeCamera, CropsNoCornerOfAnyBoxAndFillsThePicture) {
+    std::mt19937 random(7);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const auto size = [&] { return std::pow(10.0, between(-5.0, 7.0)); };
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 half = 0.5 * glm::dvec3(size(), size(), i % 5 == 0 ? 0.0 : size());
+        const glm::dvec3 center =
+            glm::dvec3(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)) *
+            (i % 3 == 0 ? 0.0 : 1e3);
+        const double aspect = std::pow(10.0, between(-1.0, 1.0));
+        const Camera camera =
+            whole_camera({center - half, center + half}, between(1.0, 170.0), aspect);
+        const ViewAxes axes = view_axes(camera);
+        EXPECT_NEAR(axes.right.x, 1.0, 1e-9) << "looks north";
+        const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
+        Box shown; // 1: the border of the picture
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 side((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
+                                  (corner & 4) != 0 ? 1.0 : -1.0);
+            const glm::dvec3 way = center + side * half - camera.eye;
+            const double depth = glm::dot(way, axes.forward);
+            ASSERT_GT(depth, 0.0);
+            const double scale = 1.0 / (depth * half_height);
+            shown.add(
+                {scale * glm::dot(way, axes.right) / aspect, scale * glm::dot(way, axes.up), 0.0});
+        }
+        EXPECT_NEAR(std::max(shown.high.x, shown.high.y), 0.9, 1e-3) << i;
+        EXPECT_NEAR(shown.low.x, -shown.high.x, 1e-3) << i;
+        EXPECT_NEAR(shown.low.y, -shown.high.y, 1e-3) << i;
     }
 }
 
