@@ -106,6 +106,7 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
     }
     note_messages(messages, terrain.notes);
     RasterOptions reading = options;
+    reading.undeclared_voids = std::move(raster->undeclared_voids);
     reading.progress = part(options.progress, 0.0, options.imagery.empty() ? 1.0 : 0.5);
     auto samples = samples_with_heights(dataset, *plan, name, reading, messages, terrain.notes);
     if (!samples) {

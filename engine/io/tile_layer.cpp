@@ -260,9 +260,10 @@ Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int r
                                        part.high.x - part.low.x, part.high.y - part.low.y};
     TileValues result;
     result.plan = plan_window(**dataset, window, std::max(1, reduction / min_taps));
+    RasterOptions options = reading.options;
+    options.undeclared_voids = reading.rasters->undeclared_voids(path);
     std::vector<std::string> found;
-    auto values =
-        read_heights(**dataset, result.plan, path.string(), reading.options, messages, found);
+    auto values = read_heights(**dataset, result.plan, path.string(), options, messages, found);
     if (!values) {
         if (!reading.options.stop.stop_requested() && !is_web_tiles(path)) {
             dataset->discard();

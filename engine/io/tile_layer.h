@@ -13,6 +13,7 @@
 
 #include "engine/core/grid.h"
 #include "engine/io/dataset_pool.h"
+#include "engine/io/raster/ascii_grid.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/tile_index.h"
 
@@ -104,6 +105,7 @@ struct TileContent {
     std::filesystem::path folder;                   ///< base of the files' paths
     RasterOptions options;                          ///< uses scale, offset and stop
     std::atomic<std::size_t>* bytes_read = nullptr; ///< counter
+    const WholeRasters* rasters = nullptr;          ///< opened by the pool
     DatasetPool* pool = nullptr;
     FailingFiles* failing = nullptr; ///< remote files
     NewNotes* new_notes = nullptr;   ///< replaced files and voids

@@ -195,7 +195,8 @@ void keep_each_once(std::vector<FileError>& errors) {
 
 TileContent TileSet::State::reading(std::atomic<std::size_t>& bytes_read,
                                     const std::stop_token& stop) const {
-    TileContent reading{indexed, indexed_crs, folder, {}, &bytes_read, &pool, &failing, &new_notes};
+    TileContent reading{indexed, indexed_crs, folder,   {},        &bytes_read,
+                        &whole,  &pool,       &failing, &new_notes};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
     reading.options.stop = stop;

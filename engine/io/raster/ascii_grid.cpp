@@ -113,51 +113,65 @@ Result<CheckedRaster> open_whole_raster(const std::filesystem::path& path,
     if (!dataset) {
         return dataset.error();
     }
+    bool has_nan = false;
     if (is_ascii_grid(**dataset)) {
-        const auto has_nan = check_is_whole(**dataset, path);
-        if (!has_nan) {
-            return has_nan.error();
+        const auto found = check_is_whole(**dataset, path);
+        if (!found) {
+            return found.error();
         }
         // GDAL guesses the type from the first values; whole numbers have no NaN.
         const GDALDataType type = (*dataset)->GetRasterBand(1)->GetRasterDataType();
-        if (*has_nan && GDALDataTypeIsInteger(type) != 0) {
-            dataset = open_with_floats(path, messages);
-            return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), {}})
-                           : dataset.error();
+        has_nan = *found && GDALDataTypeIsInteger(type) != 0;
+    }
+    std::optional<bool> mixed;
+    if (has_nan) {
+        dataset = open_with_floats(path, messages);
+    } else {
+        mixed = overviews_mix_voids(**dataset, path);
+        if (mixed.value_or(false)) {
+            dataset = open_without_overviews(path, messages);
         }
     }
-    const auto mixed = overviews_mix_voids(**dataset, path);
-    if (mixed.value_or(false)) {
-        dataset = open_without_overviews(path, messages);
+    if (!dataset) {
+        return dataset.error();
     }
-    return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), mixed})
-                   : dataset.error();
+    auto voids = undeclared_voids(**dataset, path);
+    return CheckedRaster{std::move(*dataset), mixed, std::move(voids)};
 }
 
 Result<CheckedRaster> WholeRasters::open(const std::filesystem::path& path,
                                          const GdalMessages& messages) {
     std::error_code ignored;
     const auto changed = std::filesystem::last_write_time(path, ignored);
-    std::optional<bool> mixed;
+    Known known;
     {
         const std::lock_guard lock(mutex_);
         const auto found = whole_.find(path);
         if (found != whole_.end() && found->second.changed == changed) {
-            mixed = found->second.mixed_overviews;
+            known = found->second;
         }
     }
-    if (mixed) {
-        auto dataset =
-            *mixed ? open_without_overviews(path, messages) : open_raster(path, messages);
-        return dataset ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), mixed})
-                       : dataset.error();
+    if (known.mixed_overviews) {
+        auto dataset = *known.mixed_overviews ? open_without_overviews(path, messages)
+                                              : open_raster(path, messages);
+        return dataset
+                   ? Result<CheckedRaster>(CheckedRaster{std::move(*dataset), known.mixed_overviews,
+                                                         std::move(known.undeclared_voids)})
+                   : dataset.error();
     }
     auto raster = open_whole_raster(path, messages);
-    if (raster && raster->mixed_overviews) {
+    if (raster) {
         const std::lock_guard lock(mutex_);
-        whole_[path] = {changed, *raster->mixed_overviews};
+        whole_[path] = {changed, raster->mixed_overviews, raster->undeclared_voids};
     }
     return raster;
+}
+
+std::optional<std::vector<double>>
+WholeRasters::undeclared_voids(const std::filesystem::path& path) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = whole_.find(path);
+    return found != whole_.end() ? found->second.undeclared_voids : std::nullopt;
 }
 
 } // namespace reljef::io

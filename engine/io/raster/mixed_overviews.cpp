@@ -6,6 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/gtc/type_precision.hpp>
+
 #include "engine/core/grid.h"
 #include "engine/io/raster/sample_decoder.h"
 #include "engine/io/raster/web_tiles.h"
@@ -21,6 +24,11 @@ constexpr std::size_t max_suspects = 8;
 constexpr double min_drop = 8192.0;
 constexpr int max_suspect_samples = 256; // per side of the area of a suspect
 constexpr double rounding = 1.0;         // of averages stored as whole numbers
+// Of the part of a raster that shows which values are isolated.
+constexpr double max_searched_samples = 1 << 21;
+constexpr int max_searched_blocks = 64;
+constexpr int max_remote_blocks = 8;
+constexpr int max_block_samples = 1 << 15; // of each block
 
 double samples_of_band(GDALRasterBand& band) {
     return static_cast<double>(band.GetXSize()) * band.GetYSize();
@@ -115,7 +123,7 @@ RasterOptions::Window covered_by(const Suspect& suspect, GDALRasterBand& band,
 bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder) {
     Grid<double> heights = values;
     decoder.decode(heights.samples(), {}, {});
-    if (decoder.undeclared_voids_note().empty()) {
+    if (decoder.undeclared_voids_note("").empty()) {
         return false;
     }
     bool below_all = true;
@@ -124,6 +132,50 @@ bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder)
         below_all = below_all && (is_void || value < values.samples()[i] - rounding);
     }
     return below_all;
+}
+
+/// Values of a part of a raster: all of a small one, else of an overview, else of blocks that are
+/// spread over it. Empty if unreadable.
+std::vector<double> spread_values(GDALRasterBand& band, bool remote) {
+    std::vector<double> all;
+    const auto add = [&](GDALRasterBand& from, const RasterOptions::Window& part) {
+        const Grid<double> values = stored_values(from, part);
+        all.insert(all.end(), values.samples().begin(), values.samples().end());
+    };
+    GDALRasterBand* overview =
+        small_overview(band, remote ? max_remote_samples : max_overview_samples);
+    if (samples_of_band(band) <= (remote ? max_remote_samples : max_searched_samples)) {
+        overview = &band;
+    }
+    if (overview != nullptr) {
+        add(*overview, {0, 0, overview->GetXSize(), overview->GetYSize()});
+        return all;
+    }
+    glm::ivec2 block(1);
+    band.GetBlockSize(&block.x, &block.y);
+    block = glm::min(block, {band.GetXSize(), band.GetYSize()});
+    const glm::ivec2 size(std::min(block.x, max_block_samples),
+                          std::clamp(max_block_samples / block.x, 1, block.y));
+    const glm::i64vec2 blocks((std::int64_t{band.GetXSize()} + block.x - 1) / block.x,
+                              (std::int64_t{band.GetYSize()} + block.y - 1) / block.y);
+    const int max_count = remote ? max_remote_blocks : max_searched_blocks;
+    const auto count = std::min<std::int64_t>(blocks.x * blocks.y, max_count);
+    for (std::int64_t i = 0; i < count; ++i) {
+        const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+        const auto number = static_cast<std::int64_t>(share * static_cast<double>(blocks.x) *
+                                                      static_cast<double>(blocks.y));
+        // A part of a large block lies as far into it as the block lies into the raster.
+        const glm::i64vec2 first =
+            glm::i64vec2(number % blocks.x, number / blocks.x) * glm::i64vec2(block) +
+            glm::i64vec2(share * glm::dvec2(block - size));
+        const auto inside = [&](int axis, int samples) {
+            return static_cast<int>(std::clamp<std::int64_t>(samples - first[axis], 1, size[axis]));
+        };
+        add(band, {clamped_int(static_cast<double>(first.x), 0, band.GetXSize() - 1),
+                   clamped_int(static_cast<double>(first.y), 0, band.GetYSize() - 1),
+                   inside(0, band.GetXSize()), inside(1, band.GetYSize())});
+    }
+    return all;
 }
 
 } // namespace
@@ -160,6 +212,21 @@ std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesys
         }
     }
     return false;
+}
+
+std::optional<std::vector<double>> undeclared_voids(GDALDataset& dataset,
+                                                    const std::filesystem::path& path) {
+    if (is_web_tiles(path) || kind_of_values(dataset) != ValueKind::plain) {
+        return std::vector<double>();
+    }
+    const GdalMessages ignored_messages;
+    std::vector<std::string> ignored;
+    const auto decoder = SampleDecoder::create(dataset, path.string(), {}, ignored);
+    if (!decoder || !decoder->can_find_voids()) {
+        return std::vector<double>();
+    }
+    const std::vector<double> stored = spread_values(*dataset.GetRasterBand(1), is_remote(path));
+    return stored.empty() ? std::nullopt : std::optional(decoder->isolated_voids(stored));
 }
 
 } // namespace reljef::io

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "engine/io/raster/gdal_dataset.h"
 
@@ -13,7 +14,14 @@ namespace reljef::io {
 /// Absent if the samples cannot be read.
 std::optional<bool> overviews_mix_voids(GDALDataset& dataset, const std::filesystem::path& path);
 
-/// Note about such a file, after its name.
+/// The usual voids that a file does not declare and that are isolated from its heights
+/// (SampleDecoder::isolated_voids): from all samples of a raster of up to 2^21, else from an
+/// overview, else from up to 64 blocks that are spread over it. Absent if the samples cannot be
+/// read. Precondition: the dataset has no overviews that mix voids with heights.
+std::optional<std::vector<double>> undeclared_voids(GDALDataset& dataset,
+                                                    const std::filesystem::path& path);
+
+/// Note about a file whose overviews mix voids with heights, after its name.
 inline constexpr const char* mixed_overviews_note =
     "its overviews are averages of heights and of voids that it does not declare: they are not "
     "used";

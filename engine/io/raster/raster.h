@@ -28,6 +28,9 @@ struct RasterOptions {
     /// Images to drape: georeferenced images in any CRS and folders of them, or one image without a
     /// place, which is stretched over the raster. The finest is on top.
     std::vector<std::filesystem::path> imagery;
+    /// Stored values that are voids though the file does not declare them; see undeclared_voids.
+    /// Absent: all usual voids.
+    std::optional<std::vector<double>> undeclared_voids;
     std::optional<double> imagery_white; ///< see ImagerySet::white(); absent: searched
     Progress progress;
     std::stop_token stop;
@@ -50,9 +53,9 @@ void limit_block_cache(std::size_t bytes);
 struct RasterInfo {
     int cols = 0;
     int rows = 0;
-    std::string format; ///< GDAL's driver, "SRTMHGT"
-    std::string type;   ///< "Int16", "Float32", …
-    std::string crs_name;
+    std::string format;   ///< GDAL's driver, "SRTMHGT"
+    std::string type;     ///< "Int16", "Float32", …
+    std::string crs_name; ///< empty without a CRS
 };
 
 Result<RasterInfo> read_raster_info(const std::filesystem::path& path);

@@ -34,10 +34,33 @@ std::array<double, 256> palette_values(const GDALColorTable& table) {
 
 // Metres.
 constexpr double highest_height = 1e8;
-// Metres. Many programs write it for voids, but it is also a depth of the sea.
-constexpr double usual_void = -9999.0;
-// A void has no other values near it; a depth on the slope of an ocean trench does.
-constexpr double min_drop_to_void = 1000.0;
+constexpr std::array usual_voids{-9999.0, -32768.0, -32767.0, -99999.0, -999999.0};
+constexpr double usual_void_of_uint16 = 65535.0;
+constexpr double isolation = 0.1; // of the void: its least distance from all other values
+
+/// Scaled values may use all numbers of their type. A picture without a coordinate system may be
+/// stretched to 65535.
+std::span<const double> usual_voids_of(GDALDataset& dataset, GDALRasterBand& band, ValueKind kind) {
+    const GDALDataType type = band.GetRasterDataType();
+    if (kind != ValueKind::plain || band.GetScale() != 1.0 || band.GetOffset() != 0.0) {
+        return {};
+    }
+    if (type == GDT_UInt16 && dataset.GetSpatialRef() != nullptr) {
+        return {&usual_void_of_uint16, 1};
+    }
+    return GDALDataTypeIsFloating(type) != 0 || GDALDataTypeIsSigned(type) != 0
+               ? std::span<const double>(usual_voids)
+               : std::span<const double>();
+}
+
+/// The lowest numbers of Int16 are voids in any company: resampling leaves values near them.
+bool is_lowest(double value) {
+    return value == -32768.0 || value == -32767.0;
+}
+
+std::string count_text(std::size_t count) {
+    return fmt::format("{} {}", count, count == 1 ? "sample is" : "samples are");
+}
 
 bool is_grey_ramp(const GDALColorTable& table) {
     const std::array<double, 256> values = palette_values(table);
@@ -52,10 +75,6 @@ bool is_grey_ramp(const GDALColorTable& table) {
 bool is_picture(GDALRasterBand& band) {
     const GDALDataType type = band.GetRasterDataType();
     return type == GDT_Byte || type == GDT_UInt16;
-}
-
-bool can_be_negative(GDALDataType type) {
-    return GDALDataTypeIsFloating(type) != 0 || GDALDataTypeIsSigned(type) != 0;
 }
 
 /// The declared void, rounded to the band's type.
@@ -171,7 +190,11 @@ Result<SampleDecoder> SampleDecoder::create(GDALDataset& dataset, const std::str
     decoder.nodata_ = declared_void(band);
     const double scale = band.GetScale();
     const double offset = band.GetOffset();
-    decoder.sentinels_ = can_be_negative(type) && scale == 1.0 && offset == 0.0;
+    for (const double value : usual_voids_of(dataset, band, decoder.kind_)) {
+        const auto& voids = options.undeclared_voids;
+        decoder.usual_.push_back(
+            {value, !voids || std::find(voids->begin(), voids->end(), value) != voids->end()});
+    }
     decoder.floating_ = GDALDataTypeIsFloating(type) != 0;
     decoder.not_finite_declared_ = declares_not_finite(band);
     const HeightUnit unit = height_unit_of(dataset, band);
@@ -194,9 +217,11 @@ double SampleDecoder::metres(double value) {
         found_not_finite_ += not_finite_declared_ && std::isnan(value) ? 0U : 1U;
         return void_value;
     }
-    if (sentinels_ && (value == -32768.0 || value == -32767.0)) {
-        ++found_sentinels_;
-        return void_value;
+    for (UsualVoid& usual : usual_) {
+        if (value == usual.value) {
+            ++usual.found;
+            return usual.is_void ? void_value : bounded(scale_ * value + offset_);
+        }
     }
     return bounded(scale_ * value + offset_);
 }
@@ -237,68 +262,71 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
             first[i] = metres(value);
         }
     }
-    find_usual_voids(first);
 }
 
-void SampleDecoder::find_usual_voids(std::span<double> heights) {
-    const auto found =
-        static_cast<std::size_t>(std::count(heights.begin(), heights.end(), usual_void));
-    const bool has_heights_near = std::any_of(heights.begin(), heights.end(), [](double height) {
-        return height != usual_void && height < usual_void + min_drop_to_void;
-    });
-    if (found == 0 || has_heights_near) {
-        found_usual_heights_ += found;
-        return;
+std::vector<double> SampleDecoder::isolated_voids(std::span<const double> stored) const {
+    const auto is_height = [&](double value) {
+        return std::abs(value) <= highest_height && value != nodata_ &&
+               std::none_of(usual_.begin(), usual_.end(),
+                            [&](const UsualVoid& usual) { return usual.value == value; });
+    };
+    std::vector<double> isolated;
+    for (const UsualVoid& usual : usual_) {
+        const double gap = is_lowest(usual.value) ? 0.0 : isolation * std::abs(usual.value);
+        if (std::none_of(stored.begin(), stored.end(), [&](double value) {
+                return std::abs(value - usual.value) < gap && is_height(value);
+            })) {
+            isolated.push_back(usual.value);
+        }
     }
-    std::replace(heights.begin(), heights.end(), usual_void, void_value);
-    found_usual_voids_ += found;
+    return isolated;
 }
 
-std::string SampleDecoder::undeclared_voids_note() const {
-    std::vector<std::string> found;
-    if (found_sentinels_ > 0) {
-        found.push_back(fmt::format("{} samples are -32768 or -32767", found_sentinels_));
+std::vector<std::string> SampleDecoder::counts_of_usual(bool voids) const {
+    std::vector<std::string> counts;
+    for (const UsualVoid& usual : usual_) {
+        if (usual.found > 0 && usual.is_void == voids) {
+            counts.push_back(fmt::format("{} {}", count_text(usual.found), usual.value));
+        }
     }
-    if (found_usual_voids_ > 0) {
-        found.push_back(fmt::format("{} samples are {}", found_usual_voids_, usual_void));
-    }
+    return counts;
+}
+
+std::string SampleDecoder::undeclared_voids_note(const std::string& name) const {
+    std::vector<std::string> found = counts_of_usual(true);
     if (found_not_finite_ > 0) {
-        found.push_back(fmt::format("{} samples are NaN or infinite", found_not_finite_));
+        found.push_back(fmt::format("{} NaN or infinite", count_text(found_not_finite_)));
     }
     if (found_absurd_ > 0) {
-        found.push_back(fmt::format("{} samples are beyond ±{} m", found_absurd_, highest_height));
+        found.push_back(fmt::format("{} beyond ±{} m", count_text(found_absurd_), highest_height));
     }
     return found.empty() ? ""
-                         : fmt::format("{}, which the file does not declare: taken for voids",
-                                       fmt::join(found, " and "));
+                         : fmt::format("{}, which {} does not declare: taken for voids",
+                                       fmt::join(found, " and "), name);
+}
+
+std::string SampleDecoder::doubtful_heights_note(const std::string& name) const {
+    const std::vector<std::string> found = counts_of_usual(false);
+    return found.empty() ? ""
+                         : fmt::format("{}, which {} does not declare as void: taken for heights",
+                                       fmt::join(found, " and "), name);
 }
 
 std::vector<std::string> SampleDecoder::found_notes() const {
     std::vector<std::string> words;
-    if (found_sentinels_ > 0) {
-        words.emplace_back("undeclared -32768 or -32767, taken for voids");
-    }
     if (found_not_finite_ > 0) {
         words.emplace_back("undeclared NaN or infinity, taken for voids");
     }
     if (found_absurd_ > 0) {
         words.push_back(fmt::format("values beyond ±{} m, taken for voids", highest_height));
     }
-    if (found_usual_voids_ > 0) {
-        words.push_back(fmt::format("undeclared {}, taken for voids", usual_void));
-    }
-    if (found_usual_heights_ > 0) {
-        words.push_back(fmt::format("undeclared {}, taken for heights", usual_void));
+    for (const UsualVoid& usual : usual_) {
+        if (usual.found > 0) {
+            words.push_back(fmt::format("undeclared {}, taken for {}", usual.value,
+                                        usual.is_void ? "voids" : "heights"));
+        }
     }
     return words;
-}
-
-std::string SampleDecoder::doubtful_heights_note() const {
-    return found_usual_heights_ == 0
-               ? ""
-               : fmt::format("{} samples are {}, which the file does not declare as void: taken "
-                             "for heights",
-                             found_usual_heights_, usual_void);
 }
 
 } // namespace reljef::io

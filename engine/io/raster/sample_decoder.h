@@ -34,7 +34,8 @@ inline constexpr double void_value = std::numeric_limits<double>::quiet_NaN();
 /// Converts stored values to metres and voids to void_value.
 class SampleDecoder {
 public:
-    /// Fails for complex values. Adds notes on the interpretation of values.
+    /// Fails for complex values. Adds notes on the interpretation of values. Without
+    /// `options.undeclared_voids`, all usual voids are voids.
     static Result<SampleDecoder> create(GDALDataset& dataset, const std::string& name,
                                         const RasterOptions& options,
                                         std::vector<std::string>& notes);
@@ -46,41 +47,49 @@ public:
     [[nodiscard]] bool fits(std::span<const double> first, std::span<const double> others) const;
 
     /// Decodes the first band's values in place. `others`: the second band's values, then the
-    /// third's; or empty. A mask value of 0 is a void. Call it with neighbouring values: -9999 m is
-    /// a void if all others are far above it.
+    /// third's; or empty. A mask value of 0 is a void.
     void decode(std::span<double> first, std::span<const double> others,
                 std::span<const unsigned char> mask);
 
     /// Whether the value type can hold undeclared voids.
-    [[nodiscard]] bool can_find_voids() const { return sentinels_ || floating_; }
+    [[nodiscard]] bool can_find_voids() const { return !usual_.empty() || floating_; }
 
-    /// Undeclared voids found so far; may be empty.
-    [[nodiscard]] std::string undeclared_voids_note() const;
+    /// The usual voids (-9999, -99999, -999999; 65535 in a georeferenced raster of UInt16) from
+    /// which all other stored values are at least a tenth of the void away, and always -32768 and
+    /// -32767. A height has others near it, because ground is continuous: on the slope of an ocean
+    /// trench, no sample of -9999 m is 1 km from all others.
+    [[nodiscard]] std::vector<double> isolated_voids(std::span<const double> stored) const;
+
+    /// Undeclared voids found so far in the file `name`; may be empty.
+    [[nodiscard]] std::string undeclared_voids_note(const std::string& name) const;
     /// Values read as heights that may be voids; may be empty.
-    [[nodiscard]] std::string doubtful_heights_note() const;
+    [[nodiscard]] std::string doubtful_heights_note(const std::string& name) const;
     /// Both as short notes without counts, for repeated reads of parts.
     [[nodiscard]] std::vector<std::string> found_notes() const;
 
 private:
+    /// A stored value that many programs write for voids.
+    struct UsualVoid {
+        double value = 0.0;
+        bool is_void = true; ///< false: a height in this file
+        std::size_t found = 0;
+    };
+    [[nodiscard]] std::vector<std::string> counts_of_usual(bool voids) const;
     [[nodiscard]] double metres(double value);
     [[nodiscard]] double of_color(double red, double green, double blue);
     [[nodiscard]] double bounded(double height);
-    void find_usual_voids(std::span<double> heights);
 
     ValueKind kind_ = ValueKind::plain;
     HeightEncoding encoding_ = HeightEncoding::none; ///< of colours; none: luminance
     std::array<double, 256> palette_{};
     std::optional<double> nodata_; ///< rounded to the band's type
-    bool sentinels_ = false;       ///< −32768 and −32767 are voids
+    std::vector<UsualVoid> usual_;
     bool floating_ = false;
     bool not_finite_declared_ = false;
     double scale_ = 1.0;
     double offset_ = 0.0;
-    std::size_t found_sentinels_ = 0;
     std::size_t found_not_finite_ = 0;
     std::size_t found_absurd_ = 0;
-    std::size_t found_usual_voids_ = 0;
-    std::size_t found_usual_heights_ = 0; ///< same value, with heights near it
 };
 
 } // namespace reljef::io

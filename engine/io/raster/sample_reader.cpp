@@ -264,7 +264,8 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
         !read) {
         return read.error();
     }
-    for (std::string note : {decoder->undeclared_voids_note(), decoder->doubtful_heights_note()}) {
+    for (std::string note :
+         {decoder->undeclared_voids_note(name), decoder->doubtful_heights_note(name)}) {
         if (!note.empty()) {
             notes.push_back(std::move(note));
         }
