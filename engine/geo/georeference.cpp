@@ -16,6 +16,10 @@ bool is_ellipsoidal(std::string_view vertical_datum) {
     return vertical_datum.find("llipsoid") != std::string_view::npos;
 }
 
+bool is_egm96(std::string_view vertical_datum) {
+    return vertical_datum.find("EGM96") != std::string_view::npos;
+}
+
 LocalFrame::LocalFrame(Geodetic origin)
     : origin_(origin), center_(geocentric_from_geodetic(origin)) {
     std::vector<double> rotation(9); // row-major; columns: east, north, up

@@ -146,6 +146,8 @@ struct Georeference {
 
 /// Whether this vertical datum is the ellipsoid.
 bool is_ellipsoidal(std::string_view vertical_datum);
+/// Whether this vertical datum is the geoid EGM96.
+bool is_egm96(std::string_view vertical_datum);
 
 /// A local east-north-up frame tangent to WGS 84. Round trips near the origin err by up to 1e-8 m.
 class LocalFrame {

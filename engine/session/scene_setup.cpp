@@ -216,19 +216,28 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     return result;
 }
 
-std::optional<std::string> missing_geoid(const TerrainScene& scene, const SourceOptions& terrain) {
+std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain) {
     const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
     const auto& georeference = surface.heightfield().georeference;
-    const bool on_ellipsoid = surface.placement().kind() == terrain::PlacementKind::ellipsoid;
-    if (terrain.geoid == "none" || !on_ellipsoid || !georeference || georeference->geoid ||
+    if (surface.placement().kind() != terrain::PlacementKind::ellipsoid || !georeference ||
         geo::is_ellipsoidal(georeference->vertical_datum)) {
         return std::nullopt;
     }
     const std::string& datum = georeference->vertical_datum;
     return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
+    const std::string& name = surface.terrain().name;
                        "from the ellipsoid on; --geoid FILE names one",
-                       surface.terrain().name,
-                       datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
+    if (georeference->geoid) {
+        return datum.empty() || geo::is_egm96(datum)
+                   ? std::nullopt
+                   : std::optional(fmt::format("{}: its heights count from \"{}\": taken as from "
+                                               "the geoid {}, whatever lies between",
+                                               name, datum, georeference->geoid->name()));
+    }
+    if (terrain.geoid == "none") {
+        return std::nullopt;
+    }
+                       name, datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
 }
 
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
@@ -244,7 +253,7 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
     if (!scene) {
         return scene;
     }
-    if (const auto note = missing_geoid(*scene, terrain)) {
+    if (const auto note = geoid_note(*scene, terrain)) {
         log.note(*note);
     }
     if (!view.prepares_maps) {

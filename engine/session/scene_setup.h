@@ -41,10 +41,11 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
                                 const SceneOptions& view, Log& log,
                                 const std::stop_token& stop = {});
 
-/// A note if heights may need a geoid that is neither applied nor excluded by the user.
-std::optional<std::string> missing_geoid(const TerrainScene& scene, const SourceOptions& terrain);
+/// A note on an ellipsoid if heights may need a geoid that is neither applied nor excluded by the
+/// user, or if the geoid is not the one that they count from.
+std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain);
 
-/// Opens a terrain and sets up its scene: open_terrain, make_scene, missing_geoid and, with
+/// Opens a terrain and sets up its scene: open_terrain, make_scene, geoid_note and, with
 /// `view.prepares_maps`, prepare_maps.
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop);

@@ -242,10 +242,6 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
                    : terrain.error();
 }
 
-bool is_egm96(const std::string& datum) {
-    return datum.find("EGM96") != std::string::npos;
-}
-
 // The geoid of the options, or the installed one if it is the terrain's datum.
 std::optional<fs::path> geoid_file(const SourceOptions& choice, const std::string& datum) {
     if (choice.geoid == "none") {
@@ -254,7 +250,7 @@ std::optional<fs::path> geoid_file(const SourceOptions& choice, const std::strin
     if (!choice.geoid.empty()) {
         return fs::path(choice.geoid);
     }
-    return is_egm96(datum) ? io::installed_geoid() : std::nullopt;
+    return geo::is_egm96(datum) ? io::installed_geoid() : std::nullopt;
 }
 
 // Heights above sea level become heights above the ellipsoid.
@@ -279,11 +275,6 @@ Result<void> set_geoid(const SourceOptions& choice, terrain::Terrain& terrain) {
         return geoid.error();
     }
     georeference->geoid = std::move(*geoid);
-    if (!datum.empty() && !is_egm96(datum)) {
-        terrain.notes.push_back(fmt::format("its heights count from \"{}\": taken as from the "
-                                            "geoid {}, whatever lies between",
-                                            datum, georeference->geoid->name()));
-    }
     return {};
 }
 

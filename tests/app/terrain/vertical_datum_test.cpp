@@ -10,7 +10,6 @@
 namespace reljef {
 namespace {
 
-using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -54,13 +53,12 @@ protected:
         choice.geoid = geoid;
         return choice;
     }
-    /// Whether the note is there that no geoid is applied.
-    static bool misses_geoid(const session::SourceOptions& choice) {
+    static std::string note_of(const session::SourceOptions& choice) {
         auto source = test::open_terrain(choice);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
         const auto scene = test::make_scene(std::move(*source), choice, {});
         EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
-        return session::missing_geoid(*scene, choice).has_value();
+        return session::geoid_note(*scene, choice).value_or("");
     }
 
     test::TemporaryFolder folder_;
@@ -76,16 +74,10 @@ TEST_F(VerticalDatum, of_a_crs_with_three_axes_is_the_ellipsoid_and_takes_no_geo
 }
 
 TEST_F(VerticalDatum, of_another_name_is_told_where_a_geoid_is_applied) {
-    const auto notes_of = [&](const std::string& crs) {
-        const auto source = test::open_terrain(choice(crs, geoid_));
-        EXPECT_TRUE(source) << (source ? "" : source.error().message);
-        EXPECT_TRUE(source->terrain.heightfield.georeference->geoid);
-        return source->terrain.notes;
-    };
-    const auto told = HasSubstr("taken as from the geoid geoid");
-    EXPECT_THAT(notes_of("EPSG:4326+3855"), Contains(told)) << "EGM2008";
-    EXPECT_THAT(notes_of("EPSG:4326+5773"), Not(Contains(told))) << "EGM96";
-    EXPECT_THAT(notes_of("EPSG:4326"), Not(Contains(told))) << "of no name";
+    EXPECT_THAT(note_of(choice("EPSG:4326+3855", geoid_)),
+                HasSubstr("EGM2008 height\": taken as from the geoid geoid"));
+    EXPECT_EQ(note_of(choice("EPSG:4326+5773", geoid_)), "") << "EGM96";
+    EXPECT_EQ(note_of(choice("EPSG:4326", geoid_)), "") << "of no name";
 }
 
 TEST_F(VerticalDatum, without_a_geoid_is_told_where_the_ellipsoid_is_drawn_on) {
@@ -94,13 +86,24 @@ TEST_F(VerticalDatum, without_a_geoid_is_told_where_the_ellipsoid_is_drawn_on) {
                       "--context", "osmesa", "--size", "64x48"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("EGM2008 height\", and no geoid is applied"));
-    EXPECT_TRUE(misses_geoid(choice("EPSG:4326")));
-    EXPECT_FALSE(misses_geoid(choice("EPSG:4979")));
-    EXPECT_FALSE(misses_geoid(choice("EPSG:4326", geoid_)));
-    EXPECT_FALSE(misses_geoid(choice("EPSG:4326", "none")));
-    session::SourceOptions flat = choice("EPSG:4326");
-    flat.placement = terrain::PlacementKind::plane;
-    EXPECT_FALSE(misses_geoid(flat));
+    EXPECT_THAT(note_of(choice("EPSG:4326")), HasSubstr("no geoid is applied"));
+    EXPECT_EQ(note_of(choice("EPSG:4979")), "");
+    EXPECT_EQ(note_of(choice("EPSG:4326", "none")), "");
+}
+
+TEST_F(VerticalDatum, on_a_plane_is_none_of_the_notes) {
+    for (const std::string& geoid : {std::string(), geoid_}) {
+        session::SourceOptions flat = choice("EPSG:4326+3855", geoid);
+        EXPECT_NE(note_of(flat), "");
+        flat.placement = terrain::PlacementKind::plane;
+        EXPECT_EQ(note_of(flat), "");
+        const auto result =
+            test::reljef({"render", flat.terrain, "-o", (folder_.path() / "a.png").string(),
+                          "--context", "osmesa", "--size", "64x48", "--placement", "plane",
+                          "--geoid", geoid.empty() ? "none" : geoid});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_THAT(result.err, Not(HasSubstr("geoid")));
+    }
 }
 
 TEST_F(VerticalDatum, info_tells_why_no_geoid_is_applied) {
