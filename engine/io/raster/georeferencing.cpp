@@ -171,8 +171,7 @@ Place placed_on_earth(GDALDataset& dataset, const OGRSpatialReference& crs,
     if (!ground) {
         orient(crs_steps(affine, grid), place);
         notes.push_back(
-            fmt::format("its coordinate system \"{}\" does not lead to WGS 84: treated as "
-                        "without a place",
+            fmt::format("is in {}, which does not lead to WGS 84: treated as without a place",
                         names_of(crs).name));
         return place;
     }
@@ -224,8 +223,8 @@ Place place_without_crs(const std::optional<OGRSpatialReference>& local,
     if (options.spacing) {
         place.spacing = *options.spacing * glm::abs(grid.step);
     } else if (local) {
-        notes.push_back(fmt::format("its coordinate system \"{}\" names no place on Earth",
-                                    names_of(*local).name));
+        notes.push_back(
+            fmt::format("is in {}, which names no place on Earth", names_of(*local).name));
     } else if (has_own) {
         notes.push_back(fmt::format("no coordinate system: its coordinates are taken for metres, "
                                     "{:.6g} m spacing",
@@ -337,6 +336,10 @@ CrsNames names_of(const OGRSpatialReference& given) {
     }
     names.horizontal_unit = text(unit);
     names.name = text(crs.GetName());
+    // GDAL and PROJ fill in the last two.
+    if (names.name.empty() || names.name == "unnamed" || names.name == "unknown") {
+        names.name = "a coordinate system without a name";
+    }
     const char* authority = crs.GetAuthorityName(nullptr);
     const char* code = crs.GetAuthorityCode(nullptr);
     if (authority != nullptr && code != nullptr) {

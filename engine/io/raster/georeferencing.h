@@ -37,7 +37,7 @@ std::optional<OGRSpatialReference> horizontal_crs(GDALDataset& dataset,
 std::string vertical_datum_of(GDALDataset& dataset);
 
 struct CrsNames {
-    std::string name;
+    std::string name; ///< never empty
     std::string code; ///< "EPSG:4326", or empty
     std::string horizontal_unit;
 };

@@ -292,6 +292,30 @@ TEST_F(Georeferencing, AnotherPlanetHasNoPlaceHereButItsMetres) {
     EXPECT_THAT(joined(terrain.notes), HasSubstr("without a place"));
 }
 
+TEST_F(Georeferencing, ASystemWithoutANameIsNamedAsSuch) {
+    const char* const unnamed = "a coordinate system without a name";
+    for (const char* name : {"", "unnamed", "unknown"}) {
+        const std::string local = std::string("LOCAL_CS[\"") + name + "\",UNIT[\"metre\",1]]";
+        const auto beside = read(ramp(), local, {0.0, 3.0, 0.0, 0.0, 0.0, -3.0});
+        EXPECT_THAT(joined(beside.notes),
+                    HasSubstr(std::string("is in ") + unnamed + ", which names no place on Earth"));
+        const std::string projected =
+            std::string("PROJCS[\"") + name +
+            "\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+            "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],"
+            "PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",1.5],"
+            "PARAMETER[\"central_meridian\",7.1],PARAMETER[\"scale_factor\",1],"
+            "PARAMETER[\"false_easting\",3],PARAMETER[\"false_northing\",4],UNIT[\"metre\",1]]";
+        const auto placed = read(ramp(), projected, {0.0, 3.0, 0.0, 0.0, 0.0, -3.0});
+        ASSERT_TRUE(placed.heightfield.georeference);
+        EXPECT_EQ(placed.heightfield.georeference->crs_name, unnamed);
+        EXPECT_EQ(read_raster_info(path())->crs_name, unnamed);
+        RasterOptions options;
+        options.spacing = 5.0;
+        EXPECT_THAT(read_terrain(path(), options).error().message, HasSubstr(unnamed));
+    }
+}
+
 TEST_F(Georeferencing, ARasterBeyondItsProjectionHasNoPlace) {
     const auto terrain = read(
         ramp(), "+proj=ortho +lat_0=40 +lon_0=0 +ellps=WGS84 +type=crs",
