@@ -27,7 +27,6 @@ constexpr std::array known_failures{
     KnownFailure{"error bound, streamed at 64 MB", "", {}, "", one_terrain_1},
     KnownFailure{"detail texture", "pixels of sky over ground", TechniqueId::displacement, "",
                  one_terrain_2},
-    KnownFailure{"scale", "no view shows ground", {}, "spacing 1e-06 m", one_terrain_1},
     KnownFailure{"", "pixels of sky over ground", TechniqueId::cone, "", one_terrain_2},
     KnownFailure{"scale", "pixels of sky over ground", TechniqueId::exact, "", one_terrain_2},
     KnownFailure{"scale", "% of pixels wrong", TechniqueId::exact, "", one_terrain_2},

@@ -13,8 +13,9 @@ namespace reljef::session {
 namespace {
 
 constexpr double clearance_in_widths = 1e-3;
-constexpr double max_clearance = 0.5;    // metres
-constexpr double ground_rounding = 1e-3; // rounding error of heights in the scene, metres
+constexpr double max_clearance = 0.5; // metres
+// Rounding error of heights in the scene: metres, and at most this part of a side of the terrain.
+constexpr double ground_rounding = 1e-3;
 
 // The sample below or above a place; empty off the terrain.
 std::optional<glm::dvec3> sample_of(const scene::TerrainSurface& surface, glm::dvec3 world) {
@@ -123,7 +124,7 @@ std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const
             return distance_between(terrain, ray, before, distance);
         }
         before = distance;
-        const double min_step = std::max(std::min(min_share * distance, beside), 1e-3);
+        const double min_step = std::min(std::max(min_share * distance, 1e-3), beside);
         distance += height ? std::max(max_share * *height, min_step) : std::max(beside, min_step);
     }
     return std::nullopt;
@@ -206,7 +207,8 @@ Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance
     const Around there = heights_around(terrain, glm::dvec2(*sample));
     const double ground = terrain::bilinear_height(there.heights, there.place);
     const double depth = exaggeration * (ground - sample->z);
-    if (!(depth > ground_rounding && std::isfinite(depth))) {
+    const double rounding = ground_rounding * std::min(1.0, longest_side(surface.bounds()));
+    if (!(depth > rounding && std::isfinite(depth))) {
         return {};
     }
     const double highest = highest_of(there.heights, there.place);

@@ -91,11 +91,13 @@ keyframes_of(const TerrainScene& scene, const io::Flight& flight, const std::str
 
 // The near plane: close enough to cut nothing, and far above the smallest normal float.
 constexpr double near_in_widths = 1e-6;
+constexpr double max_near_in_widths = 1e-3; // for terrains narrower than a metre
 
 } // namespace
 
 double near_distance(const Box& bounds) {
-    return std::clamp(near_in_widths * bounds.size().x, 1e-3, 0.1);
+    const double width = bounds.size().x;
+    return std::min(std::clamp(near_in_widths * width, 1e-3, 0.1), max_near_in_widths * width);
 }
 
 namespace {
@@ -223,10 +225,8 @@ std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOpt
         geo::is_ellipsoidal(georeference->vertical_datum)) {
         return std::nullopt;
     }
-    const std::string& datum = georeference->vertical_datum;
-    return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
     const std::string& name = surface.terrain().name;
-                       "from the ellipsoid on; --geoid FILE names one",
+    const std::string& datum = georeference->vertical_datum;
     if (georeference->geoid) {
         return datum.empty() || geo::is_egm96(datum)
                    ? std::nullopt
@@ -237,6 +237,8 @@ std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOpt
     if (terrain.geoid == "none") {
         return std::nullopt;
     }
+    return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
+                       "from the ellipsoid on; --geoid FILE names one",
                        name, datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
 }
 

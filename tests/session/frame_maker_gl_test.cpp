@@ -1,16 +1,28 @@
 #include "engine/session/frame_maker.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "engine/session/prepared_maps.h"
 #include "tests/app/made_hill.h"
+#include "tests/support/temporary_folder.h"
 
 namespace reljef::session {
 namespace {
 
 constexpr glm::ivec2 picture{64, 48};
+
+const std::string utm_31_prj =
+    R"(PROJCS["UTM_31N",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,)"
+    R"(298.257223563]],PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]],)"
+    R"(PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],)"
+    R"(PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",3.0],)"
+    R"(PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
 
 Device osmesa_device() {
     return std::move(*Device::create({.context = platform::ContextKind::osmesa, .size = picture}));
@@ -56,6 +68,82 @@ TEST(SceneRendererGl, DrawsWithTheLightThatWasPrepared) {
         const Image image = renderer.read_color();
         const Rgba8 middle = image(image.cols() / 2, image.rows() / 2);
         EXPECT_GT(middle.r, 2 * middle.g) << in_parts << ", seen through air";
+    }
+}
+
+/// Waves of 65 samples a side, in UTM.
+TerrainScene waves_with(double spacing, terrain::PlacementKind placement,
+                        const test::TemporaryFolder& folder) {
+    constexpr int side = 65;
+    std::string text = fmt::format("ncols {0}\nnrows {0}\nxllcenter 400000\nyllcenter 5000000\n"
+                                   "cellsize {1}\n",
+                                   side, spacing);
+    for (int i = 0; i < side * side; ++i) {
+        text += fmt::format("{:.6g} ", spacing * (10.0 + 6.0 * std::sin(0.2 * (i % side)) *
+                                                             std::cos(0.15 * (i / side))));
+    }
+    SourceOptions source;
+    source.terrain = folder.write("waves.asc", text).string();
+    source.placement = placement;
+    folder.write("waves.prj", utm_31_prj);
+    Log silent;
+    SceneOptions view;
+    view.size = picture;
+    return std::move(*open_scene(source, view, silent));
+}
+
+void expect_same_places(const HitBuffer& a, const HitBuffer& b) {
+    int terrain = 0;
+    int sky = 0; // in one of them
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Hit& x = a.samples()[i];
+        const Hit& y = b.samples()[i];
+        sky += x.is_sky() != y.is_sky() ? 1 : 0;
+        if (!x.is_sky() && !y.is_sky()) {
+            ++terrain;
+            ASSERT_NEAR(x.col, y.col, 0.5);
+            ASSERT_NEAR(x.row, y.row, 0.5);
+        }
+    }
+    EXPECT_LT(sky, 5);
+    EXPECT_GT(terrain, 500);
+}
+
+// On an ellipsoid, rays that begin far beyond a small terrain used to be halved for minutes.
+TEST(TinyTerrainsGl, AreDrawnAsThoseOfAMetre) {
+    const test::TemporaryFolder folder;
+    Log silent;
+    for (const auto& [placement, spacings] :
+         {std::pair{terrain::PlacementKind::plane, std::array{1e-3, 1e-6}},
+          std::pair{terrain::PlacementKind::ellipsoid, std::array{1e-3, 1.1e-4}}}) {
+        const TerrainScene large = waves_with(1.0, placement, folder);
+        const auto expected = DeviceFrames(osmesa_device(), silent).draw_hits(large.scene, {});
+        const auto expected_truth = TruthFrames(picture, 1).draw_hits(large.scene, {});
+        ASSERT_TRUE(expected && expected_truth);
+        for (const double spacing : spacings) {
+            const TerrainScene tiny = waves_with(spacing, placement, folder);
+            const auto hits = DeviceFrames(osmesa_device(), silent).draw_hits(tiny.scene, {});
+            const auto truth = TruthFrames(picture, 1).draw_hits(tiny.scene, {});
+            ASSERT_TRUE(hits && truth);
+            expect_same_places(*hits, *expected);
+            expect_same_places(*truth, *expected_truth);
+        }
+    }
+}
+
+// The rounding of positions there is a share of a sample that no halving makes straight.
+TEST(TinyTerrains, AreRefusedOnTheEllipsoidBelowItsPrecision) {
+    const test::TemporaryFolder folder;
+    for (const double spacing : {1e-5, 1e-6}) {
+        waves_with(spacing, terrain::PlacementKind::plane, folder);
+        SourceOptions source;
+        source.terrain = (folder.path() / "waves.asc").string();
+        Log silent;
+        const auto scene = open_scene(source, {}, silent);
+        ASSERT_FALSE(scene);
+        EXPECT_NE(scene.error().message.find("at least 0.0001 m or placement plane was expected"),
+                  std::string::npos)
+            << scene.error().message;
     }
 }
 

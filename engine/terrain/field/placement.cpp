@@ -20,6 +20,12 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
             "placement ellipsoid: the terrain names no place on Earth, a georeferenced one "
             "or placement plane was expected"};
     }
+    const double spacing = std::min(heightfield.spacing.x, heightfield.spacing.y);
+    if (kind == PlacementKind::ellipsoid && spacing < min_spacing_on_ellipsoid) {
+        return Error{fmt::format("placement ellipsoid: samples {} m apart found, at least {} m or "
+                                 "placement plane was expected",
+                                 spacing, min_spacing_on_ellipsoid)};
+    }
     Placement placement;
     placement.center_ = 0.5 * glm::dvec2(heights.cols() - 1, heights.rows() - 1);
     placement.spacing_ = heightfield.spacing;

@@ -16,6 +16,10 @@ namespace reljef::terrain {
 /// Larger factors leave too little precision.
 inline constexpr double max_exaggeration = 1e6;
 
+/// Metres between samples. Positions on the Earth err by up to 1e-8 m (LocalFrame), which is then a
+/// ten-thousandth of a sample. Rays over closer samples are never straight in their coordinates.
+inline constexpr double min_spacing_on_ellipsoid = 1e-4;
+
 enum class PlacementKind { plane, ellipsoid };
 
 /// Maps samples of a heightfield (col, row, height in true metres) to the scene frame (metres, x
@@ -24,7 +28,8 @@ enum class PlacementKind { plane, ellipsoid };
 /// ellipsoid, or above the georeference's geoid, in the local frame at the centre. Cheap to copy.
 class Placement {
 public:
-    /// Errors: an ellipsoid without a georeference, an exaggeration out of range.
+    /// Errors: an ellipsoid without a georeference or with samples too close for it, an
+    /// exaggeration out of range.
     static Result<Placement> create(const Heightfield& heightfield, PlacementKind kind,
                                     double exaggeration = 1.0);
 

@@ -272,7 +272,13 @@ Box reach(GridView<const float> heights, const MinMaxPyramid& pyramid, const Pla
             box.add(placement.world_from_sample({col, row, total.high}));
         }
     }
-    const glm::dvec3 margin = 0.02 * box.size() + glm::dvec3(1.0);
+    // Not far beyond small terrains: the map's extrapolation is cubic, so its rounding errors grow
+    // by the cube of the distance.
+    constexpr double part = 0.02;
+    constexpr double max_rest = 1.0; // metres
+    const glm::dvec3 size = box.size();
+    const double rest = std::min(max_rest, part * std::max(size.x, size.y));
+    const glm::dvec3 margin = part * size + glm::dvec3(rest);
     return {box.low - margin, box.high + margin};
 }
 
