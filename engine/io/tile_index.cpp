@@ -270,9 +270,9 @@ TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
 }
 
 /// A failure only costs time on the next start.
-void write_cache(const fs::path& file, const TileIndex& index) {
+Result<void> write_cache(const fs::path& file, const TileIndex& index) {
     const std::string bytes = bytes_of(index);
-    static_cast<void>(write_cache_file(file, std::as_bytes(std::span(bytes))));
+    return write_cache_file(file, std::as_bytes(std::span(bytes)));
 }
 
 /// The entry of an unchanged file; absent for others.
@@ -333,6 +333,7 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
         return files.error();
     }
     const bool cached = !options.cache_folder.empty();
+    const std::size_t notes_before = notes.size();
     const TileIndex old = cached ? read_cache(cache_file(folder, options), notes) : TileIndex{};
     std::vector<std::optional<Described>> all(files->size());
     std::transform(files->begin(), files->end(), all.begin(),
@@ -358,7 +359,11 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
     }
     TileIndex index = numbered(std::move(all));
     if (cached && !(index == old)) {
-        write_cache(cache_file(folder, options), index);
+        const auto written = write_cache(cache_file(folder, options), index);
+        if (!written && notes.size() == notes_before) { // else a note names the cache already
+            notes.push_back(written.error().message +
+                            ": the source files are indexed anew at each start");
+        }
     }
     return index;
 }

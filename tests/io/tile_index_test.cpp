@@ -229,6 +229,20 @@ TEST_F(TileIndices, ACacheThatIsAPipeALinkOrForeignCostsOnlySpeed) {
     expect_note("other users can write to it");
 }
 
+TEST_F(TileIndices, ACacheThatCannotBeWrittenIsNotedOnce) {
+    raster("a.tif", true);
+    const test::PlainPermissions plain;
+    std::filesystem::permissions(cache_.path(), std::filesystem::perms::owner_write,
+                                 std::filesystem::perm_options::remove);
+    std::vector<std::string> notes;
+    EXPECT_TRUE(index_tiles(folder_.path(), options_, notes));
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_THAT(notes[0], HasSubstr(cache_.path().string()));
+    EXPECT_THAT(notes[0], HasSubstr("the source files are indexed anew at each start"));
+    std::filesystem::permissions(cache_.path(), std::filesystem::perms::owner_all);
+    EXPECT_EQ(index().files.size(), 1U) << "without a note";
+}
+
 TEST_F(TileIndices, KeepNoFaultOfOpening) {
     raster("a.tif", true);
     const auto file = folder_.path() / "a.tif";
