@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/grid.h"
+#include "engine/terrain/tree/tile_tree.h"
+
+// The heights of a tree's levels, and a proven bound of how far each tile is from the samples.
+//
+// A vertex has the mean of the vertices of the level below around it, weighted (1 2 1)/4 along each
+// axis, without voids; beyond the raster its border repeats. It depends on samples less than a step
+// away, so that a piece of the raster needs only a narrow border.
+//
+// Lattices are nested: the difference of two levels is bilinear in each cell of the finer one, and
+// extreme at its vertices. Going up, each cell keeps the range of the difference of its samples
+// from the surface. It is exact at the level above the samples. After that, the range of a coarser
+// cell joins those of its finer cells, each moved by the range of the difference of the two levels.
+
+namespace reljef::terrain {
+
+/// What is proven of a tile, true metres.
+struct TileProof {
+    /// Lowest and highest sample that is no void; low > high: there is none.
+    float low = std::numeric_limits<float>::infinity();
+    float high = -std::numeric_limits<float>::infinity();
+    /// No such sample is farther above or below the tile's bilinear surface.
+    float error = 0.0F;
+
+    friend bool operator==(const TileProof&, const TileProof&) = default;
+};
+
+/// Per cell, the range of samples minus surface, metres; low > high: no samples.
+struct Residuals {
+    Grid<float> low;
+    Grid<float> high;
+};
+
+/// A chunk adds this many levels above its base level.
+inline constexpr int levels_per_chunk = 3;
+/// Base cells along a chunk's side.
+inline constexpr int chunk_cells = 1024;
+static_assert(chunk_cells % (tile_cells << levels_per_chunk) == 0);
+/// Base vertices around a chunk that its levels need, for one step around them.
+inline constexpr int chunk_border = (2 << levels_per_chunk) - 1;
+
+struct Chunk {
+    int base = 0; ///< level
+    int col = 0;  ///< in chunks
+    int row = 0;
+};
+
+/// Cells and tiles of a level.
+glm::ivec2 level_cells(const TileTree& tree, int level);
+glm::ivec2 level_tiles(const TileTree& tree, int level);
+/// Chunks with this base.
+glm::ivec2 level_chunks(const TileTree& tree, int base);
+
+/// First base vertex of a chunk, and its base cells, rounded up to cells of its highest level.
+glm::ivec2 first_vertex(Chunk chunk);
+glm::ivec2 chunk_size(const TileTree& tree, Chunk chunk);
+
+/// Fills a row of base vertices (NaN: void) with its border; row 0 is chunk_border above the chunk.
+/// Repeats the raster's border outside of it. Called for each row once, in order.
+using VertexRows = std::function<void(int row, std::span<float> heights)>;
+
+struct ChunkInput {
+    VertexRows heights;
+    /// Of the base level's cells and tiles; null at level 0.
+    const Residuals* residuals = nullptr;
+    const Grid<TileProof>* tiles = nullptr;
+};
+
+struct ChunkLevel {
+    int border = 0;      ///< vertices around the chunk in `heights`
+    Grid<float> heights; ///< NaN: void
+    Residuals residuals; ///< of the cells
+    Grid<TileProof> tiles;
+};
+
+struct ChunkProof {
+    Grid<TileProof> base; ///< tiles of level 0; empty above
+    std::array<ChunkLevel, levels_per_chunk> levels;
+};
+
+/// The levels of a chunk above its base. Errors include all rounding.
+ChunkProof prove_chunk(const TileTree& tree, Chunk chunk, const ChunkInput& input);
+
+/// Samples around a tile that its heights depend on, with one step around it.
+int sample_border(int level);
+
+/// Heights at the vertices of a tile and one step around them, from its samples and sample_border()
+/// samples around them; both repeat the raster's border.
+Grid<float> heights_from_samples(const TileTree& tree, TreeTile tile, Grid<float> samples);
+
+/// Why a proof is not that of a tile with these heights (one step around it included); absent if
+/// nothing contradicts it. `samples`: as for heights_from_samples, or null.
+std::optional<std::string> contradiction(const TileTree& tree, TreeTile tile,
+                                         const TileProof& proof, const Grid<float>& heights,
+                                         const Grid<float>* samples = nullptr);
+
+} // namespace reljef::terrain

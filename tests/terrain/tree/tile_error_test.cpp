@@ -1,0 +1,282 @@
+#include "engine/terrain/tree/tile_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/terrain/chance.h"
+
+namespace reljef::terrain {
+namespace {
+
+constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
+
+/// Rows of a window that repeats the border of `heights`.
+VertexRows rows_around(const Grid<float>& heights, glm::ivec2 first) {
+    return [&heights, first](int row, std::span<float> into) {
+        for (std::size_t i = 0; i < into.size(); ++i) {
+            into[i] = heights.clamped(first.x + static_cast<int>(i), first.y + row);
+        }
+    };
+}
+
+/// All levels of a terrain by prove_chunk, chunk by chunk.
+struct Proven {
+    std::vector<Grid<float>> heights; ///< by level, without border
+    std::map<TreeTile, TileProof> tiles;
+};
+
+struct LevelState {
+    Grid<float> heights;
+    Residuals residuals;
+    Grid<TileProof> tiles;
+};
+
+Grid<float> part_of(const Grid<float>& grid, glm::ivec2 first, glm::ivec2 size, float beyond) {
+    Grid<float> part(size.x, size.y, beyond);
+    for (int row = 0; row < std::min(size.y, grid.rows() - first.y); ++row) {
+        for (int col = 0; col < std::min(size.x, grid.cols() - first.x); ++col) {
+            part(col, row) = grid(first.x + col, first.y + row);
+        }
+    }
+    return part;
+}
+
+template <class T> void put(const Grid<T>& part, glm::ivec2 first, Grid<T>& grid) {
+    for (int row = 0; row < std::min(part.rows(), grid.rows() - first.y); ++row) {
+        for (int col = 0; col < std::min(part.cols(), grid.cols() - first.x); ++col) {
+            grid(first.x + col, first.y + row) = part(col, row);
+        }
+    }
+}
+
+ChunkProof prove(const TileTree& tree, Chunk chunk, const LevelState& base) {
+    const glm::ivec2 first = first_vertex(chunk);
+    const glm::ivec2 size = chunk_size(tree, chunk);
+    ChunkInput input{rows_around(base.heights, first - chunk_border)};
+    Residuals residuals;
+    Grid<TileProof> tiles;
+    if (chunk.base > 0) {
+        constexpr float infinite = std::numeric_limits<float>::infinity();
+        residuals = {part_of(base.residuals.low, first, size, infinite),
+                     part_of(base.residuals.high, first, size, -infinite)};
+        const glm::ivec2 first_tile = first / tile_cells;
+        const glm::ivec2 count =
+            glm::min(level_tiles(tree, chunk.base) - first_tile, chunk_cells / tile_cells);
+        tiles = Grid<TileProof>(count.x, count.y);
+        for (int row = 0; row < count.y; ++row) {
+            for (int col = 0; col < count.x; ++col) {
+                tiles(col, row) = base.tiles(first_tile.x + col, first_tile.y + row);
+            }
+        }
+        input.residuals = &residuals;
+        input.tiles = &tiles;
+    }
+    return prove_chunk(tree, chunk, input);
+}
+
+LevelState empty_level(const TileTree& tree, int level) {
+    const glm::ivec2 cells = level_cells(tree, level);
+    const glm::ivec2 tiles = level_tiles(tree, level);
+    return {Grid<float>(cells.x + 1, cells.y + 1),
+            {Grid<float>(cells.x, cells.y), Grid<float>(cells.x, cells.y)},
+            Grid<TileProof>(tiles.x, tiles.y)};
+}
+
+Proven prove_all(const TileTree& tree, const Grid<float>& samples) {
+    Proven proven;
+    std::vector<LevelState> levels{{samples, {}, {}}};
+    for (int base = 0; base <= tree.root().level; base += levels_per_chunk) {
+        for (int i = 1; i <= levels_per_chunk; ++i) {
+            levels.push_back(empty_level(tree, base + i));
+        }
+        const glm::ivec2 chunks = level_chunks(tree, base);
+        for (int n = 0; n < chunks.x * chunks.y; ++n) {
+            const Chunk chunk{base, n % chunks.x, n / chunks.x};
+            const ChunkProof proof = prove(tree, chunk, levels[static_cast<std::size_t>(base)]);
+            const glm::ivec2 first = first_vertex(chunk);
+            for (int row = 0; row < proof.base.rows(); ++row) {
+                for (int col = 0; col < proof.base.cols(); ++col) {
+                    proven.tiles[{0, first.x / tile_cells + col, first.y / tile_cells + row}] =
+                        proof.base(col, row);
+                }
+            }
+            for (int i = 0; i < levels_per_chunk; ++i) {
+                const ChunkLevel& made = proof.levels.at(static_cast<std::size_t>(i));
+                LevelState& level = levels[static_cast<std::size_t>(base + i + 1)];
+                const glm::ivec2 corner = first / (2 << i);
+                const Grid<float> inner = part_of(
+                    Grid<float>(made.heights), glm::ivec2(made.border),
+                    {made.residuals.low.cols() + 1, made.residuals.low.rows() + 1}, no_height);
+                put(inner, corner, level.heights);
+                put(made.residuals.low, corner, level.residuals.low);
+                put(made.residuals.high, corner, level.residuals.high);
+                put(made.tiles, corner / tile_cells, level.tiles);
+            }
+        }
+    }
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        proven.heights.push_back(levels[level].heights);
+        for (int row = 0; level > 0 && row < levels[level].tiles.rows(); ++row) {
+            for (int col = 0; col < levels[level].tiles.cols(); ++col) {
+                proven.tiles[{static_cast<int>(level), col, row}] = levels[level].tiles(col, row);
+            }
+        }
+    }
+    return proven;
+}
+
+/// A vertex by its definition, from the level below: the mean without voids.
+float mean_around(const Grid<float>& finer, int col, int row) {
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            const double weight = (2 - std::abs(dx)) * (2 - std::abs(dy));
+            const int last_col = finer.cols() - 1;
+            const int last_row = finer.rows() - 1;
+            const float height = finer.clamped(std::min(2 * col, last_col + 1) + dx,
+                                               std::min(2 * row, last_row + 1) + dy);
+            sum += std::isnan(height) ? 0.0 : weight * height;
+            weights += std::isnan(height) ? 0.0 : weight;
+        }
+    }
+    return weights > 0.0 ? static_cast<float>(sum / weights) : no_height;
+}
+
+/// Bilinear in the level's cells, the cut ones too; in double precision.
+double surface_at(const TileTree& tree, const Grid<float>& level, int number, int col, int row) {
+    const int step = 1 << number;
+    const auto axis = [&](int sample, int last) {
+        const int cell = std::min(sample / step, (last - 1) / step);
+        const int width = std::min(step, last - cell * step);
+        return std::pair(cell, static_cast<double>(sample - cell * step) / width);
+    };
+    const auto [x, u] = axis(col, tree.cols() - 1);
+    const auto [y, v] = axis(row, tree.rows() - 1);
+    double sum = 0.0;
+    for (const auto& [i, j, share] :
+         {std::tuple(0, 0, (1 - u) * (1 - v)), std::tuple(1, 0, u * (1 - v)),
+          std::tuple(0, 1, (1 - u) * v), std::tuple(1, 1, u * v)}) {
+        sum += share == 0.0 ? 0.0 : share * level(x + i, y + j);
+    }
+    return sum;
+}
+
+/// The exact figures of a tile, from all of its samples.
+TileProof exact_proof(const TileTree& tree, TreeTile tile, const Grid<float>& samples,
+                      const Grid<float>& level) {
+    TileProof proof;
+    const glm::ivec2 first = TileTree::first(tile);
+    const glm::ivec2 last = tree.sample(tile, tree.cells(tile));
+    double error = 0.0;
+    for (int row = first.y; row <= last.y; ++row) {
+        for (int col = first.x; col <= last.x; ++col) {
+            const float height = samples(col, row);
+            if (!std::isnan(height)) {
+                proof.low = std::min(proof.low, height);
+                proof.high = std::max(proof.high, height);
+                const double surface = surface_at(tree, level, tile.level, col, row);
+                error = std::max(error, std::abs(height - surface));
+            }
+        }
+    }
+    proof.error = static_cast<float>(error);
+    return proof;
+}
+
+Grid<float> made_terrain(test::Chance& chance, int cols, int rows) {
+    Grid<float> heights(cols, rows);
+    const double rough = std::exp(chance.between(-3.0, 5.0));
+    const double wave = chance.between(0.005, 0.3);
+    const double base = chance.between(-500.0, 4000.0);
+    const bool whole = chance.one_in(2);
+    for (int row = 0; row < rows; ++row) {
+        for (int col = 0; col < cols; ++col) {
+            const double height = base + 300.0 * std::sin(wave * col) * std::cos(0.7 * wave * row) +
+                                  chance.between(-rough, rough);
+            heights(col, row) = static_cast<float>(whole ? std::round(height) : height);
+        }
+    }
+    return heights;
+}
+
+void add_voids(test::Chance& chance, Grid<float>& heights) {
+    for (int n = chance.whole(1, 8); n > 0; --n) {
+        const int cols = chance.whole(1, std::min(300, heights.cols()));
+        const int rows = chance.whole(1, std::min(300, heights.rows()));
+        const int left = chance.whole(0, heights.cols() - cols);
+        const int top = chance.whole(0, heights.rows() - rows);
+        for (int row = top; row < top + rows; ++row) {
+            for (int col = left; col < left + cols; ++col) {
+                heights(col, row) = chance.one_in(500) ? heights(col, row) : no_height;
+            }
+        }
+    }
+}
+
+/// Checks all tiles of a terrain; returns bound over exact error of the coarser ones.
+std::vector<double> expect_proven(const Grid<float>& samples) {
+    const TileTree tree(samples.cols(), samples.rows());
+    const Proven proven = prove_all(tree, samples);
+    std::vector<double> ratios;
+    for (const auto& [tile, proof] : proven.tiles) {
+        const TileProof exact =
+            exact_proof(tree, tile, samples, proven.heights[static_cast<std::size_t>(tile.level)]);
+        EXPECT_EQ(proof.low, exact.low);
+        EXPECT_EQ(proof.high, exact.high);
+        EXPECT_GE(proof.error, exact.error) << tile.level << " " << tile.col << " " << tile.row;
+        if (tile.level > 0 && exact.error > 0.0F) {
+            ratios.push_back(static_cast<double>(proof.error) / exact.error);
+        }
+    }
+    return ratios;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+TEST(TileError, IsNeverBelowTheExactOneAndTightInTheMedian) {
+    test::Chance chance(20);
+    std::vector<double> ratios;
+    for (int n = 0; n < 24; ++n) {
+        Grid<float> samples = made_terrain(chance, chance.whole(2, 1500), chance.whole(2, 700));
+        if (chance.one_in(3)) {
+            add_voids(chance, samples);
+        }
+        const auto found = expect_proven(samples);
+        ratios.insert(ratios.end(), found.begin(), found.end());
+    }
+    EXPECT_GT(ratios.size(), 200U);
+    EXPECT_LE(median(ratios), 1.5);
+    RecordProperty("median", std::to_string(median(ratios)));
+    RecordProperty("tiles", std::to_string(ratios.size()));
+}
+
+TEST(TileError, HeightsAreTheWeightedMeansAcrossChunks) {
+    test::Chance chance(3);
+    Grid<float> samples = made_terrain(chance, 2077, 300);
+    add_voids(chance, samples);
+    const TileTree tree(samples.cols(), samples.rows());
+    const Proven proven = prove_all(tree, samples);
+    for (std::size_t level = 1; level < proven.heights.size(); ++level) {
+        const Grid<float>& heights = proven.heights[level];
+        for (int row = 0; row < heights.rows(); ++row) {
+            for (int col = 0; col < heights.cols(); ++col) {
+                const float expected = mean_around(proven.heights[level - 1], col, row);
+                ASSERT_EQ(std::isnan(heights(col, row)), std::isnan(expected));
+                if (!std::isnan(expected)) {
+                    ASSERT_NEAR(heights(col, row), expected, 1e-2);
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace reljef::terrain
